@@ -273,14 +273,15 @@ static mxArray* map_open(arguments in) {
   if (mxIsChar(in[0])) {
     check(ms_map_open(text_of(in[0], "the file"), um_per_px, &map));
   } else {
-    const size_t height = mxGetM(in[0]), width = mxGetN(in[0]);
-    const uint8_t* columns = mxGetData(in[0]); /* logical has the same size */
+    size_t row, column, height, width;
+    const uint8_t* columns;
     uint8_t* rows;
-    size_t row, column;
     if ((!mxIsLogical(in[0]) && !mxIsUint8(in[0])) || mxIsSparse(in[0]) || mxIsComplex(in[0]) ||
         mxGetNumberOfDimensions(in[0]) != 2)
       REFUSE("a map must be the name of a file or a matrix of class logical or uint8, not %s%s",
              mxIsSparse(in[0]) ? "sparse " : "", mxGetClassName(in[0]));
+    height = mxGetM(in[0]), width = mxGetN(in[0]);
+    columns = mxGetData(in[0]); /* logical has the same size */
     rows = mxCalloc(width * height + 1, 1);
     for (row = 0; row < height; ++row)
       for (column = 0; column < width; ++column)

@@ -1,7 +1,7 @@
 % SPDX-License-Identifier: Apache-2.0
 function tests = test_gateway()
 % test_gateway  What the MEX file itself refuses, and its end.
-  tests = {@bad_calls, @help_is_there, @all_is_closed_with_the_file};
+  tests = {@bad_calls, @classes_that_fit_nowhere, @help_is_there, @all_is_closed_with_the_file};
 end
 
 function bad_calls(world)
@@ -28,6 +28,36 @@ function bad_calls(world)
   refuses(@() session.save('no/such/folder/run.h5'), 'bad_input', 'no/such/folder');
   refuses(@() session.save(3), 'bad_input', 'the file');
   assert(~isempty(regexp(microswarm.version(), '^\d+\.\d+\.\d+$', 'once')));
+end
+
+function classes_that_fit_nowhere(world)
+  nav = microswarm.Navigator(world.flight);
+  map = microswarm.Map(true(9, 9), 10);
+  session = microswarm.Session(world.flight);
+  good = [200 500 0 40];
+  for bad = {@sin, struct('a', 1), containers.Map(), nav, 1i, {@sin}, 'x', true}
+    bad = bad{1};
+    refuses(@() microswarm.Map(bad, bad), 'bad_input', '');
+    refuses(@() microswarm.Navigator(bad), 'bad_input', '');
+    refuses(@() microswarm.run(world.flight, bad, 3), 'bad_input', '');
+    refuses(@() microswarm.run(world.flight, 'seed', bad), 'bad_input', '');
+    refuses(@() microswarm.plan(map, bad, [50 50]), 'bad_input', '');
+    refuses(@() microswarm.plan(map, [50 50], bad), 'bad_input', '');
+    refuses(@() microswarm.plan(bad, [50 50], [60 50], 'um_per_px', 'x'), 'bad_input', '');
+    refuses(@() microswarm.read_record(bad), 'bad_input', '');
+    refuses(@() map.clearance(bad), 'bad_input', '');
+    refuses(@() session.advance(bad), 'bad_input', '');
+    refuses(@() session.set(bad, 1), 'bad_input', '');
+    refuses(@() session.save({bad}), 'bad_input', '');
+    refuses(@() nav.step(bad, good), 'bad_input', '');
+    refuses(@() nav.step(0, bad), 'bad_input', '');
+    refuses(@() nav.step(0, good, bad), 'bad_input', '');
+    refuses(@() nav.step(0, good, {bad}), 'bad_input', '');
+    refuses(@() nav.step(0, good, [], bad), 'bad_input', '');
+    refuses(@() nav.step(0, good, [], [], 'numbers', bad), 'bad_input', '');
+    refuses(@() nav.step(0, good, [], [], 'seen', bad), 'bad_input', '');
+    refuses(@() nav.step(0, good, [], [], bad, 0), 'bad_input', '');
+  end
 end
 
 function help_is_there(world)
