@@ -131,8 +131,9 @@ static char* text_of(const mxArray* a, const char* name) {
     REFUSE("%s must be a text of one row, but is of class %s", name, mxGetClassName(a));
   for (i = 0; i < count; ++i)
     if (mxGetChars(a)[i] == 0) REFUSE("%s has a zero character", name);
-  text = mxArrayToString(a);
-  if (!text) REFUSE("%s cannot be read as text", name);
+  text = mxCalloc(4 * count + 1, 1); /* mxArrayToString leaks in Octave */
+  if (count > 0 && mxGetString(a, text, 4 * count + 1) != 0)
+    REFUSE("%s cannot be read as text", name);
   return text;
 }
 
