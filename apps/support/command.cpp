@@ -12,6 +12,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "support/cli.hpp"
+#include "support/completion.hpp"
 #include "support/options.hpp"
 #include "support/usage.hpp"
 
@@ -60,6 +61,14 @@ Check place(std::size_t most, const char* form) {
   }};
 }
 
+Suggest suggest_words(const std::vector<std::string>& words) {
+  return [words](const std::string&) {
+    std::vector<Suggestion> all;
+    for (const std::string& word : words) all.push_back({word, {}});
+    return all;
+  };
+}
+
 Option Option::required() {
   option_->required();
   return *this;
@@ -106,10 +115,15 @@ Option Option::repeatable() {
   return *this;
 }
 
+Option Option::suggest(const Suggest& values) {
+  (*suggestions_)[option_] = values;
+  return *this;
+}
+
 Command Command::add_command(const char* name, const char* doc, const char* example) {
   CLI::App* command = app_->add_subcommand(name, doc);
   command->footer(std::string("Example:\n  microswarm ") + example);
-  return Command(command);
+  return {command, suggestions_};
 }
 
 void Command::former_name(const char* name) { app_->alias(name); }
@@ -117,7 +131,7 @@ void Command::former_name(const char* name) { app_->alias(name); }
 Command Command::add_group(const char* name, const char* doc) {
   CLI::App* group = app_->add_subcommand(name, doc);
   group->require_subcommand(1);
-  return Command(group);
+  return {group, suggestions_};
 }
 
 template <class T>
@@ -125,7 +139,7 @@ Option Command::add_option(const char* name, T& value, const char* doc) {
   CLI::Option* option = app_->add_option(name, value, doc);
   if constexpr (std::is_same_v<T, std::string>)  // an unset shell variable gives an empty text
     option->check([](const std::string& text) { return text.empty() ? "is empty" : ""; });
-  return Option(option);
+  return {option, suggestions_};
 }
 template Option Command::add_option(const char*, std::string&, const char*);
 template Option Command::add_option(const char*, std::vector<std::string>&, const char*);
@@ -138,10 +152,10 @@ template Option Command::add_option(const char*, std::optional<int>&, const char
 template Option Command::add_option(const char*, std::optional<std::uint64_t>&, const char*);
 
 Option Command::add_flag(const char* name, bool& value, const char* doc) {
-  return Option(app_->add_flag(name, value, doc)->disable_flag_override());
+  return {app_->add_flag(name, value, doc)->disable_flag_override(), suggestions_};
 }
 
-Option Command::option(const char* name) { return Option(app_->get_option(name)); }
+Option Command::option(const char* name) { return {app_->get_option(name), suggestions_}; }
 
 void Command::callback(std::function<void()> given) { app_->callback(std::move(given)); }
 
@@ -157,6 +171,11 @@ CommandLine::CommandLine(const char* name, const char* doc, const std::string& v
 CommandLine::~CommandLine() = default;
 
 std::optional<int> CommandLine::parse(int argc, char** argv) {
+  if (argc > 1 && std::string_view(argv[1]) == "complete") {
+    put(completion(*app_, suggestions_, {argv + 2, argv + argc}));
+    flush_output();
+    return ok;
+  }
   try {
     app_->parse(argc, argv);
     return std::nullopt;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,10 +33,24 @@ Check file_kind(const std::vector<std::string>& kinds);
 /// 2 … `most` numbers separated by commas; `form` describes the format.
 Check place(std::size_t most, const char* form);
 
+/// A word that a shell offers, and its description.
+struct Suggestion {
+  std::string word;
+  std::string doc;
+};
+/// The values that a shell offers, given the beginning of one.
+using Suggest = std::function<std::vector<Suggestion>(const std::string& typed)>;
+/// The options that say themselves which values they take.
+using Suggestions = std::map<const CLI::Option*, Suggest>;
+
+/// Always these words.
+Suggest suggest_words(const std::vector<std::string>& words);
+
 /// An option or an argument of a command.
 class Option {
  public:
-  explicit Option(CLI::Option* option) : option_(option) {}
+  Option(CLI::Option* option, Suggestions* suggestions)
+      : option_(option), suggestions_(suggestions) {}
   Option required();
   Option type_name(const char* name);
   Option check(const Check& check);
@@ -49,15 +64,18 @@ class Option {
   Option capture_default();
   /// May be given several times, with one value each.
   Option repeatable();
+  /// Has a shell offer these values. FILE, FOLDER and a Check of words need no such call.
+  Option suggest(const Suggest& values);
 
  private:
   CLI::Option* option_;
+  Suggestions* suggestions_;
 };
 
 /// A command, or a group of commands. The variables it fills must outlive the parsing.
 class Command {
  public:
-  explicit Command(CLI::App* app) : app_(app) {}
+  Command(CLI::App* app, Suggestions* suggestions) : app_(app), suggestions_(suggestions) {}
   /// Adds a command with a one-line description and an example command line.
   Command add_command(const char* name, const char* doc, const char* example);
   /// Adds a group of commands, one of which must be named.
@@ -75,6 +93,7 @@ class Command {
 
  private:
   CLI::App* app_;
+  Suggestions* suggestions_;
 };
 
 /// The complete command line of the program.
@@ -85,13 +104,15 @@ class CommandLine {
   CommandLine(const CommandLine&) = delete;
   CommandLine& operator=(const CommandLine&) = delete;
 
-  Command root() { return Command(app_.get()); }
+  Command root() { return {app_.get(), &suggestions_}; }
   /// Parses the command line. Returns the exit code if nothing remains to be done, as after --help.
+  /// `complete WORD...` prints what a shell offers for the last word, as `completion` says.
   /// Throws a one-line InputError that refers to the help.
   std::optional<int> parse(int argc, char** argv);
 
  private:
   std::unique_ptr<CLI::App> app_;
+  Suggestions suggestions_;
 };
 
 }  // namespace microswarm::cli

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/options.hpp"
 
+#include "microswarm/config/setting_keys.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/lines.hpp"
 #include "microswarm/core/text/text.hpp"
@@ -12,8 +13,28 @@ void add_um_per_px(Command command, std::optional<double>& value, const char* do
   command.add_option("--um-per-px", value, doc).type_name("NUMBER").check(number(1e-6, 1e6));
 }
 
-void add_settings(Command command, std::vector<std::string>& values, const char* doc) {
-  command.add_option("--set", values, doc).type_name("KEY=VALUE").repeatable();
+void add_settings(Command command, std::vector<std::string>& values, const char* doc,
+                  const Type& (*keys)()) {
+  command.add_option("--set", values, doc)
+      .type_name("KEY=VALUE")
+      .repeatable()
+      .suggest(suggest_settings(keys));
+}
+
+Suggest suggest_settings(const Type& (*keys)()) {
+  return [keys](const std::string& typed) {
+    std::vector<Suggestion> offered;
+    for (const SettingKey& key : setting_keys(keys())) {
+      const std::string assigned = key.key + "=";
+      if (!typed.starts_with(assigned)) {
+        offered.push_back({assigned, std::string(key.doc)});
+        continue;
+      }
+      for (const std::string_view word : key.words)
+        offered.push_back({assigned + std::string(word), {}});
+    }
+    return offered;
+  };
 }
 
 void add_json(Command command, bool& value) {

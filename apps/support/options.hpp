@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "microswarm/config/type.hpp"
 #include "microswarm/report/run_report.hpp"
 #include "support/cli.hpp"
 #include "support/command.hpp"
@@ -15,7 +16,11 @@ namespace microswarm::cli {
 
 /// Options shared by several commands.
 void add_um_per_px(Command command, std::optional<double>& value, const char* doc);
-void add_settings(Command command, std::vector<std::string>& values, const char* doc);
+/// Option `--set KEY=VALUE`; the keys are those of `keys()`, which is called for completion only.
+void add_settings(Command command, std::vector<std::string>& values, const char* doc,
+                  const Type& (*keys)());
+/// Has a shell offer the keys of `keys()`, and after `=` their values.
+Suggest suggest_settings(const Type& (*keys)());
 void add_json(Command command, bool& value);
 
 /// Option `--photo` with its `--um-per-px`, for commands that draw reports.

@@ -52,7 +52,8 @@ void add_bench(Command app, Action& action) {
                                 "bench planning --quick --csv planning.csv");
   cmd.add_option("group", o->group, fmt::format("Benchmark: {}", fmt::join(groups, ", ")).c_str())
       .required()
-      .type_name("GROUP");
+      .type_name("GROUP")
+      .suggest(suggest_words({std::begin(groups), std::end(groups)}));
   cmd.add_option("--csv", o->csv, "Also write the rows to this CSV file").type_name("FILE");
   cmd.add_flag("--quick", o->quick, "Fewer repetitions; takes at most 50 s");
   cmd.add_flag("--json", o->json, "Print JSON");

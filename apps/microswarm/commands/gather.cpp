@@ -107,7 +107,8 @@ void add_gather(Command app, Action& action) {
       .type_name("NUMBER")
       .check(whole(1, 100'000'000));
   add_settings(cmd, o->settings,
-               "Override a scenario value, e.g. navigator.method=heuristic (repeatable)");
+               "Override a scenario value, e.g. navigator.method=heuristic (repeatable)",
+               type_of<Scenario>);
   cmd.add_option("--seed", o->seed, "Seed of the random streams (default: 1)")
       .type_name("NUMBER")
       .check(whole(0, UINT64_MAX));

@@ -293,7 +293,8 @@ void add_global(Command app, Action& action) {
   save.type_name("FILE").excludes("--tree");
   add_settings(
       cmd, o->settings,
-      "Select planner.type (global_search or global_rrt) and override its values (repeatable)");
+      "Select planner.type (global_search or global_rrt) and override its values (repeatable)",
+      type_of<GlobalChoice>);
   cmd.add_option("--time-limit", o->time_limit, "Time limit in seconds (default: none)")
       .type_name("NUMBER")
       .check(number(0, 1e6));

@@ -9,6 +9,7 @@
 #include "microswarm/rig/params/rig_experiment.hpp"
 #include "rig/keys/rig_keys.hpp"
 #include "rig/rig_notes.hpp"
+#include "rig/rig_settings.hpp"
 #include "support/options.hpp"
 
 namespace microswarm::cli {
@@ -116,7 +117,7 @@ void add_lab(Command app, Action& action) {
                                 "lab scenarios/papers/radar/twelve.yaml");
   cmd.add_option("file", o->file, "Scenario (YAML) or record (run.h5) to begin with")
       .type_name("FILE");
-  add_settings(cmd, o->settings, "Override a scenario value (repeatable)");
+  add_settings(cmd, o->settings, "Override a scenario value (repeatable)", type_of<Scenario>);
   const Option rig =
       cmd.add_option("--rig", o->rig, "Run the scenario on this rig (YAML), in real time")
           .type_name("FILE");
@@ -130,9 +131,7 @@ void add_lab(Command app, Action& action) {
                "Drive coils whose file limits no current or temperature")
       .needs(rig);
   cmd.add_flag("--coils-cold", o->coils_cold, "The coils are at ambient temperature").needs(rig);
-  cmd.add_option("--set-rig", o->rig_settings, "Override a rig value (repeatable)")
-      .type_name("KEY=VALUE")
-      .needs("--rig");
+  add_rig_settings(cmd, "--set-rig", o->rig_settings).needs("--rig");
   add_photo(cmd, o->photo);
   cmd.add_option("--folder", o->folders,
                  "Folder whose scenarios and records are listed, beside the shipped ones")

@@ -124,7 +124,8 @@ void add_learn(Command app, Action& action) {
                   "Folder for follower.yaml, its model card, the comparison and plots")
       .required()
       .type_name("FOLDER");
-  add_settings(follower, o->settings, "Override a training parameter, e.g. runs=300 (repeatable)");
+  add_settings(follower, o->settings, "Override a training parameter, e.g. runs=300 (repeatable)",
+               type_of<FollowerTrainingParams>);
   follower.add_option("--jobs", o->jobs, "Number of threads (default: one per core)")
       .type_name("NUMBER")
       .check(whole(1, 1024));

@@ -202,7 +202,8 @@ void add_segment(Command map, Action& action) {
       .check(number(0, 100));
   cmd.add_option("--truth", o->truth, "Ground-truth mask (white vessels) to compare with")
       .type_name("FILE");
-  add_settings(cmd, o->settings, "Override a value, e.g. min_width_px=6 (repeatable)");
+  add_settings(cmd, o->settings, "Override a value, e.g. min_width_px=6 (repeatable)",
+               type_of<VesselParams>);
   add_json(cmd, o->json);
   cmd.callback(
       [o, &action] { action = [o](const Context& context) { return segment(*o, context); }; });

@@ -108,7 +108,8 @@ void add_plan(Command app, Action& action) {
       .required()
       .type_name("X,Y")
       .check(place(2, "x,y in µm"));
-  add_settings(cmd, o->settings, "Select planner.type and override its values (repeatable)");
+  add_settings(cmd, o->settings, "Select planner.type and override its values (repeatable)",
+               path_settings);
   cmd.add_option("--seed", o->seed, "Seed of the random stream (default: 1)")
       .type_name("NUMBER")
       .check(whole(0, UINT64_MAX));

@@ -60,10 +60,13 @@ void add_reproduce(Command app, Action& action) {
   Command cmd =
       app.add_command("reproduce", "Reproduce a paper's figures; exit code 3 if one misses its aim",
                       "reproduce drrt/fig5a --quick --out out/drrt");
+  std::vector<std::string> papers;
+  for (const auto& [name, figures] : reproduced_papers) papers.emplace_back(name);
   cmd.add_option("key", *key,
                  "Paper or figure: drrt, drrt/fig3, global, global/fig7, radar, gather …")
       .required()
-      .type_name("KEY");
+      .type_name("KEY")
+      .suggest(suggest_words(papers));
   cmd.add_option("--out", o->out, "Folder for plots, pictures and the table as CSV")
       .type_name("FOLDER");
   cmd.add_flag("--quick", o->quick, "Fewer seeds; takes at most 50 s");

@@ -11,6 +11,7 @@
 #include "microswarm/io/columns.hpp"
 #include "microswarm/session/session.hpp"
 #include "rig/rig_notes.hpp"
+#include "rig/rig_settings.hpp"
 
 namespace microswarm::cli {
 namespace {
@@ -142,13 +143,11 @@ void add_run(Command app, Action& action) {
   cmd.add_option("--out", o->out,
                  "Folder for run.h5, pictures and index.html, or with --trials for trials.csv")
       .type_name("FOLDER");
-  add_settings(cmd, o->settings, "Override a scenario value (repeatable)");
+  add_settings(cmd, o->settings, "Override a scenario value (repeatable)", type_of<Scenario>);
   cmd.add_option("--rig", o->rig,
                  "Rig file (YAML); runs through its simulated camera, coils and field")
       .type_name("FILE");
-  cmd.add_option("--set-rig", o->rig_settings, "Override a rig value (repeatable)")
-      .type_name("KEY=VALUE")
-      .needs("--rig");
+  add_rig_settings(cmd, "--set-rig", o->rig_settings).needs("--rig");
   cmd.add_option("--seed", o->seed, "Seed of all random streams; overrides the scenario's")
       .type_name("NUMBER")
       .check(whole(0, UINT64_MAX));

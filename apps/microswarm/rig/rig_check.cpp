@@ -7,6 +7,7 @@
 #include "microswarm/rig/runtime/rig_checks.hpp"
 #include "microswarm/vision/camera/newest_frame.hpp"
 #include "rig/rig.hpp"
+#include "rig/rig_settings.hpp"
 #include "support/options.hpp"
 
 namespace microswarm::cli {
@@ -99,7 +100,7 @@ void add_rig_check(Command rig, Action& action) {
   Command cmd = rig.add_command("check", "Check camera, coil driver, limits and latency of a rig",
                                 "rig check rig.yaml");
   cmd.add_option("rig", o->rig, "Rig file (YAML)").required().type_name("FILE");
-  cmd.add_option("--set", o->settings, "Override a rig value (repeatable)").type_name("KEY=VALUE");
+  add_rig_settings(cmd, "--set", o->settings);
   cmd.add_option("--seconds", o->seconds, "Test duration per device")
       .type_name("S")
       .check(number(0.1, 600));

@@ -19,6 +19,7 @@
 #include "rig/keys/rig_keys.hpp"
 #include "rig/real_coils.hpp"
 #include "rig/rig.hpp"
+#include "rig/rig_settings.hpp"
 #include "support/options.hpp"
 
 namespace microswarm::cli {
@@ -185,7 +186,7 @@ void add_rig_drive(Command rig, Action& action) {
       .check(number(0.1, 1e5));
   cmd.add_option("--ramp", o->ramp, "Time of each ramp").type_name("S").check(number(0, 1e4));
   add_coil_options(cmd, o->coils);
-  cmd.add_option("--set", o->settings, "Override a rig value (repeatable)").type_name("KEY=VALUE");
+  add_rig_settings(cmd, "--set", o->settings);
   cmd.callback(
       [o, &action] { action = [o](const Context& context) { return rig_drive(*o, context); }; });
 }

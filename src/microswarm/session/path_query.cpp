@@ -66,6 +66,8 @@ std::string PathAnswer::why_none() const {
   return fmt::format("{}: {}", word, limit_text(planner, plan.counts));
 }
 
+const Type& path_settings() { return type_of<PathChoice>(); }
+
 PathAnswer answer(const Snapshot& world, const PathQuery& query, const std::string& name,
                   const Stop& stop) {
   PathAnswer made;

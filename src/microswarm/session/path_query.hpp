@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "microswarm/config/former_keys.hpp"
+#include "microswarm/config/type.hpp"
 #include "microswarm/contracts/plan.hpp"
 #include "microswarm/core/execution/stop.hpp"
 #include "microswarm/planning/path/planner_params.hpp"
@@ -21,6 +22,9 @@ struct PathQuery {
   std::vector<std::string> settings{};
   std::uint64_t seed = 1;
 };
+
+/// What the settings of a query may change.
+const Type& path_settings();
 
 /// The answer to a query: the plan, and how it was made.
 struct PathAnswer {

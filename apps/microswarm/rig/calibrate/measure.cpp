@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Guided measurement of the coils' fields for `rig calibrate --measure`.
 #include "rig/calibrate/measure.hpp"
+#include "rig/rig_settings.hpp"
 
 #include <fmt/ranges.h>
 
@@ -394,9 +395,7 @@ void add_measure_options(Command cmd, MeasureOptions& o) {
       .check(number(0.01, 600))
       .needs(probe);
   add_coil_options(cmd, o.coils);
-  cmd.add_option("--set", o.settings, "Override a value of the rig (repeatable)")
-      .type_name("KEY=VALUE")
-      .needs(measure);
+  add_rig_settings(cmd, "--set", o.settings).needs(measure);
 }
 
 int measure(const Rig& rig, const MeasureOptions& o, const FitOptions& fit, const std::string& file,

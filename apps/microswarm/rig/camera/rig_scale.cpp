@@ -174,7 +174,8 @@ void add_rig_scale(Command rig, Action& action) {
       .type_name("FILE");
   cmd.add_option("--rig", o->rig, "Use the camera's settings of this rig (YAML)").type_name("FILE");
   add_settings(cmd, o->settings,
-               "Override a setting of the camera, e.g. width_px=1280 (repeatable)");
+               "Override a setting of the camera, e.g. width_px=1280 (repeatable)",
+               type_of<CameraParams>);
   const Option points =
       cmd.add_option("--points", o->points, "Two points in the picture in px, y down")
           .type_name("X1,Y1,X2,Y2")

@@ -13,6 +13,7 @@
 #include "rig/real_coils.hpp"
 #include "rig/rig.hpp"
 #include "rig/rig_notes.hpp"
+#include "rig/rig_settings.hpp"
 #include "rig/run/rig_operator.hpp"
 #include "rig/run/rig_status.hpp"
 
@@ -286,9 +287,8 @@ void add_rig_run(Command rig, Action& action) {
   cmd.add_flag("--drawn-swarm", o->drawn_swarm, "Drive coils for a simulated camera's swarm");
   add_coil_options(cmd, o->coils);
   cmd.add_flag("--overwrite", o->overwrite, "Replace the experiment in the folder, or the video");
-  add_settings(cmd, o->settings, "Override a scenario value (repeatable)");
-  cmd.add_option("--set-rig", o->rig_settings, "Override a rig value (repeatable)")
-      .type_name("KEY=VALUE");
+  add_settings(cmd, o->settings, "Override a scenario value (repeatable)", type_of<Scenario>);
+  add_rig_settings(cmd, "--set-rig", o->rig_settings);
   cmd.add_option("--seconds", o->seconds, "End so long after the first command")
       .type_name("S")
       .check(number(0.1, 1e6));

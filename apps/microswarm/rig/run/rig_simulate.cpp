@@ -13,6 +13,7 @@
 #include "microswarm/rig/simulation/rig_comparison.hpp"
 #include "rig/rig.hpp"
 #include "rig/rig_notes.hpp"
+#include "rig/rig_settings.hpp"
 #include "support/options.hpp"
 
 namespace microswarm::cli {
@@ -55,6 +56,11 @@ struct SimulateOptions {
   int jobs = 0;
 };
 
+std::vector<Pair> pairs_of(const SimulateOptions& o) {
+  if (o.scenario.empty()) return usual_pairs();
+  return {{o.scenario, o.rig, o.settings, o.rig_settings}};
+}
+
 std::string time_text(const RunSummary& of) {
   return std::isnan(of.time) ? "–" : fmt::format("{:.1f}", of.time);
 }
@@ -62,9 +68,7 @@ std::string time_text(const RunSummary& of) {
 int simulate_trials(const SimulateOptions& o, const Context& context) {
   if (o.scenario.empty() != o.rig.empty())
     throw InputError("rig simulate: a scenario and --rig go together");
-  const std::vector<Pair> pairs =
-      o.scenario.empty() ? usual_pairs()
-                         : std::vector<Pair>{{o.scenario, o.rig, o.settings, o.rig_settings}};
+  const std::vector<Pair> pairs = pairs_of(o);
   std::vector<RigExperiment> scenes;  // open all first, so that errors are reported before any run
   scenes.reserve(pairs.size());
   for (const Pair& pair : pairs)
@@ -125,9 +129,8 @@ void add_rig_simulate(Command rig, Action& action) {
                  "Scenario file (YAML) (default: a selection from the papers)")
       .type_name("FILE");
   cmd.add_option("--rig", o->rig, "Rig file (YAML)").type_name("FILE");
-  add_settings(cmd, o->settings, "Override a scenario value (repeatable)");
-  cmd.add_option("--set-rig", o->rig_settings, "Override a rig value (repeatable)")
-      .type_name("KEY=VALUE");
+  add_settings(cmd, o->settings, "Override a scenario value (repeatable)", type_of<Scenario>);
+  add_rig_settings(cmd, "--set-rig", o->rig_settings);
   cmd.add_option("--trials", o->trials,
                  "Number of trials per scenario, each with its own random streams")
       .type_name("NUMBER")

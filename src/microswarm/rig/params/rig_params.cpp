@@ -10,6 +10,9 @@
 #include "microswarm/core/maths/angles.hpp"
 
 namespace microswarm {
+
+template const Type& type_of<RigParams>();
+
 namespace {
 
 constexpr double min_sends = 10;            // per turn of the field

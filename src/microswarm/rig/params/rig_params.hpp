@@ -200,4 +200,7 @@ Issues validate(const Rig& rig, const Scenario& scenario);
 /// rig's, or if a rolling field turns too slowly for its commands; empty otherwise.
 std::string unusual_field(const Rig& rig, const Scenario& scenario);
 
+/// Compiled once, in rig_params.cpp; describes the whole rig.
+extern template const Type& type_of<RigParams>();
+
 }  // namespace microswarm

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "support/completion.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <set>
+
+#include "microswarm/core/text/lines.hpp"
+
+namespace microswarm::cli {
+namespace {
+
+using CLI::App;
+
+/// Words for a shell to choose from, or the kind of file that is wanted.
+struct Offer {
+  std::string kind = "words";
+  std::vector<Suggestion> words{};
+};
+
+bool takes_value(const CLI::Option& option) { return option.get_items_expected_max() > 0; }
+
+/// The words of "TEXT:{one,two}", which a Check of words writes for the help.
+std::vector<Suggestion> listed_words(const std::string& type_name) {
+  std::vector<Suggestion> words;
+  const std::size_t begin = type_name.find('{');
+  const std::size_t end = type_name.find('}');
+  if (begin == std::string::npos || end == std::string::npos) return words;
+  const std::string_view list = std::string_view(type_name).substr(begin + 1, end - begin - 1);
+  for (const std::string_view word : split(list, ',')) words.push_back({std::string(word), {}});
+  return words;
+}
+
+/// Where the words before the last one lead.
+struct Place {
+  const App* at;
+  const CLI::Option* wants = nullptr;  ///< the option whose value comes next
+  std::size_t arguments = 0;           ///< that were given
+  std::set<const CLI::Option*> given{};
+
+  void pass(const std::string& word) {
+    if (wants) {
+      wants = nullptr;
+    } else if (word.starts_with('-')) {
+      const CLI::Option* option = at->get_option_no_throw(word.substr(0, word.find('=')));
+      if (!option) return;
+      given.insert(option);
+      if (takes_value(*option) && word.find('=') == std::string::npos) wants = option;
+    } else if (const App* command = command_of(word)) {
+      *this = {.at = command};
+    } else {
+      ++arguments;
+    }
+  }
+
+  const App* command_of(const std::string& word) const {
+    const auto found = at->get_subcommands([&](const App* c) { return c->check_name(word); });
+    return found.empty() ? nullptr : found.front();
+  }
+
+  /// The argument that comes next, if any.
+  const CLI::Option* argument() const {
+    const auto all = at->get_options([](const CLI::Option* o) { return o->get_positional(); });
+    if (arguments < all.size()) return all[arguments];
+    if (all.empty() || all.back()->get_items_expected_max() <= 1) return nullptr;
+    return all.back();
+  }
+};
+
+Offer offered_values(const CLI::Option& option, const Suggestions& suggestions,
+                     const std::string& typed) {
+  if (const auto found = suggestions.find(&option); found != suggestions.end())
+    return {.words = found->second(typed)};
+  const std::string type = option.get_type_name();
+  if (type == "FOLDER") return {.kind = "folders"};
+  if (type == "FILE" || type == "VIDEO" || type == "CSV") return {.kind = "files"};
+  return {.words = listed_words(type)};
+}
+
+Offer offered_commands(const App& app) {
+  Offer offer;
+  for (const App* command : app.get_subcommands(nullptr))
+    offer.words.push_back({command->get_name(), command->get_description()});
+  return offer;
+}
+
+Offer offered_options(const Place& place) {
+  Offer offer;
+  for (const CLI::Option* option : place.at->get_options()) {
+    const bool again = option->get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll;
+    if (option->get_lnames().empty() || (place.given.contains(option) && !again)) continue;
+    offer.words.push_back({"--" + option->get_lnames().front(), option->get_description()});
+  }
+  return offer;
+}
+
+/// Offers "--option=VALUE" for the values.
+Offer joined(Offer values, const std::string& before) {
+  for (Suggestion& word : values.words) word.word.insert(0, before);
+  return values;
+}
+
+Offer offer_for(const Place& place, const std::string& word, const Suggestions& suggestions) {
+  if (place.wants) return offered_values(*place.wants, suggestions, word);
+  if (word.starts_with('-')) {
+    const std::size_t equals = word.find('=');
+    if (equals == std::string::npos) return offered_options(place);
+    const CLI::Option* option = place.at->get_option_no_throw(word.substr(0, equals));
+    if (!option || !takes_value(*option)) return {};
+    return joined(offered_values(*option, suggestions, word.substr(equals + 1)),
+                  word.substr(0, equals + 1));
+  }
+  if (Offer commands = offered_commands(*place.at); !commands.words.empty()) return commands;
+  if (const CLI::Option* argument = place.argument())
+    return offered_values(*argument, suggestions, word);
+  return offered_options(place);
+}
+
+}  // namespace
+
+std::string completion(const App& app, const Suggestions& suggestions,
+                       const std::vector<std::string>& typed) {
+  if (typed.empty()) return "words\n";
+  Place place{.at = &app};
+  for (std::size_t i = 0; i + 1 < typed.size(); ++i) place.pass(typed[i]);
+  const Offer offer = offer_for(place, typed.back(), suggestions);
+  std::string lines = offer.kind + "\n";
+  for (const Suggestion& word : offer.words)
+    if (word.word.starts_with(typed.back())) lines += word.word + "\t" + word.doc + "\n";
+  return lines;
+}
+
+}  // namespace microswarm::cli
