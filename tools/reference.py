@@ -48,7 +48,7 @@ def said(program, *words):
 
 
 def read_help(text):
-    """Sections of a help text: their titles, '' for the first one, and their lines."""
+    """Sections of a help text: their titles, '' for the first one, 'rest' for the last, and their lines."""
     sections, title = {"": []}, ""
     for line in text.splitlines():
         if re.fullmatch(r"[A-Z]\w+:", line):
@@ -56,7 +56,7 @@ def read_help(text):
             sections[title] = []
         elif title and line and not line.startswith(" "):
             title = "rest"
-            sections.setdefault(title, [])
+            sections.setdefault(title, []).append(line)
         else:
             sections[title].append(line)
     return sections
@@ -73,8 +73,8 @@ def entries(lines):
     return found
 
 
-def option_row(name, meaning):
-    """A row of the table of options; what CLI11 puts behind a name becomes words."""
+def option_text(name, meaning):
+    """Name and meaning of an option; what CLI11 puts behind a name becomes words of the meaning."""
     words = []
     for label, before in (("Excludes", "Not with "), ("Needs", "Needs ")):
         if match := re.search(rf" {label}: ((?:--\S+ ?)+)", name):
@@ -91,11 +91,22 @@ def option_row(name, meaning):
         words += [f"Default `{choice[2]}`."] if choice[2] else []
         name = name.replace(choice[0], "")
     meaning = meaning if not words or meaning.endswith((".", "?", "!")) else meaning + "."
-    return f"| `{name}` | {cell(' '.join([meaning, *words]))} |\n"
+    return name, " ".join([meaning, *words])
+
+
+def option_row(name, meaning):
+    """A row of the table of options."""
+    name, meaning = option_text(name, meaning)
+    return f"| `{name}` | {cell(meaning)} |\n"
 
 
 def cell(text):
     return text.replace("|", "\\|").strip()
+
+
+def subcommands(help_text):
+    """Names of a command's subcommands; a former name stands behind a comma and is left out."""
+    return [name.split(",")[0] for name, _ in entries(help_text.get("Subcommands", []))]
 
 
 def command_section(program, words):
@@ -104,8 +115,7 @@ def command_section(program, words):
     depth = "#" * (len(words) + 2)
     about, *usage = [line for line in help_text[""] if line.strip()]
     out = f"{depth} {' '.join(words)}\n\n{about.rstrip('.')}.\n"
-    # A former name stands behind a comma.
-    below = [name.split(",")[0] for name, _ in entries(help_text.get("Subcommands", []))]
+    below = subcommands(help_text)
     if below:
         full = [[*words, name] for name in below]
         out += "\n" + "".join(f"- [{' '.join(name)}](#{'-'.join(name)})\n" for name in full)
@@ -121,7 +131,7 @@ def command_section(program, words):
 
 def commands(program):
     """What stands between the marks of cli.md."""
-    names = [name for name, _ in entries(read_help(said(program, "--help"))["Subcommands"])]
+    names = subcommands(read_help(said(program, "--help")))
     return "\n" + "".join(command_section(program, [name]) for name in names)
 
 
