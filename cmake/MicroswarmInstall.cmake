@@ -27,6 +27,7 @@ endfunction()
 
 # For the package file: the floors and the foreign packages that each floor links.
 set(floor_needs)
+set(foreign_packages)
 foreach(name IN LISTS floor_names)
   get_target_property(links microswarm_${name} LINK_LIBRARIES)
   set(packages)
@@ -35,6 +36,7 @@ foreach(name IN LISTS floor_names)
     list(APPEND packages ${package})
   endforeach()
   list(REMOVE_DUPLICATES packages)
+  list(APPEND foreign_packages ${packages})
   list(FILTER links INCLUDE REGEX "^microswarm::")
   list(TRANSFORM links REPLACE "^microswarm::" "")
   string(APPEND floor_needs "set(microswarm_${name}_floors ${links})\n"
@@ -48,14 +50,15 @@ set_target_properties(microswarm_all PROPERTIES EXPORT_NAME microswarm)
 target_link_libraries(microswarm_all INTERFACE ${floors})
 
 install(TARGETS ${floors} microswarm_all EXPORT microswarmTargets
-        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(EXPORT microswarmTargets NAMESPACE microswarm:: DESTINATION ${package_dir})
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+install(EXPORT microswarmTargets NAMESPACE microswarm:: DESTINATION ${package_dir}
+        COMPONENT development)
 foreach(name IN LISTS floor_names)
   install(DIRECTORY src/microswarm/${name} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/microswarm
-          FILES_MATCHING PATTERN "*.hpp")
+          COMPONENT development FILES_MATCHING PATTERN "*.hpp")
 endforeach()
 install(FILES ${PROJECT_BINARY_DIR}/generated/microswarm/core/version.hpp
-        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/microswarm/core)
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/microswarm/core COMPONENT development)
 
 configure_package_config_file(cmake/microswarmConfig.cmake.in
                               ${PROJECT_BINARY_DIR}/microswarmConfig.cmake
@@ -64,4 +67,4 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/microswarmConfigVersion.c
                                  COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/microswarmConfig.cmake
               ${PROJECT_BINARY_DIR}/microswarmConfigVersion.cmake
-              cmake/FindOpenCV.cmake DESTINATION ${package_dir})
+              cmake/FindOpenCV.cmake DESTINATION ${package_dir} COMPONENT development)
