@@ -56,3 +56,21 @@ function(microswarm_floor name)
                         PRIVATE $<BUILD_INTERFACE:microswarm_options> ${arg_PRIVATE})
   set_property(GLOBAL APPEND PROPERTY MICROSWARM_FLOORS ${target})
 endfunction()
+
+# microswarm_module(FLOOR NAME SOURCES ... LIBRARIES ...): what `load_module(NAME)` loads for a floor at the first use,
+# from bin/../lib/microswarm.
+function(microswarm_module floor name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES" ${ARGN})
+  include(GNUInstallDirs)
+  set(target microswarm_${name})
+  add_library(${target} MODULE ${arg_SOURCES})
+  set_target_properties(${target} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib/microswarm
+                        CXX_VISIBILITY_PRESET default)
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/src ${PROJECT_BINARY_DIR}/generated)
+  target_link_libraries(${target} PRIVATE microswarm_options ${arg_LIBRARIES})
+  if(NOT MICROSWARM_SANITIZE)  # its functions are in the program
+    target_link_options(${target} PRIVATE LINKER:-z,defs)
+  endif()
+  install(TARGETS ${target} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/microswarm COMPONENT program)
+  add_dependencies(microswarm_${floor} ${target})
+endfunction()

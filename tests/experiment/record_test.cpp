@@ -112,7 +112,8 @@ TEST(Record, ForeignBytesAreOneLine) {
   };
   EXPECT_EQ(message(""), "x.h5: no HDF5 file, or a damaged one");
   EXPECT_TRUE(test::is_one_line_naming(message("hello"), "x.h5", {"HDF5", "damaged"}));
-  Hdf5Writer other;
+  const auto made = write_hdf5();
+  Hdf5Writer& other = *made;
   other.attribute("/", "format", "something else");
   EXPECT_TRUE(test::is_one_line_naming(message(other.finish()), "x.h5", {"microswarm", "record"}));
 

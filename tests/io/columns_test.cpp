@@ -122,9 +122,11 @@ TEST(Tables, ComeBackFromHdf5) {
   Results results;
   results.rows = {full_row(), Row{}, full_row()};
   results.rows[2].parts.clear();
-  Hdf5Writer out;
+  const auto made = write_hdf5();
+  Hdf5Writer& out = *made;
   write_tables(out, type_of<Results>(), &results);
-  const Hdf5Reader in(out.finish(), "x.h5");
+  const auto opened = read_hdf5(out.finish(), "x.h5");
+  const Hdf5Reader& in = *opened;
   Results read;
   read_tables(in, type_of<Results>(), &read);
   ASSERT_EQ(read.rows.size(), 3u);

@@ -23,7 +23,7 @@ class ForeignHdf5 : public testing::Test {
         H5Fcreate((folder / "x.h5").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
     make(made);
     H5Fclose(made);
-    return error_of([&] { Hdf5Reader(read_file(folder / "x.h5"), "x.h5").numbers("/a"); });
+    return error_of([&] { read_hdf5(read_file(folder / "x.h5"), "x.h5")->numbers("/a"); });
   }
   static void create(hid_t file, const char* name, hsize_t count, hid_t properties) {
     const hid_t space = H5Screate_simple(1, &count, nullptr);
@@ -67,7 +67,8 @@ TEST_F(ForeignHdf5, VirtualDatasetsAreRefused) {
 }
 
 TEST_F(ForeignHdf5, LinksToOtherFilesAreRefused) {
-  Hdf5Writer other;
+  const auto made = write_hdf5();
+  Hdf5Writer& other = *made;
   other.dataset("/a", std::vector<double>{1, 2, 3});
   const auto path = folder.with("other.h5", other.finish());
   EXPECT_TRUE(is_one_line_naming(complaint([&](hid_t file) {
@@ -103,7 +104,8 @@ TEST_F(ForeignHdf5, DatasetsDoNotShareStorage) {
     for (const char* name : {"/b", "/c", "/d"})
       H5Lcreate_hard(file, "/a", file, name, H5P_DEFAULT, H5P_DEFAULT);
   });
-  const Hdf5Reader in(read_file(folder / "x.h5"), "x.h5");
+  const auto opened = read_hdf5(read_file(folder / "x.h5"), "x.h5");
+  const Hdf5Reader& in = *opened;
   in.length("/a");
   EXPECT_TRUE(is_one_line_naming(error_of([&] {
                                    for (const char* name : {"/b", "/c", "/d"}) in.length(name);

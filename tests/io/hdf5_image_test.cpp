@@ -16,17 +16,20 @@ TEST(Hdf5Image, ColumnsOfEverySizeComeBack) {
     std::iota(numbers.begin(), numbers.end(), 0.25);
     std::vector<std::int64_t> integers(count);
     std::iota(integers.begin(), integers.end(), -7);
-    Hdf5Writer out;
+    const auto made = write_hdf5();
+    Hdf5Writer& out = *made;
     out.dataset("/a/b/numbers", numbers);
     out.dataset("/a/integers", integers);
-    const Hdf5Reader in(out.finish(), "x.h5");
+    const auto opened = read_hdf5(out.finish(), "x.h5");
+    const Hdf5Reader& in = *opened;
     EXPECT_EQ(in.numbers("/a/b/numbers"), numbers) << count;
     EXPECT_EQ(in.integers("/a/integers"), integers) << count;
   }
 }
 
 TEST(Hdf5Image, TextsAndAttributesComeBack) {
-  Hdf5Writer out;
+  const auto made = write_hdf5();
+  Hdf5Writer& out = *made;
   out.text("/text", "line\nµm\n");
   out.text("/none", "");
   out.group("/group");
@@ -35,7 +38,8 @@ TEST(Hdf5Image, TextsAndAttributesComeBack) {
   out.attribute("/group", "number", 0.1);
   out.attribute("/group", "integer", std::int64_t{-3});
   out.attribute("/", "seed", ~std::uint64_t{0});
-  const Hdf5Reader in(out.finish(), "x.h5");
+  const auto opened = read_hdf5(out.finish(), "x.h5");
+  const Hdf5Reader& in = *opened;
   EXPECT_EQ(in.text("/text"), "line\nµm\n");
   EXPECT_EQ(in.text("/none"), "");
   EXPECT_EQ(in.text_attribute("/group", "word"), "µm");
@@ -45,10 +49,12 @@ TEST(Hdf5Image, TextsAndAttributesComeBack) {
 }
 
 TEST(Hdf5Image, WhatIsMissingOrOfAnotherKindIsNamed) {
-  Hdf5Writer out;
+  const auto made = write_hdf5();
+  Hdf5Writer& out = *made;
   out.dataset("/numbers", std::vector<double>{1, 2});
   out.attribute("/numbers", "unit", "s");
-  const Hdf5Reader in(out.finish(), "x.h5");
+  const auto opened = read_hdf5(out.finish(), "x.h5");
+  const Hdf5Reader& in = *opened;
   EXPECT_EQ(test::error_of([&] { in.numbers("/other"); }), "x.h5: has no dataset /other");
   EXPECT_EQ(test::error_of([&] { in.integers("/numbers"); }),
             "x.h5: /numbers is no column of numbers of its kind");
@@ -61,10 +67,13 @@ TEST(Hdf5Image, WhatIsMissingOrOfAnotherKindIsNamed) {
 }
 
 TEST(Hdf5Image, SeveralAreOpenAtATime) {
-  Hdf5Writer first, second;
+  const auto first_file = write_hdf5(), second_file = write_hdf5();
+  Hdf5Writer &first = *first_file, &second = *second_file;
   first.dataset("/column", std::vector<double>{1});
   second.dataset("/column", std::vector<double>{2});
-  const Hdf5Reader a(first.finish(), "a.h5"), b(second.finish(), "b.h5");
+  const auto a_file = read_hdf5(first.finish(), "a.h5"),
+             b_file = read_hdf5(second.finish(), "b.h5");
+  const Hdf5Reader &a = *a_file, &b = *b_file;
   EXPECT_EQ(a.numbers("/column"), std::vector<double>{1});
   EXPECT_EQ(b.numbers("/column"), std::vector<double>{2});
 }

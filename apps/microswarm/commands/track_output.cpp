@@ -55,7 +55,8 @@ void put_integers(Hdf5Writer& file, const std::string& path,
 }
 
 std::string tracks_h5(const TrackResult& result) {
-  Hdf5Writer file;
+  const auto made = write_hdf5();
+  Hdf5Writer& file = *made;
   file.attribute("/", "format", "microswarm tracks");
   file.attribute("/", "format_version", std::int64_t{1});
   file.attribute("/", "version", version);

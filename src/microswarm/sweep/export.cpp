@@ -92,7 +92,8 @@ std::string sweep_csv(const SweepReader& sweep) {
 }
 
 std::string sweep_hdf5(const SweepReader& sweep) {
-  Hdf5Writer out;
+  const auto made = write_hdf5();
+  Hdf5Writer& out = *made;
   out.attribute("/", "format", "microswarm sweep");
   for (const char* key : {"version", "name", "seed", "host", "begun", "hash"})
     out.attribute("/", key, sweep.about(key));

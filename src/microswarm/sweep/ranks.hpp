@@ -1,36 +1,47 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
 namespace microswarm {
 
+/// A message and the rank that sent it.
+struct RankMessage {
+  int from = 0;
+  std::string bytes;
+};
+
+/// What the module of MPI does, from its creation to the end of all messages.
+class RankMessages {
+ public:
+  virtual ~RankMessages() = default;
+  virtual int rank() const = 0;
+  virtual int count() const = 0;
+  virtual void send(int to, const std::string& bytes) const = 0;
+  virtual std::optional<RankMessage> receive() const = 0;
+};
+
 /// The processes started by mpirun or srun, and messages between them. A program started alone has
-/// one rank and does not initialise MPI. Create it once in a process and use it from one thread.
+/// one rank and does not load MPI. Create it once in a process and use it from one thread.
 class Ranks {
  public:
   /// Throws InputError under mpirun when the program was built without MPI.
   Ranks();
-  ~Ranks();
   Ranks(const Ranks&) = delete;
   Ranks& operator=(const Ranks&) = delete;
 
-  int rank() const { return rank_; }
-  int count() const { return count_; }
+  int rank() const { return messages_ ? messages_->rank() : 0; }
+  int count() const { return messages_ ? messages_->count() : 1; }
 
-  struct Message {
-    int from = 0;
-    std::string bytes;
-  };
   /// Sends a message; messages between two ranks keep their order.
   void send(int to, const std::string& bytes) const;
   /// The next pending message, if any.
-  std::optional<Message> receive() const;
+  std::optional<RankMessage> receive() const;
 
  private:
-  int rank_ = 0;
-  int count_ = 1;
+  std::unique_ptr<RankMessages> messages_;
 };
 
 }  // namespace microswarm

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <memory>
 #include <string>
 
 #include "microswarm/core/fields/fields.hpp"
@@ -54,7 +55,7 @@ void write_indices(Hdf5Writer& out, const std::string& path, const auto& indices
 class Reader {
  public:
   Reader(const std::filesystem::path& file, const LoadedMap& map)
-      : in_(read_file(file), file.string()), map_(map) {}
+      : in_(read_hdf5(read_file(file), file.string())), map_(map) {}
 
   GlobalTree run() {
     check_origin();
@@ -66,28 +67,28 @@ class Reader {
 
  private:
   void check_origin() const {
-    if (in_.text_attribute("/", "format") != tree_format_name)
-      in_.fail("holds no tree of global inputs");
-    const std::int64_t written = in_.integer_attribute("/", "format_version");
+    if (in_->text_attribute("/", "format") != tree_format_name)
+      in_->fail("holds no tree of global inputs");
+    const std::int64_t written = in_->integer_attribute("/", "format_version");
     if (written != tree_format_version)
-      in_.fail(fmt::format("has tree format {}, this program reads format {}", written,
-                           tree_format_version));
-    const std::string hash = in_.text_attribute("/", "map_hash");
+      in_->fail(fmt::format("has tree format {}, this program reads format {}", written,
+                            tree_format_version));
+    const std::string hash = in_->text_attribute("/", "map_hash");
     if (hash != hex(map_.input_hash))
-      in_.fail(fmt::format("was grown on another map: its hash is {}, this map's is {}", hash,
-                           hex(map_.input_hash)));
+      in_->fail(fmt::format("was grown on another map: its hash is {}, this map's is {}", hash,
+                            hex(map_.input_hash)));
   }
 
   std::int64_t whole(const char* name, std::int64_t least, std::int64_t most) const {
-    const std::int64_t value = in_.integer_attribute("/", name);
+    const std::int64_t value = in_->integer_attribute("/", name);
     if (value < least || value > most)
-      in_.fail(fmt::format("attribute {} is {}, allowed {}..{}", name, value, least, most));
+      in_->fail(fmt::format("attribute {} is {}, allowed {}..{}", name, value, least, most));
     return value;
   }
   double length(const char* name, double least) const {
-    const double value = in_.number_attribute("/", name);
+    const double value = in_->number_attribute("/", name);
     if (!(value >= least && value <= 1e6))
-      in_.fail(fmt::format("attribute {} is {}, allowed {}..1e6", name, value, least));
+      in_->fail(fmt::format("attribute {} is {}, allowed {}..1e6", name, value, least));
     return value;
   }
 
@@ -97,33 +98,33 @@ class Reader {
     tree_.separation = length("separation_um", 0);
     const auto directions = static_cast<int>(whole("directions", 3, 256));
     tree_.moves = input_moves(directions, tree_.robostep);
-    const std::string contact = in_.text_attribute("/", "contact");
+    const std::string contact = in_->text_attribute("/", "contact");
     const auto rule = enum_value<ContactRule>(contact);
-    if (!rule) in_.fail("attribute contact is the unknown word '" + contact + "'");
+    if (!rule) in_->fail("attribute contact is the unknown word '" + contact + "'");
     tree_.contact = *rule;
     tree_.origin = map_.map->bounds().centre();
   }
 
   void read_nodes() {
-    const std::vector<std::int64_t> parents = in_.integers("/nodes/parent");
-    const std::vector<std::int64_t> inputs = in_.integers("/nodes/input");
+    const std::vector<std::int64_t> parents = in_->integers("/nodes/parent");
+    const std::vector<std::int64_t> inputs = in_->integers("/nodes/input");
     const std::size_t count = parents.size();
-    if (count == 0) in_.fail("has no nodes");
-    if (inputs.size() != count) in_.fail("/nodes/input is not as long as /nodes/parent");
+    if (count == 0) in_->fail("has no nodes");
+    if (inputs.size() != count) in_->fail("/nodes/input is not as long as /nodes/parent");
     tree_.reserve(count);
     tree_.configurations.resize(2 * tree_.robots * count);
     for (std::size_t k = 0; k < 2 * tree_.robots; ++k) {
-      const std::vector<double> places = in_.numbers(column(k));
-      if (places.size() != count) in_.fail(column(k) + " is not as long as /nodes/parent");
+      const std::vector<double> places = in_->numbers(column(k));
+      if (places.size() != count) in_->fail(column(k) + " is not as long as /nodes/parent");
       for (std::size_t node = 0; node < count; ++node)
         tree_.configurations[2 * tree_.robots * node + k] = static_cast<float>(places[node]);
     }
     for (std::size_t node = 0; node < count; ++node) {
       const auto before = static_cast<std::int64_t>(node == 0 ? 1 : node);
       if (parents[node] < 0 || parents[node] >= before)
-        in_.fail(fmt::format("node {} has the parent {}", node, parents[node]));
+        in_->fail(fmt::format("node {} has the parent {}", node, parents[node]));
       if (inputs[node] < 0 || inputs[node] >= std::ssize(tree_.moves))
-        in_.fail(fmt::format("node {} has the input {}", node, inputs[node]));
+        in_->fail(fmt::format("node {} has the input {}", node, inputs[node]));
       tree_.parents.push_back(static_cast<std::uint32_t>(parents[node]));
       tree_.inputs.push_back(static_cast<std::uint8_t>(inputs[node]));
     }
@@ -133,7 +134,7 @@ class Reader {
     const RobotStepper stepper = input_stepper(*map_.map, tree_.robostep);
     for (std::size_t i = 0; i < tree_.robots; ++i)
       if (!map_.map->is_free(tree_.position(0, i), 0))
-        in_.fail(fmt::format("robot {} of the first node is in a wall", i + 1));
+        in_->fail(fmt::format("robot {} of the first node is in a wall", i + 1));
     for (std::uint32_t node = 1; node < tree_.size(); ++node) {
       const std::span<const float> from = tree_.configuration(tree_.parents[node]);
       const std::span<const float> to = tree_.configuration(node);
@@ -141,15 +142,15 @@ class Reader {
       for (std::size_t i = 0; i < to.size(); i += 2) {
         const PointF p = stepper.moved({from[i], from[i + 1]}, move, tree_.contact);
         if (p.x == to[i] && p.y == to[i + 1]) continue;
-        in_.fail(
+        in_->fail(
             fmt::format("node {} is not where its input leads: the file is damaged or was "
                         "grown by version {}, which moves robots otherwise",
-                        node, in_.text_attribute("/", "version")));
+                        node, in_->text_attribute("/", "version")));
       }
     }
   }
 
-  Hdf5Reader in_;
+  std::unique_ptr<const Hdf5Reader> in_;
   const LoadedMap& map_;
   GlobalTree tree_;
 };
@@ -158,7 +159,8 @@ class Reader {
 
 void write_global_tree(const GlobalTree& tree, const LoadedMap& map,
                        const std::filesystem::path& file) {
-  Hdf5Writer out;
+  const auto made = write_hdf5();
+  Hdf5Writer& out = *made;
   write_root(out, tree, map);
   for (std::size_t k = 0; k < 2 * tree.robots; ++k) {
     out.dataset(column(k), every(tree.configurations, 2 * tree.robots, k));

@@ -94,7 +94,8 @@ std::int64_t check_format(const Hdf5Reader& in) {
 }  // namespace
 
 void write_record(const Record& record, const std::filesystem::path& file) {
-  Hdf5Writer out;
+  const auto made = write_hdf5();
+  Hdf5Writer& out = *made;
   write_root(out, record);
   write_scene(out, record.scene);
   write_tables(out, type_of<Record>(), &record);
@@ -110,7 +111,8 @@ void write_record(const Record& record, const std::filesystem::path& file) {
 }
 
 Record read_record(const std::filesystem::path& file) {
-  const Hdf5Reader in(read_file(file), file.string());
+  const auto opened = read_hdf5(read_file(file), file.string());
+  const Hdf5Reader& in = *opened;
   const std::int64_t format = check_format(in);
   Record record;
   record.version = in.text_attribute("/", "version");

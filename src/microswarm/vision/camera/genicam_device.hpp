@@ -20,6 +20,16 @@ std::unique_ptr<CameraDevice> open_genicam(const GenicamParams& params);
 /// this build is without Aravis.
 std::vector<ListedCamera> list_genicam_cameras();
 
+/// What the module of Aravis does.
+class GenicamCameras {
+ public:
+  virtual ~GenicamCameras() = default;
+  /// As open_genicam.
+  virtual std::unique_ptr<CameraDevice> open(const GenicamParams& params) const = 0;
+  /// As list_genicam_cameras.
+  virtual std::vector<ListedCamera> list() const = 0;
+};
+
 /// Whether this build can open GenICam cameras.
 bool has_genicam();
 
