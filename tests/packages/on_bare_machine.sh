@@ -14,7 +14,10 @@ cd "$work"
 step() { echo "== $*"; }
 
 # install FILE...: with what they depend on.
-install() { apt-get install -y -qq --no-install-recommends "$@" >apt.log 2>&1 || { cat apt.log; return 1; }; }
+install() {
+  apt-get install -y -qq --no-install-recommends "$@" >apt.log 2>&1 || { cat apt.log && return 1; }
+  apt-get clean
+}
 
 if command -v c++ >/dev/null; then
   echo "this machine has a compiler" >&2
