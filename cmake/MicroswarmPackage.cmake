@@ -30,9 +30,11 @@ endif()
 # Builds all that is packed.
 add_custom_target(microswarm_packaged)
 add_dependencies(microswarm_packaged microswarm ${floors})
-if(TARGET microswarm_manual)
-  add_dependencies(microswarm_packaged microswarm_manual)
-endif()
+foreach(target microswarm_manual microswarm_c)
+  if(TARGET ${target})
+    add_dependencies(microswarm_packaged ${target})
+  endif()
+endforeach()
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_COMPONENTS_ALL program development)
@@ -99,7 +101,7 @@ list(JOIN development_depends ", " development_depends)
 
 debian_package(development libmicroswarm-dev
         "planning, steering and measuring magnetic microrobot swarms (library)"
-        "Static libraries, headers and the CMake package of microswarm: planners, navigators, swarm models, simulation,
+        "Static libraries, headers, the CMake package and the C library of microswarm: planners, navigators, swarm models, simulation,
 cameras, coils and records."
         "${development_depends}")
 include(CPack)

@@ -18,15 +18,15 @@ std::vector<fs::path> places(const std::string& file_name) {
   std::vector<fs::path> all;
   const auto beside = [&](const fs::path& folder) {
     if (!folder.is_absolute()) return;
-    all.push_back(folder / file_name);
+    for (const fs::path& at : {folder, folder / "microswarm"}) all.push_back(at / file_name);
     for (const char* libraries : {"lib", MICROSWARM_LIBRARIES})
       all.push_back(folder / ".." / libraries / "microswarm" / file_name);
   };
-  std::error_code error;
-  beside(fs::read_symlink("/proc/self/exe", error).parent_path());
   Dl_info own{};
   if (::dladdr(reinterpret_cast<const void*>(&load_module), &own) && own.dli_fname)
     beside(fs::path(own.dli_fname).parent_path());
+  std::error_code error;
+  beside(fs::read_symlink("/proc/self/exe", error).parent_path());
   for (const char* folder : {MICROSWARM_MODULES, "/usr/lib/microswarm"})
     all.push_back(fs::path(folder) / file_name);
   std::erase_if(all, [&](const fs::path& file) { return !fs::exists(file, error); });

@@ -8,9 +8,10 @@ namespace microswarm {
 /// A module is a part of microswarm that brings many shared libraries, which would be loaded at
 /// every start; it is loaded at the first use instead, and stays until the program ends. Loads
 /// libmicroswarm_NAME.so and returns the address of its C function microswarm_NAME. It is looked
-/// for in lib/microswarm as seen from the program, or from the library that this is in, then where
-/// this build and the Debian package are installed, then where the system looks. `users` says what
-/// needs it: throws InputError "libmicroswarm_NAME.so: cannot be loaded, and USERS need it: WHY".
+/// for in lib/microswarm as seen from the library that this is in, then from the program, then
+/// where this build and the Debian package are installed, then where the system looks. `users` says
+/// what needs it: throws InputError "libmicroswarm_NAME.so: cannot be loaded, and USERS need it:
+/// WHY".
 void* load_module(const std::string& name, const std::string& users);
 
 }  // namespace microswarm
