@@ -4,7 +4,7 @@ function file = build_mex(library_folder, output_folder)
 %   build_mex()
 %   file = build_mex(library_folder, output_folder)
 %
-% library_folder   where libmicroswarm_c.so is; without, ../../build/release/bindings/c from this file
+% library_folder   where libmicroswarm_c.so is; without, ../../build/release/lib from this file
 % output_folder    where the MEX file goes; without, the folder of this file
 %
 % Needs a C compiler: in MATLAB see `mex -setup C`, in Octave the package octave-dev of Debian.
@@ -14,7 +14,7 @@ function file = build_mex(library_folder, output_folder)
   % SPDX-License-Identifier: Apache-2.0
   here = fileparts(mfilename('fullpath'));
   if nargin < 1 || isempty(library_folder)
-    library_folder = fullfile(here, '..', '..', 'build', 'release', 'bindings', 'c');
+    library_folder = fullfile(here, '..', '..', 'build', 'release', 'lib');
   end
   if nargin < 2 || isempty(output_folder), output_folder = here; end
   if exist(fullfile(library_folder, 'libmicroswarm_c.so'), 'file') ~= 2
