@@ -32,7 +32,7 @@ typedef enum ms_code {
   MS_OK = 0,
   MS_END = 1,       /* the run has ended: there is no further tick */
   MS_BAD_INPUT = 2, /* a file, key or value; nothing has changed */
-  MS_STOPPED = 3,   /* ms_stop ended the call */
+  MS_STOPPED = 3,   /* ms_stop ended the call: ms_plan, ms_navigator_step, ms_session_finish */
   MS_BAD_CALL = 4,  /* a pointer is null, or the handle is closed, of another kind, or in use */
   MS_NO_MEMORY = 5,
   MS_FAULT = 6 /* a bug of the library */
@@ -45,7 +45,8 @@ int32_t ms_interface(void);
 const char* ms_error_text(void);
 /* Closes a session, navigator, map or path. */
 int32_t ms_close(uint64_t handle);
-/* Ends what another thread does with the handle as soon as possible, and the run of a session. */
+/* Ends the call that another thread makes with a map or a navigator, and the run of a session for
+ * good: its next tick is the last one. */
 int32_t ms_stop(uint64_t handle);
 
 /* ---- Experiments ---------------------------------------------------------------------------- */

@@ -74,6 +74,8 @@ int32_t ms_plan(uint64_t handle, const ms_query* query, ms_path* path) {
              .points = 0,
              .why_none = object.why.c_str()};
     c::show(object, made.plan.path, &path->xy_um, &path->points);
-    return object.stops ? c::fail(MS_STOPPED, "the search was stopped") : MS_OK;
+    const bool stopped = made.plan.status == Status::stopped;
+    object.stops = false;
+    return stopped ? c::fail(MS_STOPPED, "the search was stopped") : MS_OK;
   });
 }

@@ -246,7 +246,8 @@ int32_t ms_navigator_step(uint64_t handle, const ms_observation* seen, ms_comman
                     .target_y_um = view.local_target ? view.local_target->y : c::not_there,
                     .state = static_cast<int32_t>(view.state),
                     .planned = view.planned};
-        return object.stops ? c::fail(MS_STOPPED, "the navigator was stopped") : MS_OK;
+        return object.stops.exchange(false) ? c::fail(MS_STOPPED, "the navigator was stopped")
+                                            : MS_OK;
       });
 }
 

@@ -25,6 +25,27 @@ namespace py = pybind11;
 /// Rows of numbers of a caller, contiguous or not, of any type of number.
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
+/// Whether the interpreter is about to end, and how many threads are on their way back into it.
+struct Ending {
+  static std::atomic<bool> begun;
+  static std::atomic<int> returning;
+  /// For `atexit`: from now on no thread comes back.
+  static void begin();
+};
+
+/// Gives the GIL away. A thread that would come back while the interpreter ends waits for ever
+/// instead: the interpreter would end it in the middle of a destructor.
+class Free {
+ public:
+  Free() : state_(PyEval_SaveThread()) {}
+  ~Free();
+  Free(const Free&) = delete;
+  Free& operator=(const Free&) = delete;
+
+ private:
+  PyThreadState* state_;
+};
+
 /// Calls `work(stop)` in another thread, without the GIL, and looks for signals meanwhile: Ctrl-C
 /// stops it, and KeyboardInterrupt is raised once it has ended. `look` is called 10 times a second.
 template <class Work, class Look>
@@ -33,7 +54,7 @@ auto interruptible(Work&& work, Look&& look) {
   auto task = std::async(std::launch::async, [&] { return work(Stop(&flag)); });
   std::optional<py::error_already_set> raised;
   const auto is_done = [&] {
-    const py::gil_scoped_release free;
+    const Free free;
     return task.wait_for(std::chrono::milliseconds(raised ? 1000 : 50)) ==
            std::future_status::ready;
   };

@@ -60,7 +60,7 @@ py::array_t<double> clearance(const NamedMap& map, const Numbers& array) {
   const std::vector<Vec2> asked = places(array, "places_um");
   py::array_t<double> found(static_cast<py::ssize_t>(asked.size()));
   double* out = found.mutable_data();
-  const py::gil_scoped_release free;
+  const Free free;
   for (const Vec2& place : asked) *out++ = is_finite(place) ? map.world.clearance(place) : 0;
   return found;
 }
@@ -71,7 +71,7 @@ py::array_t<bool> are_free(const NamedMap& map, const Numbers& array, double cle
   static_assert(sizeof(bool) == 1);
   const std::span<std::uint8_t> out{reinterpret_cast<std::uint8_t*>(found.mutable_data()),
                                     asked.size()};
-  const py::gil_scoped_release free;
+  const Free free;
   map.world.are_free(asked, clearance, out);
   return found;
 }

@@ -1,10 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 // The module microswarm._core, which the package microswarm wraps.
 #include "calls.hpp"
+
+#include <thread>
+
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/version.hpp"
 
 namespace microswarm::python {
+
+std::atomic<bool> Ending::begun = false;
+std::atomic<int> Ending::returning = 0;
+
+void Ending::begin() {
+  begun = true;
+  while (returning > 0) {
+    const py::gil_scoped_release free;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
+Free::~Free() {
+  ++Ending::returning;
+  if (Ending::begun) {
+    --Ending::returning;
+    for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
+  }
+  PyEval_RestoreThread(state_);
+  --Ending::returning;
+}
 
 void warn(const Notes& notes) {
   for (const std::string& note : notes)
@@ -51,6 +75,7 @@ PYBIND11_MODULE(_core, module) {
       hardware_error(error.what());
     }
   });
+  py::module_::import("atexit").attr("register")(py::cpp_function(python::Ending::begin));
   python::add_map(module);
   python::add_record(module);
   python::add_session(module);

@@ -23,7 +23,7 @@ struct ScenarioText {
 
   static ScenarioText load(const std::string& file) {
     const std::filesystem::path path(file);
-    return of(read_file(path, max_yaml_bytes), file, path.parent_path());
+    return of(read_file(path, max_yaml_bytes), file, std::filesystem::absolute(path).parent_path());
   }
   static ScenarioText of(std::string text, std::string name, std::filesystem::path base) {
     ScenarioText made{std::move(text), std::move(name), std::move(base)};
@@ -53,7 +53,9 @@ class Guarded {
 
   template <class Work>
   auto use(Work&& work) {
-    if (in_use_.exchange(true)) throw InputError("another thread uses the " + std::string(kind_));
+    if (in_use_.exchange(true))
+      throw InputError("the " + std::string(kind_) +
+                       " is in use, by another thread or around this call");
     const struct Leave {
       std::atomic<bool>& in_use;
       ~Leave() { in_use = false; }
@@ -62,7 +64,9 @@ class Guarded {
     return work(*held_);
   }
   void close() {
-    use([&](T&) { held_.reset(); });
+    if (in_use_.exchange(true)) throw InputError(std::string("the ") + kind_ + " is in use");
+    held_.reset();
+    in_use_ = false;
   }
 
  private:
@@ -73,9 +77,30 @@ class Guarded {
 
 class OpenSession : public Guarded<Session> {
  public:
-  explicit OpenSession(std::unique_ptr<Session> session) : Guarded(std::move(session), "session") {}
+  OpenSession(std::unique_ptr<Session> session, bool has_own_navigator)
+      : Guarded(std::move(session), "session"), has_own_navigator_(has_own_navigator) {}
+
+  /// Calls `work(stop)`, which steps. With a navigator of the caller's own it stays in this thread,
+  /// where Ctrl-C reaches that; an exception of its ends the session.
+  template <class Work, class Look>
+  auto drive(Work&& work, Look&& look) {
+    if (has_failed_) throw InputError("the navigator of the session has raised an exception");
+    if (!has_own_navigator_) return interruptible(work, look);
+    has_failed_ = true;
+    const auto made = [&] {
+      const Free free;
+      return work(Stop());
+    }();
+    has_failed_ = false;
+    return made;
+  }
+  bool has_own_navigator() const { return has_own_navigator_; }
 
   bool has_begun = false;  ///< the first step may take longer
+
+ private:
+  bool has_own_navigator_;
+  bool has_failed_ = false;
 };
 
 std::unique_ptr<OpenSession> open(const ScenarioText& scenario, std::optional<std::uint64_t> seed,
@@ -85,7 +110,7 @@ std::unique_ptr<OpenSession> open(const ScenarioText& scenario, std::optional<st
   auto session = interruptible([&](const Stop&) {
     return std::make_unique<Session>(scenario.open(seed), trial, nullptr, std::move(own));
   });
-  return std::make_unique<OpenSession>(std::move(session));
+  return std::make_unique<OpenSession>(std::move(session), !navigator.is_none());
 }
 
 /// The present view as a dictionary of numbers and arrays.
@@ -109,10 +134,11 @@ py::dict view_of(const Session& session) {
 
 bool step(OpenSession& open) {
   return open.use([&](Session& session) {
-    if (!std::exchange(open.has_begun, true))
-      return interruptible([&](const Stop& stop) { return session.step(stop) != nullptr; });
-    const py::gil_scoped_release free;
-    return session.step() != nullptr;
+    const auto made = [&](const Stop& stop) { return session.step(stop) != nullptr; };
+    if (open.has_own_navigator() || !std::exchange(open.has_begun, true))
+      return open.drive(made, [] {});
+    const Free free;
+    return made({});
   });
 }
 
@@ -121,22 +147,38 @@ py::dict finish(OpenSession& open, const py::object& report) {
   return open.use([&](Session& session) {
     open.has_begun = true;
     std::atomic<double> done = 0;
-    const RunResult& result = interruptible(
-        [&](const Stop& stop) -> std::reference_wrapper<const RunResult> {
-          const double limit = session.scenario().time_limit;
-          double start = 0;
-          while (const Tick* tick = session.step(stop)) {
-            const Frame& frame = tick->frame;
-            start = std::max(start, std::isfinite(frame.goal_distance) ? frame.goal_distance : 0);
-            const double way = start > 0 ? 1 - frame.goal_distance / start : 0;
-            done = std::clamp(std::max(way, frame.t / limit), 0.0, 1.0);
-          }
-          return session.result();
-        },
-        [&] {
-          if (!report.is_none()) report(done.load());
-        });
-    return summary_of(result);
+    const auto look = [&] {
+      if (!report.is_none()) report(done.load());
+    };
+    const double limit = session.scenario().time_limit;
+    double start = 0;
+    const auto step = [&](const Stop& stop) {
+      const Tick* tick = session.step(stop);
+      if (!tick) return false;
+      const double left = tick->frame.goal_distance;
+      if (std::isfinite(left)) start = std::max(start, left);
+      const double way = start > 0 ? 1 - left / start : 0;
+      done = std::clamp(std::max(way, tick->frame.t / limit), 0.0, 1.0);
+      return true;
+    };
+    if (open.has_own_navigator()) {
+      constexpr std::chrono::milliseconds period{100};
+      for (auto next = Stop::Clock::now() + period; open.drive(step, look);) {
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+        if (Stop::Clock::now() < next) continue;
+        next = Stop::Clock::now() + period;
+        look();
+      }
+    } else {
+      open.drive(
+          [&](const Stop& stop) {
+            while (step(stop)) {
+            }
+            return true;
+          },
+          look);
+    }
+    return summary_of(session.result());
   });
 }
 
@@ -193,7 +235,7 @@ py::tuple step_navigator(OpenNavigator& open, double now, std::optional<double> 
     const auto made = [&](const Stop& stop) { return navigator.step(sight, stop); };
     Command command;
     if (navigator.is_prepared()) {
-      const py::gil_scoped_release free;
+      const Free free;
       command = made({});
     } else {
       command = interruptible(made);
@@ -219,6 +261,10 @@ void add_session(py::module_& module) {
       .def("json", [](const ScenarioText& s) { return to_json_text(s.value); })
       .def("yaml", [](const ScenarioText& s) { return scenario_text(s.value); })
       .def("copy", [](const ScenarioText& s) { return s; })
+      .def("parts",
+           [](const ScenarioText& s) {
+             return py::make_tuple(s.text, s.name, s.base.string(), s.settings);
+           })
       .def_readonly("name", &ScenarioText::name)
       .def_readonly("settings", &ScenarioText::settings);
   module.def("schema", session_schema);

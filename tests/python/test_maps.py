@@ -32,7 +32,7 @@ def test_images_of_every_kind_give_the_same_map(room):
     maps = [
         ms.Map.from_image(image, 10),
         ms.Map.from_image(~image, 10, free="dark"),
-        ms.Map.from_image(wide, 10),
+        ms.Map.from_image(wide, 10, threshold=128),
         ms.Map.from_image(np.asfortranarray(image), 10),
         ms.Map.from_image(image.astype(int), 10, threshold=1),
     ]
@@ -45,12 +45,15 @@ def test_images_of_every_kind_give_the_same_map(room):
     [
         (np.zeros(5), 1, "2 dimensions"),
         (np.zeros((5, 5, 3)), 1, "2 dimensions"),
-        (np.zeros((0, 5)), 1, "must be 1 to"),
+        (np.zeros((0, 5), bool), 1, "must be 1 to"),
         (np.array([["a"]]), 1, "numbers"),
         (np.full((3, 3), np.nan), 1, "finite"),
+        (np.ones((3, 3), dtype=np.uint8), 1, "threshold is missing"),
+        (np.full((3, 3), 200.0), 1, "threshold is missing"),
+        (np.full((3, 3), 200), 1, "threshold is missing"),
         (None, 1, "2 dimensions"),
-        (np.ones((3, 3)), 0, "um_per_px"),
-        (np.ones((3, 3)), np.nan, "um_per_px"),
+        (np.ones((3, 3), bool), 0, "um_per_px"),
+        (np.ones((3, 3), bool), np.nan, "um_per_px"),
     ],
 )
 def test_bad_images(image, um_per_px, words):
@@ -59,7 +62,7 @@ def test_bad_images(image, um_per_px, words):
 
 
 def test_bad_places(room):
-    for places in ([1, 2], np.zeros((3, 3)), 5):
+    for places in ([1, 2], np.zeros((3, 3)), 5, [[1, 2], [3]], [["a", "b"]], np.zeros((3, 2), complex)):
         with pytest.raises(ms.InputError, match="shape"):
             room.clearance(places)
     assert room.clearance(np.empty((0, 2))).shape == (0,)
@@ -92,6 +95,9 @@ def test_what_cannot_be_planned(room):
         ((50, 50), (350, 50), {"planner": "magic"}, "allowed"),
         ((50, 50), (350, 50), {"planner": "rrt", "stpe_um": 5}, "did you mean 'step_um'"),
         ((50, 50), (350, 50), {"planner": "rrt", "max_nodes": -1}, "max_nodes"),
+        ((50, 50), (350, 50), {"seed": -1}, "seed is -1"),
+        ((50, 50), (350, 50), {"seed": 2**64}, "seed is"),
+        ((50, 50), (350, 50), {"clearance_um=5 #": 1}, "no key"),
     ]:
         with pytest.raises(ms.InputError, match=words):
             ms.plan(room, start, goal, **values)

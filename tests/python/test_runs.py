@@ -150,7 +150,7 @@ def test_two_threads_on_one_session_are_told(flight):
         try:
             session.view()
         except ms.InputError as error:
-            refused = "another thread" in str(error)
+            refused = "in use" in str(error)
             break
         time.sleep(0.001)
     other.join()
@@ -174,3 +174,60 @@ except KeyboardInterrupt:
     time.sleep(1)
     process.send_signal(signal.SIGINT)
     assert process.communicate(timeout=20)[0] == "interrupted\n"
+
+
+def test_ctrl_c_reaches_a_navigator_that_does_not_return():
+    code = f"""
+import microswarm as ms, threading
+class Endless:
+    def step(self, seen):
+        print("runs", flush=True)
+        while True: pass
+try:
+    ms.run({str(SCENARIOS / "first_flight.yaml")!r}, navigator=Endless())
+except KeyboardInterrupt:
+    print("interrupted")
+"""
+    process = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True, cwd=ROOT)
+    assert process.stdout.readline() == "runs\n"
+    process.send_signal(signal.SIGINT)
+    assert process.communicate(timeout=20)[0] == "interrupted\n"
+
+
+def test_the_interpreter_ends_while_other_threads_step():
+    code = f"""
+import microswarm as ms, threading, time
+def steps():
+    n, t = ms.Navigator({str(SCENARIOS / "first_flight.yaml")!r}), 0
+    while True:
+        t += 0.01
+        n.step(t, swarm=(200, 500, 0, 40))
+threading.Thread(target=steps, daemon=True).start()
+time.sleep(0.3)
+"""
+    for _ in range(3):
+        assert subprocess.run([sys.executable, "-c", code], cwd=ROOT, timeout=60).returncode == 0
+
+
+def test_a_navigator_is_called_in_the_callers_thread_and_its_exception_ends_the_session(flight):
+    threads = set()
+
+    class Fails:
+        def prepare(self):
+            threads.add(threading.get_ident())
+
+        def step(self, seen):
+            threads.add(threading.get_ident())
+            if seen.now_s > 0.5:
+                raise ValueError("mine")
+            return 0, 10
+
+    session = ms.Session(flight, navigator=Fails())
+    with pytest.raises(ValueError, match="mine"):
+        session.finish()
+    assert threads == {threading.get_ident()}
+    with pytest.raises(ms.InputError, match="has raised an exception"):
+        session.step()
+    assert session.record().replay() == (True, "")
+    session.close()
+    session.close()

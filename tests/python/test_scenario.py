@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Scenarios as objects."""
 
+import copy
+import pickle
+
 import numpy as np
 import pytest
 
@@ -10,7 +13,7 @@ from conftest import SCENARIOS
 
 def test_keys_are_attributes_with_their_units(flight):
     assert flight.tick_s == 0.1
-    assert flight.goal_um == [1800, 500]
+    assert flight.goal_um == (1800, 500)
     assert flight.obstacles[0].shape.radius_um == 60
     assert len(flight.obstacles) == 2
     flight.navigator.speed_um_per_s = 60
@@ -18,7 +21,7 @@ def test_keys_are_attributes_with_their_units(flight):
     flight.goal_um = np.array([1700, 400])
     assert flight.get("navigator.speed_um_per_s") == 60
     assert flight.get("obstacles.1.shape.radius_um") == 33.5
-    assert flight.goal_um == [1700, 400]
+    assert flight.goal_um == (1700, 400)
     assert "speed_um_per_s" in dir(flight.navigator)
 
 
@@ -75,3 +78,35 @@ def test_files_that_are_none(tmp_path):
     with pytest.raises(ms.InputError, match=r"bad.yaml:1:1: unknown key 'gaol_um', did you mean 'goal_um'"):
         ms.Scenario.load(bad)
     assert issubclass(ms.InputError, ValueError)
+
+
+def test_places_and_lists_are_replaced_as_a_whole(flight):
+    with pytest.raises(TypeError):
+        flight.goal_um[0] = 1000
+    flight.get("navigator")["speed_um_per_s"] = 1
+    assert flight.navigator.speed_um_per_s != 1
+    flight.obstacles = flight.obstacles[:1]
+    assert len(flight.obstacles) == 1
+    flight.set("obstacles.0", flight.obstacles[0])
+    with pytest.raises(AttributeError, match="replaced as a whole"):
+        flight.obstacles.append(3)
+    for key in ("seed=5 #", "seed\n", "", 5, None):
+        with pytest.raises(ms.InputError, match="no key"):
+            flight.set(key, 5)
+
+
+def test_scenarios_are_copied_and_pickled(flight):
+    flight.seed = 4
+    for other in (copy.copy(flight), copy.deepcopy(flight), pickle.loads(pickle.dumps(flight))):
+        assert other == flight and ms.run(other, progress=False).hash == ms.run(flight, progress=False).hash
+        other.seed = 5
+        assert flight.seed == 4
+
+
+def test_files_are_found_from_another_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(SCENARIOS.parent)
+    scenario = ms.Scenario.load("scenarios/demo.yaml").set("time_limit_s", 1)
+    monkeypatch.chdir(tmp_path)
+    assert ms.run(scenario, progress=False).status == "time_limit"
+    with pytest.raises(ms.InputError, match="no name of a file"):
+        ms.Scenario.load(str(SCENARIOS / "demo.yaml") + "\0more")

@@ -107,12 +107,29 @@ TEST(StandaloneNavigator, BadInputIsRefusedAndChangesNothing) {
       },
       "place of an obstacle is 1000000000");
   refuses([&](Sight& s) { s.obstacles = {{Polygon{{{0, 0}, {1, 0}}, {}}}}; }, "fewer than 3");
-  refuses([&](Sight& s) { s.obstacles.assign(100'001, {Disc{{1, 2}, 3}}); }, "at most 100000");
+  refuses([&](Sight& s) { s.obstacles.assign(5'001, {Disc{{1, 2}, 3}}); }, "at most 5000");
   refuses([&](Sight& s) { s.robots = {{1, 2}}; }, "has no robots");
   good.now = good.seen = 1.1;
   const Command command = navigator.step(good), same = other.step(good);
   EXPECT_EQ(command.heading, same.heading);
   EXPECT_EQ(command.speed, same.speed);
+}
+
+TEST(StandaloneNavigator, APreparationThatFailsChangesNothing) {
+  StandaloneNavigator navigator(open_experiment(shipped / "papers/gather/t_junction.yaml",
+                                                {"navigator.tree.max_iterations=5"}));
+  Sight sight{.now = 2, .seen = 2};
+  sight.robots.assign(static_cast<std::size_t>(navigator.scenario().robots->count), {50, 5});
+  EXPECT_THROW(navigator.step(sight), InputError);
+  sight.now = sight.seen = 1;  // no step was made at 2
+  try {
+    navigator.step(sight);
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("the tree has"), std::string::npos) << error.what();
+  }
+  sight.swarm = SwarmPose{{{50, 5}, 0}, 1};
+  EXPECT_THROW(navigator.step(sight), InputError);
 }
 
 TEST(StandaloneNavigator, WithoutASwarmItHolds) {

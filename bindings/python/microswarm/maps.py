@@ -10,7 +10,7 @@ from typing import Any, Optional, Sequence
 import numpy as np
 
 from . import _core
-from .scenario import text_of
+from .values import InputError, number, numbers, path_text, seed_of, setting
 
 
 class Map:
@@ -22,27 +22,32 @@ class Map:
     @classmethod
     def load(cls, path: str | os.PathLike[str], um_per_px: Optional[float] = None) -> "Map":
         """A picture, ROS .yaml, MovingAI .map, GeoJSON or CSV of rectangles."""
-        return cls(_core.Map.load(os.fspath(path), um_per_px))
+        return cls(_core.Map.load(path_text(path), None if um_per_px is None else number("um_per_px", um_per_px)))
 
     @classmethod
     def from_image(
-        cls, image: Any, um_per_px: float, *, threshold: float = 128, free: str = "bright", simplify_um: float = 0
+        cls, image: Any, um_per_px: float, *, threshold: Optional[float] = None, free: str = "bright", simplify_um: float = 0
     ) -> "Map":
         """A map from an array of the shape (height, width), the upper row first.
 
-        The swarm may go where the image is at least `threshold`, or with free="dark" where it is below; of an
-        array of booleans where it is True.
+        The swarm may go where the image is at least `threshold`, or with free="dark" where it is below. Of an array of
+        booleans that is where it is True; of one of uint8 the threshold is 128 if it is not given, and of other
+        numbers it must be given. A mask of 0 and 1 needs threshold=1.
         """
         array = np.asarray(image)
         if array.ndim != 2 or array.dtype.kind not in "buif":
-            raise _core.InputError(f"an image must have 2 dimensions and numbers, this one has {array.ndim} of type {array.dtype}")
+            raise InputError(f"an image must have 2 dimensions and numbers, this one has {array.ndim} of type {array.dtype}")
         if free not in ("bright", "dark"):
-            raise _core.InputError(f"free is {free!r}, must be 'bright' or 'dark'")
+            raise InputError(f"free is {free!r}, must be 'bright' or 'dark'")
         if array.dtype.kind == "f" and not np.isfinite(array).all():
-            raise _core.InputError("an image must have finite values")
-        bright = array if array.dtype.kind == "b" else array >= threshold
+            raise InputError("an image must have finite values")
+        if threshold is None and array.dtype != bool:
+            if array.dtype != np.uint8 or (array.size > 0 and array.max() <= 1):
+                raise InputError("threshold is missing: this is no image of uint8 with grey values, and no mask of booleans")
+            threshold = 128
+        bright = array if array.dtype == bool else array >= number("threshold", threshold)
         open_pixels = bright if free == "bright" else ~bright
-        return cls(_core.Map.from_pixels(np.ascontiguousarray(open_pixels, dtype=np.uint8), um_per_px, simplify_um))
+        return cls(_core.Map.from_pixels(np.ascontiguousarray(open_pixels, dtype=np.uint8), number("um_per_px", um_per_px), number("simplify_um", simplify_um)))
 
     @property
     def bounds_um(self) -> tuple[float, float, float, float]:
@@ -61,11 +66,11 @@ class Map:
 
     def clearance(self, places_um: Any) -> np.ndarray:
         """Distance from each place to walls and border [µm], 0 in a wall. The shape is (n, 2), the answer's (n,)."""
-        return self._core.clearance(places_um)
+        return self._core.clearance(rows("places_um", places_um))
 
     def is_free(self, places_um: Any, clearance_um: float = 0) -> np.ndarray:
         """Whether each place keeps a clearance from walls and border."""
-        return self._core.are_free(places_um, clearance_um)
+        return self._core.are_free(rows("places_um", places_um), number("clearance_um", clearance_um))
 
     def __repr__(self) -> str:
         x_lo, y_lo, x_hi, y_hi = self.bounds_um
@@ -119,8 +124,21 @@ def plan(
               "theta_star", "fmt_star", …
     values    of the planner, with their units in their names: step_um=60, max_nodes=5000
     """
-    settings = [f"planner.type={planner}"]
+    settings = [setting("planner.type", planner)]
     if clearance_um is not None:
-        settings.append(f"planner.clearance_um={text_of(clearance_um)}")
-    settings += [f"planner.{key}={text_of(value)}" for key, value in values.items()]
-    return Path(map._core.plan(list(start), list(goal), settings, seed))
+        settings.append(setting("planner.clearance_um", clearance_um))
+    settings += [setting(f"planner.{key}", value) for key, value in values.items()]
+    begin = numbers("start", start, (2, 3), "(x_um, y_um) or (x_um, y_um, heading_rad)")
+    end = numbers("goal", goal, (2,), "(x_um, y_um)")
+    return Path(map._core.plan(begin, end, settings, seed_of(seed)))
+
+
+def rows(name: str, places: Any) -> np.ndarray:
+    """An array of real numbers."""
+    try:
+        array = np.asarray(places)
+    except ValueError:
+        array = np.asarray("ragged")
+    if array.dtype.kind not in "buif":
+        raise InputError(f"{name} must be numbers of the shape (n, 2)")
+    return array

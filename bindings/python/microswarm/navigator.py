@@ -9,6 +9,7 @@ import numpy as np
 
 from . import _core
 from .runs import Source, scenario_of
+from .values import InputError, numbers as numbers_of, whole
 
 
 class Command(NamedTuple):
@@ -34,7 +35,7 @@ class Navigator:
 
     def __init__(self, scenario: Source, *, trial: int = 0) -> None:
         """Uses map, swarm or robots, goal, navigator, tick and seed of a scenario or a file."""
-        self._core = _core.Navigator(scenario_of(scenario)._core, trial)
+        self._core = _core.Navigator(scenario_of(scenario)._core, whole("trial", trial, 2**32 - 1))
 
     def step(
         self,
@@ -57,12 +58,28 @@ class Navigator:
         numbers    of the obstacles, the same in every step; without, they are matched by distance
         unseen     number of robots that are where they are expected
         """
-        return Command(*self._core.step(t, seen, swarm, obstacles, numbers, robots, unseen))
+        if swarm is not None:
+            swarm = numbers_of("swarm", swarm, (4,), "(x_um, y_um, heading_rad, radius_um)")
+        if numbers is not None:
+            numbers = [whole("the number of an obstacle", one, 2**32 - 1) for one in numbers]
+        try:
+            made = self._core.step(t, seen, swarm, obstacles, numbers, robots, unseen)
+        except InputError:
+            raise
+        except (TypeError, ValueError):
+            raise InputError("t, seen and unseen must be numbers, obstacles and robots arrays of numbers") from None
+        return Command(*made)
 
     def path(self) -> np.ndarray:
         """The path that it follows, of the shape (n, 2) [µm]."""
         return self._core.path()
 
     def close(self) -> None:
-        """Ends it; what is called later raises InputError."""
+        """Ends it; what is called later raises InputError. Closing twice is no mistake."""
         self._core.close()
+
+    def __enter__(self) -> "Navigator":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()

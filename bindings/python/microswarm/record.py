@@ -11,12 +11,15 @@ from typing import Any, Iterator
 import numpy as np
 
 from . import _core
+from .values import path_text
 
 
 class Table(Mapping):
     """Columns of one table of a record: arrays of equal length, by names with their units."""
 
     def __init__(self, columns: dict[str, np.ndarray], docs: dict[str, str] | None = None) -> None:
+        for column in columns.values():
+            column.flags.writeable = False  # they are those of the record
         self._columns = columns
         self.docs = docs or {}
 
@@ -136,7 +139,7 @@ class Record:
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the record as HDF5."""
-        self._core.write(os.fspath(path))
+        self._core.write(path_text(path))
 
     def replay(self) -> tuple[bool, str]:
         """Runs it again: whether all bits are the same, and else the first difference."""
@@ -148,4 +151,4 @@ class Record:
 
 def read_record(path: str | os.PathLike[str]) -> Record:
     """Reads a record of `microswarm run`, `gather`, `rig run` or of this package."""
-    return Record(_core.Record.read(os.fspath(path)))
+    return Record(_core.Record.read(path_text(path)))

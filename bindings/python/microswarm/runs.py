@@ -11,7 +11,8 @@ from typing import Any, Callable, Optional, Union
 
 from . import _core
 from .record import Record, finite
-from .scenario import Scenario, text_of
+from .scenario import Scenario
+from .values import InputError, seed_of, setting, text_of, whole
 
 Source = Union[Scenario, str, "os.PathLike[str]"]
 Progress = Union[bool, Callable[[float], Any], None]
@@ -31,7 +32,7 @@ class Bar:
 
     def __call__(self, done: float) -> None:
         passed = time.monotonic() - self._began
-        if passed < 1:
+        if passed < 1 or not (sys.stderr and sys.stderr.isatty()):
             return
         left = f", {passed * (1 - done) / done:.0f} s left" if done > 0.01 else ""
         print(f"\r{100 * done:3.0f} %{left}    ", end="", file=sys.stderr, flush=True)
@@ -50,7 +51,8 @@ class Session:
 
     def __init__(self, scenario: Source, *, seed: Optional[int] = None, trial: int = 0, navigator: Any = None) -> None:
         """Opens a scenario, or a file. `navigator` is one of your own, see run()."""
-        self._core = _core.Session(scenario_of(scenario)._core, seed, trial, navigator)
+        core = scenario_of(scenario)._core
+        self._core = _core.Session(core, seed_of(seed), whole("trial", trial, 2**32 - 1), navigator)
 
     def step(self) -> bool:
         """The next tick; False when the run has ended before."""
@@ -58,6 +60,7 @@ class Session:
 
     def set(self, key: str, value: Any) -> None:
         """Sets a value from the next tick on, for example set("goal_um", [1500, 300])."""
+        setting(key, value)
         self._core.set(key, text_of(value))
 
     def view(self) -> dict[str, Any]:
@@ -76,7 +79,9 @@ class Session:
 
     def finish(self, progress: Progress = None) -> Record:
         """Steps to the end. `progress` hears the share that is done; by default a line on stderr tells it."""
-        bar = Bar() if progress in (None, True) else None
+        if not (progress is None or isinstance(progress, bool) or callable(progress)):
+            raise InputError("progress must be a function, True, False or None")
+        bar = Bar() if progress is None or progress is True else None
         try:
             self._core.finish(bar or (progress if callable(progress) else None))
         finally:
@@ -89,7 +94,7 @@ class Session:
         return Record(self._core.record())
 
     def close(self) -> None:
-        """Ends the session; what is called later raises InputError."""
+        """Ends the session; what is called later raises InputError. Closing twice is no mistake."""
         self._core.close()
 
     def __enter__(self) -> "Session":
@@ -109,11 +114,13 @@ def run(
 ) -> Record:
     """Runs a scenario, or a file, to its end; the record is that of `microswarm run`, to the bit.
 
-    seed, trial   replace the scenario's seed, and select the random streams
+    seed          replaces the scenario's
+    trial         selects the random streams: trial k is that of `microswarm run --trials`
     navigator     an object of your own with a method step(observation) that returns (heading_rad,
                   speed_um_per_s), or None to hold. The observation has now_s, seen_s, swarm = (x_um,
                   y_um, heading_rad, radius_um) or None, obstacles_um = rows of x, y, radius, and
-                  robots_um. prepare() is called before the first step if there is one.
+                  robots_um. prepare() is called before the first step if there is one. Both are called in
+                  the thread of the caller; an exception of theirs ends the run and is raised.
     progress      called with the share that is done; False: nothing is shown
     """
     with Session(scenario, seed=seed, trial=trial, navigator=navigator) as session:

@@ -3,28 +3,14 @@
 
 from __future__ import annotations
 
+import copy
 import difflib
 import json
 import os
 from typing import Any, Iterator
 
 from . import _core
-
-
-def text_of(value: Any) -> str:
-    """A value as in a scenario file. Arrays become lists."""
-    if isinstance(value, str):
-        return value
-    if hasattr(value, "tolist"):
-        value = value.tolist()
-    if isinstance(value, (set, frozenset, bytes)):
-        raise _core.InputError(f"a value of a scenario cannot be of type {type(value).__name__}")
-    try:
-        return json.dumps(value, allow_nan=False, default=lambda one: one.tolist())
-    except ValueError:
-        raise _core.InputError(f"{value!r}: a value of a scenario must be finite") from None
-    except (TypeError, AttributeError):
-        raise _core.InputError(f"a value of a scenario cannot be of type {type(value).__name__}") from None
+from .values import path_text, setting
 
 
 class Group:
@@ -49,9 +35,11 @@ class Group:
         return AttributeError(f"{where} has no key {name!r}" + (f", did you mean {near[0]!r}?" if near else ""))
 
     def __getattr__(self, name: str) -> Any:
-        values = self._value()
-        if name.startswith("__") or not isinstance(values, dict):
+        if name.startswith("_"):
             raise AttributeError(name)
+        values = self._value()
+        if not isinstance(values, dict):
+            raise AttributeError(f"{'.'.join(self._path)} is a list, which is replaced as a whole")
         if name not in values:
             raise self._unknown(name)
         return self._scenario._part((*self._path, name), values[name])
@@ -62,10 +50,16 @@ class Group:
             raise self._unknown(name)
         self._scenario.set(".".join((*self._path, name)), value)
 
+    def to_dict(self) -> Any:
+        """The keys as a dictionary, or the list: a copy."""
+        return copy.deepcopy(self._value())
+
     def __getitem__(self, index: int) -> Any:
         values = self._value()
         if not isinstance(values, list):
-            raise TypeError(f"{'.'.join(self._path)} is no list")
+            raise TypeError(f"{'.'.join(self._path) or 'a scenario'} is no list")
+        if isinstance(index, slice):
+            return [self[i] for i in range(len(values))[index]]
         position = range(len(values))[index]
         return self._scenario._part((*self._path, str(position)), values[position])
 
@@ -77,7 +71,7 @@ class Group:
         return iter([self[i] for i in range(len(values))] if isinstance(values, list) else values)
 
     def __eq__(self, other: object) -> bool:
-        return self._value() == (other._value() if isinstance(other, Group) else other)
+        return bool(self._value() == (other._value() if isinstance(other, Group) else other))
 
     __hash__ = None  # type: ignore[assignment]
 
@@ -93,7 +87,8 @@ class Scenario(Group):
     """An experiment as data: map, obstacles, swarm or robots, start, goal, navigator, limits.
 
     Every key of a scenario file is an attribute, with its unit in its name; groups of keys have
-    attributes of their own, and lists are indexed: `scenario.obstacles[0].shape.radius_um = 30`.
+    attributes of their own, and lists are indexed: `scenario.obstacles[0].shape.radius_um = 30`. Places are tuples,
+    and lists are replaced as a whole: `scenario.obstacles = scenario.obstacles[:2]`.
     A bad value raises InputError and changes nothing.
     """
 
@@ -107,18 +102,16 @@ class Scenario(Group):
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> "Scenario":
         """Reads a scenario file."""
-        return cls(_core.Scenario.load(os.fspath(path)))
+        return cls(_core.Scenario.load(path_text(path)))
 
     @classmethod
     def from_text(cls, text: str, folder: str | os.PathLike[str] = "", name: str = "scenario") -> "Scenario":
         """A scenario from YAML text. Files that it names are relative to `folder`."""
-        return cls(_core.Scenario.of(text, name, os.fspath(folder)))
+        return cls(_core.Scenario.of(text, name, path_text(folder)))
 
     def set(self, key: str, value: Any) -> "Scenario":
         """Sets the value of a key, for example set("navigator.speed_um_per_s", 60). A text is read as in a file."""
-        if not isinstance(key, str):
-            raise TypeError("a key is a text")
-        self._core.set(f"{key}={text_of(value)}")
+        self._core.set(setting(key, value))
         object.__setattr__(self, "_cache", None)
         return self
 
@@ -130,11 +123,20 @@ class Scenario(Group):
                 value = value[int(part)] if isinstance(value, list) else value[part]
             except (KeyError, IndexError, ValueError, TypeError):
                 raise KeyError(key) from None
-        return value
+        return copy.deepcopy(value)
 
     def copy(self) -> "Scenario":
         """Another scenario with the same values."""
         return Scenario(self._core.copy())
+
+    def __copy__(self) -> "Scenario":
+        return self.copy()
+
+    def __deepcopy__(self, _: Any) -> "Scenario":
+        return self.copy()
+
+    def __reduce__(self) -> Any:
+        return _restored, self._core.parts()
 
     def to_yaml(self) -> str:
         """The scenario as a file with every key."""
@@ -146,10 +148,20 @@ class Scenario(Group):
         return self._cache
 
     def _part(self, path: tuple[str, ...], value: Any) -> Any:
-        return Group(self, path) if isinstance(value, (dict, list)) and not is_numbers(value) else value
+        if is_numbers(value):
+            return tuple(value)
+        return Group(self, path) if isinstance(value, (dict, list)) else value
 
     def __repr__(self) -> str:
         return f"Scenario({self._core.name!r})\n" + super().__repr__()
+
+
+def _restored(text: str, name: str, base: str, settings: list[str]) -> Scenario:
+    """A scenario from its parts."""
+    core = _core.Scenario.of(text, name, base)
+    for one in settings:
+        core.set(one)
+    return Scenario(core)
 
 
 def is_numbers(value: Any) -> bool:

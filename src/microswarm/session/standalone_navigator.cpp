@@ -17,7 +17,7 @@ namespace {
 constexpr double max_time = 1e9;    // [s]
 constexpr double max_place = 1e7;   // [µm]
 constexpr double max_radius = 1e6;  // [µm]
-constexpr std::size_t max_bodies = 100'000;
+constexpr std::size_t max_bodies = 5'000;
 
 /// How far [µm] a body is looked for from where it is expected: as in a picture of the map.
 double reach_in(const Map& map) {
@@ -54,12 +54,13 @@ void StandaloneNavigator::check(const Sight& sight) const {
   require(sight.seen <= sight.now && sight.seen >= -max_time, "seen_s", sight.seen,
           "must be a number and not after now_s");
   if (scenario().robots) {
+    if (sight.swarm) throw InputError("the scenario has robots: give their places, no swarm");
     if (!sight.robots.empty() && sight.robots.size() != robots_)
       throw InputError(
           fmt::format("there are {} robots, the scenario has {}", sight.robots.size(), robots_));
     if (sight.unseen < 0 || static_cast<std::size_t>(sight.unseen) > robots_)
       throw InputError(fmt::format("{} of {} robots are unseen", sight.unseen, robots_));
-  } else if (!sight.robots.empty()) {
+  } else if (!sight.robots.empty() || sight.unseen != 0) {
     throw InputError("the scenario has no robots");
   }
   for (const Vec2& robot : sight.robots) require_place("robot", robot);
@@ -88,24 +89,24 @@ void StandaloneNavigator::check(const Sight& sight) const {
 
 Command StandaloneNavigator::step(const Sight& sight, const Stop& stop) {
   check(sight);
+  if (!is_prepared_) {  // before anything changes: it may throw
+    navigator_->prepare(Snapshot(experiment_.world.map, sight.seen, sight.obstacles), stop);
+    if (stop()) return {};
+    is_prepared_ = true;
+  }
   last_ = sight.now;
   std::vector<Body> bodies = sight.obstacles;
   if (!sight.are_numbered) numbers_.number(bodies, sight.seen);
   std::optional<SwarmPose> swarm = sight.swarm;
   if (!sight.robots.empty()) swarm = body_of(sight.robots, command_.heading);
-  const Observation seen =
-      memory_.complete({.now = sight.now,
-                        .seen = sight.seen,
-                        .swarm = swarm,
-                        .robots = sight.robots,
-                        .unseen = sight.unseen,
-                        .world = std::make_shared<const Snapshot>(experiment_.world.map, sight.seen,
-                                                                  std::move(bodies))});
-  if (!is_prepared_) {
-    navigator_->prepare(*seen.world, stop);
-    if (stop()) return {};
-    is_prepared_ = true;
-  }
+  const Observation seen = memory_.complete(
+      {.now = sight.now,
+       .seen = sight.seen,
+       .swarm = swarm,
+       .robots = sight.robots,
+       .unseen = sight.unseen,
+       .world = std::make_shared<const Snapshot>(experiment_.world.map, sight.seen,
+                                                 std::move(bodies))});
   return command_ = navigator_->step(seen, stop);
 }
 
