@@ -19,6 +19,9 @@ install() {
   apt-get clean
 }
 
+# installed_mb: the size of all packages that are installed.
+installed_mb() { dpkg-query -W -f='${Installed-Size}\n' | awk '{ sum += $1 } END { print int(sum / 1024) }'; }
+
 if command -v c++ >/dev/null; then
   echo "this machine has a compiler" >&2
   exit 1
@@ -26,9 +29,9 @@ fi
 apt-get update -qq
 
 step "microswarm alone"
-before=$(df --output=used / | tail -1)
+before=$(installed_mb)
 install "$packages"/microswarm_*.deb
-echo "with what it depends on $((($(df --output=used / | tail -1) - before) / 1024)) MB"
+echo "with what it depends on $(($(installed_mb) - before)) MB"
 microswarm --version
 
 step "a shipped scenario"
