@@ -64,6 +64,7 @@ Check place(std::size_t most, const char* form) {
 Suggest suggest_words(const std::vector<std::string>& words) {
   return [words](const std::string&) {
     std::vector<Suggestion> all;
+    all.reserve(words.size());
     for (const std::string& word : words) all.push_back({word, {}});
     return all;
   };

@@ -61,6 +61,7 @@ void add_reproduce(Command app, Action& action) {
       app.add_command("reproduce", "Reproduce a paper's figures; exit code 3 if one misses its aim",
                       "reproduce drrt/fig5a --quick --out out/drrt");
   std::vector<std::string> papers;
+  papers.reserve(std::size(reproduced_papers));
   for (const auto& [name, figures] : reproduced_papers) papers.emplace_back(name);
   cmd.add_option("key", *key,
                  "Paper or figure: drrt, drrt/fig3, global, global/fig7, radar, gather …")

@@ -99,14 +99,14 @@ Command StandaloneNavigator::step(const Sight& sight, const Stop& stop) {
   if (!sight.are_numbered) numbers_.number(bodies, sight.seen);
   std::optional<SwarmPose> swarm = sight.swarm;
   if (!sight.robots.empty()) swarm = body_of(sight.robots, command_.heading);
-  const Observation seen = memory_.complete(
-      {.now = sight.now,
-       .seen = sight.seen,
-       .swarm = swarm,
-       .robots = sight.robots,
-       .unseen = sight.unseen,
-       .world = std::make_shared<const Snapshot>(experiment_.world.map, sight.seen,
-                                                 std::move(bodies))});
+  const Observation seen =
+      memory_.complete({.now = sight.now,
+                        .seen = sight.seen,
+                        .swarm = swarm,
+                        .robots = sight.robots,
+                        .unseen = sight.unseen,
+                        .world = std::make_shared<const Snapshot>(experiment_.world.map, sight.seen,
+                                                                  std::move(bodies))});
   return command_ = navigator_->step(seen, stop);
 }
 

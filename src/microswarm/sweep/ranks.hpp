@@ -29,8 +29,6 @@ class Ranks {
  public:
   /// Throws InputError under mpirun when the program was built without MPI.
   Ranks();
-  Ranks(const Ranks&) = delete;
-  Ranks& operator=(const Ranks&) = delete;
 
   int rank() const { return messages_ ? messages_->rank() : 0; }
   int count() const { return messages_ ? messages_->count() : 1; }
