@@ -59,22 +59,23 @@ std::vector<Vec2> places(const double* xy, std::size_t count, const char* name) 
   return all;
 }
 
-Sight sight_of(const ms_observation& seen) {
-  Sight sight{.now = seen.now_s, .seen = seen.seen_s, .are_numbered = seen.numbered != 0};
-  if (seen.has_swarm) sight.swarm = {{{seen.x_um, seen.y_um}, seen.heading_rad}, seen.radius_um};
+ExternalObservation observation_of(const ms_observation& seen) {
+  ExternalObservation given{
+      .now = seen.now_s, .seen = seen.seen_s, .are_numbered = seen.numbered != 0};
+  if (seen.has_swarm) given.swarm = {{{seen.x_um, seen.y_um}, seen.heading_rad}, seen.radius_um};
   if (seen.obstacle_count > 0) c::require(seen.obstacles, "obstacles");
   for (std::size_t i = 0; i < std::min<std::size_t>(seen.obstacle_count, 1'000'000); ++i) {
     const ms_obstacle& one = seen.obstacles[i];
-    if (sight.are_numbered && one.number < 0)
+    if (given.are_numbered && one.number < 0)
       throw InputError("the number of an obstacle is " + std::to_string(one.number) +
                        ", must be 0 or more");
     Body body{.shape = Disc{{one.x_um, one.y_um}, one.radius_um},
               .obstacle = static_cast<std::uint32_t>(one.number)};
     if (one.outline_um) body.shape = Polygon{places(one.outline_um, one.points, "outline_um"), {}};
-    sight.obstacles.push_back(std::move(body));
+    given.obstacles.push_back(std::move(body));
   }
-  sight.robots = places(seen.robots_um, seen.robot_count, "robots_um");
-  return sight;
+  given.robots = places(seen.robots_um, seen.robot_count, "robots_um");
+  return given;
 }
 
 }  // namespace
@@ -238,7 +239,7 @@ int32_t ms_navigator_step(uint64_t handle, const ms_observation* seen, ms_comman
   return c::with_navigator(
       handle, [&](StandaloneNavigator& navigator, c::Object& object) -> int32_t {
         c::require(seen, "seen"), c::require(command, "command");
-        const Command made = navigator.step(sight_of(*seen), Stop(&object.stops));
+        const Command made = navigator.step(observation_of(*seen), Stop(&object.stops));
         const NavigatorView view = navigator.view();
         *command = {.heading_rad = made.heading,
                     .speed_um_per_s = made.speed,

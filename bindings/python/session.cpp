@@ -217,22 +217,22 @@ py::tuple step_navigator(OpenNavigator& open, double now, std::optional<double> 
                          const py::object& obstacles,
                          const std::optional<std::vector<std::int64_t>>& numbers,
                          const std::optional<Numbers>& robots, int unseen) {
-  Sight sight{.now = now, .seen = seen.value_or(now), .unseen = unseen};
-  if (swarm) sight.swarm = {{{(*swarm)[0], (*swarm)[1]}, (*swarm)[2]}, (*swarm)[3]};
-  sight.obstacles = bodies_of(obstacles);
+  ExternalObservation given{.now = now, .seen = seen.value_or(now), .unseen = unseen};
+  if (swarm) given.swarm = {{{(*swarm)[0], (*swarm)[1]}, (*swarm)[2]}, (*swarm)[3]};
+  given.obstacles = bodies_of(obstacles);
   if (numbers) {
-    if (numbers->size() != sight.obstacles.size())
+    if (numbers->size() != given.obstacles.size())
       throw InputError("there must be as many numbers as obstacles");
-    sight.are_numbered = true;
+    given.are_numbered = true;
     for (std::size_t i = 0; i < numbers->size(); ++i) {
       if ((*numbers)[i] < 0 || (*numbers)[i] > UINT32_MAX)
         throw InputError("the number of an obstacle must be 0 to 4294967295");
-      sight.obstacles[i].obstacle = static_cast<std::uint32_t>((*numbers)[i]);
+      given.obstacles[i].obstacle = static_cast<std::uint32_t>((*numbers)[i]);
     }
   }
-  if (robots) sight.robots = places(*robots, "robots");
+  if (robots) given.robots = places(*robots, "robots");
   return open.use([&](StandaloneNavigator& navigator) {
-    const auto made = [&](const Stop& stop) { return navigator.step(sight, stop); };
+    const auto made = [&](const Stop& stop) { return navigator.step(given, stop); };
     Command command;
     if (navigator.is_prepared()) {
       const Free free;

@@ -16,14 +16,14 @@ namespace {
 
 const std::filesystem::path shipped = std::filesystem::path(MICROSWARM_SOURCE_DIR) / "scenarios";
 
-Sight sight_of(const Observation& seen) {
-  Sight sight{.now = seen.now, .seen = seen.seen, .unseen = seen.unseen};
+ExternalObservation observation_of(const Observation& seen) {
+  ExternalObservation given{.now = seen.now, .seen = seen.seen, .unseen = seen.unseen};
   const auto bodies = seen.world->moving().bodies();
-  sight.obstacles.assign(bodies.begin(), bodies.end());
-  sight.are_numbered = true;
-  sight.robots.assign(seen.robots.begin(), seen.robots.end());
-  if (seen.robots.empty()) sight.swarm = seen.swarm;
-  return sight;
+  given.obstacles.assign(bodies.begin(), bodies.end());
+  given.are_numbered = true;
+  given.robots.assign(seen.robots.begin(), seen.robots.end());
+  if (seen.robots.empty()) given.swarm = seen.swarm;
+  return given;
 }
 
 class InBothLoops : public testing::TestWithParam<const char*> {};
@@ -40,7 +40,7 @@ TEST_P(InBothLoops, TheCommandsAreTheSame) {
   StandaloneNavigator navigator(std::move(experiment));
   ASSERT_GT(frames.size(), 10u);
   for (std::size_t k = 0; k + 1 < frames.size(); ++k) {
-    const Command command = navigator.step(sight_of(plant->observe()));
+    const Command command = navigator.step(observation_of(plant->observe()));
     ASSERT_EQ(command.heading, frames[k].command.heading) << k;
     ASSERT_EQ(command.speed, frames[k].command.speed) << k;
     ASSERT_EQ(navigator.view().state, frames[k].state) << k;
@@ -61,18 +61,18 @@ StandaloneNavigator small_navigator() {
 
 TEST(StandaloneNavigator, MatchesObstaclesWithoutNumbers) {
   StandaloneNavigator plain = small_navigator(), numbered = small_navigator();
-  Sight sight{.swarm = SwarmPose{{{100, 100}, 0}, 20}};
+  ExternalObservation given{.swarm = SwarmPose{{{100, 100}, 0}, 20}};
   for (int k = 0; k < 20; ++k) {
-    sight.now = sight.seen = 0.1 * k;
-    sight.swarm->pose.position.x += 2;
+    given.now = given.seen = 0.1 * k;
+    given.swarm->pose.position.x += 2;
     const double x = 60 + 4.0 * k;
-    sight.obstacles = {{Disc{{x, 260}, 20}, 0}, {Disc{{x + 130, 40}, 15}, 1}};
-    sight.are_numbered = true;
-    const Command a = numbered.step(sight);
-    for (Body& body : sight.obstacles) body.obstacle = 0;
-    if (k % 2 == 1) std::swap(sight.obstacles[0], sight.obstacles[1]);
-    sight.are_numbered = false;
-    const Command b = plain.step(sight);
+    given.obstacles = {{Disc{{x, 260}, 20}, 0}, {Disc{{x + 130, 40}, 15}, 1}};
+    given.are_numbered = true;
+    const Command a = numbered.step(given);
+    for (Body& body : given.obstacles) body.obstacle = 0;
+    if (k % 2 == 1) std::swap(given.obstacles[0], given.obstacles[1]);
+    given.are_numbered = false;
+    const Command b = plain.step(given);
     EXPECT_NEAR(a.heading, b.heading, 1e-9) << k;
     EXPECT_NEAR(a.speed, b.speed, 1e-9) << k;
   }
@@ -80,10 +80,10 @@ TEST(StandaloneNavigator, MatchesObstaclesWithoutNumbers) {
 
 TEST(StandaloneNavigator, BadInputIsRefusedAndChangesNothing) {
   StandaloneNavigator navigator = small_navigator(), other = small_navigator();
-  Sight good{.now = 1, .seen = 0.9, .swarm = SwarmPose{{{100, 100}, 0}, 20}};
+  ExternalObservation good{.now = 1, .seen = 0.9, .swarm = SwarmPose{{{100, 100}, 0}, 20}};
   const double nan = std::nan("");
   const auto refuses = [&](auto&& spoil, const char* text) {
-    Sight bad = good;
+    ExternalObservation bad = good;
     bad.now = 2;
     spoil(bad);
     try {
@@ -94,21 +94,36 @@ TEST(StandaloneNavigator, BadInputIsRefusedAndChangesNothing) {
     }
   };
   navigator.step(good), other.step(good);
-  refuses([&](Sight& s) { s.now = nan; }, "now_s is nan");
-  refuses([&](Sight& s) { s.now = 0.5, s.seen = 0; }, "before that of the step before");
-  refuses([&](Sight& s) { s.seen = 3; }, "seen_s is 3");
-  refuses([&](Sight& s) { s.swarm->pose.position.y = nan; }, "place of the swarm is nan");
-  refuses([&](Sight& s) { s.swarm->pose.heading = infinity; }, "heading of the swarm is inf");
-  refuses([&](Sight& s) { s.swarm->radius = -1; }, "radius of the swarm is -1");
-  refuses([&](Sight& s) { s.obstacles = {{Disc{{1, 2}, 0}}}; }, "radius of an obstacle is 0");
+  refuses([&](ExternalObservation& s) { s.now = nan; }, "now_s is nan");
+  refuses([&](ExternalObservation& s) { s.now = 0.5, s.seen = 0; },
+          "before that of the step before");
+  refuses([&](ExternalObservation& s) { s.seen = 3; }, "seen_s is 3");
+  refuses([&](ExternalObservation& s) { s.swarm->pose.position.y = nan; },
+          "place of the swarm is nan");
+  refuses([&](ExternalObservation& s) { s.swarm->pose.heading = infinity; },
+          "heading of the swarm is inf");
+  refuses([&](ExternalObservation& s) { s.swarm->radius = -1; }, "radius of the swarm is -1");
   refuses(
-      [&](Sight& s) {
+      [&](ExternalObservation& s) {
+        s.obstacles = {{Disc{{1, 2}, 0}}};
+      },
+      "radius of an obstacle is 0");
+  refuses(
+      [&](ExternalObservation& s) {
         s.obstacles = {{Disc{{1e9, 2}, 5}}};
       },
       "place of an obstacle is 1000000000");
-  refuses([&](Sight& s) { s.obstacles = {{Polygon{{{0, 0}, {1, 0}}, {}}}}; }, "fewer than 3");
-  refuses([&](Sight& s) { s.obstacles.assign(5'001, {Disc{{1, 2}, 3}}); }, "at most 5000");
-  refuses([&](Sight& s) { s.robots = {{1, 2}}; }, "has no robots");
+  refuses(
+      [&](ExternalObservation& s) {
+        s.obstacles = {{Polygon{{{0, 0}, {1, 0}}, {}}}};
+      },
+      "fewer than 3");
+  refuses(
+      [&](ExternalObservation& s) {
+        s.obstacles.assign(5'001, {Disc{{1, 2}, 3}});
+      },
+      "at most 5000");
+  refuses([&](ExternalObservation& s) { s.robots = {{1, 2}}; }, "has no robots");
   good.now = good.seen = 1.1;
   const Command command = navigator.step(good), same = other.step(good);
   EXPECT_EQ(command.heading, same.heading);
@@ -118,18 +133,18 @@ TEST(StandaloneNavigator, BadInputIsRefusedAndChangesNothing) {
 TEST(StandaloneNavigator, APreparationThatFailsChangesNothing) {
   StandaloneNavigator navigator(open_experiment(shipped / "papers/gather/t_junction.yaml",
                                                 {"navigator.tree.max_iterations=5"}));
-  Sight sight{.now = 2, .seen = 2};
-  sight.robots.assign(static_cast<std::size_t>(navigator.scenario().robots->count), {50, 5});
-  EXPECT_THROW(navigator.step(sight), InputError);
-  sight.now = sight.seen = 1;  // no step was made at 2
+  ExternalObservation given{.now = 2, .seen = 2};
+  given.robots.assign(static_cast<std::size_t>(navigator.scenario().robots->count), {50, 5});
+  EXPECT_THROW(navigator.step(given), InputError);
+  given.now = given.seen = 1;  // no step was made at 2
   try {
-    navigator.step(sight);
+    navigator.step(given);
     ADD_FAILURE();
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("the tree has"), std::string::npos) << error.what();
   }
-  sight.swarm = SwarmPose{{{50, 5}, 0}, 1};
-  EXPECT_THROW(navigator.step(sight), InputError);
+  given.swarm = SwarmPose{{{50, 5}, 0}, 1};
+  EXPECT_THROW(navigator.step(given), InputError);
 }
 
 TEST(StandaloneNavigator, WithoutASwarmItHolds) {

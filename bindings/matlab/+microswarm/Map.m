@@ -1,4 +1,4 @@
-classdef Map < handle
+classdef Map < microswarm.internal.Handle
 % microswarm.Map  Walls of a place, with exact distances to them.
 %
 %   map = microswarm.Map('vessels.geojson');
@@ -10,9 +10,6 @@ classdef Map < handle
 % Errors: microswarm:bad_input for a file, matrix or place; microswarm:bad_call after close.
 
 % SPDX-License-Identifier: Apache-2.0
-  properties (SetAccess = private, Hidden)
-    id = [];  % handle of the library
-  end
   methods
     function self = Map(source, um_per_px)
     % Map(source, um_per_px)
@@ -37,22 +34,6 @@ classdef Map < handle
     function distances = clearance(self, places_um)
     % distances = map.clearance(places_um)   From each row x, y to walls and border [um], 0 in a wall.
       distances = microswarm_mex('map_clearance', self.id, places_um);
-    end
-
-    function close(self)
-    % map.close()   Ends it; what is called later is an error. Closing twice is none.
-      if ~isempty(self.id) && self.id ~= 0
-        id = self.id;
-        self.id = uint64(0);
-        microswarm_mex('close', id);
-      end
-    end
-
-    function delete(self)
-      try  % the MEX file may be cleared already, which closed all
-        self.close();
-      catch
-      end
     end
   end
 end

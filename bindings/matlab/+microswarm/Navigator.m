@@ -1,4 +1,4 @@
-classdef Navigator < handle
+classdef Navigator < microswarm.internal.Handle
 % microswarm.Navigator  The navigator of a scenario in a loop of your own.
 %
 %   nav = microswarm.Navigator('chip.yaml');
@@ -14,9 +14,6 @@ classdef Navigator < handle
 % Errors: microswarm:bad_input for a file, key or value; microswarm:bad_call after close.
 
 % SPDX-License-Identifier: Apache-2.0
-  properties (SetAccess = private, Hidden)
-    id = [];  % handle of the library
-  end
   methods
     function self = Navigator(scenario, varargin)
     % Navigator(scenario, settings...)
@@ -58,26 +55,6 @@ classdef Navigator < handle
     % places = nav.path()   The path that it follows, n x 2 [um].
       places = microswarm_mex('navigator_path', self.id);
     end
-
-    function close(self)
-    % nav.close()   Ends it; what is called later is an error. Closing twice is none.
-      if ~isempty(self.id) && self.id ~= 0
-        id = self.id;
-        self.id = uint64(0);
-        microswarm_mex('close', id);
-      end
-    end
-
-    function delete(self)
-      close_quietly(self);
-    end
-  end
-end
-
-function close_quietly(self)
-  try  % the MEX file may be cleared already, which closed all
-    self.close();
-  catch
   end
 end
 

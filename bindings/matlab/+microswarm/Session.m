@@ -1,4 +1,4 @@
-classdef Session < handle
+classdef Session < microswarm.internal.Handle
 % microswarm.Session  An open experiment, which advances when it is stepped.
 %
 %   session = microswarm.Session('first_flight.yaml', 'seed', 3);
@@ -16,9 +16,6 @@ classdef Session < handle
 % Errors: microswarm:bad_input for a file, key or value; microswarm:bad_call after close.
 
 % SPDX-License-Identifier: Apache-2.0
-  properties (SetAccess = private, Hidden)
-    id = [];  % handle of the library
-  end
   methods
     function self = Session(scenario, varargin)
     % Session(scenario, settings...)
@@ -89,22 +86,6 @@ classdef Session < handle
     function save(self, file)
     % session.save(file)   Writes the record (HDF5).
       microswarm_mex('session_record', self.id, microswarm.internal.plain_text(file, 'the file'));
-    end
-
-    function close(self)
-    % session.close()   Ends it; what is called later is an error. Closing twice is none.
-      if ~isempty(self.id) && self.id ~= 0
-        id = self.id;
-        self.id = uint64(0);
-        microswarm_mex('close', id);
-      end
-    end
-
-    function delete(self)
-      try  % the MEX file may be cleared already, which closed all
-        self.close();
-      catch
-      end
     end
   end
 end

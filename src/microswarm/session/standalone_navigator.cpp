@@ -47,34 +47,34 @@ StandaloneNavigator::StandaloneNavigator(Experiment experiment, std::uint32_t tr
                                            : scenario().robots->starts.size();
 }
 
-void StandaloneNavigator::check(const Sight& sight) const {
-  require(std::abs(sight.now) <= max_time, "now_s", sight.now, "must be a number of at most 1e9 s");
-  require(!last_ || sight.now >= *last_, "now_s", sight.now,
+void StandaloneNavigator::check(const ExternalObservation& given) const {
+  require(std::abs(given.now) <= max_time, "now_s", given.now, "must be a number of at most 1e9 s");
+  require(!last_ || given.now >= *last_, "now_s", given.now,
           "must not be before that of the step before");
-  require(sight.seen <= sight.now && sight.seen >= -max_time, "seen_s", sight.seen,
+  require(given.seen <= given.now && given.seen >= -max_time, "seen_s", given.seen,
           "must be a number and not after now_s");
   if (scenario().robots) {
-    if (sight.swarm) throw InputError("the scenario has robots: give their places, no swarm");
-    if (!sight.robots.empty() && sight.robots.size() != robots_)
+    if (given.swarm) throw InputError("the scenario has robots: give their places, no swarm");
+    if (!given.robots.empty() && given.robots.size() != robots_)
       throw InputError(
-          fmt::format("there are {} robots, the scenario has {}", sight.robots.size(), robots_));
-    if (sight.unseen < 0 || static_cast<std::size_t>(sight.unseen) > robots_)
-      throw InputError(fmt::format("{} of {} robots are unseen", sight.unseen, robots_));
-  } else if (!sight.robots.empty() || sight.unseen != 0) {
+          fmt::format("there are {} robots, the scenario has {}", given.robots.size(), robots_));
+    if (given.unseen < 0 || static_cast<std::size_t>(given.unseen) > robots_)
+      throw InputError(fmt::format("{} of {} robots are unseen", given.unseen, robots_));
+  } else if (!given.robots.empty() || given.unseen != 0) {
     throw InputError("the scenario has no robots");
   }
-  for (const Vec2& robot : sight.robots) require_place("robot", robot);
-  if (sight.swarm) {
-    require_place("place of the swarm", sight.swarm->pose.position);
-    require(std::isfinite(sight.swarm->pose.heading), "heading of the swarm",
-            sight.swarm->pose.heading, "must be finite");
-    require(sight.swarm->radius >= 0 && sight.swarm->radius <= max_radius, "radius of the swarm",
-            sight.swarm->radius, "must be 0 to 1e6 µm");
+  for (const Vec2& robot : given.robots) require_place("robot", robot);
+  if (given.swarm) {
+    require_place("place of the swarm", given.swarm->pose.position);
+    require(std::isfinite(given.swarm->pose.heading), "heading of the swarm",
+            given.swarm->pose.heading, "must be finite");
+    require(given.swarm->radius >= 0 && given.swarm->radius <= max_radius, "radius of the swarm",
+            given.swarm->radius, "must be 0 to 1e6 µm");
   }
-  if (sight.obstacles.size() > max_bodies)
+  if (given.obstacles.size() > max_bodies)
     throw InputError(
-        fmt::format("{} obstacles, at most {} are taken", sight.obstacles.size(), max_bodies));
-  for (const Body& body : sight.obstacles) {
+        fmt::format("{} obstacles, at most {} are taken", given.obstacles.size(), max_bodies));
+  for (const Body& body : given.obstacles) {
     if (const auto* disc = std::get_if<Disc>(&body.shape)) {
       require_place("place of an obstacle", disc->centre);
       require(disc->radius > 0 && disc->radius <= max_radius, "radius of an obstacle", disc->radius,
@@ -87,25 +87,25 @@ void StandaloneNavigator::check(const Sight& sight) const {
   }
 }
 
-Command StandaloneNavigator::step(const Sight& sight, const Stop& stop) {
-  check(sight);
+Command StandaloneNavigator::step(const ExternalObservation& given, const Stop& stop) {
+  check(given);
   if (!is_prepared_) {  // before anything changes: it may throw
-    navigator_->prepare(Snapshot(experiment_.world.map, sight.seen, sight.obstacles), stop);
+    navigator_->prepare(Snapshot(experiment_.world.map, given.seen, given.obstacles), stop);
     if (stop()) return {};
     is_prepared_ = true;
   }
-  last_ = sight.now;
-  std::vector<Body> bodies = sight.obstacles;
-  if (!sight.are_numbered) numbers_.number(bodies, sight.seen);
-  std::optional<SwarmPose> swarm = sight.swarm;
-  if (!sight.robots.empty()) swarm = body_of(sight.robots, command_.heading);
+  last_ = given.now;
+  std::vector<Body> bodies = given.obstacles;
+  if (!given.are_numbered) numbers_.number(bodies, given.seen);
+  std::optional<SwarmPose> swarm = given.swarm;
+  if (!given.robots.empty()) swarm = body_of(given.robots, command_.heading);
   const Observation seen =
-      memory_.complete({.now = sight.now,
-                        .seen = sight.seen,
+      memory_.complete({.now = given.now,
+                        .seen = given.seen,
                         .swarm = swarm,
-                        .robots = sight.robots,
-                        .unseen = sight.unseen,
-                        .world = std::make_shared<const Snapshot>(experiment_.world.map, sight.seen,
+                        .robots = given.robots,
+                        .unseen = given.unseen,
+                        .world = std::make_shared<const Snapshot>(experiment_.world.map, given.seen,
                                                                   std::move(bodies))});
   return command_ = navigator_->step(seen, stop);
 }

@@ -14,7 +14,7 @@
 namespace microswarm {
 
 /// What a loop outside of this library sees at one time.
-struct Sight {
+struct ExternalObservation {
   double now = 0;                  ///< the present [s]
   double seen = 0;                 ///< when the picture was taken [s], at most `now`
   std::optional<SwarmPose> swarm;  ///< nothing if no swarm was found, and for robots
@@ -37,10 +37,10 @@ class StandaloneNavigator {
  public:
   explicit StandaloneNavigator(Experiment experiment, std::uint32_t trial = 0);
 
-  /// The command from `sight.now` on. The first step prepares the navigator, which may take longer.
+  /// The command from `given.now` on. The first step prepares the navigator, which may take longer.
   /// Throws InputError, and is as it was, for a number that is not finite or outside of its range,
   /// for a time before that of the step before, and for another number of robots.
-  Command step(const Sight& sight, const Stop& stop = {});
+  Command step(const ExternalObservation& given, const Stop& stop = {});
   /// Whether the first step was made.
   bool is_prepared() const { return is_prepared_; }
   /// What the navigator heads for, and how it is; valid until the next step.
@@ -49,7 +49,7 @@ class StandaloneNavigator {
   const Map& map() const { return *experiment_.world.map; }
 
  private:
-  void check(const Sight& sight) const;
+  void check(const ExternalObservation& given) const;
 
   Experiment experiment_;
   std::unique_ptr<Navigator> navigator_;
