@@ -91,6 +91,7 @@ std::vector<Vec2> places(const Numbers& array, const char* name);
 py::array_t<double> array_of(std::span<const Vec2> places);
 
 /// Adds the parts of the module.
+void add_environments(py::module_& module);
 void add_map(py::module_& module);
 void add_record(py::module_& module);
 void add_session(py::module_& module);

@@ -76,6 +76,7 @@ PYBIND11_MODULE(_core, module) {
     }
   });
   py::module_::import("atexit").attr("register")(py::cpp_function(python::Ending::begin));
+  python::add_environments(module);
   python::add_map(module);
   python::add_record(module);
   python::add_session(module);

@@ -3,77 +3,17 @@
 #include "microswarm/session/session.hpp"
 
 #include "calls.hpp"
+#include "guarded.hpp"
 #include "microswarm/config/write.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/session/standalone_navigator.hpp"
 #include "own_navigator.hpp"
 #include "record.hpp"
+#include "scenario_text.hpp"
 
 namespace microswarm::python {
 namespace {
-
-/// A scenario as text and what was set since, which is opened as the command line does.
-struct ScenarioText {
-  std::string text;
-  std::string name;
-  std::filesystem::path base;
-  std::vector<std::string> settings{};
-  Scenario value{};
-
-  static ScenarioText load(const std::string& file) {
-    const std::filesystem::path path(file);
-    return of(read_file(path, max_yaml_bytes), file, std::filesystem::absolute(path).parent_path());
-  }
-  static ScenarioText of(std::string text, std::string name, std::filesystem::path base) {
-    ScenarioText made{std::move(text), std::move(name), std::move(base)};
-    KeyLocations keys;
-    Mistakes mistakes;
-    made.value = read_yaml_text<Scenario>(made.text, made.name, {}, keys, mistakes);
-    mistakes.require_none();
-    warn(keys.notes());
-    return made;
-  }
-  void set(const std::string& setting) {
-    Notes notes;
-    const auto present = set_value(value, setting, "set", notes);
-    warn(notes);
-    if (present) settings.push_back(*present);
-  }
-  Experiment open(std::optional<std::uint64_t> seed = {}) const {
-    return open_experiment_text(text, name, base, settings, seed);
-  }
-};
-
-/// Something that one thread at a time may use, until it is closed.
-template <class T>
-class Guarded {
- public:
-  Guarded(std::unique_ptr<T> held, const char* kind) : held_(std::move(held)), kind_(kind) {}
-
-  template <class Work>
-  auto use(Work&& work) {
-    if (in_use_.exchange(true))
-      throw InputError("the " + std::string(kind_) +
-                       " is in use, by another thread or around this call");
-    const struct Leave {
-      std::atomic<bool>& in_use;
-      ~Leave() { in_use = false; }
-    } leave{in_use_};
-    if (!held_) throw InputError("the " + std::string(kind_) + " is closed");
-    return work(*held_);
-  }
-  void close() {
-    if (in_use_.exchange(true)) throw InputError(std::string("the ") + kind_ + " is in use");
-    held_.reset();
-    in_use_ = false;
-  }
-
- private:
-  std::unique_ptr<T> held_;
-  const char* kind_;
-  std::atomic<bool> in_use_ = false;
-};
 
 class OpenSession : public Guarded<Session> {
  public:

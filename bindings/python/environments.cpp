@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: Apache-2.0
+// Environments for learning.
+#include <numbers>
+
+#include "calls.hpp"
+#include "guarded.hpp"
+#include "microswarm/config/write.hpp"
+#include "microswarm/config/yaml.hpp"
+#include "microswarm/environments/environment_batch.hpp"
+#include "microswarm/environments/gathering/gathering_episode.hpp"
+#include "microswarm/environments/navigation/navigation_episode.hpp"
+#include "scenario_text.hpp"
+
+namespace microswarm::python {
+namespace {
+
+template <class Rules>
+Rules rules_of(const std::vector<std::string>& settings) {
+  Rules rules;
+  for (const std::string& one : settings) set_value(rules, one, "rules");
+  return rules;
+}
+
+/// A task and environments of it, whose observations are arrays of `shape`.
+template <class Task_, class Episode_, class Number_>
+struct Environments {
+  using Task = Task_;
+  using Episode = Episode_;
+  using Number = Number_;
+
+  std::unique_ptr<const Task> task;
+  std::vector<py::ssize_t> shape;  ///< of one observation
+  EnvironmentBatch<Episode, Number> batch;
+
+  Environments(Task given, std::vector<py::ssize_t> of_one, std::size_t count, std::uint64_t seed,
+               int threads)
+      : task(std::make_unique<const Task>(std::move(given))),
+        shape(std::move(of_one)),
+        batch(*task, count, size(count), seed, threads) {}
+  /// Numbers of one observation. Throws InputError if all together take more than 8 GB.
+  std::size_t size(std::size_t count = 1) const {
+    constexpr double most = 8e9;
+    std::size_t numbers = 1;
+    for (const py::ssize_t side : shape) numbers *= static_cast<std::size_t>(side);
+    if (static_cast<double>(numbers * sizeof(Number)) * static_cast<double>(count) > most)
+      throw InputError("the observations of all environments take more than 8 GB");
+    return numbers;
+  }
+};
+using Gathering = Environments<GatheringTask, GatheringEpisode, std::uint8_t>;
+using Navigation = Environments<NavigationTask, NavigationEpisode, float>;
+
+std::unique_ptr<Guarded<Gathering>> open_gathering(
+    const py::array_t<std::uint8_t, py::array::c_style>& free,
+    const std::optional<std::array<int, 2>>& goal, const std::vector<std::string>& settings,
+    std::size_t count, int threads) {
+  if (free.ndim() != 2) throw InputError("a maze must have 2 dimensions");
+  const auto rules = rules_of<GatheringRules>(settings);
+  std::optional<MazePlace> place;
+  if (goal) place = {.row = (*goal)[1], .column = (*goal)[0]};
+  const auto height = static_cast<std::size_t>(free.shape(0));
+  const auto width = static_cast<std::size_t>(free.shape(1));
+  const std::span<const std::uint8_t> cells{free.data(), height * width};
+  auto made = interruptible([&](const Stop&) {
+    GatheringTask task(GatheringMaze(cells, width, height), rules, place);
+    const std::vector<py::ssize_t> shape{task.maze.height(), task.maze.width(), task.channels()};
+    return std::make_unique<Gathering>(std::move(task), shape, count, 0, threads);
+  });
+  return std::make_unique<Guarded<Gathering>>(std::move(made), "environment");
+}
+
+std::unique_ptr<Guarded<Navigation>> open_navigation(const ScenarioText& scenario,
+                                                     const std::vector<std::string>& settings,
+                                                     std::size_t count, int threads) {
+  const auto rules = rules_of<NavigationRules>(settings);
+  auto made = interruptible([&](const Stop&) {
+    NavigationTask task(scenario.open(), rules);
+    const std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(task.observation_size())};
+    return std::make_unique<Navigation>(std::move(task), shape, count, 0, threads);
+  });
+  return std::make_unique<Guarded<Navigation>>(std::move(made), "environment");
+}
+
+std::size_t action_of(const Gathering&, std::uint8_t action) {
+  if (action >= GatheringMaze::moves.size()) throw InputError("an action must be 0 to 7");
+  return action;
+}
+
+/// Heading [rad] and share of the greatest speed.
+NavigationAction action_of(const Navigation& all, double heading, double share) {
+  if (!std::isfinite(heading) || !(share >= 0 && share <= 1))
+    throw InputError("an action must be a finite heading_rad and a share of the speed from 0 to 1");
+  return {heading, share * all.task->max_speed()};
+}
+
+/// A copy of one observation.
+template <class All>
+py::array_t<typename All::Number> observation(All& all, std::size_t index) {
+  py::array_t<typename All::Number> copy(all.shape);
+  std::ranges::copy(all.batch.observations().subspan(index * all.size(), all.size()),
+                    copy.mutable_data());
+  return copy;
+}
+
+/// As a step of Gymnasium returns it; py::make_tuple would take half of the time of a step.
+template <class All>
+py::tuple step_one(All& all, const EnvironmentStep& made) {
+  py::tuple out(5);
+  PyObject* const parts[] = {observation(all, 0).release().ptr(), PyFloat_FromDouble(made.reward),
+                             PyBool_FromLong(made.terminated), PyBool_FromLong(made.truncated),
+                             PyDict_New()};
+  for (py::ssize_t i = 0; i < 5; ++i) PyTuple_SET_ITEM(out.ptr(), i, parts[i]);
+  return out;
+}
+
+/// Steps all, environment i with `action(i)`.
+template <class All, class Action>
+py::tuple step_all(All& all, Action&& action) {
+  const auto count = static_cast<py::ssize_t>(all.batch.count());
+  py::array_t<double> rewards(count);
+  py::array_t<bool> terminated(count);
+  py::array_t<bool> truncated(count);
+  const auto bytes = [&](py::array_t<bool>& array) {
+    return std::span(reinterpret_cast<std::uint8_t*>(array.mutable_data()), all.batch.count());
+  };
+  const std::span<double> to{rewards.mutable_data(), all.batch.count()};
+  const auto ended = bytes(terminated);
+  const auto cut = bytes(truncated);
+  {
+    const Free free;
+    all.batch.step(action, to, ended, cut);
+  }
+  return py::make_tuple(rewards, terminated, truncated);
+}
+
+/// Calls `work(environments, index)` if there is such an environment.
+template <class All, class Work>
+auto of_one(Work work) {
+  return [work](Guarded<All>& open, std::size_t index) {
+    return open.use([&](All& all) {
+      if (index >= all.batch.count()) throw InputError("there is no such environment");
+      return work(all, index);
+    });
+  };
+}
+
+/// What environments of every kind have.
+template <class All>
+py::class_<Guarded<All>> add_kind(py::module_& module, const char* name) {
+  return py::class_<Guarded<All>>(module, name)
+      .def("close", &Guarded<All>::close)
+      .def("reset",
+           [](Guarded<All>& open, std::optional<std::uint64_t> seed) {
+             open.use([&](All& all) {
+               const Free free;
+               all.batch.reset(seed);
+             });
+           })
+      // The observations themselves, which each step renews.
+      .def("observations",
+           [](py::object self) {
+             return self.cast<Guarded<All>&>().use([&](All& all) {
+               std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(all.batch.count())};
+               shape.insert(shape.end(), all.shape.begin(), all.shape.end());
+               return py::array_t<typename All::Number>(shape, all.batch.observations().data(),
+                                                        self);
+             });
+           })
+      .def("observation", of_one<All>(observation<All>));
+}
+
+/// Rows and columns of the particles.
+py::array_t<int> particles(Gathering& all, std::size_t index) {
+  const GatheringMaze& maze = all.task->maze;
+  const ParticleMotion& motion = all.batch.episode(index).motion();
+  std::vector<int> numbers;
+  for (std::size_t i = 0; i < motion.cells().size(); ++i) {
+    const MazePlace place = maze.place(motion.cells()[i]);
+    for (std::uint32_t k = 0; k < motion.counts()[i]; ++k)
+      numbers.insert(numbers.end(), {place.row, place.column});
+  }
+  return py::array_t<int>({static_cast<py::ssize_t>(numbers.size() / 2), py::ssize_t{2}},
+                          numbers.data());
+}
+
+py::array_t<std::int64_t> costs(Gathering& all, std::size_t index) {
+  const GatheringMaze& maze = all.task->maze;
+  const MazeCosts& costs = all.batch.episode(index).costs();
+  py::array_t<std::int64_t> array({maze.height(), maze.width()});
+  std::int64_t* out = array.mutable_data();
+  for (int row = 0; row < maze.height(); ++row)
+    for (int column = 0; column < maze.width(); ++column) {
+      const std::uint32_t cost = costs.of[maze.number({row, column})];
+      *out++ = cost == MazeCosts::unreached ? -1 : std::int64_t{cost};
+    }
+  return array;
+}
+
+void add_gathering(py::module_& module) {
+  add_kind<Gathering>(module, "GatheringBatch")
+      .def(py::init(&open_gathering))
+      .def("step_one",
+           [](Guarded<Gathering>& open, std::uint8_t action) {
+             return open.use([&](Gathering& all) {
+               return step_one(all, all.batch.episode(0).step(action_of(all, action)));
+             });
+           })
+      .def("step",
+           [](Guarded<Gathering>& open,
+              const py::array_t<std::uint8_t, py::array::c_style>& actions) {
+             return open.use([&](Gathering& all) {
+               const std::span<const std::uint8_t> given{actions.data(),
+                                                         static_cast<std::size_t>(actions.size())};
+               if (given.size() != all.batch.count())
+                 throw InputError("there must be an action for each environment");
+               for (const std::uint8_t action : given) action_of(all, action);
+               return step_all(all, [&](std::size_t i) { return std::size_t{given[i]}; });
+             });
+           })
+      .def("rules",
+           [](Guarded<Gathering>& open) {
+             return open.use([](Gathering& all) { return to_json_text(all.task->rules); });
+           })
+      .def("particles", of_one<Gathering>(particles))
+      .def("costs", of_one<Gathering>(costs))
+      .def("weights", of_one<Gathering>([](Gathering& all, std::size_t index) {
+             const auto weights = all.batch.episode(index).motion().weights();
+             return py::array_t<double>(static_cast<py::ssize_t>(weights.size()), weights.data());
+           }))
+      .def("goal", of_one<Gathering>([](Gathering& all, std::size_t index) {
+             const MazePlace place = all.task->maze.place(all.batch.episode(index).goal());
+             return py::make_tuple(place.column, place.row);
+           }));
+}
+
+void add_navigation(py::module_& module) {
+  add_kind<Navigation>(module, "NavigationBatch")
+      .def(py::init(&open_navigation))
+      .def("step_one",
+           [](Guarded<Navigation>& open, double heading, double share) {
+             return open.use([&](Navigation& all) {
+               return step_one(all, all.batch.episode(0).step(action_of(all, heading, share)));
+             });
+           })
+      .def("step",
+           [](Guarded<Navigation>& open, const Numbers& actions) {
+             return open.use([&](Navigation& all) {
+               const std::size_t count = all.batch.count();
+               if (actions.ndim() != 2 || actions.shape(1) != 2 ||
+                   static_cast<std::size_t>(actions.shape(0)) != count)
+                 throw InputError("there must be an action of 2 numbers for each environment");
+               std::vector<NavigationAction> given;
+               given.reserve(count);
+               const double* numbers = actions.data();
+               for (std::size_t i = 0; i < count; ++i, numbers += 2)
+                 given.push_back(action_of(all, numbers[0], numbers[1]));
+               return step_all(all, [&](std::size_t i) { return given[i]; });
+             });
+           })
+      .def("rules",
+           [](Guarded<Navigation>& open) {
+             return open.use([](Navigation& all) { return to_json_text(all.task->rules()); });
+           })
+      .def("max_speed",
+           [](Guarded<Navigation>& open) {
+             return open.use([](Navigation& all) { return all.task->max_speed(); });
+           })
+      .def("state", of_one<Navigation>([](Navigation& all, std::size_t index) {
+             const NavigationEpisode& episode = all.batch.episode(index);
+             const Pose2& pose = episode.pose();
+             return py::make_tuple(episode.time(), pose.position.x, pose.position.y, pose.heading,
+                                   episode.goal().x, episode.goal().y,
+                                   std::string(to_string(episode.status())));
+           }));
+}
+
+}  // namespace
+
+void add_environments(py::module_& module) {
+  add_gathering(module);
+  add_navigation(module);
+}
+
+}  // namespace microswarm::python

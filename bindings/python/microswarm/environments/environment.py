@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What environments of every kind have in common."""
+
+from __future__ import annotations
+
+import json
+from typing import Any, Optional
+
+import numpy as np
+
+from ..values import InputError, seed_of, whole
+from .spaces import Env
+
+Steps = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, dict[str, Any]]
+
+
+def count_of(num_envs: Any) -> int:
+    """A number of environments."""
+    if whole("num_envs", num_envs, 10**6) == 0:
+        raise InputError("num_envs is 0, must be at least 1")
+    return num_envs
+
+
+class SingleEnvironment(Env):
+    """One environment."""
+
+    _core: Any
+
+    def _shape(self) -> tuple[int, ...]:
+        return self._core.observations().shape[1:]
+
+    @property
+    def rules(self) -> dict[str, Any]:
+        """The rules with every value."""
+        return json.loads(self._core.rules())
+
+    def reset(self, *, seed: Optional[int] = None, options: Any = None) -> tuple[np.ndarray, dict[str, Any]]:
+        """Begins an episode: the first of a seed, or the next."""
+        self._core.reset(seed_of(seed))
+        return self._core.observation(0), {}
+
+    def close(self) -> None:
+        """Ends it; what is called later raises InputError. Closing twice is no mistake."""
+        self._core.close()
+
+
+class VectorEnvironment:
+    """Environments that are stepped together on all cores.
+
+    Environment i is seeded with seed + i and is then that of a single one with that seed. One whose episode
+    has ended begins the next with the step after, whose reward is 0 (Gymnasium's "next step").
+    """
+
+    metadata: dict[str, Any] = {"autoreset_mode": "NextStep"}
+
+    def __init__(self, core: Any, num_envs: int, copy: bool) -> None:
+        self.num_envs = num_envs
+        self._core = core
+        self._copy = copy
+        self._all = core.observations()
+        self._all.flags.writeable = False
+
+    def _observations(self) -> np.ndarray:
+        return self._all.copy() if self._copy else self._all
+
+    def _stepped(self, actions: np.ndarray) -> Steps:
+        rewards, terminated, truncated = self._core.step(actions)
+        return self._observations(), rewards, terminated, truncated, {}
+
+    @property
+    def rules(self) -> dict[str, Any]:
+        """The rules with every value."""
+        return json.loads(self._core.rules())
+
+    def reset(self, *, seed: Optional[int] = None, options: Any = None) -> tuple[np.ndarray, dict[str, Any]]:
+        """Begins an episode in each environment: the first of a seed, or the next."""
+        self._core.reset(seed_of(seed))
+        return self._observations(), {}
+
+    def close(self) -> None:
+        """Ends it; what is called later raises InputError. Closing twice is no mistake."""
+        self._core.close()

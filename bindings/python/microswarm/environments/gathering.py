@@ -1,0 +1,268 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Gathering of particles in a maze by the rules of the benchmark gym-gathering (Konitzny, Lu, Leclerc,
+Fekete and Becker, "Gathering Physical Particles with a Global Magnetic Field Using Reinforcement
+Learning", IROS 2022), with its names, observations, rewards and physics.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import pathlib
+from typing import Any, Optional, Sequence, Union
+
+import numpy as np
+
+from .. import _core
+from ..maps import Map
+from ..values import InputError, number, path_text, setting, whole
+from .environment import SingleEnvironment, Steps, VectorEnvironment, count_of
+from .spaces import Box, Discrete, MultiDiscrete
+
+Maze = Union[np.ndarray, Map, str, "os.PathLike[str]"]
+
+# Goal of each maze of the benchmark (column, row), and its file there.
+MAZES = {
+    "Corridor": ((82, 80), "map0318.csv"),
+    "Capillary": ((61, 130), "map0518.csv"),
+    "Brain": ((96, 204), "map0122.csv"),
+    "Vessel": ((85, 66), "small_vessel.csv"),
+    "Pulmonary": ((112, 32), "pulmonary.csv"),
+}
+PHYSICS = {"Algorithmic": "algorithmic", "Fuzzy": "fuzzy", "Physical": "physical"}
+COUNTS: dict[str, Union[int, str]] = {"FixedPC": 256, "RandomPC": "random", "FilledPC": "filled"}
+GOALS = ("FixedGoal", "RandomGoal")
+
+
+def ids() -> list[str]:
+    """Names of the environments of the benchmark."""
+    return [f"{maze}{physics}{count}{goal}-v0" for maze in MAZES for physics in PHYSICS for count in COUNTS for goal in GOALS]
+
+
+def values_of(name: str) -> dict[str, Any]:
+    """What the name of an environment says."""
+    for maze, (goal, _) in MAZES.items():
+        for physics in PHYSICS:
+            for count in COUNTS:
+                for kind in GOALS:
+                    if name == f"{maze}{physics}{count}{kind}-v0":
+                        fixed = kind == "FixedGoal"
+                        return {
+                            "maze": maze,
+                            "goal": goal if fixed else None,
+                            "physics": PHYSICS[physics],
+                            "n_particles": COUNTS[count],
+                            "observation_type": "simple" if fixed else "multichannel",
+                        }
+    raise InputError(f"{name!r} is no environment: it must be a maze of {', '.join(MAZES)}, then {', '.join(PHYSICS)}, then {', '.join(COUNTS)}, then {' or '.join(GOALS)}, then -v0")
+
+
+def _named_maze(name: str) -> np.ndarray:
+    """A maze of the benchmark, from its own package or the folder of real input."""
+    folder = os.environ.get("MICROSWARM_DATA")
+    if folder:
+        file = pathlib.Path(folder, "gym_gathering", f"{name.lower()}.pgm")
+        if file.exists():
+            return free_cells(file)
+    package = importlib.util.find_spec("gym_gathering")
+    for place in (package.submodule_search_locations or []) if package else []:
+        file = pathlib.Path(place, "mapdata", MAZES[name][1])
+        if file.exists():
+            return free_cells(file)
+    raise InputError(f"the maze {name} is not here: give maze=, install gym_gathering, or set MICROSWARM_DATA to a folder with gym_gathering/{name.lower()}.pgm")
+
+
+def free_cells(maze: Maze, cell_um: Optional[float] = None) -> np.ndarray:
+    """The free cells of a maze as booleans of shape (rows, columns), the upper row first.
+
+    maze      an array, not 0 where a cell is free; a file, whose bright pixels are free cells (of a .csv file
+              the entries 1); a name of the benchmark; or a Map with cell_um, a cell being free if its middle is
+    """
+    if isinstance(maze, Map):
+        if cell_um is None:
+            raise InputError("cell_um is missing: a map has no cells of its own")
+        size = number("cell_um", cell_um)
+        x_lo, y_lo, x_hi, y_hi = maze.bounds_um
+        if not 0 < size <= min(x_hi - x_lo, y_hi - y_lo):
+            raise InputError(f"cell_um is {size:g}, must be above 0 and at most the map's {min(x_hi - x_lo, y_hi - y_lo):g}")
+        columns, rows = int((x_hi - x_lo) / size + 1e-9), int((y_hi - y_lo) / size + 1e-9)
+        if columns * rows > 8192**2:
+            raise InputError(f"cell_um is {size:g}: {columns} × {rows} cells are too many")
+        x, y = np.meshgrid(x_lo + size * (np.arange(columns) + 0.5), y_hi - size * (np.arange(rows) + 0.5))
+        return maze.is_free(np.column_stack((x.ravel(), y.ravel()))).reshape(rows, columns)
+    if cell_um is not None:
+        raise InputError("cell_um is for a Map")
+    if isinstance(maze, str) and maze in MAZES:
+        return _named_maze(maze)
+    if isinstance(maze, (str, os.PathLike)):
+        name = path_text(maze)
+        if name.endswith(".csv"):
+            try:
+                return np.loadtxt(name, delimiter=",", ndmin=2) > 0.5
+            except (OSError, ValueError) as error:
+                raise InputError(f"{name}: {error}") from None
+        return free_cells(Map.load(name, 1), 1)
+    array = np.asarray(maze)
+    if array.ndim != 2 or array.dtype.kind not in "buif":
+        raise InputError(f"a maze must have 2 dimensions and numbers, this one has {array.ndim} of type {array.dtype}")
+    return array != 0
+
+
+def _batch(maze: Maze, goal: Any, n_particles: Union[int, str], cell_um: Optional[float], num_envs: int, threads: int, rules: dict[str, Any]) -> _core.GatheringBatch:
+    if isinstance(n_particles, str):
+        if n_particles not in ("random", "filled"):
+            raise InputError(f"n_particles is {n_particles!r}, must be a number, 'random' or 'filled'")
+        rules["particle_count"] = n_particles
+    else:
+        rules["n_particles"] = whole("n_particles", n_particles, 10**6)
+    if isinstance(maze, str) and maze in MAZES and isinstance(goal, str) and goal == "default":
+        goal = MAZES[maze][0]
+    place = None
+    if goal is not None:
+        try:
+            column, row = goal
+        except (TypeError, ValueError):
+            raise InputError(f"goal is {goal!r}, must be (column, row) or None for a random one") from None
+        place = [whole("goal column", column, 8191), whole("goal row", row, 8191)]
+    free = np.ascontiguousarray(free_cells(maze, cell_um), dtype=np.uint8)
+    return _core.GatheringBatch(free, place, [setting(key, value) for key, value in rules.items()], num_envs, threads)
+
+
+class GatheringEnv(SingleEnvironment):
+    """Particles in a maze that all follow the same input, to be gathered at a goal.
+
+    action_space         Discrete(8): east, south-east, south, south-west, west, north-west, north, north-east
+    observation_space    Box of uint8, of shape (rows, columns, channels). "simple": particles are 255;
+                         "multichannel": walls, particles and, if it is random, the goal
+    reward               what the particles came nearer to the goal, in all and the farthest, as shares of the
+                         costs of the maze, less 1 / the estimated length of an episode
+    terminated           all are within goal_range steps of the goal
+    truncated            max_episode_steps have passed
+
+    maze         see free_cells()
+    goal         (column, row), "default" for a maze of the benchmark, or None: a random one each episode
+    n_particles  a number, "random", or "filled": one in every cell
+    physics      "algorithmic": a cell in the input's direction; "fuzzy": with random errors; "physical": with
+                 mass, drag and contacts
+    rules        goal_range, max_episode_steps, total_cost_reward, max_cost_reward, time_penalty;
+                 fuzzy: random_move_chance, random_move_distance, fuzzy_action_probability; physical: force,
+                 drag, max_particle_weight, particle_self_collision, max_particles_per_cell
+    """
+
+    metadata = {"render_modes": ["rgb_array"], "render_fps": 25}
+
+    def __init__(
+        self,
+        maze: Maze,
+        goal: Any = "default",
+        *,
+        n_particles: Union[int, str] = 256,
+        physics: str = "algorithmic",
+        observation_type: str = "simple",
+        cell_um: Optional[float] = None,
+        render_mode: Optional[str] = None,
+        **rules: Any,
+    ) -> None:
+        if render_mode not in (None, "rgb_array"):
+            raise InputError(f"render_mode is {render_mode!r}, must be 'rgb_array' or None")
+        self.render_mode = render_mode
+        rules |= {"physics": physics, "observation": observation_type}
+        self._core = _batch(maze, goal, n_particles, cell_um, 1, 1, rules)
+        self._step = self._core.step_one
+        self.action_space = Discrete(8)
+        self.observation_space = Box(0, 255, self._shape(), np.uint8)
+
+    def step(self, action: Any) -> tuple[np.ndarray, float, bool, bool, dict[str, Any]]:
+        """An input: (observation, reward, terminated, truncated, info)."""
+        try:
+            return self._step(action)
+        except TypeError:
+            raise InputError(f"action is {action!r}, must be a whole number from 0 to 7") from None
+
+    @property
+    def particle_locations(self) -> np.ndarray:
+        """Row and column of each particle, in no order once particles have met."""
+        return self._core.particles(0)
+
+    @property
+    def particle_weights(self) -> np.ndarray:
+        """Weight of each particle; empty unless the physics is "physical"."""
+        return self._core.weights(0)
+
+    @property
+    def goal(self) -> tuple[int, int]:
+        """Column and row of the goal."""
+        return self._core.goal(0)
+
+    @property
+    def costs(self) -> np.ndarray:
+        """Steps from each cell to the goal; −1 for walls and cells from which it cannot be reached."""
+        return self._core.costs(0)
+
+    def render(self) -> np.ndarray:
+        """A picture in colours, of shape (rows, columns, 3)."""
+        costs = self.costs
+        image = np.where((costs >= 0)[:, :, None], np.uint8([90, 150, 190]), np.uint8([15, 30, 65]))
+        column, row = self.goal
+        image[(costs >= 0) & (costs <= self.rules["goal_range"])] = (150, 190, 160)
+        places = self.particle_locations
+        image[places[:, 0], places[:, 1]] = (250, 250, 100)
+        image[row, column] = (220, 60, 50)
+        return image
+
+
+class GatheringVectorEnv(VectorEnvironment):
+    """`num_envs` gatherings of the same maze and rules, stepped together on all cores.
+
+    Environment i is seeded with seed + i and is then that of a GatheringEnv with that seed. One whose episode
+    has ended begins the next with the step after, whose reward is 0 (Gymnasium's "next step"). The arguments
+    are those of GatheringEnv.
+
+    threads    how many are used, 0: one a core. Results do not depend on it
+    copy       False: the same array of observations is returned and renewed by each step
+    """
+
+    def __init__(
+        self,
+        num_envs: int,
+        maze: Maze,
+        goal: Any = "default",
+        *,
+        n_particles: Union[int, str] = 256,
+        physics: str = "algorithmic",
+        observation_type: str = "simple",
+        cell_um: Optional[float] = None,
+        threads: int = 0,
+        copy: bool = True,
+        **rules: Any,
+    ) -> None:
+        rules |= {"physics": physics, "observation": observation_type}
+        core = _batch(maze, goal, n_particles, cell_um, count_of(num_envs), whole("threads", threads, 1024), rules)
+        super().__init__(core, num_envs, copy)
+        self.single_action_space = Discrete(8)
+        self.single_observation_space = Box(0, 255, self._all.shape[1:], np.uint8)
+        self.action_space = MultiDiscrete([8] * num_envs)
+        self.observation_space = Box(0, 255, self._all.shape, np.uint8)
+
+    def step(self, actions: Sequence[int]) -> Steps:
+        """An input for each: arrays of observations, rewards, terminated, truncated, and info."""
+        given = np.asarray(actions)
+        if given.dtype.kind not in "iu" or given.shape != (self.num_envs,):
+            raise InputError(f"actions must be {self.num_envs} whole numbers")
+        if ((given < 0) | (given > 7)).any():
+            raise InputError("an action must be 0 to 7")
+        return self._stepped(given.astype(np.uint8))
+
+    def particle_locations(self, index: int) -> np.ndarray:
+        """Row and column of each particle of an environment."""
+        return self._core.particles(whole("index", index, self.num_envs - 1))
+
+
+def make(id: str, **values: Any) -> GatheringEnv:
+    """An environment by its name in the benchmark; `values` replace what the name says."""
+    return GatheringEnv(**values_of(id) | values)
+
+
+def make_vec(id: str, num_envs: int, **values: Any) -> GatheringVectorEnv:
+    """`num_envs` environments by their name in the benchmark, stepped together."""
+    return GatheringVectorEnv(num_envs, **values_of(id) | values)

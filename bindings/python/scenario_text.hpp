@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calls.hpp"
+#include "microswarm/config/yaml.hpp"
+#include "microswarm/experiment/scenario/experiment.hpp"
+
+namespace microswarm::python {
+
+/// A scenario as text and what was set since, which is opened as the command line does.
+struct ScenarioText {
+  std::string text;
+  std::string name;
+  std::filesystem::path base;
+  std::vector<std::string> settings{};
+  Scenario value{};
+
+  static ScenarioText load(const std::string& file) {
+    const std::filesystem::path path(file);
+    return of(read_file(path, max_yaml_bytes), file, std::filesystem::absolute(path).parent_path());
+  }
+  static ScenarioText of(std::string text, std::string name, std::filesystem::path base) {
+    ScenarioText made{std::move(text), std::move(name), std::move(base)};
+    KeyLocations keys;
+    Mistakes mistakes;
+    made.value = read_yaml_text<Scenario>(made.text, made.name, {}, keys, mistakes);
+    mistakes.require_none();
+    warn(keys.notes());
+    return made;
+  }
+  void set(const std::string& setting) {
+    Notes notes;
+    const auto present = set_value(value, setting, "set", notes);
+    warn(notes);
+    if (present) settings.push_back(*present);
+  }
+  Experiment open(std::optional<std::uint64_t> seed = {}) const {
+    return open_experiment_text(text, name, base, settings, seed);
+  }
+};
+
+}  // namespace microswarm::python

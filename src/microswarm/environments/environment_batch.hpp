@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "microswarm/core/execution/parallel.hpp"
+#include "microswarm/environments/environment_step.hpp"
+
+namespace microswarm {
+
+/// Environments of the same task, stepped together on several threads. What they do does not depend
+/// on the number of threads: environment i of a batch with a seed s is that of a batch of one with
+/// the seed s + i. Each writes its observation of `size` numbers into the batch's.
+template <class Episode, class Number>
+class EnvironmentBatch {
+ public:
+  /// `threads` of 0: one a core. The task must outlive this.
+  template <class Task>
+  EnvironmentBatch(const Task& task, std::size_t count, std::size_t size, std::uint64_t seed,
+                   int threads)
+      : observations_(count * size), has_ended_(count), threads_(threads) {
+    episodes_.reserve(count);
+    for (std::size_t i = 0; i < count; ++i)
+      episodes_.emplace_back(task, seed + i, std::span(observations_).subspan(i * size, size));
+  }
+
+  /// Begins an episode each: the first of the seeds s + i, or the next.
+  void reset(std::optional<std::uint64_t> seed = {}) {
+    for_each([&](std::size_t i) {
+      if (seed)
+        episodes_[i].reset(*seed + i);
+      else
+        episodes_[i].reset();
+      has_ended_[i] = 0;
+    });
+  }
+  /// An input for each environment, `action(i)`. One whose episode ended with the step before
+  /// begins the next one instead, with a reward of 0. The spans have count() values.
+  template <class Action>
+  void step(Action&& action, std::span<double> rewards, std::span<std::uint8_t> terminated,
+            std::span<std::uint8_t> truncated) {
+    for_each([&](std::size_t i) {
+      EnvironmentStep made;
+      if (has_ended_[i] != 0)
+        episodes_[i].reset();
+      else
+        made = episodes_[i].step(action(i));
+      rewards[i] = made.reward;
+      terminated[i] = made.terminated;
+      truncated[i] = made.truncated;
+      has_ended_[i] = made.terminated || made.truncated;
+    });
+  }
+
+  std::size_t count() const { return episodes_.size(); }
+  Episode& episode(std::size_t index) { return episodes_[index]; }
+  /// Observations, one after the other.
+  std::span<const Number> observations() const { return observations_; }
+
+ private:
+  template <class Body>
+  void for_each(Body&& body) {
+    constexpr std::size_t together = 16;  // environments that a thread takes at once
+    const std::size_t blocks = (count() + together - 1) / together;
+    threads_.for_each_index(blocks, [&](std::size_t block) {
+      const std::size_t end = std::min(count(), (block + 1) * together);
+      for (std::size_t i = block * together; i < end; ++i) body(i);
+    });
+  }
+
+  std::vector<Number> observations_;
+  std::vector<Episode> episodes_;
+  std::vector<std::uint8_t> has_ended_;
+  ThreadTeam threads_;
+};
+
+}  // namespace microswarm

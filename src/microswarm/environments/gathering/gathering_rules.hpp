@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "microswarm/core/fields/fields.hpp"
+
+namespace microswarm {
+
+/// How particles follow an input.
+enum class ParticlePhysics {
+  algorithmic,  ///< one cell in its direction, unless that cell is a wall
+  fuzzy,        ///< the same with random errors, alike for all particles in a cell
+  physical,     ///< with mass, drag and contacts between particles
+};
+constexpr auto enum_names(ParticlePhysics) {
+  return std::array<std::pair<ParticlePhysics, std::string_view>, 3>{
+      {{ParticlePhysics::algorithmic, "algorithmic"},
+       {ParticlePhysics::fuzzy, "fuzzy"},
+       {ParticlePhysics::physical, "physical"}}};
+}
+
+/// How many particles an episode has.
+enum class ParticleCount {
+  fixed,   ///< always as many
+  random,  ///< at least one, fewer than there are free cells and than 4,500
+  filled,  ///< one in every free cell
+};
+constexpr auto enum_names(ParticleCount) {
+  return std::array<std::pair<ParticleCount, std::string_view>, 3>{
+      {{ParticleCount::fixed, "fixed"},
+       {ParticleCount::random, "random"},
+       {ParticleCount::filled, "filled"}}};
+}
+
+/// Picture of a state.
+enum class GatheringObservation {
+  simple,        ///< one channel: particles, and the goal if it is random
+  multichannel,  ///< walls, particles, and the goal if it is random
+};
+constexpr auto enum_names(GatheringObservation) {
+  return std::array<std::pair<GatheringObservation, std::string_view>, 2>{
+      {{GatheringObservation::simple, "simple"},
+       {GatheringObservation::multichannel, "multichannel"}}};
+}
+
+/// Rules of the learning benchmark gym-gathering (Konitzny, Lu, Leclerc, Fekete and Becker,
+/// "Gathering Physical Particles with a Global Magnetic Field Using Reinforcement Learning", IROS
+/// 2022); names and defaults are its own. Lengths are cells, times steps.
+struct GatheringRules {
+  static constexpr std::string_view type_name = "gathering";
+  ParticlePhysics physics = ParticlePhysics::algorithmic;
+  ParticleCount particle_count = ParticleCount::fixed;
+  int n_particles = 256;
+  int goal_range = 10;
+  int max_episode_steps = 2000;
+  GatheringObservation observation = GatheringObservation::simple;
+  bool total_cost_reward = true;
+  bool max_cost_reward = true;
+  bool time_penalty = true;
+  double random_move_chance = 0.25;
+  int random_move_distance = 1;
+  double fuzzy_action_probability = 0.25;
+  double force = 0.05;
+  double drag = 1.025;
+  double max_particle_weight = 1.2;
+  bool particle_self_collision = true;
+  int max_particles_per_cell = 3;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.physics, {"physics", Unit::none, {}, "How particles follow an input."});
+    visit(self.particle_count,
+          {"particle_count", Unit::none, {}, "How many particles an episode has."});
+    visit(self.n_particles,
+          {"n_particles", Unit::none, {1, 1e6}, "Number of particles, if it is fixed."});
+    visit(self.goal_range,
+          {"goal_range", Unit::none, {0, 1e6}, "Steps to the goal within which all must be."});
+    visit(self.max_episode_steps,
+          {"max_episode_steps", Unit::none, {1, 1e9}, "Steps after which an episode is cut."});
+    visit(self.observation, {"observation", Unit::none, {}, "Channels of the picture."});
+    visit(self.total_cost_reward,
+          {"total_cost_reward", Unit::none, {}, "Reward what all come nearer."});
+    visit(self.max_cost_reward,
+          {"max_cost_reward", Unit::none, {}, "Reward what the farthest comes nearer."});
+    visit(self.time_penalty, {"time_penalty", Unit::none, {}, "Every step costs."});
+    visit(self.random_move_chance,
+          {"random_move_chance", Unit::none, {0, 1}, "Fuzzy: share of cells with a random move."});
+    visit(self.random_move_distance,
+          {"random_move_distance", Unit::none, {1, 7}, "Fuzzy: longest random move."});
+    visit(self.fuzzy_action_probability, {"fuzzy_action_probability",
+                                          Unit::none,
+                                          {0, 1},
+                                          "Fuzzy: share of cells that do not move."});
+    visit(self.force, {"force", Unit::none, {0, 1e3}, "Physical: force of an input."});
+    visit(self.drag, {"drag", Unit::none, {1, 1e3}, "Physical: loss of speed in a step, divisor."});
+    visit(self.max_particle_weight,
+          {"max_particle_weight", Unit::none, {1, 1e3}, "Physical: weights are from 1 to this."});
+    visit(self.particle_self_collision,
+          {"particle_self_collision", Unit::none, {}, "Physical: particles block each other."});
+    visit(self.max_particles_per_cell,
+          {"max_particles_per_cell", Unit::none, {1, 60000}, "Physical: so many fit into a cell."});
+  }
+};
+
+}  // namespace microswarm

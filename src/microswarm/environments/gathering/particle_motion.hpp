@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "microswarm/core/maths/rng.hpp"
+#include "microswarm/environments/gathering/gathering_maze.hpp"
+#include "microswarm/environments/gathering/gathering_rules.hpp"
+
+namespace microswarm {
+
+/// Particles in a maze, and what moves them. Particles in one cell move alike unless they are
+/// physical, so from then on they are one group.
+class ParticleMotion {
+ public:
+  ParticleMotion(const GatheringMaze& maze, const GatheringRules& rules);
+
+  /// Puts particles into these cells, at rest, with new weights.
+  void place(std::vector<std::uint32_t> cells, Rng& rng);
+  /// One input, 0 to 7.
+  void step(std::size_t action, Rng& rng);
+
+  /// Cell of each group, and how many particles it is.
+  std::span<const std::uint32_t> cells() const { return cells_; }
+  std::span<const std::uint32_t> counts() const { return counts_; }
+  /// Weights of the particles; empty unless they are physical.
+  std::span<const double> weights() const { return weights_; }
+
+ private:
+  /// A coordinate of each particle: exact place, and speed in cells a step.
+  struct Axis {
+    std::vector<double> at;
+    std::vector<double> speed;
+  };
+  void step_algorithmic(MazePlace move);
+  void step_fuzzy(MazePlace move, std::uint64_t key);
+  void step_physical(MazePlace move);
+  void block_full_cells();
+  void accelerate(Axis& axis, int direction);
+  void advance(Axis& axis);
+  void merge_groups();
+
+  const GatheringMaze& maze_;
+  const GatheringRules& rules_;
+  std::vector<std::uint32_t> cells_;
+  std::vector<std::uint32_t> counts_;
+  int steps_ = 0;
+  Axis rows_;
+  Axis columns_;
+  std::vector<double> weights_;
+  std::vector<double> accelerations_;
+  std::vector<std::uint32_t> aims_;  ///< cells into which they would come
+  std::vector<std::uint8_t> moves_;  ///< whether they do
+  std::vector<std::uint32_t> movers_;
+  std::vector<std::uint32_t> at_;  ///< of each cell, particles or group + 1; 0 between steps
+};
+
+}  // namespace microswarm

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/environments/navigation/navigation_episode.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/maths/maths.hpp"
+#include "microswarm/experiment/run/run.hpp"
+#include "microswarm/geometry/uniform_in.hpp"
+#include "microswarm/swarm/body/swarm_params.hpp"
+
+namespace microswarm {
+namespace {
+
+/// A random place that keeps `clearance` from the walls. Throws InputError if none is found.
+Vec2 random_place(const Map& map, double clearance, Rng& rng) {
+  constexpr int tries = 100'000;
+  for (int i = 0; i < tries; ++i) {
+    const Vec2 place = uniform_in(map.bounds(), rng);
+    if (map.is_free(place, clearance)) return place;
+  }
+  throw InputError("the map has no free place for a random start or goal");
+}
+
+/// Goes from `from` as far as bodies and walls leave room, at most `range`, to within 0.1 µm.
+double free_distance(const Snapshot& world, Vec2 from, Vec2 direction, double range) {
+  constexpr double near = 0.1;
+  constexpr int steps = 64;
+  double reached = 0;
+  for (int i = 0; i < steps && reached < range; ++i) {
+    const double room = world.clearance(from + reached * direction);
+    if (room < near) return reached;
+    reached += room;
+  }
+  return std::min(reached, range);
+}
+
+}  // namespace
+
+/// Commands what it is told to.
+class NavigationEpisode::Agent final : public Navigator {
+ public:
+  Command command;
+
+  Command step(const Observation&, const Stop&) override { return command; }
+  NavigatorView view() const override {
+    return {.state = command.speed > 0 ? NavigatorState::follow : NavigatorState::hold,
+            .local_target = {},
+            .path = {}};
+  }
+};
+
+NavigationTask::NavigationTask(Experiment experiment, const NavigationRules& rules)
+    : experiment_(std::move(experiment)), rules_(rules), max_speed_(0) {
+  Scenario& scenario = experiment_.scene.scenario;
+  if (scenario.robots || !scenario.start || !scenario.goal)
+    throw InputError("an environment of navigation needs a scenario with one swarm");
+  scenario.hold_at_goal = 0;
+  max_speed_ = limits_of(scenario.swarm).max_speed;
+}
+
+std::size_t NavigationTask::observation_size() const {
+  return own_numbers + static_cast<std::size_t>(rules_.rays) +
+         obstacle_numbers * static_cast<std::size_t>(rules_.obstacles);
+}
+
+NavigationEpisode::NavigationEpisode(const NavigationTask& task, std::uint64_t seed,
+                                     std::span<float> observation)
+    : task_(task), seed_(seed), observation_(observation) {
+  reset(seed);
+}
+NavigationEpisode::~NavigationEpisode() = default;
+NavigationEpisode::NavigationEpisode(NavigationEpisode&&) noexcept = default;
+
+void NavigationEpisode::reset(std::uint64_t seed) {
+  seed_ = seed;
+  trial_ = 0;
+  reset();
+}
+
+void NavigationEpisode::reset() {
+  Scenario scenario = task_.scenario();
+  scenario.seed = seed_;
+  const NavigationRules& rules = task_.rules();
+  Rng rng(seed_, Purpose::start_goal, trial_);
+  const double clearance = 2 * limits_of(scenario.swarm).radius;
+  const Map& map = *task_.world().map;
+  if (rules.random_start)
+    scenario.start =
+        Pose2{random_place(map, clearance, rng), rng.uniform(-std::numbers::pi, std::numbers::pi)};
+  if (rules.random_goal) scenario.goal = random_place(map, clearance, rng);
+  auto agent = std::make_unique<Agent>();
+  agent_ = agent.get();
+  auto plant = make_kinematic_plant(scenario, task_.world(), trial_);
+  run_ = std::make_unique<OpenRun>(scenario, task_.world(), std::move(plant), trial_,
+                                   std::move(agent));
+  ++trial_;
+  goal_ = *scenario.goal;
+  status_ = Status::running;
+  look(nullptr);
+  start_distance_ = std::max(distance_, scenario.goal_tolerance);
+}
+
+EnvironmentStep NavigationEpisode::step(const NavigationAction& action) {
+  EnvironmentStep made;
+  if (status_ != Status::running)
+    return {.terminated = status_ != Status::time_limit,
+            .truncated = status_ == Status::time_limit};
+  agent_->command = action;
+  const double before = distance_;
+  const Scenario& scenario = run_->scenario();
+  const Tick* tick = run_->step();
+  if (tick && tick->end) {  // held for too long, or no step is left
+    status_ = *tick->end;
+    made.truncated = true;
+    return made;
+  }
+  const NavigationRules& rules = task_.rules();
+  for (const RunEvent& event : tick->events) {
+    if (event.kind == EventKind::goal_reached) {
+      status_ = Status::solved;
+      made.reward += rules.arrival_reward;
+    } else if (event.kind == EventKind::contact_wall || event.kind == EventKind::contact_obstacle) {
+      if (scenario.stop_at_contact) status_ = Status::collided;
+      made.reward -= rules.contact_penalty;
+    }
+  }
+  look(tick);
+  made.reward += (before - distance_) / start_distance_;
+  made.reward -= rules.time_penalty * scenario.tick / scenario.time_limit;
+  made.terminated = status_ != Status::running;
+  if (!made.terminated && time_ >= scenario.time_limit - 1e-9 * scenario.tick) {
+    status_ = Status::time_limit;
+    made.truncated = true;
+  }
+  return made;
+}
+
+/// Takes the state at the end of a tick, or the first one.
+void NavigationEpisode::look(const Tick* tick) {
+  const GroundTruth truth = *run_->plant().ground_truth();
+  pose_ = truth.swarm.pose;
+  double radius = truth.swarm.radius;
+  if (tick && !tick->trajectory.empty()) {  // it ends with a contact or the arrival
+    pose_ = tick->trajectory.back().pose;
+    radius = tick->trajectory.back().radius;
+  }
+  time_ = truth.now;
+  distance_ = distance(pose_.position, goal_);
+  const Vec2 to_goal = goal_ - pose_.position;
+  const Vec2 ahead = unit_vector(pose_.heading);
+  const std::array<double, NavigationTask::own_numbers> own{to_goal.x, to_goal.y,   ahead.x,
+                                                            ahead.y,   truth.speed, radius};
+  std::ranges::transform(own, observation_.begin(), [](double v) { return static_cast<float>(v); });
+  const Snapshot world = truth.world->at(truth.now);
+  const auto rays = static_cast<std::size_t>(task_.rules().rays);
+  see_rays(world, observation_.subspan(NavigationTask::own_numbers, rays));
+  see_obstacles(world, observation_.subspan(NavigationTask::own_numbers + rays));
+}
+
+void NavigationEpisode::see_rays(const Snapshot& world, std::span<float> out) const {
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const double angle =
+        2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(out.size());
+    out[k] = static_cast<float>(
+        free_distance(world, pose_.position, unit_vector(angle), task_.rules().ray_range));
+  }
+}
+
+void NavigationEpisode::see_obstacles(const Snapshot& world, std::span<float> out) const {
+  std::ranges::fill(out, 0.0f);
+  const double past = std::max(0.0, time_ - task_.scenario().tick);
+  const Snapshot before = run_->plant().ground_truth()->world->at(past);
+  const auto& bodies = world.moving().bodies();
+  struct Seen {
+    double gap;
+    std::size_t index;
+  };
+  std::vector<Seen> seen;
+  seen.reserve(bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    seen.push_back({distance(pose_.position, bodies[i]), i});
+  const std::size_t shown = std::min(seen.size(), out.size() / NavigationTask::obstacle_numbers);
+  std::ranges::partial_sort(seen, seen.begin() + static_cast<std::ptrdiff_t>(shown), {},
+                            &Seen::gap);
+  for (std::size_t k = 0; k < shown; ++k) {
+    const Disc now = extent_of(bodies[seen[k].index]);
+    Vec2 velocity{};
+    if (time_ > past && before.moving().bodies().size() == bodies.size())
+      velocity =
+          (now.centre - extent_of(before.moving().bodies()[seen[k].index]).centre) / (time_ - past);
+    const Vec2 from = now.centre - pose_.position;
+    float* to = &out[k * NavigationTask::obstacle_numbers];
+    for (const double v : {from.x, from.y, now.radius, velocity.x, velocity.y})
+      *to++ = static_cast<float>(v);
+  }
+}
+
+}  // namespace microswarm

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "microswarm/core/maths/rng.hpp"
+#include "microswarm/experiment/run/open_run.hpp"
+#include "microswarm/experiment/scenario/experiment.hpp"
+#include "microswarm/environments/environment_step.hpp"
+#include "microswarm/environments/navigation/navigation_rules.hpp"
+
+namespace microswarm {
+
+/// A scenario of one swarm with the rules of its environment.
+class NavigationTask {
+ public:
+  /// Throws InputError if the scenario has several robots.
+  NavigationTask(Experiment experiment, const NavigationRules& rules);
+
+  const Scenario& scenario() const { return experiment_.scenario(); }
+  const World& world() const { return experiment_.world; }
+  const NavigationRules& rules() const { return rules_; }
+  double max_speed() const { return max_speed_; }
+  /// Numbers of an observation: goal_x, goal_y from the swarm [µm], cosine and sine of the heading,
+  /// speed [µm/s], radius [µm]; the free distance in each direction from the first, along x,
+  /// counter-clockwise [µm]; of each of the nearest obstacles x, y from the swarm, radius [µm],
+  /// velocity in x and y [µm/s], zeros where there are fewer.
+  std::size_t observation_size() const;
+  static constexpr std::size_t own_numbers = 6;
+  static constexpr std::size_t obstacle_numbers = 5;
+
+ private:
+  Experiment experiment_;
+  NavigationRules rules_;
+  double max_speed_;
+};
+
+/// Heading [rad] and speed [µm/s] of an agent's input.
+using NavigationAction = Command;
+
+/// Episodes of a scenario, one after the other, steered from outside. Episode k of a seed has the
+/// random streams of trial k.
+class NavigationEpisode {
+ public:
+  /// `observation` has observation_size() numbers; it and the task must outlive this.
+  NavigationEpisode(const NavigationTask& task, std::uint64_t seed, std::span<float> observation);
+  ~NavigationEpisode();
+  NavigationEpisode(NavigationEpisode&&) noexcept;
+
+  void reset(std::uint64_t seed);
+  void reset();
+  /// One tick of the scenario. After the end of an episode nothing moves.
+  EnvironmentStep step(const NavigationAction& action);
+
+  double time() const { return time_; }
+  const Pose2& pose() const { return pose_; }
+  Vec2 goal() const { return goal_; }
+  /// "running", or how the episode ended.
+  Status status() const { return status_; }
+
+ private:
+  class Agent;
+  void look(const Tick* tick);
+  void see_rays(const Snapshot& world, std::span<float> out) const;
+  void see_obstacles(const Snapshot& world, std::span<float> out) const;
+
+  const NavigationTask& task_;
+  std::uint64_t seed_;
+  std::uint32_t trial_ = 0;
+  std::span<float> observation_;
+  std::unique_ptr<OpenRun> run_;
+  Agent* agent_ = nullptr;
+  Vec2 goal_;
+  Pose2 pose_;
+  double time_ = 0;
+  double start_distance_ = 1;
+  double distance_ = 0;
+  Status status_ = Status::running;
+};
+
+}  // namespace microswarm

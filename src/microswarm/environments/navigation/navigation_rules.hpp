@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "microswarm/core/fields/fields.hpp"
+
+namespace microswarm {
+
+/// What an agent that steers a swarm sees, and what it is rewarded for.
+struct NavigationRules {
+  static constexpr std::string_view type_name = "navigation";
+  int rays = 8;
+  double ray_range = 500;
+  int obstacles = 4;
+  bool random_start = false;
+  bool random_goal = false;
+  double arrival_reward = 1;
+  double contact_penalty = 1;
+  double time_penalty = 0.5;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.rays, {"rays", Unit::none, {0, 360}, "Directions in which distances are seen."});
+    visit(self.ray_range, {"ray_range", Unit::um, {1, 1e6}, "Greatest distance that is seen."});
+    visit(self.obstacles, {"obstacles", Unit::none, {0, 1000}, "Nearest obstacles that are seen."});
+    visit(self.random_start,
+          {"random_start", Unit::none, {}, "A random free start for each episode."});
+    visit(self.random_goal,
+          {"random_goal", Unit::none, {}, "A random free goal for each episode."});
+    visit(self.arrival_reward,
+          {"arrival_reward", Unit::none, {0, 1e6}, "Reward for reaching the goal."});
+    visit(self.contact_penalty,
+          {"contact_penalty", Unit::none, {0, 1e6}, "Reward that a contact costs."});
+    visit(self.time_penalty,
+          {"time_penalty", Unit::none, {0, 1e6}, "Reward that the whole time limit costs."});
+  }
+};
+
+}  // namespace microswarm
