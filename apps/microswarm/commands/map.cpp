@@ -9,8 +9,7 @@
 #include "microswarm/formats/write_map.hpp"
 #include "microswarm/vision/image/overlay.hpp"
 #include "microswarm/vision/vessels/agreement.hpp"
-#include "microswarm/vision/vessels/outline.hpp"
-#include "microswarm/vision/vessels/vessels.hpp"
+#include "microswarm/vision/vessels/vessel_map.hpp"
 #include "microswarm/world/connectivity/passage.hpp"
 #include "rig/camera/still.hpp"
 #include "support/options.hpp"
@@ -138,9 +137,7 @@ int segment(const SegmentOptions& o, const Context& context) {
   const std::optional<Mask> truth = read_truth(o.truth, photo);
   const double cell = *o.um_per_px;
   const VesselSegmentation found = segment_vessels(photo, params);
-  if (found.kept_share == 0) throw InputError(o.photo + ": no vessels found");
-  const Map map(cell_bounds(found.vessels, cell),
-                walls_around(found.vessels, cell, o.smooth * cell));
+  const Map map = vessel_map(found, cell, o.smooth, o.photo);
   if (context.stop()) {
     note("interrupted: nothing was written\n");
     return not_reached;

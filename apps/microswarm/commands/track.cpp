@@ -44,22 +44,17 @@ TrackSettings settings_of(const TrackOptions& o) {
   return settings;
 }
 
-/// Tracks picture by picture until the end or Ctrl-C; `overlay` may be null.
-void follow(FrameSource& source, TrackResult& result, VideoFileWriter* overlay, const Stop& stop) {
-  VideoTracker tracker(result.settings, result.frame_time);
-  TrackOverlay drawing(*result.settings.um_per_px);
+/// Tracks the video with a progress bar; `overlay` may be null.
+TrackResult follow(FrameSource& source, const std::string& name, const TrackSettings& settings,
+                   VideoFileWriter* overlay, const Stop& stop) {
+  TrackOverlay drawing(*settings.um_per_px);
   ProgressBar bar("track");
-  VideoFrame frame;
-  while (!stop() && source.next(frame)) {
-    const std::vector<TrackRow>& rows = tracker.step(frame);
-    result.rows.insert(result.rows.end(), rows.begin(), rows.end());
-    result.frames = frame.index + 1;
+  const double all = source.count().value_or(0);
+  const auto show = [&](const VideoFrame& frame, const std::vector<TrackRow>& rows) {
     if (overlay) overlay->add(drawing.draw(frame, rows));
-    const double all = source.count().value_or(0);
-    bar.update(all > 0 ? result.frames / all : 0, fmt::format("{} robots", rows.size()));
-  }
-  tracker.finish();
-  result.events = tracker.events();
+    bar.update(all > 0 ? (frame.index + 1) / all : 0, fmt::format("{} robots", rows.size()));
+  };
+  return track_video(source, name, settings, show, stop);
 }
 
 /// Notes on stderr if the features look like noise rather than robots.
@@ -75,21 +70,18 @@ void note_noise(const TrackResult& result) {
 int track(const TrackOptions& o, const Context& context) {
   if (o.suggest) return suggest_tracking(o.video, settings_of(o), o.out, o.json, context.stop);
   if (o.out.empty()) throw InputError("track: --out is missing");
-  TrackResult result{.source = o.video, .settings = settings_of(o)};
-  const std::unique_ptr<FrameSource> source =
-      open_frames(o.video, result.settings.rate, result.settings.depth);
+  const TrackSettings settings = settings_of(o);
+  const std::unique_ptr<FrameSource> source = open_frames(o.video, settings.rate, settings.depth);
   if (!source->rate())
     note("note: {} tells no times, one picture a second is assumed: give --rate\n", o.video);
-  const double rate = source->rate().value_or(1);
-  result.frame_time = 1 / rate;
   const OutFolder hold(o.out);
   const std::filesystem::path folder = o.out;
   keep_track_input(folder, o.video);
   keep_track_input(folder, o.config);
   std::optional<VideoFileWriter> overlay;
-  if (!o.no_overlay) overlay.emplace(folder / "overlay.mp4", rate);
-  result.promised = source->count();
-  follow(*source, result, overlay ? &*overlay : nullptr, context.stop);
+  if (!o.no_overlay) overlay.emplace(folder / "overlay.mp4", source->rate().value_or(1));
+  const TrackResult result =
+      follow(*source, o.video, settings, overlay ? &*overlay : nullptr, context.stop);
   if (const std::string why = source->why_ended(); !why.empty())
     note("note: the tracks end at picture {}: {}\n", result.frames, why);
   else if (!context.stop.requested() && result.frames + 1 < result.promised.value_or(0))

@@ -3,24 +3,11 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <string>
-#include <vector>
 
-#include "microswarm/vision/tracking/video_tracker.hpp"
+#include "microswarm/vision/tracking/video_tracks.hpp"
 
 namespace microswarm::cli {
-
-/// Result of tracking a video.
-struct TrackResult {
-  std::string source;
-  TrackSettings settings;
-  double frame_time = 1;  ///< [s]
-  int frames = 0;
-  std::optional<int> promised;  ///< number of frames stated by the video
-  std::vector<TrackRow> rows;
-  std::vector<TrackEvent> events;
-};
 
 /// Writes tracks.csv, events.csv and tracks.h5 into the folder. tracks.csv can be read as recorded
 /// tracks of maps and obstacles. Throws InputError "FILE: cannot write: REASON".

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/vision/tracking/video_tracks.hpp"
+
+namespace microswarm {
+
+TrackResult track_video(FrameSource& frames, const std::string& source,
+                        const TrackSettings& settings, const OnTracked& on_tracked,
+                        const Stop& stop) {
+  TrackResult result{.source = source,
+                     .settings = settings,
+                     .frame_time = 1 / frames.rate().value_or(1),
+                     .promised = frames.count(),
+                     .rows = {},
+                     .events = {}};
+  VideoTracker tracker(settings, result.frame_time);
+  VideoFrame frame;
+  while (!stop() && frames.next(frame)) {
+    const std::vector<TrackRow>& rows = tracker.step(frame);
+    result.rows.insert(result.rows.end(), rows.begin(), rows.end());
+    result.frames = frame.index + 1;
+    if (on_tracked) on_tracked(frame, rows);
+  }
+  tracker.finish();
+  result.events = tracker.events();
+  return result;
+}
+
+}  // namespace microswarm

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "microswarm/core/execution/stop.hpp"
+#include "microswarm/vision/tracking/video_tracker.hpp"
+
+namespace microswarm {
+
+/// Result of tracking a video.
+struct TrackResult {
+  std::string source;
+  TrackSettings settings;
+  double frame_time = 1;  ///< [s]
+  int frames = 0;
+  std::optional<int> promised;  ///< number of frames stated by the video
+  std::vector<TrackRow> rows;
+  std::vector<TrackEvent> events;
+};
+
+/// Receives each picture and the robots seen in it.
+using OnTracked = std::function<void(const VideoFrame&, const std::vector<TrackRow>&)>;
+
+/// Tracks picture by picture to the end of `frames`, or until `stop`. A source that tells no rate
+/// has one picture a second. `source` is its name in the result. Throws InputError for inconsistent
+/// settings, and like FrameSource::next.
+TrackResult track_video(FrameSource& frames, const std::string& source,
+                        const TrackSettings& settings, const OnTracked& on_tracked,
+                        const Stop& stop = {});
+
+}  // namespace microswarm
