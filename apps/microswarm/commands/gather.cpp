@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "commands/run_output.hpp"
-#include "microswarm/config/key_locations.hpp"
-#include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
-#include "microswarm/experiment/scenario/map_scale.hpp"
-#include "microswarm/experiment/scenario/scene.hpp"
-#include "microswarm/experiment/scenario/validate.hpp"
 #include "microswarm/formats/map_file.hpp"
-#include "microswarm/world/connectivity/channel_width.hpp"
+#include "microswarm/session/gather_query.hpp"
 
 namespace microswarm::cli {
 namespace {
@@ -29,17 +25,13 @@ struct GatherOptions {
   bool json = false;
 };
 
-/// Typical width of the map's channels: as given, with a note on stderr if it is far from the
-/// measured one; otherwise measured.
-double width_of(const GatherOptions& o, const Map& map) {
+/// Notes on stderr a given width that is far from the measured one.
+void note_width(const GatherOptions& o, double measured) {
   constexpr double far = 5;
-  Rng rng(o.seed, Purpose::planner);
-  const double measured = channel_width(map, rng);
-  if (!o.channel_width) return measured;
+  if (!o.channel_width) return;
   if (*o.channel_width > far * measured || far * *o.channel_width < measured)
     note("note: --channel-width is {:.4g} µm, the map's channels are about {:.4g} µm\n",
          *o.channel_width, measured);
-  return *o.channel_width;
 }
 
 /// Map specification; the user's --um-per-px belongs to the photograph.
@@ -57,22 +49,20 @@ MapSpec map_spec(const GatherOptions& o) {
 int gather_command(const GatherOptions& o, const Context& context) {
   const std::vector<double> to = numbers(o.goal);
   const ReportOptions report = report_options(o.photo);
-  Scenario scenario;
-  scenario.name = std::filesystem::path(o.map).stem().string();
-  scenario.map = map_spec(o);
-  scenario.robots.emplace().count = o.robots;
-  scenario.goal = Vec2{to[0], to[1]};
-  scenario.navigator = AggregationParams{};
-  scenario.seed = o.seed;
-  Scene scene = load_scene(std::move(scenario), {});
-  const World world = build_world(scene);
-  if (const std::string why = world.at(0).blocked_reason(*scene.scenario.goal, 0); !why.empty())
-    throw InputError(fmt::format("{}: goal {}", o.map, why));
-  fit_gathering(scene.scenario, width_of(o, *world.map), o.max_steps);
-  note_each(set_values(scene.scenario, o.settings));
-  KeyLocations(o.map).require_none(validate(scene.scenario, world));
+  MapSpec spec = map_spec(o);
+  MapParts map = read_map_parts(spec);
+  GatherExperiment made = open_gathering(std::move(map), std::move(spec),
+                                         {.goal = {to[0], to[1]},
+                                          .robots = o.robots,
+                                          .channel_width = o.channel_width,
+                                          .max_steps = o.max_steps,
+                                          .settings = o.settings,
+                                          .seed = o.seed},
+                                         o.map);
+  note_width(o, made.measured_width);
+  note_each(made.notes);
   const OutFolder hold(o.out);
-  Session session(Experiment{std::move(scene), world, o.map});
+  Session session(std::move(made.experiment));
   const auto growing = grow_record(session, o.out);
   finish_run(session, context.stop);
   return tell_run(session, {o.out, false, o.json}, report);

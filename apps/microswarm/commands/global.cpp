@@ -5,8 +5,6 @@
 #include <optional>
 #include <variant>
 
-#include "commands/global_choice.hpp"
-#include "microswarm/config/key_locations.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/execution/stop.hpp"
@@ -14,10 +12,10 @@
 #include "microswarm/core/text/lines.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/experiment/record/global_tree_file.hpp"
-#include "microswarm/experiment/scenario/validate_robots.hpp"
 #include "microswarm/formats/map_file.hpp"
-#include "microswarm/planning/global_input/global_shorten.hpp"
 #include "microswarm/report/robot_picture.hpp"
+#include "microswarm/session/global_query.hpp"
+#include "support/options.hpp"
 
 namespace microswarm::cli {
 namespace {
@@ -59,48 +57,6 @@ Check place_list() {
   }};
 }
 
-/// Result of planning and its effort.
-struct Found {
-  GlobalPlan plan;
-  std::uint64_t nodes = 0;
-  std::size_t inputs = 0;  ///< before removal of superfluous inputs
-  double seconds = 0;
-};
-
-/// Validates starts and goals. The planner itself reports unequal numbers.
-void check_ends(const GlobalOptions& o, const Map& map, std::span<const Vec2> starts,
-                std::span<const Vec2> goals, const GlobalPlay& play) {
-  if (goals.size() != starts.size()) return;
-  KeyLocations(o.map).require_none(
-      validate_robot_paths(map, starts, goals, play.goal_tolerance, 0));
-}
-
-/// Throws InputError if no plan can exist.
-void explain(const GlobalOptions& o, const Map& map, std::span<const Vec2> starts,
-             std::span<const Vec2> goals, const GlobalPlay& play, Status status) {
-  const Snapshot world = Snapshot::of(map);
-  const bool starts_wrong = status == Status::start_blocked;
-  if (!starts_wrong && status != Status::goal_blocked) return;
-  const std::span<const Vec2> wrong = starts_wrong ? starts : goals;
-  const char* what = starts_wrong ? "start" : "goal";
-  for (std::size_t i = 0; i < wrong.size(); ++i)
-    if (const std::string why = world.blocked_reason(wrong[i], 0); !why.empty())
-      throw InputError(fmt::format("{}: robot {}: {} {}", o.map, i + 1, what, why));
-  if (play.separation > 0)
-    throw InputError(fmt::format("{}: two {}s are nearer to each other than separation_um {:g}{}",
-                                 o.map, what, play.separation,
-                                 starts_wrong ? "" : " and the tolerance allow"));
-  throw InputError(fmt::format("{}: a {} is too near a wall", o.map, what));
-}
-
-GlobalPlay play_of(const std::variant<GlobalSearchParams, GlobalRrtParams>& planner) {
-  return std::visit(
-      [](const auto& p) {
-        return GlobalPlay{p.robostep, p.contact, p.separation, p.goal_tolerance};
-      },
-      planner);
-}
-
 /// The parameters with which a tree was grown; changes by --set would not fit it.
 GlobalRrtParams parameters_of(const GlobalOptions& o, const GlobalTree& tree) {
   GlobalChoice choice;
@@ -122,23 +78,6 @@ GlobalRrtParams parameters_of(const GlobalOptions& o, const GlobalTree& tree) {
   differs("separation_um", grown.separation, set->separation);
   differs("contact", enum_name(grown.contact), enum_name(set->contact));
   return *set;
-}
-
-Found search_inputs(const Map& map, std::span<const Vec2> starts, std::span<const Vec2> goals,
-                    const GlobalSearchParams& params, Rng& rng, const Stop& stop) {
-  GlobalSearch found = global_search(map, starts, goals, params, rng, stop);
-  return {std::move(found.plan), found.counts.samples};
-}
-
-/// Grows a tree, saves it if requested, and queries it.
-Found grow(const GlobalOptions& o, const LoadedMap& map, std::span<const Vec2> starts,
-           std::span<const Vec2> goals, const GlobalRrtParams& params, Rng& rng, const Stop& stop) {
-  const GlobalRrt grown = global_rrt(*map.map, starts, goals, params, rng, stop);
-  Found found{{grown.answer.status}, grown.tree.size()};
-  if (grown.tree.size() == 0 || grown.answer.status == Status::goal_blocked) return found;
-  if (!o.save_tree.empty()) write_global_tree(grown.tree, map, o.save_tree);
-  if (!goals.empty()) found.plan = plan_to(grown.tree, grown.answer);
-  return found;
 }
 
 Json runs_of(const std::vector<Vec2>& inputs) {
@@ -163,20 +102,20 @@ Json ways_of(const GlobalPlan& plan) {
   return ways;
 }
 
-void show_json(const Found& found, bool has_goals) {
+void show_json(const GlobalAnswer& found, bool has_goals) {
   Json json{
       {"status", to_string(found.plan.status)}, {"nodes", found.nodes}, {"time_s", found.seconds}};
   if (has_goals) {
     json["worst_um"] = found.plan.worst;
     json["input_count"] = found.plan.inputs.size();
-    json["input_count_found"] = found.inputs;
+    json["input_count_found"] = found.inputs_found;
     json["inputs"] = runs_of(found.plan.inputs);
     json["ways_um"] = ways_of(found.plan);
   }
   print("{}\n", json.dump(2));
 }
 
-void show(const GlobalOptions& o, const Found& found) {
+void show(const GlobalOptions& o, const GlobalAnswer& found) {
   const GlobalPlan& plan = found.plan;
   if (o.goals.empty()) {
     print("tree of {} nodes, {:.2f} s\n", found.nodes, found.seconds);
@@ -186,7 +125,7 @@ void show(const GlobalOptions& o, const Found& found) {
               ? "plan"
               : fmt::format("no plan ({}), only the nearest one,", to_string(plan.status)),
           plan.inputs.size());
-    if (found.inputs != plan.inputs.size()) print(" (found with {})", found.inputs);
+    if (found.inputs_found != plan.inputs.size()) print(" (found with {})", found.inputs_found);
     print(", the worst robot ends {:.1f} µm from its goal; {} nodes, {:.3f} s\n", plan.worst,
           found.nodes, found.seconds);
     print("input_x_um,input_y_um,times\n");
@@ -206,39 +145,37 @@ void check_options(const GlobalOptions& o) {
   if (o.goals.empty() && !o.picture.empty()) throw InputError("global: --picture needs --goals");
 }
 
-/// The plan from a stored tree or by a planner.
-Found found_plan(const GlobalOptions& o, const LoadedMap& map, std::span<const Vec2> goals,
-                 GlobalPlay& play, const Stop& stop) {
-  if (!o.tree.empty()) {
-    const GlobalTree tree = read_global_tree(o.tree, map);
-    const GlobalRrtParams params = parameters_of(o, tree);
-    play = play_of(params);
-    check_ends(o, *map.map, tree.positions(0), goals, play);
-    const auto began = Stop::Clock::now();
-    Found found{plan_to(tree, ask(tree, goals, params.goal_tolerance)), tree.size()};
-    found.seconds = seconds_since(began);
-    return found;
-  }
-  GlobalChoice choice;
-  if (!o.save_tree.empty()) {
-    GlobalRrtParams to_be_kept;
-    to_be_kept.stop_at_first = false;
-    choice.planner = to_be_kept;
-  }
-  note_each(set_values(choice, o.settings));
-  play = play_of(choice.planner);
-  const std::vector<Vec2> starts = places(o.robots);
-  check_ends(o, *map.map, starts, goals, play);
-  Rng rng(o.seed, Purpose::planner);
+/// The plan from a stored tree.
+GlobalAnswer ask_tree(const GlobalOptions& o, const LoadedMap& map, std::span<const Vec2> goals,
+                      const Stop& stop) {
+  const GlobalTree tree = read_global_tree(o.tree, map);
+  const GlobalRrtParams params = parameters_of(o, tree);
+  const GlobalPlay play = play_of(params);
+  check_ends(*map.map, tree.positions(0), goals, play, o.map);
   const auto began = Stop::Clock::now();
-  const auto* rrt = std::get_if<GlobalRrtParams>(&choice.planner);
-  if (!rrt && !o.save_tree.empty())
-    throw InputError("global: --save-tree keeps trees of planner.type=global_rrt only");
-  Found found = rrt ? grow(o, map, starts, goals, *rrt, rng, stop)
-                    : search_inputs(*map.map, starts, goals,
-                                    std::get<GlobalSearchParams>(choice.planner), rng, stop);
+  GlobalAnswer found{.plan = plan_to(tree, ask(tree, goals, params.goal_tolerance)),
+                     .planner = params,
+                     .nodes = tree.size()};
   found.seconds = seconds_since(began);
-  explain(o, *map.map, starts, goals, play, found.plan.status);
+  found.inputs_found = found.plan.inputs.size();
+  if (!o.as_found) found.plan = shortened(*map.map, found.plan, goals, play, stop);
+  return found;
+}
+
+/// The plan by a planner, which grows a tree and saves it if requested.
+GlobalAnswer found_plan(const GlobalOptions& o, const LoadedMap& map, std::vector<Vec2> goals,
+                        const Stop& stop) {
+  if (!o.tree.empty()) return ask_tree(o, map, goals, stop);
+  GlobalAnswer found = answer(*map.map,
+                              {.starts = places(o.robots),
+                               .goals = std::move(goals),
+                               .settings = o.settings,
+                               .seed = o.seed,
+                               .shorten = !o.as_found,
+                               .keep_tree = !o.save_tree.empty()},
+                              o.map, stop);
+  note_each(found.notes);
+  if (found.tree) write_global_tree(*found.tree, map, o.save_tree);
   return found;
 }
 
@@ -249,12 +186,9 @@ int global_command(const GlobalOptions& o, const Context& context) {
   const Stop stop = o.time_limit ? context.within(*o.time_limit) : context.stop;
   const LoadedMap map = reading([&] { return load_map(guess_map_spec(o.map, o.um_per_px)); });
   const std::vector<Vec2> goals = places(o.goals);
-  GlobalPlay play;
-  Found found = found_plan(o, map, goals, play, stop);
-  found.inputs = found.plan.inputs.size();
-  if (!o.as_found) found.plan = shortened(*map.map, found.plan, goals, play, stop);
+  const GlobalAnswer found = found_plan(o, map, goals, stop);
   if (!o.picture.empty())
-    draw_robots(*map.map, found.plan, goals, play.goal_tolerance,
+    draw_robots(*map.map, found.plan, goals, play_of(found.planner).goal_tolerance,
                 fmt::format("{}: {}, {} inputs", o.map, to_string(found.plan.status),
                             found.plan.inputs.size()),
                 o.picture);

@@ -12,7 +12,7 @@
 #include "microswarm/experiment/record/record.hpp"
 #include "microswarm/experiment/run/progress.hpp"
 #include "microswarm/navigation/gathering/aggregation_check.hpp"
-#include "microswarm/navigation/gathering/policies/published_scale.hpp"
+#include "microswarm/session/gather_query.hpp"
 
 namespace microswarm::cli {
 
@@ -110,16 +110,6 @@ void note_tick(const Scenario& scenario) {
       scenario.tick, way, 2 * swarm.radius);
 }
 
-/// Warns on stderr where the map violates the assumptions of [gather].
-void note_assumptions(const Scenario& scenario, const Map& map) {
-  const auto* params = std::get_if<AggregationParams>(&scenario.navigator);
-  if (!params) return;
-  Rng rng(scenario.seed, Purpose::scene);
-  const double width = published_channel_width * scale_of(*params, map, rng);
-  for (const std::string& unmet : unmet_assumptions(map, *scenario.goal, width))
-    note("note: {}\n", unmet);
-}
-
 /// Time for which the swarm was held at the goal, as a line; nothing without a hold.
 std::string hold_text(const Record& record) {
   if (record.result.status != Status::solved || record.frames.empty()) return {};
@@ -138,7 +128,8 @@ void keep(const Record& record, const RunOutput& o, const ReportOptions& report)
 
 void note_oddities(const Session& session) {
   note_tick(session.scenario());
-  note_assumptions(session.scenario(), session.map());
+  for (const std::string& unmet : unmet_assumptions(session.scenario(), session.map()))
+    note("note: {}\n", unmet);
 }
 
 void note_regions(const Session& session) {

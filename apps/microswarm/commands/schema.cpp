@@ -4,11 +4,11 @@
 #include <string>
 #include <string_view>
 
-#include "commands/global_choice.hpp"
 #include "microswarm/config/help.hpp"
 #include "microswarm/config/schema.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/rig/params/rig_params.hpp"
+#include "microswarm/session/global_query.hpp"
 #include "microswarm/sweep/sweep_file.hpp"
 #include "microswarm/vision/tracking/video_tracker.hpp"
 

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "microswarm/config/former_keys.hpp"
+#include "microswarm/planning/global_input/global_rrt.hpp"
+#include "microswarm/planning/global_input/global_search.hpp"
+#include "microswarm/planning/global_input/global_shorten.hpp"
+#include "microswarm/session/planner_choice.hpp"
+
+namespace microswarm {
+
+/// Planners of inputs for several robots.
+using GlobalPlannerParams = std::variant<GlobalSearchParams, GlobalRrtParams>;
+
+/// What the settings of a query may change.
+using GlobalChoice = PlannerChoice<GlobalPlannerParams>;
+
+/// Common inputs that are asked for, which bring each robot to its own goal.
+struct GlobalQuery {
+  std::vector<Vec2> starts;  ///< [µm]
+  std::vector<Vec2> goals;   ///< [µm], in the same order
+  /// `planner.KEY=VALUE`, as from --set.
+  std::vector<std::string> settings{};
+  std::uint64_t seed = 1;
+  bool shorten = true;     ///< leave out superfluous inputs
+  bool keep_tree = false;  ///< grow a tree to its limits and keep it; goals may then be missing
+};
+
+/// The answer to a query.
+struct GlobalAnswer {
+  GlobalPlan plan;
+  GlobalPlannerParams planner;       ///< with the values that were used
+  std::optional<GlobalTree> tree{};  ///< that was grown, if it is to be kept
+  std::uint64_t nodes = 0;
+  std::size_t inputs_found = 0;  ///< before superfluous ones were left out
+  double seconds = 0;            ///< that the planner took
+  Notes notes{};                 ///< one for each outdated key in the settings
+
+  /// Why there is no plan, in words; empty with one.
+  std::string why_none() const;
+};
+
+/// Plans the inputs. `name` stands for the map in messages. Throws InputError for mistakes in the
+/// settings, positions that are not finite, another number of goals than robots, and where no plan
+/// can exist: a robot or goal in a wall, robots too close, or a goal that is cut off.
+GlobalAnswer answer(const Map& map, const GlobalQuery& query, const std::string& name,
+                    const Stop& stop = {});
+
+/// How a planner's inputs are executed, and what they must reach.
+GlobalPlay play_of(const GlobalPlannerParams& planner);
+
+/// Throws InputError if a robot cannot get to its goal. Unequal numbers are left to the planner.
+void check_ends(const Map& map, std::span<const Vec2> starts, std::span<const Vec2> goals,
+                const GlobalPlay& play, const std::string& name);
+
+}  // namespace microswarm
