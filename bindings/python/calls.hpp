@@ -48,10 +48,12 @@ class Free {
 
 /// Calls `work(stop)` in another thread, without the GIL, and looks for signals meanwhile: Ctrl-C
 /// stops it, and KeyboardInterrupt is raised once it has ended. `look` is called 10 times a second.
+/// After `budget` it is stopped too, which raises nothing.
 template <class Work, class Look>
-auto interruptible(Work&& work, Look&& look) {
+auto interruptible(Work&& work, Look&& look, std::optional<Stop::Clock::duration> budget = {}) {
   std::atomic<bool> flag{};
-  auto task = std::async(std::launch::async, [&] { return work(Stop(&flag)); });
+  const Stop stop = budget ? Stop(*budget, &flag) : Stop(&flag);
+  auto task = std::async(std::launch::async, [&] { return work(stop); });
   std::optional<py::error_already_set> raised;
   const auto is_done = [&] {
     const Free free;
@@ -91,9 +93,13 @@ std::vector<Vec2> places(const Numbers& array, const char* name);
 py::array_t<double> array_of(std::span<const Vec2> places);
 
 /// Adds the parts of the module.
+void add_coils(py::module_& module);
 void add_environments(py::module_& module);
+void add_gather(py::module_& module);
+void add_global_plan(py::module_& module);
 void add_map(py::module_& module);
 void add_record(py::module_& module);
 void add_session(py::module_& module);
+void add_vision(py::module_& module);
 
 }  // namespace microswarm::python

@@ -5,20 +5,15 @@
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/formats/pixel_map.hpp"
 #include "microswarm/session/path_query.hpp"
+#include "named_map.hpp"
 
 namespace microswarm::python {
 namespace {
 
-struct NamedMap {
-  Snapshot world;
-  std::string name;
-
-  const Map& map() const { return world.map(); }
-};
-
 NamedMap load(const std::string& file, std::optional<double> um_per_px) {
   return interruptible([&](const Stop&) {
-    return NamedMap{Snapshot(load_map(guess_map_spec(file, um_per_px)).map), file};
+    const MapSpec spec = guess_map_spec(file, um_per_px);
+    return NamedMap{Snapshot(load_map(spec).map), file, spec};
   });
 }
 
@@ -29,8 +24,7 @@ NamedMap from_pixels(const py::array_t<std::uint8_t, py::array::c_style>& pixels
   const auto width = static_cast<std::size_t>(pixels.shape(1));
   const std::span<const std::uint8_t> all{pixels.data(), width * height};
   return interruptible([&](const Stop&) {
-    Map map = map_of_pixels(all, width, height, um_per_px, simplify);
-    return NamedMap{Snapshot(std::make_shared<const Map>(std::move(map))), "map"};
+    return map_in_memory(map_of_pixels(all, width, height, um_per_px, simplify));
   });
 }
 

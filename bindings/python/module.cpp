@@ -76,8 +76,12 @@ PYBIND11_MODULE(_core, module) {
     }
   });
   py::module_::import("atexit").attr("register")(py::cpp_function(python::Ending::begin));
+  python::add_coils(module);
   python::add_environments(module);
+  python::add_gather(module);
+  python::add_global_plan(module);
   python::add_map(module);
   python::add_record(module);
   python::add_session(module);
+  python::add_vision(module);
 }

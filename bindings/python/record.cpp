@@ -31,13 +31,17 @@ py::object column_of(const Column& column, const ListRef<const void*>& list) {
   return array;
 }
 
-py::dict columns_of_list(const ListRef<const void*>& list, const Field* places = nullptr) {
+}  // namespace
+
+py::dict columns_of_list(const ListRef<const void*>& list, const Field* places) {
   const Unit unit = places ? places->info.unit : Unit::um;
   py::dict out;
   for (const Column& column : columns_of(list.row_type(), ColumnUnits::held, unit))
     out[py::str(column.key)] = column_of(column, list);
   return out;
 }
+
+namespace {
 
 /// Tables by name; "plans/tree" is a list with the table of each plan.
 struct Tables {

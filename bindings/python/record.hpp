@@ -3,8 +3,12 @@
 
 #include "calls.hpp"
 #include "microswarm/experiment/record/record.hpp"
+#include "microswarm/io/tables.hpp"
 
 namespace microswarm::python {
+
+/// A column of every quantity of a list of rows. `places` is the field of a list of places.
+py::dict columns_of_list(const ListRef<const void*>& list, const Field* places = nullptr);
 
 /// Status, metrics as JSON and times of the steps.
 py::dict summary_of(const RunResult& result);

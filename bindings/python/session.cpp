@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scenarios, experiments, and navigators in a loop of the caller's own.
-#include "microswarm/session/session.hpp"
+#include "session.hpp"
 
-#include "calls.hpp"
 #include "guarded.hpp"
 #include "microswarm/config/write.hpp"
 #include "microswarm/config/yaml.hpp"
@@ -189,6 +188,10 @@ py::tuple step_navigator(OpenNavigator& open, double now, std::optional<double> 
 }
 
 }  // namespace
+
+py::object session_object(std::unique_ptr<Session> session) {
+  return py::cast(std::make_unique<OpenSession>(std::move(session), false));
+}
 
 void add_session(py::module_& module) {
   py::class_<ScenarioText>(module, "Scenario")

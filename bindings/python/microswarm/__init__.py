@@ -12,14 +12,21 @@ shape (n, 2), y points up. Bad input raises InputError, a ValueError with a line
 """
 
 from ._core import HardwareError, InputError, version as __version__
+from .coils import Coils
+from .gathering import Gathering, gather
+from .global_input import GlobalPlan, global_plan
 from .maps import Map, Path, plan
 from .navigator import Command, Navigator
 from .record import Record, Table, read_record
 from .runs import Session, run
 from .scenario import Scenario
+from .vision import Segmentation, segment, track
 
 __all__ = [
+    "Coils",
     "Command",
+    "Gathering",
+    "GlobalPlan",
     "HardwareError",
     "InputError",
     "Map",
@@ -27,10 +34,15 @@ __all__ = [
     "Path",
     "Record",
     "Scenario",
+    "Segmentation",
     "Session",
     "Table",
     "__version__",
+    "gather",
+    "global_plan",
     "plan",
     "read_record",
     "run",
+    "segment",
+    "track",
 ]

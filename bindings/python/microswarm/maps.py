@@ -10,7 +10,7 @@ from typing import Any, Optional, Sequence
 import numpy as np
 
 from . import _core
-from .values import InputError, number, numbers, path_text, seed_of, setting
+from .values import InputError, number, numbers, path_text, rows, seed_of, setting
 
 
 class Map:
@@ -131,14 +131,3 @@ def plan(
     begin = numbers("start", start, (2, 3), "(x_um, y_um) or (x_um, y_um, heading_rad)")
     end = numbers("goal", goal, (2,), "(x_um, y_um)")
     return Path(map._core.plan(begin, end, settings, seed_of(seed)))
-
-
-def rows(name: str, places: Any) -> np.ndarray:
-    """An array of real numbers."""
-    try:
-        array = np.asarray(places)
-    except ValueError:
-        array = np.asarray("ragged")
-    if array.dtype.kind not in "buif":
-        raise InputError(f"{name} must be numbers of the shape (n, 2)")
-    return array

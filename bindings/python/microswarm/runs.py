@@ -7,7 +7,8 @@ import json
 import os
 import sys
 import time
-from typing import Any, Callable, Optional, Union
+from contextlib import contextmanager
+from typing import Any, Callable, Iterator, Optional, Union
 
 from . import _core
 from .record import Record, finite
@@ -43,6 +44,19 @@ class Bar:
             print("\r" + " " * 30 + "\r", end="", file=sys.stderr, flush=True)
 
 
+@contextmanager
+def shown(progress: Progress) -> Iterator[Optional[Callable[[float], Any]]]:
+    """What hears the share that is done: a function of the caller, or a bar."""
+    if not (progress is None or isinstance(progress, bool) or callable(progress)):
+        raise InputError("progress must be a function, True, False or None")
+    bar = Bar() if progress is None or progress is True else None
+    try:
+        yield bar or (progress if callable(progress) else None)
+    finally:
+        if bar:
+            bar.end()
+
+
 class Session:
     """An open experiment, which advances when it is stepped and can be changed between steps.
 
@@ -53,6 +67,13 @@ class Session:
         """Opens a scenario, or a file. `navigator` is one of your own, see run()."""
         core = scenario_of(scenario)._core
         self._core = _core.Session(core, seed_of(seed), whole("trial", trial, 2**32 - 1), navigator)
+
+    @classmethod
+    def of(cls, core: _core.Session) -> "Session":
+        """A session that is open."""
+        session = cls.__new__(cls)
+        session._core = core
+        return session
 
     def step(self) -> bool:
         """The next tick; False when the run has ended before."""
@@ -79,14 +100,8 @@ class Session:
 
     def finish(self, progress: Progress = None) -> Record:
         """Steps to the end. `progress` hears the share that is done; by default a line on stderr tells it."""
-        if not (progress is None or isinstance(progress, bool) or callable(progress)):
-            raise InputError("progress must be a function, True, False or None")
-        bar = Bar() if progress is None or progress is True else None
-        try:
-            self._core.finish(bar or (progress if callable(progress) else None))
-        finally:
-            if bar:
-                bar.end()
+        with shown(progress) as report:
+            self._core.finish(report)
         return self.record()
 
     def record(self) -> Record:

@@ -9,6 +9,8 @@ import operator
 import os
 from typing import Any, Optional
 
+import numpy as np
+
 from ._core import InputError
 
 
@@ -56,6 +58,17 @@ def number(name: str, value: Any) -> float:
     if not math.isfinite(made):
         raise InputError(f"{name} is {value!r}, must be finite")
     return made
+
+
+def rows(name: str, values: Any, shape: str = "(n, 2)") -> np.ndarray:
+    """An array of real numbers."""
+    try:
+        array = np.asarray(values)
+    except ValueError:
+        array = np.asarray("ragged")
+    if array.dtype.kind not in "buif":
+        raise InputError(f"{name} must be numbers of the shape {shape}")
+    return array
 
 
 def setting(key: Any, value: Any) -> str:

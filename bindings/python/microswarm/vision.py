@@ -1,0 +1,214 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Vessels in photographs, and robots in videos."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from typing import Any, Iterable, Optional, Union
+
+import numpy as np
+
+from . import _core
+from .maps import Map
+from .runs import Progress, shown
+from .values import InputError, number, path_text, setting
+
+PathLike = Union[str, "os.PathLike[str]"]
+
+
+class Segmentation:
+    """Vessels of a photograph.
+
+    mask             where vessels are: booleans of the shape (height, width), the upper row first
+    map              the Map, free in the vessels; the lower left corner of the picture is (0, 0), y points up
+    field_of_view    what the optics show, like `mask`
+    method           "lines" or "regions", which was used
+    vessel_share     area of the vessels, as a share of the field of view
+    wide_width_um    width of the wide vessels
+    pieces           connected networks, of which `kept_share` of the area was kept
+    bridges          gaps that were closed
+    """
+
+    def __init__(self, made: dict[str, Any]) -> None:
+        self.map = Map(made["map"])
+        self.mask: np.ndarray = made["mask"]
+        self.field_of_view: np.ndarray = made["field_of_view"]
+        self.method: str = made["method"]
+        self.vessel_share: float = made["vessel_share"]
+        self.wide_width_um: float = made["wide_width_um"]
+        self.pieces: int = made["pieces"]
+        self.kept_share: float = made["kept_share"]
+        self.bridges: int = made["bridges"]
+
+    def __repr__(self) -> str:
+        return f"<Segmentation: vessels cover {100 * self.vessel_share:.3g} %, wide ones {self.wide_width_um:.4g} µm>"
+
+
+def segment(image: Any, um_per_px: float, *, smooth_px: float = 1.0, **values: Any) -> Segmentation:
+    """Finds the vessels of a photograph, as `microswarm map segment`.
+
+    image       array of uint8 or uint16 of the shape (height, width) or (height, width, 3) with red, green, blue, the
+                upper row first, or the name of a file. 16-bit numbers have as many bits as the largest one needs.
+    um_per_px   side of a pixel, 1e-6 to 1e6
+    smooth_px   tolerance of the outlines, 0 to 100
+    values      those of `map segment --set`: method="lines", polarity="dark", min_width_px=6, keep="all", …
+
+    Ctrl-C takes effect when the picture has been segmented. InputError if no vessels are found.
+    """
+    settings = [setting(key, value) for key, value in values.items()]
+    source = path_text(image) if isinstance(image, (str, os.PathLike)) else picture_of("image", image)
+    scale = in_range("um_per_px", um_per_px, 1e-6, 1e6)
+    return Segmentation(_core.segment(source, scale, in_range("smooth_px", smooth_px, 0, 100), settings))
+
+
+def track(
+    frames: Union[np.ndarray, Iterable[Any], PathLike],
+    um_per_px: float,
+    fps: Optional[float] = None,
+    *,
+    times_s: Any = None,
+    return_events: bool = False,
+    progress: Progress = None,
+    **values: Any,
+) -> Any:
+    """Finds robots in pictures and tracks them, as `microswarm track`.
+
+    frames         array of the shape (n, height, width) or (n, height, width, 3), any iterable of such pictures, of
+                   which one at a time is held, or the name of a video, folder of pictures or TIFF. Pictures are of
+                   uint8, or of uint16, whose numbers have as many bits as the first picture needs, or `depth`.
+    um_per_px      side of a pixel, 1e-6 to 1e6
+    fps            frames per second; a video without it has its own
+    times_s        time of each picture, ascending, in place of fps. The tracker takes their mean distance as the time
+                   between pictures, so velocities suppose even ones.
+    return_events  return (tracks, events)
+    progress       called with the share that is done; False: nothing is shown
+    values         those of `track --set`, with or without their group: diameter_px=11, min_mass=40, tone="bright",
+                   channel="red", memory=5, search_range_um=4, or find={"diameter_px": 11}
+
+    Returns a structured array with a row for each robot in each picture, ordered by pictures, which pandas.DataFrame
+    takes. Columns as trackpy's: frame and particle, from 0; x and y in pixels, where y points down and (0, 0) is the
+    centre of the upper left pixel; mass, signal. Columns as those of tracks.csv: x_um and y_um, where y points up and
+    (0, 0) is the lower left corner of the picture; t_s, vx_um_per_s, vy_um_per_s, radius_um, eccentricity. `mass` and
+    `signal` are grey values of 8 bits. Events have frame, event ("birth", "death", "merge", "split"), particle and
+    other, -1 without.
+    """
+    scale = in_range("um_per_px", um_per_px, 1e-6, 1e6)
+    times = None if times_s is None else ascending(times_s)
+    if times is not None:
+        if fps is not None:
+            raise InputError("fps and times_s are both given")
+        fps = (len(times) - 1) / (times[-1] - times[0])
+    settings = [setting("um_per_px", scale), *track_settings(values)]
+    if fps is not None:
+        settings.append(setting("rate_hz", in_range("fps", fps, 1e-6, 1e6)))
+    with shown(progress) as report:
+        if isinstance(frames, (str, os.PathLike)):
+            made = _core.track_file(path_text(frames), settings, report)
+            if made["ended"]:
+                warnings.warn(f"the tracks end at picture {made['frames']}: {made['ended']}", stacklevel=2)
+        elif fps is None:
+            raise InputError("fps is missing, or times_s: arrays tell no times")
+        else:
+            made = track_arrays(frames, settings, report, times)
+    if times is not None and len(times) != made["frames"]:
+        raise InputError(f"times_s has {len(times)} times, there are {made['frames']} pictures")
+    if made["is_noise"]:
+        warnings.warn("most tracks are one picture long: noise may be taken for robots; raise min_mass", stacklevel=2)
+    tracks = tracks_of(made, scale)
+    if times is not None:
+        tracks["t_s"] = times[tracks["frame"]]
+    return (tracks, structured(made["events"])) if return_events else tracks
+
+
+def track_arrays(frames: Any, settings: list[str], report: Any, times: Optional[np.ndarray]) -> dict[str, Any]:
+    """Tracks pictures in memory, one after the other."""
+    if isinstance(frames, np.ndarray) and (frames.ndim not in (3, 4) or (frames.ndim == 3 and frames.shape[2] == 3)):
+        raise InputError(f"frames has the shape {frames.shape}, must be (n, height, width) or (n, height, width, 3)")
+    count = len(frames) if hasattr(frames, "__len__") else None
+    if times is not None and count is not None and len(times) != count:
+        raise InputError(f"times_s has {len(times)} times, there are {count} pictures")
+    try:
+        pictures = iter(frames)
+    except TypeError:
+        raise InputError(f"frames is {type(frames).__name__}, must be an array, an iterable of arrays or a file") from None
+    tracker = _core.ArrayTracker(settings)
+    done = 0
+    for done, frame in enumerate(pictures, 1):
+        tracker.step(picture_of(f"frame {done - 1}", frame))
+        if report and count:
+            report(min(1.0, done / count))
+    if done == 0:
+        raise InputError("frames has no pictures")
+    return tracker.finish()
+
+
+def track_settings(values: dict[str, Any]) -> list[str]:
+    """KEY=VALUE of each value; a key without its group gets it."""
+    keys = {key.rpartition(".")[2]: key for key in _core.track_keys()}
+    for own in ("um_per_px", "rate_hz"):
+        if own in values:
+            raise InputError(f"{own} is an argument of its own" + (", fps" if own == "rate_hz" else ""))
+    settings = []
+    for key, value in values.items():
+        if isinstance(value, dict):
+            settings += [setting(f"{key}.{inner}", one) for inner, one in value.items()]
+        else:
+            settings.append(setting(keys.get(key, key if key in ("find", "track") else f"find.{key}"), value))
+    return settings
+
+
+def tracks_of(made: dict[str, Any], um_per_px: float) -> np.ndarray:
+    """The rows of a result as a structured array, with the pixels of each robot."""
+    rows = dict(made["rows"])
+    columns = {"frame": rows.pop("frame"), "particle": rows.pop("id")}
+    columns["x"] = rows["x_um"] / um_per_px - 0.5
+    columns["y"] = made["height"] - 0.5 - rows["y_um"] / um_per_px
+    for key in ("x_um", "y_um", "t_s"):
+        columns[key] = rows.pop(key)
+    return structured({**columns, **rows})
+
+
+def structured(columns: dict[str, np.ndarray]) -> np.ndarray:
+    """Columns of equal length as a structured array."""
+    array = np.empty(len(columns["frame"]), dtype=[(key, column.dtype) for key, column in columns.items()])
+    for key, column in columns.items():
+        array[key] = column
+    return array
+
+
+def picture_of(name: str, image: Any) -> np.ndarray:
+    """A picture as a contiguous array of uint8 or uint16."""
+    try:
+        array = np.asarray(image)
+    except ValueError:
+        raise InputError(f"{name} must be an array") from None
+    if array.ndim == 3 and array.shape[2] == 1:
+        array = array[:, :, 0]
+    if array.ndim != 2 and not (array.ndim == 3 and array.shape[2] == 3):
+        raise InputError(f"{name} has the shape {array.shape}, must be (height, width) or (height, width, 3)")
+    if array.dtype != bool and (array.dtype.kind != "u" or array.dtype.itemsize > 2):
+        raise InputError(f"{name} is of {array.dtype}, must be of uint8 or uint16")
+    _core.check_image_size(array.shape[1], array.shape[0], name)
+    if array.dtype == bool:
+        array = array * np.uint8(255)
+    return np.ascontiguousarray(array, dtype=np.uint8 if array.dtype.itemsize == 1 else np.uint16)
+
+
+def in_range(name: str, value: Any, least: float, most: float) -> float:
+    """A number within its limits."""
+    made = number(name, value)
+    if not least <= made <= most:
+        raise InputError(f"{name} is {made:g}, must be {least:g} to {most:g}")
+    return made
+
+
+def ascending(times_s: Any) -> np.ndarray:
+    """Times, at least two, that ascend."""
+    try:
+        times = np.asarray(times_s, dtype=float)
+    except (TypeError, ValueError):
+        times = np.empty(0)
+    if times.ndim != 1 or len(times) < 2 or not np.isfinite(times).all() or not (np.diff(times) > 0).all():
+        raise InputError("times_s must be at least two times that ascend")
+    return times

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "microswarm/formats/map_spec.hpp"
+#include "microswarm/world/snapshot.hpp"
+
+namespace microswarm::python {
+
+/// A map, its name in messages, and where it comes from as a scenario says it.
+struct NamedMap {
+  Snapshot world;
+  std::string name;
+  MapSpec spec;
+
+  const Map& map() const { return world.map(); }
+};
+
+/// A map that was made of what a caller gave.
+inline NamedMap map_in_memory(Map map) {
+  PolygonsMap spec;
+  spec.lo = map.bounds().lo;
+  spec.hi = map.bounds().hi;
+  return {Snapshot(std::make_shared<const Map>(std::move(map))), "map", spec};
+}
+
+}  // namespace microswarm::python

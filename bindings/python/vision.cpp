@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+// Vessels in photographs, and robots in videos.
+#include "microswarm/config/setting_keys.hpp"
+#include "microswarm/config/yaml.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/vision/tracking/video_tracks.hpp"
+#include "microswarm/vision/vessels/vessel_map.hpp"
+#include "named_map.hpp"
+#include "pictures.hpp"
+#include "record.hpp"
+
+namespace microswarm::python {
+namespace {
+
+using Texts = std::vector<std::string>;
+
+/// Segments a photograph, an array or the name of a file.
+py::dict segment(const py::object& photo, double um_per_px, double smooth, const Texts& settings) {
+  VesselParams params;
+  warn(set_values(params, Settings(settings, "segment")));
+  Image image;
+  std::string name = "image";
+  if (py::isinstance<py::str>(photo)) {
+    name = photo.cast<std::string>();
+  } else {
+    std::optional<int> depth;
+    take_array(photo.cast<py::array>(), depth, name, image);
+  }
+  VesselSegmentation found;
+  Map map = interruptible([&](const Stop&) {
+    if (image.pixels.empty()) image = read_photograph(name);
+    found = segment_vessels(image, params);
+    return vessel_map(found, um_per_px, smooth, name);
+  });
+  py::dict out;
+  out["map"] = map_in_memory(std::move(map));
+  out["mask"] = array_of(found.vessels);
+  out["field_of_view"] = array_of(found.field_of_view);
+  out["method"] = std::string(enum_name(found.method));
+  out["vessel_share"] = found.view_share;
+  out["kept_share"] = found.kept_share;
+  out["pieces"] = found.pieces;
+  out["bridges"] = found.bridges;
+  out["wide_width_um"] = found.wide_width_px * um_per_px;
+  return out;
+}
+
+TrackSettings track_settings(const Texts& texts) {
+  TrackSettings settings;
+  warn(set_values(settings, Settings(texts, "track")));
+  return settings;
+}
+
+py::dict events_of(const std::vector<TrackEvent>& events) {
+  const auto count = static_cast<py::ssize_t>(events.size());
+  py::array_t<std::int64_t> frames(count), ids(count), others(count);
+  py::list words;
+  for (py::ssize_t i = 0; i < count; ++i) {
+    const TrackEvent& event = events[static_cast<std::size_t>(i)];
+    frames.mutable_at(i) = event.frame;
+    ids.mutable_at(i) = event.id;
+    others.mutable_at(i) = event.other.value_or(-1);
+    words.append(std::string(enum_name(event.change)));
+  }
+  py::dict out;
+  out["frame"] = frames;
+  out["event"] = py::module_::import("numpy").attr("array")(words, py::dtype("U5"));
+  out["particle"] = ids;
+  out["other"] = others;
+  return out;
+}
+
+py::dict tracks_of(const TrackResult& result, int height) {
+  py::dict out;
+  out["rows"] = columns_of_list({&type_of<std::vector<TrackRow>>(), &result.rows});
+  out["events"] = events_of(result.events);
+  out["frames"] = result.frames;
+  out["height"] = height;
+  out["is_noise"] = looks_like_noise(summarise(result.rows, result.frames));
+  return out;
+}
+
+/// Robots in pictures that the caller hands over one by one.
+class ArrayTracker {
+ public:
+  explicit ArrayTracker(const Texts& settings)
+      : result_{.settings = track_settings(settings), .promised = {}, .rows = {}, .events = {}},
+        tracker_(result_.settings, 1 / result_.settings.rate.value_or(1)) {}
+
+  void step(const py::array& array) {
+    const std::string name = "frame " + std::to_string(result_.frames);
+    take_array(array, result_.settings.depth, name, frame_.picture);
+    const Image& picture = frame_.picture;
+    if (result_.frames == 0) {
+      width_ = picture.width;
+      height_ = picture.height;
+    }
+    if (picture.width != width_ || picture.height != height_)
+      throw InputError(name + ": " + std::to_string(picture.height) + " × " +
+                       std::to_string(picture.width) + " pixels, the first has " +
+                       std::to_string(height_) + " × " + std::to_string(width_));
+    const Free free;
+    frame_.index = result_.frames;
+    frame_.t = frame_.index / result_.settings.rate.value_or(1);
+    const std::vector<TrackRow>& rows = tracker_.step(frame_);
+    result_.rows.insert(result_.rows.end(), rows.begin(), rows.end());
+    ++result_.frames;
+  }
+  py::dict finish() {
+    tracker_.finish();
+    result_.events = tracker_.events();
+    return tracks_of(result_, height_);
+  }
+
+ private:
+  TrackResult result_;
+  VideoTracker tracker_;
+  VideoFrame frame_;
+  int width_ = 0, height_ = 0;
+};
+
+/// Tracks the robots of a video file or a folder of pictures.
+py::dict track_file(const std::string& file, const Texts& texts, const py::object& report) {
+  const TrackSettings settings = track_settings(texts);
+  std::atomic<double> done = 0;
+  int height = 0;
+  std::string ended;
+  const auto work = [&](const Stop& stop) {
+    const auto frames = open_frames(file, settings.rate, settings.depth);
+    if (!frames->rate()) throw InputError(file + ": tells no times: give fps or times_s");
+    const double all = frames->count().value_or(0);
+    TrackResult result = track_video(
+        *frames, file, settings,
+        [&](const VideoFrame& frame, const std::vector<TrackRow>&) {
+          height = frame.picture.height;
+          if (all > 0) done = std::min(1.0, (frame.index + 1) / all);
+        },
+        stop);
+    ended = frames->why_ended();
+    if (ended.empty() && result.frames + 1 < result.promised.value_or(0))
+      ended = file + ": says that it has " + std::to_string(*result.promised) + " pictures";
+    return result;
+  };
+  const TrackResult result = interruptible(work, [&] {
+    if (!report.is_none()) report(done.load());
+  });
+  py::dict out = tracks_of(result, height);
+  out["ended"] = ended;
+  return out;
+}
+
+Texts track_keys() {
+  Texts keys;
+  for (const SettingKey& key : setting_keys(type_of<TrackSettings>())) keys.push_back(key.key);
+  return keys;
+}
+
+}  // namespace
+
+void add_vision(py::module_& module) {
+  module.def("segment", segment);
+  module.def("track_file", track_file);
+  module.def("track_keys", track_keys);
+  module.def("check_image_size",
+             [](std::int64_t width, std::int64_t height, const std::string& name) {
+               check_image_size(width, height, name);
+             });
+  py::class_<ArrayTracker>(module, "ArrayTracker")
+      .def(py::init<const Texts&>())
+      .def("step", &ArrayTracker::step)
+      .def("finish", &ArrayTracker::finish);
+}
+
+}  // namespace microswarm::python

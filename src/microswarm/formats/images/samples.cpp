@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/formats/images/samples.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <opencv2/core.hpp>
+#include <string>
+
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/formats/images/codecs.hpp"
+
+namespace microswarm {
+namespace {
+
+template <class Sample>
+void check(const Samples2d<Sample>& picture, std::string_view name) {
+  check_image_size(picture.width, picture.height, name);
+  if (picture.channels != 1 && picture.channels != 3)
+    throw InputError(std::string(name) + ": " + std::to_string(picture.channels) +
+                     " channels, must be 1 or 3");
+  const auto pixels = static_cast<std::size_t>(picture.width) * picture.height;
+  if (picture.samples.size() != pixels * picture.channels)
+    throw InputError(std::string(name) + ": " + std::to_string(picture.samples.size()) +
+                     " samples, the sizes say " + std::to_string(pixels * picture.channels));
+}
+
+}  // namespace
+
+int depth_of(std::span<const std::uint16_t> samples) {
+  const std::uint16_t largest = samples.empty() ? 0 : *std::ranges::max_element(samples);
+  return std::clamp(static_cast<int>(std::bit_width(largest)), 8, 16);
+}
+
+void take_samples(const Samples2d<std::uint8_t>& picture, std::string_view name, Image& image) {
+  check(picture, name);
+  image.width = picture.width;
+  image.height = picture.height;
+  image.channels = picture.channels;
+  image.pixels.assign(picture.samples.begin(), picture.samples.end());
+}
+
+void take_samples(const Samples2d<std::uint16_t>& picture, int depth, std::string_view name,
+                  Image& image) {
+  check(picture, name);
+  const cv::Mat pixels(picture.height, picture.width, CV_16UC(picture.channels),
+                       const_cast<std::uint16_t*>(picture.samples.data()));
+  take_pixels(pixels, depth, image);
+}
+
+}  // namespace microswarm
