@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The code of the page on Python runs as it stands there."""
+
+import re
+
+import numpy as np
+import pytest
+
+import microswarm as ms
+from conftest import ROOT
+
+PAGE = (ROOT / "docs/how-to/use-from-python.md").read_text(encoding="utf-8")
+
+
+def code_of(title):
+    """The blocks of a section."""
+    (section,) = (part for part in re.split(r"^## ", PAGE, flags=re.M) if part.startswith(title + "\n"))
+    return re.findall(r"```python\n(.*?)```", section, flags=re.S)
+
+
+@pytest.fixture
+def names(monkeypatch, tmp_path):
+    """What the page has before, in a folder that may be written to."""
+    for name in ("tests", "scenarios"):
+        (tmp_path / name).symlink_to(ROOT / name)
+    monkeypatch.chdir(tmp_path)
+    return {"ms": ms, "np": np}
+
+
+def run(title, names):
+    for block in code_of(title):
+        exec(block, names)  # noqa: S102
+    return names
+
+
+def test_vessels(names):
+    made = run("Vessels in a photograph", names)
+    assert made["found"].mask.any()
+
+
+def test_tracks(names):
+    made = run("Track robots in a video", names)
+    assert len(made["one"]) == 8 and len(made["tracks"]) == 48
+
+
+def test_gathering(names, monkeypatch, tmp_path):
+    slow = ms.gather
+    monkeypatch.setattr(ms, "gather", lambda chip, goal, n, method: slow(chip, goal, n=8, method=method, max_steps=3, progress=False))
+    made = run("Gather robots", names)
+    assert made["made"].steps == 3 and (tmp_path / "gather.h5").exists()
+
+
+def test_plans(names):
+    made = run("One input, a goal for each robot", names)
+    assert made["plan"].paths_um.shape[1:] == (2, 2)
+
+
+def test_currents(names, tmp_path):
+    names["positions_um"] = np.tile((1000, 0, 0), (100, 1))
+    first, second = code_of("Currents for a field")
+    exec(first, names)  # noqa: S102
+    assert names["currents_a"].shape == (100, 6)
+    coils, rng = names["coils"], np.random.default_rng(1)
+    names["currents_a"] = rng.uniform(-3, 3, (100, 6))  # measured ones are not in a plane
+    names["fields_mt"] = coils.field(names["currents_a"], (1000, 0, 0))
+    exec(second, names)  # noqa: S102
+    assert (tmp_path / "coils.yaml").exists()
+    assert np.allclose(names["mine"].matrix(), coils.matrix((1000, 0, 0)))
