@@ -15,7 +15,7 @@
 #include "microswarm/formats/write_map.hpp"
 #include "microswarm/planning/common/free_goal.hpp"
 #include "microswarm/vision/image/overlay.hpp"
-#include "microswarm/vision/vessels/outline.hpp"
+#include "microswarm/vision/vessels/vessel_map.hpp"
 #include "microswarm/vision/vessels/vessels.hpp"
 #include "microswarm/world/connectivity/channel_width.hpp"
 
@@ -72,9 +72,7 @@ std::filesystem::path make_photo_scenario(const std::filesystem::path& photograp
   if (!request.start && request.robots < 1) throw InputError("start or robots are missing");
   const Image photo = read_photograph(photograph);
   const VesselSegmentation found = searched(photo, request);
-  if (found.kept_share == 0) throw InputError("no vessels are found in the photograph");
-  const Map map(cell_bounds(found.vessels, cell),
-                walls_around(found.vessels, cell, smoothing * cell));
+  const Map map = vessel_map(found, cell, smoothing, "photograph");
   Rng rng(1, Purpose::planner);
   const double width = channel_width(map, rng);
   const std::filesystem::path file = uploads.new_file(".geojson");

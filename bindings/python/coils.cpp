@@ -45,8 +45,23 @@ void check_columns(const Numbers& array, py::ssize_t columns, const char* name) 
                      ")");
 }
 
-/// Calls `work(row, place, result)` for each row of `given`, with the actuation at its position:
-/// one of the rows of `at`, or its only one. The result has `columns` numbers a row.
+/// Calls `work(i)` for each row. A few take less time than to start a thread.
+template <class Work>
+void for_rows(py::ssize_t rows, Work&& work) {
+  constexpr py::ssize_t few = 100;
+  if (rows <= few) {
+    const Free free;
+    for (py::ssize_t i = 0; i < rows; ++i) work(i);
+    return;
+  }
+  interruptible([&](const Stop& stop) {
+    for (py::ssize_t i = 0; i < rows && !stop(); ++i) work(i);
+    return true;
+  });
+}
+
+/// Calls `work(row, actuation, result)` for each row of `given`, with the actuation at its
+/// position: one of the rows of `at`, or its only one. The result has `columns` numbers a row.
 template <class Work>
 py::array_t<double> each_row(const Coils& coils, const Numbers& given, py::ssize_t width,
                              const char* name, const Numbers& at, py::ssize_t columns,
@@ -62,15 +77,12 @@ py::array_t<double> each_row(const Coils& coils, const Numbers& given, py::ssize
   const double* in = given.data();
   const double* place = at.data();
   double* out = made.mutable_data();
-  interruptible([&](const Stop& stop) {
-    Actuation actuation;
-    for (py::ssize_t i = 0; i < rows && !stop(); ++i) {
-      if (i == 0 || !is_one)
-        actuation = coils.system.at({place[3 * i], place[3 * i + 1], place[3 * i + 2]});
-      Out result(out + columns * i, columns);
-      work(Row(in + width * i, width), actuation, result);
-    }
-    return true;
+  Actuation actuation;
+  for_rows(rows, [&](py::ssize_t i) {
+    if (i == 0 || !is_one)
+      actuation = coils.system.at({place[3 * i], place[3 * i + 1], place[3 * i + 2]});
+    Out result(out + columns * i, columns);
+    work(Row(in + width * i, width), actuation, result);
   });
   return made;
 }
@@ -109,11 +121,9 @@ py::array_t<double> allowed_shares(const Coils& coils, const Numbers& currents) 
   py::array_t<double> made(currents.shape(0));
   const double* in = currents.data();
   double* out = made.mutable_data();
-  interruptible([&](const Stop& stop) {
-    const CoilDrive drive(coils.system.drives());
-    for (py::ssize_t i = 0; i < currents.shape(0) && !stop(); ++i)
-      out[i] = drive.steady(Row(in + count_of(coils) * i, count_of(coils))).scale;
-    return true;
+  const CoilDrive drive(coils.system.drives());
+  for_rows(currents.shape(0), [&](py::ssize_t i) {
+    out[i] = drive.steady(Row(in + count_of(coils) * i, count_of(coils))).scale;
   });
   return made;
 }

@@ -27,10 +27,10 @@ py::dict segment(const py::object& photo, double um_per_px, double smooth, const
     take_array(photo.cast<py::array>(), depth, name, image);
   }
   VesselSegmentation found;
-  Map map = interruptible([&](const Stop&) {
+  Map map = interruptible([&](const Stop& stop) {
     if (image.pixels.empty()) image = read_photograph(name);
-    found = segment_vessels(image, params);
-    return vessel_map(found, um_per_px, smooth, name);
+    found = segment_vessels(image, params, stop);
+    return vessel_map(found, um_per_px, smooth, name, stop);
   });
   py::dict out;
   out["map"] = map_in_memory(std::move(map));

@@ -136,12 +136,14 @@ int segment(const SegmentOptions& o, const Context& context) {
   if (!o.um_per_px) throw InputError(o.photo + ": µm per px is missing: give --um-per-px");
   const std::optional<Mask> truth = read_truth(o.truth, photo);
   const double cell = *o.um_per_px;
-  const VesselSegmentation found = segment_vessels(photo, params);
-  const Map map = vessel_map(found, cell, o.smooth, o.photo);
-  if (context.stop()) {
-    note("interrupted: nothing was written\n");
-    return not_reached;
-  }
+  const auto interrupted = [&] {
+    if (context.stop()) note("interrupted: nothing was written\n");
+    return context.stop();
+  };
+  const VesselSegmentation found = segment_vessels(photo, params, context.stop);
+  if (interrupted()) return not_reached;
+  const Map map = vessel_map(found, cell, o.smooth, o.photo, context.stop);
+  if (interrupted()) return not_reached;
   const std::filesystem::path out = o.out;
   std::filesystem::path picture = out;
   picture.replace_filename(out.stem().string() + "-overlay.png");

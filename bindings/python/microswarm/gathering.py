@@ -97,7 +97,7 @@ def gather(
     core, tick, notes = _core.gather(
         core_of(map), goal, n, starts, channel_width_um, max_steps, given, whole("seed", seed, 2**64 - 1)
     )
-    with Session.of(core) as session:
+    with Session._of(core) as session:
         return Gathering(session.finish(progress), tick, notes)
 
 

@@ -25,16 +25,18 @@ def scenario_of(source: Source) -> Scenario:
 
 
 class Bar:
-    """Shows how much is done on stderr, once it has taken a second."""
+    """Shows how much is done on stderr, once it has taken a second, at most ten times a second."""
 
     def __init__(self) -> None:
         self._began = time.monotonic()
+        self._next = 1.0
         self._shown = False
 
     def __call__(self, done: float) -> None:
         passed = time.monotonic() - self._began
-        if passed < 1 or not (sys.stderr and sys.stderr.isatty()):
+        if passed < self._next or not (sys.stderr and sys.stderr.isatty()):
             return
+        self._next = passed + 0.1
         left = f", {passed * (1 - done) / done:.0f} s left" if done > 0.01 else ""
         print(f"\r{100 * done:3.0f} %{left}    ", end="", file=sys.stderr, flush=True)
         self._shown = True
@@ -69,7 +71,7 @@ class Session:
         self._core = _core.Session(core, seed_of(seed), whole("trial", trial, 2**32 - 1), navigator)
 
     @classmethod
-    def of(cls, core: _core.Session) -> "Session":
+    def _of(cls, core: _core.Session) -> "Session":
         """A session that is open."""
         session = cls.__new__(cls)
         session._core = core

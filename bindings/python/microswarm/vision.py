@@ -54,7 +54,7 @@ def segment(image: Any, um_per_px: float, *, smooth_px: float = 1.0, **values: A
     smooth_px   tolerance of the outlines, 0 to 100
     values      those of `map segment --set`: method="lines", polarity="dark", min_width_px=6, keep="all", …
 
-    Ctrl-C takes effect when the picture has been segmented. InputError if no vessels are found.
+    InputError if no vessels are found.
     """
     settings = [setting(key, value) for key, value in values.items()]
     source = path_text(image) if isinstance(image, (str, os.PathLike)) else picture_of("image", image)

@@ -143,17 +143,20 @@ double measured_radius(const cv::Mat& grey, const cv::Mat& view, bool bright,
 }  // namespace
 
 FoundVessels line_vessels(const cv::Mat& grey, const cv::Mat& view, bool bright,
-                          const VesselParams& params) {
+                          const VesselParams& params, const Stop& stop) {
   const double radius =
       params.wide_width > 0 ? params.wide_width / 2 : measured_radius(grey, view, bright, params);
-  FoundVessels found;
+  FoundVessels found{.vessels = cv::Mat::zeros(view.size(), CV_8U)};
   found.wide_width_px = 2 * radius;
   found.scale = std::min({1.0, max_diameter / diameter_of(view), working_radius / radius});
   const double wide_radius = radius * found.scale;
   const double wide_area = 4 * wide_radius * wide_radius;
 
+  if (stop()) return found;
   const Working w = at_scale(grey, view, found.scale, wide_radius, bright);
+  if (stop()) return found;
   const Lines lines = find_lines(w, wide_radius, params);
+  if (stop()) return found;
   found.vessels =
       without_small_pieces(lines.fitted | lines.sure, small_piece * params.min_piece * wide_area);
   fill_holes(found.vessels, reflex * wide_area);

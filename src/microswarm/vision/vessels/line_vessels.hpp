@@ -16,8 +16,9 @@ struct FoundVessels {
 };
 
 /// Segments vessels as lines darker (brighter if `bright`) than the adjacent background. `grey` is
-/// 8-bit with one channel; `view` is an 8-bit mask of the same size.
+/// 8-bit with one channel; `view` is an 8-bit mask of the same size. `stop` ends it without
+/// vessels.
 FoundVessels line_vessels(const cv::Mat& grey, const cv::Mat& view, bool bright,
-                          const VesselParams& params);
+                          const VesselParams& params, const Stop& stop = {});
 
 }  // namespace microswarm

@@ -119,7 +119,8 @@ void require_sizes(double cell, double tolerance, Vec2 lo) {
 
 }  // namespace
 
-std::vector<Polygon> outline(const Mask& mask, double cell, double tolerance, Vec2 lo) {
+std::vector<Polygon> outline(const Mask& mask, double cell, double tolerance, Vec2 lo,
+                             const Stop& stop) {
   require_sizes(cell, tolerance, lo);
   const auto [piece, count] = pieces_by_edges(mask);
   std::vector<std::vector<Vec2>> rings;
@@ -135,8 +136,8 @@ std::vector<Polygon> outline(const Mask& mask, double cell, double tolerance, Ve
         ring_piece.push_back(piece[mask.index(column, row)]);
       }
     }
-  smooth_rings(rings, cell, std::min(tolerance / 2, max_smoothing * cell));
-  thin_rings(rings, cell, tolerance / 2);
+  if (!stop()) smooth_rings(rings, cell, std::min(tolerance / 2, max_smoothing * cell));
+  if (!stop()) thin_rings(rings, cell, tolerance / 2, stop);
 
   std::vector<Polygon> polygons(static_cast<std::size_t>(count));
   for (std::size_t i = 0; i < rings.size(); ++i) {
@@ -149,12 +150,13 @@ std::vector<Polygon> outline(const Mask& mask, double cell, double tolerance, Ve
   return polygons;
 }
 
-std::vector<Polygon> walls_around(const Mask& network, double cell, double tolerance, Vec2 lo) {
+std::vector<Polygon> walls_around(const Mask& network, double cell, double tolerance, Vec2 lo,
+                                  const Stop& stop) {
   Mask walls(network.width + 2, network.height + 2);
   for (int row = 0; row < walls.height; ++row)
     for (int column = 0; column < walls.width; ++column)
       walls.cells[walls.index(column, row)] = !is_set(network, {column - 1, row - 1});
-  return outline(walls, cell, tolerance, lo - Vec2{cell, cell});
+  return outline(walls, cell, tolerance, lo - Vec2{cell, cell}, stop);
 }
 
 }  // namespace microswarm

@@ -180,8 +180,9 @@ class Thinner {
     for (int i = 0; i < chains_.size(); ++i) offer(i);
   }
 
-  void run() {
-    while (!queue_.empty()) {
+  void run(const Stop& stop) {
+    for (int steps = 1; !queue_.empty(); ++steps) {
+      if (steps % 1024 == 0 && stop()) return;
       const auto [cost, i, version] = queue_.top();
       queue_.pop();
       if (version != version_[i] || chains_.ring_size(i) <= 3 || !is_safe(i)) continue;
@@ -256,9 +257,9 @@ void smooth_rings(Rings& rings, double cell, double limit) {
   rings = before;
 }
 
-void thin_rings(Rings& rings, double cell, double tolerance) {
+void thin_rings(Rings& rings, double cell, double tolerance, const Stop& stop) {
   Chains chains(rings, cell);
-  Thinner(chains, rings, tolerance).run();
+  Thinner(chains, rings, tolerance).run(stop);
   int first = 0;
   for (auto& ring : rings) {
     const int n = static_cast<int>(ring.size());

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "microswarm/core/execution/stop.hpp"
 #include "microswarm/geometry/vec2.hpp"
 
 namespace microswarm {
@@ -19,7 +20,7 @@ bool touch(const Rings& rings, double cell);
 void smooth_rings(Rings& rings, double cell, double limit);
 
 /// Removes vertices, least significant first. Every removed vertex stays within `tolerance` [µm] of
-/// the new edge, rings never touch, and none passes over another.
-void thin_rings(Rings& rings, double cell, double tolerance);
+/// the new edge, rings never touch, and none passes over another. `stop` leaves more vertices.
+void thin_rings(Rings& rings, double cell, double tolerance, const Stop& stop = {});
 
 }  // namespace microswarm

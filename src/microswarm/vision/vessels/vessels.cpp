@@ -33,13 +33,13 @@ cv::Mat green_of(const Image& image) {
 }
 
 FoundVessels found_in(const cv::Mat& grey, const cv::Mat& view, const VesselParams& params,
-                      VesselMethod& method) {
+                      VesselMethod& method, const Stop& stop) {
   const TwoGreys greys = two_greys(grey, view);
   method = params.method;
   if (method == VesselMethod::automatic)
     method = greys.separability > clearly_two ? VesselMethod::regions : VesselMethod::lines;
   if (method == VesselMethod::lines)
-    return line_vessels(grey, view, params.polarity == Polarity::bright, params);
+    return line_vessels(grey, view, params.polarity == Polarity::bright, params, stop);
   const bool bright = params.polarity == Polarity::automatic ? bright_is_network(greys, view)
                                                              : params.polarity == Polarity::bright;
   return region_vessels(greys, view, bright, params);
@@ -47,17 +47,18 @@ FoundVessels found_in(const cv::Mat& grey, const cv::Mat& view, const VesselPara
 
 }  // namespace
 
-VesselSegmentation segment_vessels(const Image& image, const VesselParams& params) {
+VesselSegmentation segment_vessels(const Image& image, const VesselParams& params,
+                                   const Stop& stop) {
   require_picture(image);
   VesselSegmentation result;
   result.field_of_view = field_of_view(image);
   const cv::Mat view = to_mat(result.field_of_view);
-  FoundVessels found = found_in(green_of(image), view, params, result.method);
+  FoundVessels found = found_in(green_of(image), view, params, result.method, stop);
   result.wide_width_px = found.wide_width_px;
   result.scale = found.scale;
   result.bridges = found.bridges;
 
-  cv::Mat vessels = found.vessels;
+  cv::Mat vessels = stop() ? cv::Mat::zeros(view.size(), CV_8U) : found.vessels;
   if (params.min_width > 0) vessels = opened(vessels, params.min_width);
   widen_corners(vessels);
   vessels &= view;

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "microswarm/core/execution/stop.hpp"
 #include "microswarm/core/fields/fields.hpp"
 #include "microswarm/formats/images/image.hpp"
 #include "microswarm/formats/images/mask.hpp"
@@ -104,8 +105,9 @@ struct VesselSegmentation {
 /// method is deterministic and untrained: absorbance, line detectors over widths, hysteresis
 /// threshold, walls fitted to the local contrast, gaps bridged, largest piece kept. It works at the
 /// resolution at which wide vessels have the detectors' design width, so the same settings apply to
-/// pictures of any size. Throws InputError if the picture has no pixels or neither 1 nor 3
-/// channels.
-VesselSegmentation segment_vessels(const Image& image, const VesselParams& params = {});
+/// pictures of any size. `stop` ends it without vessels. Throws InputError if the picture has no
+/// pixels or neither 1 nor 3 channels.
+VesselSegmentation segment_vessels(const Image& image, const VesselParams& params = {},
+                                   const Stop& stop = {});
 
 }  // namespace microswarm
