@@ -11,6 +11,7 @@
 #include "microswarm/session/global_query.hpp"
 #include "microswarm/sweep/sweep_file.hpp"
 #include "microswarm/vision/tracking/video_tracker.hpp"
+#include "support/options.hpp"
 
 namespace microswarm::cli {
 namespace {
