@@ -13,7 +13,6 @@ import microswarm as ms
 from conftest import ROOT
 
 SAMPLES = ROOT / "tests/samples"
-MAGIC = {"P5": 1, "P6": 3}
 
 
 def spots(places, shape=(60, 100), sigma=2.5, depth=90):
