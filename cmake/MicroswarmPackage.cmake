@@ -30,7 +30,7 @@ endif()
 # Builds all that is packed.
 add_custom_target(microswarm_packaged)
 add_dependencies(microswarm_packaged microswarm ${floors})
-foreach(target microswarm_manual microswarm_c)
+foreach(target microswarm_manual microswarm_c microswarm_python)
   if(TARGET ${target})
     add_dependencies(microswarm_packaged ${target})
   endif()
@@ -38,6 +38,9 @@ endforeach()
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_COMPONENTS_ALL program development)
+if(TARGET microswarm_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_PACKAGE_DIRECTORY ${PROJECT_SOURCE_DIR}/build/packages)
@@ -101,7 +104,19 @@ list(JOIN development_depends ", " development_depends)
 
 debian_package(development libmicroswarm-dev
         "planning, steering and measuring magnetic microrobot swarms (library)"
-        "Static libraries, headers, the CMake package and the C library of microswarm: planners, navigators, swarm models, simulation,
-cameras, coils and records."
+        "Static libraries, headers, the CMake package, the C library and the package for MATLAB and Octave of microswarm: planners,
+navigators, swarm models, simulation, cameras, coils and records."
         "${development_depends}")
+
+if(TARGET microswarm_python)
+  find_package(Python 3.11 REQUIRED COMPONENTS Interpreter)
+  math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
+  debian_package(python python3-microswarm
+          "planning, steering and measuring magnetic microrobot swarms (Python 3)"
+          "The Python package microswarm: scenarios, runs, sessions, navigators, maps, paths and records as NumPy arrays."
+          "microswarm (= ${PROJECT_VERSION}), python3-numpy, python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next_minor})")
+  # Compiles the .py files where they are installed, and removes what was compiled.
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/bindings/python/debian/postinst
+      ${PROJECT_SOURCE_DIR}/bindings/python/debian/prerm)
+endif()
 include(CPack)

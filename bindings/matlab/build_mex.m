@@ -4,7 +4,8 @@ function file = build_mex(library_folder, output_folder)
 %   build_mex()
 %   file = build_mex(library_folder, output_folder)
 %
-% library_folder   where libmicroswarm_c.so is; without, ../../build/release/lib from this file
+% library_folder   where libmicroswarm_c.so is; without, ../../build/release/lib from this file, or where
+%                  it is installed with this file
 % output_folder    where the MEX file goes; without, the folder of this file
 %
 % Needs a C compiler: in MATLAB see `mex -setup C`, in Octave the package octave-dev of Debian.
@@ -14,7 +15,8 @@ function file = build_mex(library_folder, output_folder)
   % SPDX-License-Identifier: Apache-2.0
   here = fileparts(mfilename('fullpath'));
   if nargin < 1 || isempty(library_folder)
-    library_folder = fullfile(here, '..', '..', 'build', 'release', 'lib');
+    library_folder = first_with('libmicroswarm_c.so', fullfile(here, '..', '..', 'build', 'release', 'lib'), ...
+                                fullfile(here, '..', '..', '..', 'lib'));
   end
   if nargin < 2 || isempty(output_folder), output_folder = here; end
   if exist(fullfile(library_folder, 'libmicroswarm_c.so'), 'file') ~= 2
@@ -26,7 +28,7 @@ function file = build_mex(library_folder, output_folder)
   library_folder = place.Name;
   if exist(output_folder, 'dir') ~= 7, mkdir(output_folder); end
   source = fullfile(here, 'microswarm_mex.c');
-  headers = ['-I' fullfile(here, '..', 'c')];
+  headers = ['-I' first_with('microswarm.h', fullfile(here, '..', 'c'), fullfile(here, '..', '..', '..', 'include'))];
   file = fullfile(output_folder, ['microswarm_mex.' mexext()]);
   if exist('OCTAVE_VERSION', 'builtin')
     [said, code] = mkoctfile('--mex', '-Wall', '-Wextra', headers, source, ['-L' library_folder], ...
@@ -35,5 +37,13 @@ function file = build_mex(library_folder, output_folder)
   else
     mex('-R2018a', headers, source, ['-L' library_folder], '-lmicroswarm_c', ...
         ['LDFLAGS=$LDFLAGS -Wl,-rpath,' library_folder], '-outdir', output_folder);
+  end
+end
+
+function folder = first_with(file, one, other)
+% The folder of the two that holds the file; the first, if neither does.
+  folder = one;
+  if exist(fullfile(one, file), 'file') ~= 2 && exist(fullfile(other, file), 'file') == 2
+    folder = other;
   end
 end

@@ -23,8 +23,12 @@ std::vector<fs::path> places(const std::string& file_name) {
       all.push_back(folder / ".." / libraries / "microswarm" / file_name);
   };
   Dl_info own{};
-  if (::dladdr(reinterpret_cast<const void*>(&load_module), &own) && own.dli_fname)
-    beside(fs::path(own.dli_fname).parent_path());
+  if (::dladdr(reinterpret_cast<const void*>(&load_module), &own) && own.dli_fname) {
+    const fs::path folder = fs::path(own.dli_fname).parent_path();
+    beside(folder);
+    if (folder.filename() == "microswarm")  // lib/python3/dist-packages/microswarm
+      all.push_back(folder / "../../../microswarm" / file_name);
+  }
   std::error_code error;
   beside(fs::read_symlink("/proc/self/exe", error).parent_path());
   for (const char* folder : {MICROSWARM_MODULES, "/usr/lib/microswarm"})
