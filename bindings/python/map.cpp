@@ -5,6 +5,7 @@
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/formats/pixel_map.hpp"
 #include "microswarm/session/path_query.hpp"
+#include "drawing.hpp"
 #include "named_map.hpp"
 
 namespace microswarm::python {
@@ -14,6 +15,21 @@ NamedMap load(const std::string& file, std::optional<double> um_per_px) {
   return interruptible([&](const Stop&) {
     const MapSpec spec = guess_map_spec(file, um_per_px);
     return NamedMap{Snapshot(load_map(spec).map), file, spec};
+  });
+}
+
+NamedMap from_walls(const std::array<double, 4>& bounds, const std::vector<Numbers>& walls,
+                    const Numbers& discs) {
+  PolygonsMap spec{
+      .lo = {bounds[0], bounds[1]}, .hi = {bounds[2], bounds[3]}, .walls = {}, .discs = {}};
+  for (const Numbers& wall : walls) spec.walls.push_back(places(wall, "an outline of walls_um"));
+  if (discs.size() > 0 && (discs.ndim() != 2 || discs.shape(1) != 3))
+    throw InputError("discs_um must have the shape (n, 3): x_um, y_um, radius_um");
+  const double* row = discs.data();
+  for (py::ssize_t i = 0; i < discs.size() / 3; ++i, row += 3)
+    spec.discs.push_back({{row[0], row[1]}, row[2]});
+  return interruptible([&](const Stop&) {
+    return NamedMap{Snapshot(load_map({std::move(spec)}).map), "map"};
   });
 }
 
@@ -82,8 +98,9 @@ py::dict plan_of(const NamedMap& map, const std::vector<double>& start,
                         .seed = seed};
   for (const double v : {start[0], start[1], query.start.heading, goal[0], goal[1]})
     if (!std::isfinite(v)) throw InputError("start and goal must be finite numbers");
-  const PathAnswer made =
-      interruptible([&](const Stop& stop) { return answer(map.world, query, map.name, stop); });
+  const auto kept = std::make_shared<const PathAnswer>(
+      interruptible([&](const Stop& stop) { return answer(map.world, query, map.name, stop); }));
+  const PathAnswer& made = *kept;
   warn(made.notes);
   std::vector<Vec2> nodes;
   py::array_t<std::uint32_t> parents(static_cast<py::ssize_t>(made.plan.tree.size()));
@@ -103,6 +120,14 @@ py::dict plan_of(const NamedMap& map, const std::vector<double>& start,
   out["planner"] = planner_json(made.planner);
   out["tree_um"] = array_of(nodes);
   out["parents"] = parents;
+  out["draw"] = py::cpp_function([kept, map, from = query.start.position,
+                                  to = query.goal](const std::optional<std::string>& file) {
+    return drawn(file, [&] {
+      return draw_plan(map.map(), kept->plan, from, {to, limits_of(kept->planner).goal_tolerance},
+                       std::string(to_string(kept->plan.status)) + ", " +
+                           std::to_string(std::lround(path_length(kept->plan))) + " µm");
+    });
+  });
   return out;
 }
 
@@ -111,12 +136,19 @@ py::dict plan_of(const NamedMap& map, const std::vector<double>& start,
 void add_map(py::module_& module) {
   py::class_<NamedMap>(module, "Map")
       .def_static("load", load)
+      .def_static("from_walls", from_walls)
       .def_static("from_pixels", from_pixels)
       .def("outlines", outlines)
       .def("discs", discs)
       .def("clearance", clearance)
       .def("are_free", are_free)
       .def("plan", plan_of)
+      .def("draw",
+           [](const NamedMap& map, const std::optional<std::string>& file) {
+             return drawn(file, [&] {
+               return draw_map(map.map(), std::filesystem::path(map.name).filename().string());
+             });
+           })
       .def("bounds", [](const NamedMap& map) {
         const Box& box = map.map().bounds();
         return std::array<double, 4>{box.lo.x, box.lo.y, box.hi.x, box.hi.y};

@@ -5,6 +5,7 @@
 #include "microswarm/config/write.hpp"
 #include "microswarm/io/columns.hpp"
 #include "microswarm/io/tables.hpp"
+#include "drawing.hpp"
 #include "record.hpp"
 
 namespace microswarm::python {
@@ -95,6 +96,10 @@ void add_record(py::module_& module) {
                write_record(record, file);
                return true;
              });
+           })
+      .def("draw",
+           [](const Record& record, const std::optional<std::string>& file) {
+             return drawn(file, [&] { return draw_run(record); });
            })
       .def("tables", tables_of)
       .def("summary", [](const Record& record) { return summary_of(record.result); })

@@ -8,6 +8,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/session/standalone_navigator.hpp"
 #include "own_navigator.hpp"
+#include "drawing.hpp"
 #include "record.hpp"
 #include "scenario_text.hpp"
 
@@ -229,6 +230,12 @@ void add_session(py::module_& module) {
       .def("summary",
            [](OpenSession& open) {
              return open.use([](Session& session) { return summary_of(session.result()); });
+           })
+      .def("draw",
+           [](OpenSession& open, const std::optional<std::string>& file) {
+             return open.use([&](Session& session) {
+               return drawn(file, [&] { return draw_run(session.record()); });
+             });
            })
       .def("record", [](OpenSession& open) {
         return open.use(

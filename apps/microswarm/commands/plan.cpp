@@ -5,7 +5,7 @@
 
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/formats/map_file.hpp"
-#include "microswarm/report/picture.hpp"
+#include "microswarm/report/run_picture.hpp"
 #include "microswarm/session/path_query.hpp"
 #include "support/options.hpp"
 
@@ -28,16 +28,10 @@ struct PlanOptions {
 void draw(const PlanOptions& o, const Snapshot& world, const PathQuery& query,
           const PathAnswer& answer) {
   const Plan& plan = answer.plan;
-  Picture picture(world.bounds(), fmt::format("{}: {}", o.map, to_string(plan.status)));
-  picture.walls(world.map());
-  picture.tree(plan.tree);
-  picture.line(plan.path, colours::path, 3);
-  picture.mark(query.start.position, "start");
-  picture.circle({query.goal, limits_of(answer.planner).goal_tolerance}, colours::goal, 2);
-  picture.mark(query.goal, "goal", colours::goal);
-  picture.legend("path", colours::path);
-  if (!plan.tree.empty()) picture.legend("tree", colours::tree);
-  picture.write(o.picture);
+  draw_plan(world.map(), plan, query.start.position,
+            {query.goal, limits_of(answer.planner).goal_tolerance},
+            fmt::format("{}: {}", o.map, to_string(plan.status)))
+      ->write(o.picture);
 }
 
 void show(const PathAnswer& answer, double start_heading, bool json) {

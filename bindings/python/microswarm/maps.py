@@ -5,15 +5,16 @@ from __future__ import annotations
 
 import json
 import os
-from typing import Any, Optional, Sequence
+from typing import Any, Callable, Optional, Sequence
 
 import numpy as np
 
 from . import _core
-from .values import InputError, number, numbers, path_text, rows, seed_of, setting
+from .pictures import Drawable
+from .values import InputError, number, numbers, path_text, rows, setting, whole
 
 
-class Map:
+class Map(Drawable):
     """Walls of a place, with exact distances to them."""
 
     def __init__(self, core: _core.Map) -> None:
@@ -23,6 +24,21 @@ class Map:
     def load(cls, path: str | os.PathLike[str], um_per_px: Optional[float] = None) -> "Map":
         """A picture, ROS .yaml, MovingAI .map, GeoJSON or CSV of rectangles."""
         return cls(_core.Map.load(path_text(path), None if um_per_px is None else number("um_per_px", um_per_px)))
+
+    @classmethod
+    def from_walls(cls, bounds_um: Sequence[float], walls_um: Sequence[Any] = (), discs_um: Any = ()) -> "Map":
+        """A map from the outlines of its walls, and of round ones.
+
+        bounds_um  (x_lo, y_lo, x_hi, y_hi)
+        walls_um   an array of the shape (n, 2) for each wall; walls that overlap are one
+        discs_um   array of the shape (n, 3): x, y, radius
+        """
+        box = numbers("bounds_um", bounds_um, (4,), "(x_lo, y_lo, x_hi, y_hi)")
+        try:
+            outlines = list(walls_um)
+        except TypeError:
+            raise InputError("walls_um must be a list of outlines, each of the shape (n, 2)") from None
+        return cls(_core.Map.from_walls(box, [rows("an outline of walls_um", one) for one in outlines], rows("discs_um", discs_um, 3)))
 
     @classmethod
     def from_image(
@@ -52,7 +68,8 @@ class Map:
     @property
     def bounds_um(self) -> tuple[float, float, float, float]:
         """x_lo, y_lo, x_hi, y_hi."""
-        return tuple(self._core.bounds())
+        x_lo, y_lo, x_hi, y_hi = self._core.bounds()
+        return x_lo, y_lo, x_hi, y_hi
 
     @property
     def walls_um(self) -> list[list[np.ndarray]]:
@@ -72,12 +89,15 @@ class Map:
         """Whether each place keeps a clearance from walls and border."""
         return self._core.are_free(rows("places_um", places_um), number("clearance_um", clearance_um))
 
+    def _picture(self, file: Optional[str]) -> Optional[bytes]:
+        return self._core.draw(file)
+
     def __repr__(self) -> str:
         x_lo, y_lo, x_hi, y_hi = self.bounds_um
         return f"<Map: {x_hi - x_lo:.6g} × {y_hi - y_lo:.6g} µm, {len(self.walls_um) + len(self.discs_um)} walls>"
 
 
-class Path:
+class Path(Drawable):
     """A path that was planned, or its beginning.
 
     solved, status, why_none   whether it leads to the goal, and why not
@@ -98,10 +118,19 @@ class Path:
         self.planner: dict[str, Any] = json.loads(made["planner"])
         self.tree_um: np.ndarray = made["tree_um"]
         self.parents: np.ndarray = made["parents"]
+        self._draw: Optional[Callable[[Optional[str]], Optional[bytes]]] = made["draw"]
 
     @property
     def solved(self) -> bool:
         return self.status == "solved"
+
+    def _picture(self, file: Optional[str]) -> Optional[bytes]:
+        if self._draw is None:
+            raise InputError("a path that was pickled cannot be drawn: its map is not with it")
+        return self._draw(file)
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_draw": None}
 
     def __repr__(self) -> str:
         return f"<Path: {self.status}, {self.length_um:.6g} µm in {len(self.points_um)} points, {1e3 * self.time_s:.3g} ms>"
@@ -130,4 +159,4 @@ def plan(
     settings += [setting(f"planner.{key}", value) for key, value in values.items()]
     begin = numbers("start", start, (2, 3), "(x_um, y_um) or (x_um, y_um, heading_rad)")
     end = numbers("goal", goal, (2,), "(x_um, y_um)")
-    return Path(map._core.plan(begin, end, settings, seed_of(seed)))
+    return Path(map._core.plan(begin, end, settings, whole("seed", seed, 2**64 - 1)))

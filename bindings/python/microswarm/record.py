@@ -6,11 +6,12 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Mapping
-from typing import Any, Iterator
+from typing import Any, Iterator, Optional
 
 import numpy as np
 
 from . import _core
+from .pictures import Drawable
 from .values import path_text
 
 
@@ -58,7 +59,7 @@ def finite(value: Any) -> Any:
     return float("inf") if value is None else value
 
 
-class Record:
+class Record(Drawable):
     """What a run recorded: enough to repeat, measure and draw it.
 
     status     "solved", "collided", "time_limit", …
@@ -144,6 +145,9 @@ class Record:
     def replay(self) -> tuple[bool, str]:
         """Runs it again: whether all bits are the same, and else the first difference."""
         return self._core.replay()
+
+    def _picture(self, file: Optional[str]) -> Optional[bytes]:
+        return self._core.draw(file)
 
     def __repr__(self) -> str:
         return f"<Record: {self.status} after {self.metrics['time_s']:.4g} s, hash {self.hash}>"

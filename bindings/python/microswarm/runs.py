@@ -5,12 +5,12 @@ from __future__ import annotations
 
 import json
 import os
-import sys
-import time
 from contextlib import contextmanager
 from typing import Any, Callable, Iterator, Optional, Union
 
 from . import _core
+from .pictures import Drawable
+from .progress import Bar
 from .record import Record, finite
 from .scenario import Scenario
 from .values import InputError, seed_of, setting, text_of, whole
@@ -22,28 +22,6 @@ Progress = Union[bool, Callable[[float], Any], None]
 def scenario_of(source: Source) -> Scenario:
     """A scenario, or that of a file."""
     return source if isinstance(source, Scenario) else Scenario.load(source)
-
-
-class Bar:
-    """Shows how much is done on stderr, once it has taken a second, at most ten times a second."""
-
-    def __init__(self) -> None:
-        self._began = time.monotonic()
-        self._next = 1.0
-        self._shown = False
-
-    def __call__(self, done: float) -> None:
-        passed = time.monotonic() - self._began
-        if passed < self._next or not (sys.stderr and sys.stderr.isatty()):
-            return
-        self._next = passed + 0.1
-        left = f", {passed * (1 - done) / done:.0f} s left" if done > 0.01 else ""
-        print(f"\r{100 * done:3.0f} %{left}    ", end="", file=sys.stderr, flush=True)
-        self._shown = True
-
-    def end(self) -> None:
-        if self._shown:
-            print("\r" + " " * 30 + "\r", end="", file=sys.stderr, flush=True)
 
 
 @contextmanager
@@ -59,7 +37,7 @@ def shown(progress: Progress) -> Iterator[Optional[Callable[[float], Any]]]:
             bar.end()
 
 
-class Session:
+class Session(Drawable):
     """An open experiment, which advances when it is stepped and can be changed between steps.
 
     Use a session from one thread at a time; several sessions may run in threads of their own.
@@ -101,7 +79,7 @@ class Session:
         return finite(json.loads(self._core.summary()["metrics"]))
 
     def finish(self, progress: Progress = None) -> Record:
-        """Steps to the end. `progress` hears the share that is done; by default a line on stderr tells it."""
+        """Steps to the end. `progress` hears the share that is done; by default a line on stderr, or in the notebook, tells it."""
         with shown(progress) as report:
             self._core.finish(report)
         return self.record()
@@ -109,6 +87,9 @@ class Session:
     def record(self) -> Record:
         """The record so far."""
         return Record(self._core.record())
+
+    def _picture(self, file: Optional[str]) -> Optional[bytes]:
+        return self._core.draw(file)
 
     def close(self) -> None:
         """Ends the session; what is called later raises InputError. Closing twice is no mistake."""

@@ -7,9 +7,10 @@ import copy
 import difflib
 import json
 import os
-from typing import Any, Iterator
+from typing import Any, Iterator, Optional
 
 from . import _core
+from ._core import Scenario as CoreScenario
 from .values import path_text, setting
 
 
@@ -24,7 +25,7 @@ class Group:
         object.__setattr__(self, "_path", path)
 
     def _value(self) -> Any:
-        value = self._scenario._values()
+        value: Any = self._scenario._values()
         for key in self._path:
             value = value[int(key)] if isinstance(value, list) else value[key]
         return value
@@ -54,7 +55,7 @@ class Group:
         """The keys as a dictionary, or the list: a copy."""
         return copy.deepcopy(self._value())
 
-    def __getitem__(self, index: int) -> Any:
+    def __getitem__(self, index: int | slice) -> Any:
         values = self._value()
         if not isinstance(values, list):
             raise TypeError(f"{'.'.join(self._path) or 'a scenario'} is no list")
@@ -68,7 +69,7 @@ class Group:
 
     def __iter__(self) -> Iterator[Any]:
         values = self._value()
-        return iter([self[i] for i in range(len(values))] if isinstance(values, list) else values)
+        return iter([self[i] for i in range(len(values))]) if isinstance(values, list) else iter(values)
 
     def __eq__(self, other: object) -> bool:
         return bool(self._value() == (other._value() if isinstance(other, Group) else other))
@@ -92,9 +93,10 @@ class Scenario(Group):
     A bad value raises InputError and changes nothing.
     """
 
-    _core: _core.Scenario
+    _core: CoreScenario
+    _cache: Optional[dict[str, Any]]
 
-    def __init__(self, core: _core.Scenario) -> None:
+    def __init__(self, core: CoreScenario) -> None:
         super().__init__(self, ())
         object.__setattr__(self, "_core", core)
         object.__setattr__(self, "_cache", None)
@@ -143,9 +145,11 @@ class Scenario(Group):
         return self._core.yaml()
 
     def _values(self) -> dict[str, Any]:
-        if self._cache is None:
-            object.__setattr__(self, "_cache", json.loads(self._core.json()))
-        return self._cache
+        values = self._cache
+        if values is None:
+            values = json.loads(self._core.json())
+            object.__setattr__(self, "_cache", values)
+        return values
 
     def _part(self, path: tuple[str, ...], value: Any) -> Any:
         if is_numbers(value):

@@ -1,11 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/report/map_background.hpp"
 
+#include <algorithm>
+
 namespace microswarm {
 
 std::string title_of(const Record& record) {
   const std::string& name = record.scene.scenario.name;
   return name.empty() ? "run" : name;
+}
+
+const Frame& frame_at(const Record& record, double t) {
+  const auto after = std::upper_bound(record.frames.begin(), record.frames.end(), t,
+                                      [](double time, const Frame& f) { return time < f.t; });
+  return after == record.frames.begin() ? *after : *(after - 1);
+}
+
+void draw_ends(Picture& picture, const Scenario& scenario) {
+  picture.mark(scenario.start->position, "start");
+  picture.circle({*scenario.goal, scenario.goal_tolerance}, colours::goal, 2);
+  picture.mark(*scenario.goal, "goal", colours::goal);
 }
 
 void draw_ground(Picture& picture, const Map& map, const ReportOptions& options) {

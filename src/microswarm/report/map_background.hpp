@@ -11,6 +11,12 @@ namespace microswarm {
 /// Title of a run in reports.
 std::string title_of(const Record& record);
 
+/// The frame of a time [s]: the last one that is not later, or the first.
+const Frame& frame_at(const Record& record, double t);
+
+/// Marks start and goal, with the goal's tolerance.
+void draw_ends(Picture& picture, const Scenario& scenario);
+
 /// Draws the walls, over the photograph if there is one.
 void draw_ground(Picture& picture, const Map& map, const ReportOptions& options);
 

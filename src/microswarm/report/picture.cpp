@@ -48,10 +48,9 @@ void draw_on_white(cairo_surface_t* surface, Draw&& draw) {
   cairo_destroy(out);
 }
 
-/// Writes what `draw` draws on a white page of `size` pixels.
+/// What `draw` draws on a white page of `size` pixels, as a file of a kind. Empty for another kind.
 template <class Draw>
-void write_drawing(const std::filesystem::path& path, Vec2 size, Draw&& draw) {
-  const std::string kind = path.extension().string();
+std::string encoded(std::string_view kind, Vec2 size, Draw&& draw) {
   std::string bytes;
   cairo_surface_t* surface = nullptr;
   if (kind == ".png")
@@ -62,11 +61,19 @@ void write_drawing(const std::filesystem::path& path, Vec2 size, Draw&& draw) {
   else if (kind == ".pdf")
     surface = cairo_pdf_surface_create_for_stream(append, &bytes, size.x, size.y);
   else
-    throw InputError(path.string() + ": a picture is .png, .svg or .pdf");
+    return bytes;
   draw_on_white(surface, draw);
   if (kind == ".png") cairo_surface_write_to_png_stream(surface, append, &bytes);
   cairo_surface_finish(surface);
   cairo_surface_destroy(surface);
+  return bytes;
+}
+
+/// Writes it, as the kind that the extension tells.
+template <class Draw>
+void write_drawing(const std::filesystem::path& path, Vec2 size, Draw&& draw) {
+  const std::string bytes = encoded(path.extension().string(), size, draw);
+  if (bytes.empty()) throw InputError(path.string() + ": a picture is .png, .svg or .pdf");
   write_file_atomically(path, bytes);
 }
 
@@ -411,6 +418,10 @@ Image Picture::raster() const {
   }
   cairo_surface_destroy(surface);
   return image;
+}
+
+std::string Picture::png() const {
+  return encoded(".png", impl_->size(), [&](cairo_t* out) { impl_->finish(out); });
 }
 
 void Picture::write(const std::filesystem::path& path) const {

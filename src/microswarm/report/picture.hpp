@@ -83,6 +83,8 @@ class Picture {
 
   /// The finished picture as pixels, its sides rounded up to even numbers, as videos need.
   Image raster() const;
+  /// The finished picture as the bytes of a PNG file.
+  std::string png() const;
   /// Writes the finished picture; throws InputError unless the extension is .png, .svg or .pdf. Can
   /// be called repeatedly.
   void write(const std::filesystem::path& path) const;

@@ -40,14 +40,8 @@ void draw_ways(Picture& picture, const RobotsSubject& s, double until) {
   }
 }
 
-void draw(const RobotsSubject& s, const RobotMoment& moment, const std::string& what,
-          const std::filesystem::path& file) {
-  Picture picture(s.world.map->bounds(), fmt::format("{}: {}", s.title(), what));
-  draw_ground(picture, *s.world.map, s.options);
-  draw_ways(picture, s, moment.t);
-  draw_robot_marks(picture, s.record.scene.scenario, s.world.map->bounds(), moment.places);
-  draw_robot_goals(picture, s.record.scene.scenario);
-  picture.write(file);
+std::string moment_text(const RobotMoment& moment) {
+  return fmt::format("{} robots at {:.1f} s", moment.places.size(), moment.t);
 }
 
 Plot left_over_time(const RobotsSubject& s) {
@@ -85,6 +79,21 @@ std::vector<std::vector<std::string>> robots_numbers(const Record& record) {
 
 }  // namespace
 
+std::unique_ptr<Picture> draw_robots_at(const Record& record, const ReportOptions& options,
+                                        std::size_t moment) {
+  const RobotsSubject s{record, options, build_world(record.scene)};
+  const RobotMoment* const at = moment < record.robots.size() ? &record.robots[moment] : nullptr;
+  auto picture = std::make_unique<Picture>(
+      s.world.map->bounds(), fmt::format("{}: {}", s.title(), at ? moment_text(*at) : "start"));
+  draw_ground(*picture, *s.world.map, options);
+  if (at) {
+    draw_ways(*picture, s, at->t);
+    draw_robot_marks(*picture, s.scenario(), s.world.map->bounds(), at->places);
+  }
+  draw_robot_goals(*picture, s.scenario());
+  return picture;
+}
+
 void write_robots_report(const Record& record, const std::filesystem::path& folder,
                          const ReportOptions& options) {
   if (record.frames.empty() || record.robots.empty())
@@ -97,10 +106,8 @@ void write_robots_report(const Record& record, const std::filesystem::path& fold
        {"half-way.png", (moments.size() - 1) / 2},
        {"after.png", moments.size() - 1}}};
   for (const auto& [name, k] : shown) {
-    const std::string what =
-        fmt::format("{} robots at {:.1f} s", moments[k].places.size(), moments[k].t);
-    draw(s, moments[k], what, folder / name);
-    stills.pictures.emplace_back(name, what);
+    draw_robots_at(record, options, k)->write(folder / name);
+    stills.pictures.emplace_back(name, moment_text(moments[k]));
   }
   write_plots({left_over_time(s)}, folder / "plots.png");
   auto numbers = robots_numbers(record);

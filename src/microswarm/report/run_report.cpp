@@ -14,16 +14,14 @@
 #include "microswarm/report/latency_rows.hpp"
 #include "microswarm/report/map_background.hpp"
 #include "microswarm/report/page.hpp"
-#include "microswarm/report/radar_marks.hpp"
 #include "microswarm/report/robots_report.hpp"
+#include "microswarm/report/run_picture.hpp"
 #include "microswarm/report/run_plots.hpp"
 
 namespace microswarm {
 namespace {
 
-constexpr int ghosts = 6;   // earlier obstacle positions shown in an overview
 constexpr int moments = 3;  // planning events with a picture
-constexpr double faint = 0.18;
 
 struct RunSubject {
   const Record& record;
@@ -33,53 +31,11 @@ struct RunSubject {
   std::string title() const { return title_of(record); }
 };
 
-void draw_ends(Picture& picture, const RunSubject& s) {
-  picture.mark(s.scenario().start->position, "start");
-  picture.circle({*s.scenario().goal, s.scenario().goal_tolerance}, colours::goal, 2);
-  picture.mark(*s.scenario().goal, "goal", colours::goal);
-}
-
 std::vector<Vec2> trail(const Record& record, double until) {
   std::vector<Vec2> points;
   for (const Frame& f : record.frames)
     if (f.t <= until) points.push_back(f.pose.position);
   return points;
-}
-
-const Frame& frame_at(const Record& record, double t) {
-  const auto after = std::upper_bound(record.frames.begin(), record.frames.end(), t,
-                                      [](double time, const Frame& f) { return time < f.t; });
-  return after == record.frames.begin() ? *after : *(after - 1);
-}
-
-void overview(const RunSubject& s, std::span<const PlanEvent* const> shown,
-              const std::filesystem::path& folder) {
-  const Record& record = s.record;
-  const double end = record.frames.back().t;
-  Picture picture(
-      s.world.map->bounds(),
-      fmt::format("{}: {} after {:.1f} s, {:.0f} µm", s.title(), to_string(record.result.status),
-                  record.result.metrics.time, record.result.metrics.length));
-  draw_ground(picture, *s.world.map, s.options);
-  for (int k = 0; k < ghosts; ++k) {
-    Colour c = colours::obstacle;
-    c.alpha = faint;
-    picture.bodies(s.world.at(end * k / ghosts).moving().bodies(), c);
-  }
-  picture.bodies(s.world.at(end).moving().bodies());
-  picture.line(trail(record, end), colours::path, 3);
-  draw_radar_marks(picture, record, s.world);
-  picture.swarm(record.frames.back().pose, record.frames.back().radius);
-  draw_ends(picture, s);
-  for (std::size_t k = 0; k < shown.size(); ++k)
-    picture.mark(frame_at(record, shown[k]->t).pose.position, fmt::format("{}", k + 1),
-                 colours::path);
-  picture.legend("swarm", colours::swarm, true);
-  picture.legend("travelled path", colours::path);
-  if (!shown.empty()) picture.legend("moments of the report", colours::path, true);
-  if (!s.world.obstacles.empty())
-    picture.legend("moving obstacles, earlier places faint", colours::obstacle, true);
-  picture.write_everywhere(folder / "overview");
 }
 
 /// The whole map, or the surroundings of the swarm if the map is much larger.
@@ -105,7 +61,7 @@ void moment(const RunSubject& s, const PlanEvent& event, const std::filesystem::
   picture.line(event.plan.path, colours::path, 3);
   picture.swarm(frame.pose, frame.radius);
   if (frame.target) picture.mark(*frame.target, "local target", colours::circle);
-  draw_ends(picture, s);
+  draw_ends(picture, s.scenario());
   picture.legend("swarm", colours::swarm, true);
   picture.legend("planned path", colours::path);
   picture.legend("tree", colours::tree);
@@ -187,7 +143,7 @@ void write_run_report(const Record& record, const std::filesystem::path& folder,
   std::vector<const PlanEvent*> chosen;
   for (std::size_t k = 0; k < shown; ++k)
     chosen.push_back(&tightest(record, k * events / shown, (k + 1) * events / shown));
-  overview(s, chosen, folder);
+  draw_run(record, options, chosen)->write_everywhere(folder / "overview");
   for (std::size_t k = 0; k < shown; ++k) {
     const std::string stem = fmt::format("moment-{}", k + 1);
     moment(s, *chosen[k], folder / stem);

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How much of a long call is done."""
+
+from __future__ import annotations
+
+import sys
+import time
+from typing import Any
+
+
+class Bar:
+    """Shows how much is done once it has taken a second: in a line on stderr if that is a terminal, or in a notebook."""
+
+    def __init__(self) -> None:
+        self._began = time.monotonic()
+        self._shown = False
+        self._cell: Any = notebook_line()
+
+    def __call__(self, done: float) -> None:
+        passed = time.monotonic() - self._began
+        if passed < 1:
+            return
+        left = f", {passed * (1 - done) / done:.0f} s left" if done > 0.01 else ""
+        self._show(f"{100 * done:3.0f} %{left}")
+
+    def end(self) -> None:
+        """Takes the line away; in a notebook it tells how long it took."""
+        if not self._shown:
+            return
+        if self._cell:
+            self._show(f"{time.monotonic() - self._began:.1f} s")
+        else:
+            print("\r" + " " * 30 + "\r", end="", file=sys.stderr, flush=True)
+
+    def _show(self, line: str) -> None:
+        if self._cell:
+            show = self._cell.update if self._shown else self._cell.display
+            show({"text/plain": line}, raw=True)
+        elif sys.stderr and sys.stderr.isatty():
+            print(f"\r{line}    ", end="", file=sys.stderr, flush=True)
+        else:
+            return
+        self._shown = True
+
+
+def notebook_line() -> Any:
+    """What a notebook displays, and displays anew; None elsewhere."""
+    shell = sys.modules["IPython"].get_ipython() if "IPython" in sys.modules else None
+    return sys.modules["IPython"].display.DisplayHandle() if hasattr(shell, "kernel") else None

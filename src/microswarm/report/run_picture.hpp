@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "microswarm/contracts/plan.hpp"
+#include "microswarm/report/picture.hpp"
+#include "microswarm/report/run_report.hpp"
+
+namespace microswarm {
+
+/// Draws a whole run: the travelled path with the swarm at its end, obstacles where they were and,
+/// faint, where they were before; of individually tracked robots their last recorded positions.
+/// The planning events of `numbered` are marked on the path. A run that goes on shows its newest
+/// plan, a record without frames the start.
+std::unique_ptr<Picture> draw_run(const Record& record, const ReportOptions& options = {},
+                                  std::span<const PlanEvent* const> numbered = {});
+
+/// Draws a map with its walls.
+std::unique_ptr<Picture> draw_map(const Map& map, std::string_view title = {});
+
+/// Draws a path in a map with its search tree, its start and its goal with the tolerance.
+std::unique_ptr<Picture> draw_plan(const Map& map, const Plan& plan, Vec2 start, const Disc& goal,
+                                   std::string_view title = {});
+
+}  // namespace microswarm
