@@ -2,6 +2,7 @@
 // A path around a wall by D-RRT*.
 #include <cstdio>
 
+#include "microswarm/planning/path/fit_to_map.hpp"
 #include "microswarm/planning/path/planners.hpp"
 
 int main() {
@@ -12,8 +13,10 @@ int main() {
 
   DrrtStarParams params;
   params.clearance = 60;  // µm, from the swarm's centre
+  const auto is_given = [](std::string_view key) { return key == "clearance_um"; };
+  const PlannerParams fitted = fit_to_map(params, *map, is_given);  // steps, radii and limits
   Rng rng(42, Purpose::planner);
-  const Plan found = plan(world, {{200, 300}, 0}, {1800, 300}, params, rng);
+  const Plan found = plan(world, {{200, 300}, 0}, {1800, 300}, fitted, rng);
 
   std::printf("%s: %.0f µm in %zu points, %zu nodes\n", to_string(found.status).data(),
               path_length(found.path), found.path.size(), found.tree.size());

@@ -103,3 +103,39 @@ def test_what_cannot_be_planned(room):
             ms.plan(room, start, goal, **values)
     limited = ms.plan(room, (50, 50), (350, 50), "rrt", max_nodes=3)
     assert not limited.solved and "max_nodes" in limited.why_none
+
+
+def test_walls_are_given_and_given_back():
+    wall = [(900, 0), (1000, 0), (1000, 600), (900, 600)]
+    chip = ms.Map.from_walls((0, 0, 2000, 1000), [wall], [(500, 700, 80)])
+    assert chip.bounds_um == (0, 0, 2000, 1000)
+    assert chip.discs_um.tolist() == [[500, 700, 80]]
+    assert {tuple(p) for p in chip.walls_um[0][0]} == {(float(x), float(y)) for x, y in wall}
+    assert chip.clearance([(700, 300), (500, 900), (950, 10)]).tolist() == [200, 100, 0]
+    again = ms.Map.from_walls(chip.bounds_um, [one[0] for one in chip.walls_um], chip.discs_um)
+    assert repr(again) == repr(chip)
+    backwards = np.asarray(wall, dtype=np.int32)[::-1]  # not contiguous, and clockwise
+    assert ms.Map.from_walls((0, 0, 2000, 1000), [backwards]).clearance([(700, 300)])[0] == 200
+
+
+@pytest.mark.parametrize(
+    "bounds, walls, discs, told",
+    [
+        ((0, 0, 1), (), (), "bounds_um"),
+        (None, (), (), "bounds_um"),
+        ((0, 0, 0, 9), (), (), "bounds"),
+        ((0, 0, np.nan, 9), (), (), "bounds"),
+        ((0, 0, 9, 9), None, (), "walls_um"),
+        ((0, 0, 9, 9), [(1, 2)], (), "walls_um"),
+        ((0, 0, 9, 9), [[(1, 2), (3, 4)]], (), r"walls_um\[0\]"),
+        ((0, 0, 9, 9), [[(1, 2), (3, np.nan), (5, 5)]], (), ""),
+        ((0, 0, 9, 9), [["a"]], (), "walls_um"),
+        ((0, 0, 9, 9), (), [(1, 2)], "discs_um"),
+        ((0, 0, 9, 9), (), [(1, 2, -1)], "radius"),
+        ((0, 0, 9, 9), (), [(1, 2, np.inf)], ""),
+        ((0, 0, 9, 9), (), "abc", "discs_um"),
+    ],
+)
+def test_walls_that_are_none_are_told(bounds, walls, discs, told):
+    with pytest.raises(ms.InputError, match=told):
+        ms.Map.from_walls(bounds, walls, discs)

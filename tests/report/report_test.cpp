@@ -12,6 +12,7 @@
 #include "microswarm/report/picture.hpp"
 #include "microswarm/report/plot.hpp"
 #include "microswarm/report/rows.hpp"
+#include "microswarm/report/run_picture.hpp"
 #include "microswarm/report/run_report.hpp"
 
 namespace microswarm {
@@ -127,6 +128,31 @@ TEST_F(Report, OfARunThatWasStoppedBeforeItsFirstTick) {
   write_run_report(recorder.record(), folder_);
   EXPECT_TRUE(fs::exists(folder_ / "index.html"));
   EXPECT_TRUE(fs::exists(folder_ / "plots.png"));
+}
+
+TEST_F(Report, ARunIsDrawnWithItsChanges) {
+  Scenario scenario;
+  scenario.map = PolygonsMap{.hi = {1200, 600}};  // a pixel is 1 µm
+  scenario.start = Pose2{{100, 300}, 0};
+  scenario.goal = Vec2{1000, 300};
+  scenario.time_limit = 2;
+  const Scene scene = load_scene(scenario, {});
+  Recorder recorder(scene);
+  RunListener* const listeners[] = {&recorder};
+  simulate(scene.scenario, build_world(scene), 0, listeners);
+  Record record = recorder.record();
+  const auto is_goal_at = [&](Vec2 goal) {
+    const Image image = draw_run(record)->raster();
+    const int left = 24, top = 58;  // of the drawing
+    const std::size_t i =
+        image.index(left + static_cast<int>(goal.x) + 9, top + 600 - static_cast<int>(goal.y));
+    return image.pixels[i] == 102 && image.pixels[i + 1] == 64;
+  };
+  EXPECT_TRUE(is_goal_at({1000, 300}));
+  record.changes.push_back({.t = 1, .frame = 10, .setting = "goal_um=[700, 200]"});
+  EXPECT_TRUE(is_goal_at({700, 200}));
+  EXPECT_FALSE(is_goal_at({1000, 300}));
+  EXPECT_EQ(draw_run(record)->png().substr(1, 3), "PNG");
 }
 
 TEST_F(Report, PagesEscapeText) {

@@ -91,6 +91,12 @@ class Session(Drawable):
     def _picture(self, file: Optional[str]) -> Optional[bytes]:
         return self._core.draw(file)
 
+    def __repr__(self) -> str:
+        try:
+            return f"<Session: {self.status} at {self.view()['t_s']:.4g} s>"
+        except InputError:
+            return "<Session: closed, or in use>"
+
     def close(self) -> None:
         """Ends the session; what is called later raises InputError. Closing twice is no mistake."""
         self._core.close()

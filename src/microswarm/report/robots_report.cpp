@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/experiment/record/playback.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/report/latency_rows.hpp"
 #include "microswarm/report/map_background.hpp"
@@ -90,7 +91,7 @@ std::unique_ptr<Picture> draw_robots_at(const Record& record, const ReportOption
     draw_ways(*picture, s, at->t);
     draw_robot_marks(*picture, s.scenario(), s.world.map->bounds(), at->places);
   }
-  draw_robot_goals(*picture, s.scenario());
+  draw_robot_goals(*picture, scenario_at(record, at ? at->t : 0));
   return picture;
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "microswarm/core/maths/infinity.hpp"
+#include "microswarm/experiment/record/playback.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/report/map_background.hpp"
 #include "microswarm/report/radar_marks.hpp"
@@ -24,43 +26,49 @@ std::string run_title(const Record& record) {
                      to_string(record.result.status), m.time, m.length);
 }
 
-void draw_obstacles(Picture& picture, const World& world, double end) {
-  Colour colour = colours::obstacle;
-  colour.alpha = faint;
+/// Draws the obstacles of a time [s], with the changes until then.
+void draw_obstacles(Picture& picture, const Record& record, World& world, double t, Colour fill) {
+  if (!record.changes.empty()) world.obstacles = scenario_at(record, t).obstacles;
+  picture.bodies(world.at(t).moving().bodies(), fill);
+}
+
+void draw_obstacles(Picture& picture, const Record& record, World& world) {
+  const double end = record.frames.empty() ? 0 : record.frames.back().t;
+  Colour earlier = colours::obstacle;
+  earlier.alpha = faint;
   for (int k = 0; k < ghosts && end > 0; ++k)
-    picture.bodies(world.at(end * k / ghosts).moving().bodies(), colour);
-  picture.bodies(world.at(end).moving().bodies());
+    draw_obstacles(picture, record, world, end * k / ghosts, earlier);
+  draw_obstacles(picture, record, world, end, colours::obstacle);
 }
 
 }  // namespace
 
 std::unique_ptr<Picture> draw_run(const Record& record, const ReportOptions& options,
                                   std::span<const PlanEvent* const> numbered) {
-  const Scenario& scenario = record.scene.scenario;
-  if (scenario.robots)
+  if (record.scene.scenario.robots)
     return draw_robots_at(record, options, record.robots.empty() ? 0 : record.robots.size() - 1);
-  const World world = build_world(record.scene);
+  World world = build_world(record.scene);
   auto picture = std::make_unique<Picture>(world.map->bounds(), run_title(record));
   draw_ground(*picture, *world.map, options);
-  draw_obstacles(*picture, world, record.frames.empty() ? 0 : record.frames.back().t);
-  const bool is_going_on = record.result.status == Status::running && !record.plans.empty();
+  draw_obstacles(*picture, record, world);
+  const bool is_going_on = record.result.status == Status::running && !record.paths.empty();
   if (!record.frames.empty()) {
     std::vector<Vec2> trail;
     trail.reserve(record.frames.size());
     for (const Frame& frame : record.frames) trail.push_back(frame.pose.position);
     picture->line(trail, colours::path, 3);
-    if (is_going_on) picture->line(record.plans.back().plan.path, colours::path, 2, true);
+    if (is_going_on) picture->line(record.paths.back().path, colours::path, 2, true);
     draw_radar_marks(*picture, record, world);
     picture->swarm(record.frames.back().pose, record.frames.back().radius);
   }
-  draw_ends(*picture, scenario);
+  draw_ends(*picture, scenario_at(record, infinity));
   for (std::size_t k = 0; k < numbered.size(); ++k)
     picture->mark(frame_at(record, numbered[k]->t).pose.position, fmt::format("{}", k + 1),
                   colours::path);
   if (!record.frames.empty()) {
     picture->legend("swarm", colours::swarm, true);
     picture->legend("travelled path", colours::path);
-    if (is_going_on) picture->legend("dashed: newest plan", colours::path);
+    if (is_going_on) picture->legend("planned path, dashed", colours::path);
   }
   if (!numbered.empty()) picture->legend("moments of the report", colours::path, true);
   if (!world.obstacles.empty())

@@ -12,8 +12,8 @@ namespace microswarm {
 
 /// Draws a whole run: the travelled path with the swarm at its end, obstacles where they were and,
 /// faint, where they were before; of individually tracked robots their last recorded positions.
-/// The planning events of `numbered` are marked on the path. A run that goes on shows its newest
-/// plan, a record without frames the start.
+/// The planning events of `numbered` are marked on the path. A run that goes on shows the path
+/// that is followed, a record without frames the start.
 std::unique_ptr<Picture> draw_run(const Record& record, const ReportOptions& options = {},
                                   std::span<const PlanEvent* const> numbered = {});
 

@@ -9,6 +9,7 @@
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/maths/angles.hpp"
+#include "microswarm/experiment/record/playback.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/planning/common/detection.hpp"
 #include "microswarm/report/latency_rows.hpp"
@@ -61,7 +62,7 @@ void moment(const RunSubject& s, const PlanEvent& event, const std::filesystem::
   picture.line(event.plan.path, colours::path, 3);
   picture.swarm(frame.pose, frame.radius);
   if (frame.target) picture.mark(*frame.target, "local target", colours::circle);
-  draw_ends(picture, s.scenario());
+  draw_ends(picture, scenario_at(s.record, event.t));
   picture.legend("swarm", colours::swarm, true);
   picture.legend("planned path", colours::path);
   picture.legend("tree", colours::tree);

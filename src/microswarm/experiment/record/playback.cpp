@@ -17,6 +17,13 @@ const Row* newest(const std::vector<Row>& rows, double t) {
 
 }  // namespace
 
+Scenario scenario_at(const Record& record, double t) {
+  Scenario scenario = record.scene.scenario;
+  for (const Change& change : record.changes)
+    if (change.t <= t) set_value(scenario, change.setting, "set");
+  return scenario;
+}
+
 Playback::Playback(Record record)
     : record_(std::move(record)),
       scenario_(record_.scene.scenario),

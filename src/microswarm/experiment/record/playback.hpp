@@ -11,6 +11,9 @@
 
 namespace microswarm {
 
+/// The scenario of a record with all changes until a time [s].
+Scenario scenario_at(const Record& record, double t);
+
 /// Plays back a record tick by tick. Nothing is recomputed: paths, plans and robots are the newest
 /// ones in the record, and the trajectories between ticks are missing.
 class Playback {
