@@ -97,6 +97,7 @@ def test_what_cannot_be_planned(room):
         ((50, 50), (350, 50), {"planner": "rrt", "max_nodes": -1}, "max_nodes"),
         ((50, 50), (350, 50), {"seed": -1}, "seed is -1"),
         ((50, 50), (350, 50), {"seed": 2**64}, "seed is"),
+        ((50, 50), (350, 50), {"seed": None}, "seed is None"),
         ((50, 50), (350, 50), {"clearance_um=5 #": 1}, "no key"),
     ]:
         with pytest.raises(ms.InputError, match=words):

@@ -142,19 +142,23 @@ def test_two_threads_run_two_sessions(flight):
 
 
 def test_two_threads_on_one_session_are_told(flight):
-    session = ms.Session(flight.set("time_limit_s", 1e5))
+    within, go_on = threading.Event(), threading.Event()
+
+    class Waits:
+        def step(self, seen):
+            within.set()
+            go_on.wait(60)
+
+    session = ms.Session(flight, navigator=Waits())
     other = threading.Thread(target=lambda: session.finish(False))
     other.start()
-    refused = False
-    for _ in range(200):
-        try:
-            session.view()
-        except ms.InputError as error:
-            refused = "in use" in str(error)
-            break
-        time.sleep(0.001)
+    assert within.wait(60)
+    with pytest.raises(ms.InputError, match="in use"):
+        session.view()
+    assert session._repr_png_() is None and "in use" in repr(session)
+    go_on.set()
     other.join()
-    assert refused
+    assert session.status == "time_limit"
 
 
 def test_ctrl_c_ends_a_long_run():

@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/report/picture.hpp"
-#include "microswarm/core/text/text.hpp"
 
-#include <cairo-pdf.h>
-#include <cairo-svg.h>
 #include <cairo.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/maths.hpp"
-#include "microswarm/core/text/file.hpp"
+#include "microswarm/core/text/text.hpp"
+#include "microswarm/report/drawing_file.hpp"
 
 namespace microswarm {
 namespace {
@@ -25,56 +22,12 @@ constexpr double min_disc_radius = 4;  // smaller discs would be invisible
 
 constexpr double key_line = 22;  // line height of the legend
 
-cairo_status_t append(void* out, const unsigned char* data, unsigned int length) {
-  static_cast<std::string*>(out)->append(reinterpret_cast<const char*>(data), length);
-  return CAIRO_STATUS_SUCCESS;
-}
-
 /// The largest 1, 2 or 5 times a power of ten that is at most `most`.
 double round_length(double most) {
   const double power = maths::power(10.0, static_cast<int>(std::floor(maths::log10(most))));
   for (const double factor : {5.0, 2.0})
     if (factor * power <= most) return factor * power;
   return power;
-}
-
-/// Draws on a white surface.
-template <class Draw>
-void draw_on_white(cairo_surface_t* surface, Draw&& draw) {
-  cairo_t* out = cairo_create(surface);
-  cairo_set_source_rgba(out, 1, 1, 1, 1);
-  cairo_paint(out);
-  draw(out);
-  cairo_destroy(out);
-}
-
-/// What `draw` draws on a white page of `size` pixels, as a file of a kind. Empty for another kind.
-template <class Draw>
-std::string encoded(std::string_view kind, Vec2 size, Draw&& draw) {
-  std::string bytes;
-  cairo_surface_t* surface = nullptr;
-  if (kind == ".png")
-    surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(size.x),
-                                         static_cast<int>(size.y));
-  else if (kind == ".svg")
-    surface = cairo_svg_surface_create_for_stream(append, &bytes, size.x, size.y);
-  else if (kind == ".pdf")
-    surface = cairo_pdf_surface_create_for_stream(append, &bytes, size.x, size.y);
-  else
-    return bytes;
-  draw_on_white(surface, draw);
-  if (kind == ".png") cairo_surface_write_to_png_stream(surface, append, &bytes);
-  cairo_surface_finish(surface);
-  cairo_surface_destroy(surface);
-  return bytes;
-}
-
-/// Writes it, as the kind that the extension tells.
-template <class Draw>
-void write_drawing(const std::filesystem::path& path, Vec2 size, Draw&& draw) {
-  const std::string bytes = encoded(path.extension().string(), size, draw);
-  if (bytes.empty()) throw InputError(path.string() + ": a picture is .png, .svg or .pdf");
-  write_file_atomically(path, bytes);
 }
 
 }  // namespace
@@ -421,7 +374,7 @@ Image Picture::raster() const {
 }
 
 std::string Picture::png() const {
-  return encoded(".png", impl_->size(), [&](cairo_t* out) { impl_->finish(out); });
+  return drawing_bytes(".png", impl_->size(), [&](cairo_t* out) { impl_->finish(out); });
 }
 
 void Picture::write(const std::filesystem::path& path) const {
