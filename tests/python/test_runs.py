@@ -158,7 +158,7 @@ def test_two_threads_on_one_session_are_told(flight):
     assert session._repr_png_() is None and "in use" in repr(session)
     go_on.set()
     other.join()
-    assert session.status == "time_limit"
+    assert session.status == "held"
 
 
 def test_ctrl_c_ends_a_long_run():
