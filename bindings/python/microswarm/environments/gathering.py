@@ -202,7 +202,7 @@ class GatheringEnv(SingleEnvironment):
     def render(self) -> np.ndarray:
         """A picture in colours, of shape (rows, columns, 3)."""
         costs = self.costs
-        image = np.where((costs >= 0)[:, :, None], np.uint8([90, 150, 190]), np.uint8([15, 30, 65]))
+        image = np.where((costs >= 0)[:, :, None], np.array([90, 150, 190], np.uint8), np.array([15, 30, 65], np.uint8))
         column, row = self.goal
         image[(costs >= 0) & (costs <= self.rules["goal_range"])] = (150, 190, 160)
         places = self.particle_locations

@@ -23,8 +23,8 @@ def _batch(scenario: Source, num_envs: int, threads: int, rules: dict[str, Any])
 def _spaces(size: int, count: Optional[int] = None) -> tuple[Box, Box]:
     """Of observations and actions."""
     first = () if count is None else (count,)
-    low = np.broadcast_to(np.float32([-math.pi, 0]), (*first, 2))
-    high = np.broadcast_to(np.float32([math.pi, 1]), (*first, 2))
+    low = np.broadcast_to(np.array([-math.pi, 0], np.float32), (*first, 2))
+    high = np.broadcast_to(np.array([math.pi, 1], np.float32), (*first, 2))
     return Box(-np.inf, np.inf, (*first, size), np.float32), Box(low, high, (*first, 2), np.float32)
 
 
@@ -47,7 +47,7 @@ class NavigationEnv(SingleEnvironment):
                 time_penalty
     """
 
-    metadata = {"render_modes": []}
+    metadata: dict[str, Any] = {"render_modes": []}
 
     def __init__(self, scenario: Source, *, render_mode: Optional[str] = None, **rules: Any) -> None:
         if render_mode is not None:

@@ -62,11 +62,11 @@ except ModuleNotFoundError:
 
         def sample(self) -> np.int64:
             """A value at random."""
-            return self._random.integers(self.n)
+            return np.int64(self._random.integers(self.n))
 
         def contains(self, value: Any) -> bool:
             array = np.asarray(value)
-            return array.shape == () and array.dtype.kind in "iu" and 0 <= int(array) < self.n
+            return bool(array.shape == () and array.dtype.kind in "iu" and 0 <= int(array) < self.n)
 
         def __repr__(self) -> str:
             return f"Discrete({self.n})"
