@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Maps, and paths in them.
 #include "calls.hpp"
+#include "drawing.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/formats/pixel_map.hpp"
 #include "microswarm/session/path_query.hpp"
-#include "drawing.hpp"
 #include "named_map.hpp"
 
 namespace microswarm::python {

@@ -2,10 +2,10 @@
 // Records as NumPy arrays: a column of every recorded quantity, out of its declaration.
 #include "microswarm/experiment/record/record.hpp"
 #include "calls.hpp"
+#include "drawing.hpp"
 #include "microswarm/config/write.hpp"
 #include "microswarm/io/columns.hpp"
 #include "microswarm/io/tables.hpp"
-#include "drawing.hpp"
 #include "record.hpp"
 
 namespace microswarm::python {

@@ -2,13 +2,14 @@
 // Scenarios, experiments, and navigators in a loop of the caller's own.
 #include "session.hpp"
 
+#include "calls.hpp"
+#include "drawing.hpp"
 #include "guarded.hpp"
 #include "microswarm/config/write.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/session/standalone_navigator.hpp"
 #include "own_navigator.hpp"
-#include "drawing.hpp"
 #include "record.hpp"
 #include "scenario_text.hpp"
 

@@ -75,6 +75,8 @@ def test_the_line_tells_the_share_and_then_the_time(monkeypatch):
     assert not said, "not in the first second"
     bar._began -= 10
     bar(0.5)
+    bar(0.6)  # too soon after the last
+    bar._began -= 0.1
     bar(0.75)
     bar.end()
-    assert said == [("display", " 50 %, 10 s left"), ("update", " 75 %, 3 s left"), ("update", "10.0 s")]
+    assert said == [("display", " 50 %, 10 s left"), ("update", " 75 %, 3 s left"), ("update", "10.1 s")]

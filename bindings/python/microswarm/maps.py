@@ -38,7 +38,7 @@ class Map(Drawable):
             outlines = list(walls_um)
         except TypeError:
             raise InputError("walls_um must be a list of outlines, each of the shape (n, 2)") from None
-        return cls(_core.Map.from_walls(box, [rows("an outline of walls_um", one) for one in outlines], rows("discs_um", discs_um, 3)))
+        return cls(_core.Map.from_walls(box, [rows("an outline of walls_um", one) for one in outlines], rows("discs_um", discs_um, "(n, 3)")))
 
     @classmethod
     def from_image(

@@ -9,17 +9,19 @@ from typing import Any
 
 
 class Bar:
-    """Shows how much is done once it has taken a second: in a line on stderr if that is a terminal, or in a notebook."""
+    """Shows how much is done once it has taken a second, 10 times a second: in a line on stderr if that is a terminal, or in a notebook."""
 
     def __init__(self) -> None:
         self._began = time.monotonic()
+        self._next = 1.0
         self._shown = False
         self._cell: Any = notebook_line()
 
     def __call__(self, done: float) -> None:
         passed = time.monotonic() - self._began
-        if passed < 1:
+        if passed < self._next:
             return
+        self._next = passed + 0.1
         left = f", {passed * (1 - done) / done:.0f} s left" if done > 0.01 else ""
         self._show(f"{100 * done:3.0f} %{left}")
 
