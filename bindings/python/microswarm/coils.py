@@ -101,7 +101,8 @@ class Coils:
     @property
     def centre_um(self) -> tuple[float, float, float]:
         """Centre of the system or of its workspace."""
-        return tuple(self._core.centre())
+        x, y, z = self._core.centre()
+        return x, y, z
 
     def __len__(self) -> int:
         return len(self.names)

@@ -57,7 +57,7 @@ def segment(image: Any, um_per_px: float, *, smooth_px: float = 1.0, **values: A
     InputError if no vessels are found.
     """
     settings = [setting(key, value) for key, value in values.items()]
-    source = path_text(image) if isinstance(image, (str, os.PathLike)) else picture_of("image", image)
+    source: Any = path_text(image) if isinstance(image, (str, os.PathLike)) else picture_of("image", image)
     scale = in_range("um_per_px", um_per_px, 1e-6, 1e6)
     return Segmentation(_core.segment(source, scale, in_range("smooth_px", smooth_px, 0, 100), settings))
 
