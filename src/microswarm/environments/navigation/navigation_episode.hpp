@@ -7,10 +7,10 @@
 #include <string>
 
 #include "microswarm/core/maths/rng.hpp"
-#include "microswarm/experiment/run/open_run.hpp"
-#include "microswarm/experiment/scenario/experiment.hpp"
 #include "microswarm/environments/environment_step.hpp"
 #include "microswarm/environments/navigation/navigation_rules.hpp"
+#include "microswarm/experiment/run/open_run.hpp"
+#include "microswarm/experiment/scenario/experiment.hpp"
 
 namespace microswarm {
 
