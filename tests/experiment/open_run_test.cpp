@@ -86,6 +86,47 @@ TEST(OpenRun, ARecordKeepsItsChanges) {
   EXPECT_TRUE(replay(read).identical);
 }
 
+/// Reports a waypoint off the straight line for the middle part of its path.
+class Phased : public GoStraight {
+ public:
+  using GoStraight::GoStraight;
+  Command step(const Observation& seen, const Stop& stop) override {
+    x_ = seen.swarm ? seen.swarm->pose.position.x : 0;
+    return GoStraight::step(seen, stop);
+  }
+  NavigatorView view() const override {
+    NavigatorView view = GoStraight::view();
+    if (x_ > 400 && x_ < 1200) view.phased_goal = Vec2{x_ < 800 ? 800. : 1200., 900};
+    return view;
+  }
+
+ private:
+  double x_ = 0;
+};
+
+TEST(OpenRun, PhasedGoalsOfAnExternalNavigatorAreRepeated) {
+  Scenario scenario = open_room();
+  scenario.obstacles = {disc(60, Still{.position = {900, 700}})};
+  scenario.detection_range = 1000;
+  Recorded run(scenario, std::make_unique<Phased>(*scenario.goal, 60));
+  run.recorder.note_external_navigator();
+  const Record record = run.finish();
+  EXPECT_EQ(record.result.status, Status::solved);
+  EXPECT_GT(record.result.metrics.avoidance.mean_cost, 0);
+  const auto file = empty_folder("phased_record") / "run.h5";
+  write_record(record, file);
+  for (const Record& one : {record, read_record(file)}) {
+    ASSERT_EQ(one.phased_goals.size(), 3u);
+    EXPECT_EQ(one.phased_goals[1].point, (Vec2{1200, 900}));
+    EXPECT_FALSE(one.phased_goals[2].point);
+    const ReplayResult again = replay(one);
+    EXPECT_TRUE(again.identical) << again.difference;
+  }
+  Record forgotten = record;
+  forgotten.phased_goals.clear();
+  EXPECT_NE(replay(forgotten).difference.find("avoidance_cost"), std::string::npos);
+}
+
 TEST(OpenRun, AnObstacleThatIsPutInTheWayIsMet) {
   Scenario scenario = open_room();
   scenario.obstacles = {disc(60, Still{.position = {500, 900}})};

@@ -21,6 +21,7 @@ class PlayedNavigator final : public Navigator {
   std::size_t frame_ = 0;
   std::size_t path_ = 0;  ///< paths that were followed by then
   std::size_t plan_ = 0;  ///< planning events by then
+  std::size_t goal_ = 0;  ///< phased goals by then
   NavigatorView view_;
 };
 

@@ -72,6 +72,11 @@ void Recorder::on_tick(const Tick& tick) {
                         ? view.path.empty()
                         : std::ranges::equal(record_.paths.back().path, view.path);
   if (!same) record_.paths.push_back({frame.t, {view.path.begin(), view.path.end()}});
+  if (!record_.navigator.empty()) {
+    std::vector<PhasedGoal>& kept = record_.phased_goals;
+    if (view.phased_goal != (kept.empty() ? std::nullopt : kept.back().point))
+      kept.push_back({frame.t, view.phased_goal});
+  }
   if (tick.robots) keep_robots(frame.t, *tick.robots);
   record_.events.insert(record_.events.end(), tick.events.begin(), tick.events.end());
 }

@@ -26,10 +26,11 @@ struct Record {
   std::vector<PathChange> paths;
   std::vector<PlanEvent> plans;
   std::vector<RunEvent> events;
-  std::vector<Change> changes;      ///< changes during the run; the scene is the initial one
-  std::vector<RobotMoment> robots;  ///< individually tracked robots, at a subset of the frames
-  RigLog rig_log;                   ///< of a run on a rig
-  std::string stated_hash;          ///< hash stated in the file; empty for a new record
+  std::vector<Change> changes;           ///< changes during the run; the scene is the initial one
+  std::vector<RobotMoment> robots;       ///< individually tracked robots, at a subset of the frames
+  std::vector<PhasedGoal> phased_goals;  ///< of an external navigator, for a replay
+  RigLog rig_log;                        ///< of a run on a rig
+  std::string stated_hash;               ///< hash stated in the file; empty for a new record
 
   /// The tables of the record.
   template <class Self, class V>

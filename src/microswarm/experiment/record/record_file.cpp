@@ -81,6 +81,28 @@ std::vector<Change> read_changes(const Hdf5Reader& in) {
   return changes;
 }
 
+/// Part of a record that only that of an external navigator has.
+struct ExternalPart {
+  std::vector<PhasedGoal> phased_goals;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.phased_goals, {"phased_goals", Unit::none, {}, "Phased goals of the navigator."});
+  }
+};
+
+void write_phased_goals(Hdf5Writer& out, const std::vector<PhasedGoal>& goals) {
+  if (goals.empty()) return;
+  const ExternalPart part{goals};
+  out.attribute("/", "phased_goals", static_cast<std::int64_t>(goals.size()));
+  write_tables(out, type_of<ExternalPart>(), &part);
+}
+
+std::vector<PhasedGoal> read_phased_goals(const Hdf5Reader& in) {
+  ExternalPart part;
+  if (in.has_attribute("/", "phased_goals")) read_tables(in, type_of<ExternalPart>(), &part);
+  return std::move(part.phased_goals);
+}
+
 std::int64_t check_format(const Hdf5Reader& in) {
   if (in.text_attribute("/", "format") != record_format_name) in.fail("is no microswarm record");
   const std::int64_t written = in.integer_attribute("/", "format_version");
@@ -100,6 +122,7 @@ void write_record(const Record& record, const std::filesystem::path& file) {
   write_scene(out, record.scene);
   write_tables(out, type_of<Record>(), &record);
   write_changes(out, record.changes);
+  write_phased_goals(out, record.phased_goals);
   write_rig_log(out, record.rig_log);
   out.group("/metrics");
   write_attributes(out, "/metrics", type_of<Metrics>(), &record.result.metrics);
@@ -123,6 +146,7 @@ Record read_record(const std::filesystem::path& file) {
   if (in.has_attribute("/", "navigator")) record.navigator = in.text_attribute("/", "navigator");
   record.scene = read_scene(in);
   read_tables(in, type_of<Record>(), &record);
+  record.phased_goals = read_phased_goals(in);
   record.rig_log = read_rig_log(in);
   if (format == record_format_version) record.changes = read_changes(in);
   record.result.status = status_of(in, in.text_attribute("/", "status"));

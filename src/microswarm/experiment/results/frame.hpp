@@ -74,6 +74,17 @@ struct PathChange {
   }
 };
 
+/// A new phased goal of a navigator, valid until the next one; see NavigatorView::phased_goal.
+struct PhasedGoal {
+  double t = 0;  ///< [s]
+  std::optional<Vec2> point;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.t, {"t", Unit::s, {}, "Time from which the navigator has it."});
+    visit(self.point, {"goal", Unit::um, {}, "The phased goal; NaN for the goal of the run."});
+  }
+};
+
 /// Positions of individually tracked robots.
 struct RobotMoment {
   double t = 0;  ///< [s]
