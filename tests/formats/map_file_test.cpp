@@ -9,6 +9,7 @@
 #include "microswarm/formats/images/pnm.hpp"
 #include "microswarm/formats/rectangles.hpp"
 #include "tests/files.hpp"
+#include "tests/formats/png.hpp"
 #include "tests/messages.hpp"
 
 namespace microswarm {
@@ -58,6 +59,20 @@ TEST(MapFile, RosPairStandsAtItsOrigin) {
   EXPECT_EQ(map.map->bounds().hi, (Vec2{10, 35}));
   EXPECT_FALSE(map.map->is_free(Vec2{-9, 34}, 0));
   EXPECT_TRUE(map.map->is_free(Vec2{-9, 21}, 0));
+}
+
+TEST(MapFile, TransparentPixelsOfARosMapAreUnknown) {
+  const Folder folder;
+  const std::string row("\0\xfe\xff\xfe\x00\x00\xff", 7);  // free, transparent, occupied
+  folder.with("a.png", test::png(3, 1, 8, test::grey_alpha, row));
+  folder.with("a.yaml", "image: a.png\nmode: scale\nresolution: 1\norigin: [0, 0, 0]\n");
+  for (const bool unknown_free : {false, true}) {
+    const RosMap spec{.file = "a.yaml", .um_per_m = 1, .unknown_free = unknown_free};
+    const LoadedMap map = load_map(spec, folder / "");
+    EXPECT_TRUE(map.map->is_free(Vec2{0.5, 0.5}, 0));
+    EXPECT_EQ(map.map->is_free(Vec2{1.5, 0.5}, 0), unknown_free);
+    EXPECT_FALSE(map.map->is_free(Vec2{2.5, 0.5}, 0));
+  }
 }
 
 TEST(MapFile, GridMapAndGeoJson) {

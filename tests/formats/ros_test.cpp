@@ -30,10 +30,14 @@ TEST(Ros, HeaderWithDefaults) {
 
 TEST(Ros, WrittenAndReadAgain) {
   RosHeader header = parsed_header(plain);
-  header.mode = RosMode::raw;
+  header.mode = RosMode::scale;
   header.negate = 1;
+  header.image = "a map #1: \"x\".pgm";
   header.free_thresh = 0.1;
-  EXPECT_EQ(ros_header_text(parsed_header(ros_header_text(header))), ros_header_text(header));
+  const RosHeader again = parsed_header(ros_header_text(header));
+  EXPECT_EQ(ros_header_text(again), ros_header_text(header));
+  EXPECT_EQ(again.image, header.image);
+  EXPECT_EQ(again.origin, header.origin);
 }
 
 TEST(Ros, OccupiedAndUnknownAreWalls) {
@@ -47,9 +51,52 @@ TEST(Ros, NegateAndRaw) {
   RosHeader header = parsed_header(plain);
   header.negate = 1;
   EXPECT_EQ(ros_walls({2, 1, 1, {0, 255}}, header).cells, (Cells{0, 1}));
+  header.negate = 0;
   header.mode = RosMode::raw;
   EXPECT_EQ(ros_walls({4, 1, 1, {0, 66, 100, 255}}, header).cells, (Cells{0, 1, 1, 1}));
   EXPECT_EQ(ros_walls({4, 1, 1, {0, 40, 100, 255}}, header, true).cells, (Cells{0, 0, 1, 0}));
+}
+
+/// How map_server reads a pixel of occupancy, from its description: p > occupied_thresh is
+/// occupied, p < free_thresh is free, all else unknown.
+TEST(Ros, EveryPixelIsReadAsMapServerReadsIt) {
+  for (const auto& [occupied, free] : {std::pair{0.65, 0.196}, {0.65, 0.25}, {0.5, 0.5}, {1., 0.}})
+    for (const int negate : {0, 1})
+      for (const RosMode mode : {RosMode::trinary, RosMode::scale, RosMode::raw}) {
+        if (mode == RosMode::raw && negate == 1) continue;
+        RosHeader header = parsed_header(plain);
+        header.occupied_thresh = occupied, header.free_thresh = free;
+        header.negate = negate, header.mode = mode;
+        for (int x = 0; x < 256; ++x) {
+          double p = negate ? x / 255. : (255 - x) / 255.;
+          if (mode == RosMode::raw) p = x > 100 ? (occupied + free) / 2 : x / 100.;
+          const bool is_occupied = p > occupied, is_free = p < free;
+          const Image image{1, 1, 1, {static_cast<std::uint8_t>(x)}};
+          EXPECT_EQ(ros_walls(image, header).cells[0], !is_free) << x << " " << free;
+          EXPECT_EQ(ros_walls(image, header, true).cells[0], is_occupied) << x << " " << occupied;
+        }
+      }
+}
+
+/// Both forms of map_saver: ROS 1 writes a blank line at the end and no mode, ROS 2 a mode.
+TEST(Ros, WhatMapSaverWritesIsRead) {
+  const RosHeader first = parsed_header(
+      "image: map.pgm\nresolution: 0.050000\norigin: [-10.000000, -10.000000, 0.000000]\n"
+      "negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n\n");
+  EXPECT_EQ(first.origin, (std::vector<double>{-10, -10, 0}));
+  const RosHeader second = parsed_header(
+      "image: map.png\nmode: scale\nresolution: 0.05\norigin: [-1.25, 2.5, 0]\nnegate: 0\n"
+      "occupied_thresh: 0.65\nfree_thresh: 0.25");
+  EXPECT_EQ(second.mode, RosMode::scale);
+  EXPECT_EQ(second.free_thresh, 0.25);
+}
+
+TEST(Ros, TransparentIsUnknown) {
+  const Image image{3, 1, 1, {254, 254, 0}};
+  const RosHeader header = parsed_header(plain);
+  const Cells transparent{0, 1, 1};
+  EXPECT_EQ(ros_walls(image, header, false, transparent).cells, (Cells{0, 1, 1}));
+  EXPECT_EQ(ros_walls(image, header, true, transparent).cells, (Cells{0, 0, 0}));
 }
 
 TEST(Ros, ColoursCountByTheirMean) {
@@ -70,6 +117,9 @@ TEST(RosErrors, NameFileAndValue) {
   EXPECT_TRUE(test::is_one_line_naming(complaint(std::string(plain) + "free_thresh: 0.9\n"),
                                        "x.yaml",
                                        {"free_thresh", "0.9", "occupied_thresh", "0.65"}));
+  EXPECT_TRUE(test::is_one_line_naming(complaint(std::string(plain) + "mode: raw\nnegate: 1\n"),
+                                       "x.yaml", {"negate", "raw"}));
+  EXPECT_NE(complaint(std::string(plain) + "mode: percent\n").find("mode"), std::string::npos);
   EXPECT_NE(complaint("image: a\nresolution: -1\norigin: [0, 0, 0]\n").find("x.yaml:2:"),
             std::string::npos);
   EXPECT_NE(complaint("image: a\nresolution: .nan\norigin: [0, 0, 0]\n").find("x.yaml:2:"),

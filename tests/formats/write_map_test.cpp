@@ -52,6 +52,25 @@ TEST(WriteMap, CellsSurviveEveryGridForm) {
   EXPECT_NEAR(ros.hi.y, 95, 1e-9);
 }
 
+TEST(WriteMap, ARosMapIsReadAgainAsItWas) {
+  const Folder folder;
+  Rng rng(6, Purpose::test);
+  for (const char* name : {"a.yaml", "my map #1: \"x\".yaml", "-.yaml"}) {
+    for (int trial = 0; trial < 20; ++trial) {
+      Mask mask(2 + static_cast<int>(rng.below(30)), 2 + static_cast<int>(rng.below(30)));
+      for (auto& cell : mask.cells) cell = rng.uniform() < 0.4;
+      const double cell = rng.uniform(0.01, 20);
+      const Vec2 lo{rng.uniform(-1e5, 1e5), rng.uniform(-1e5, 1e5)};
+      const Map map(cell_bounds(mask, cell, lo), mask_walls(mask, cell, lo), {}, 2 * cell);
+      write_map(folder / name, map, cell);
+      const Map again = *load_map(guess_map_spec(folder / name)).map;
+      EXPECT_EQ(rasterise(again, cell), mask) << name;
+      EXPECT_NEAR(distance(again.bounds().lo, lo), 0, 1e-9) << name;
+      EXPECT_NEAR(distance(again.bounds().hi, map.bounds().hi), 0, 1e-9) << name;
+    }
+  }
+}
+
 TEST(Rasterise, InvertsMaskWalls) {
   Rng rng(5, Purpose::test);
   for (int trial = 0; trial < 20; ++trial) {

@@ -36,10 +36,12 @@ MapParts read(const ImageMap& spec, const fs::path& base, Issues&) {
 MapParts read(const RosMap& spec, const fs::path& base, Issues&) {
   const fs::path yaml = base / spec.file;
   const RosHeader header = read_ros_header(yaml);
-  const Image image = read_image(yaml.parent_path() / header.image);
+  const fs::path picture = yaml.parent_path() / header.image;
+  const Image image = read_image(picture);
+  const auto transparent = read_transparency(picture);
   const Vec2 origin{header.origin[0], header.origin[1]};
-  return parts_of(ros_walls(image, header, spec.unknown_free), header.resolution * spec.um_per_m,
-                  spec.um_per_m * origin);
+  return parts_of(ros_walls(image, header, spec.unknown_free, transparent),
+                  header.resolution * spec.um_per_m, spec.um_per_m * origin);
 }
 
 MapParts read(const MovingAiMap& spec, const fs::path& base, Issues&) {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -16,9 +18,10 @@ namespace microswarm {
 /// Encoding of the occupancy probability in the pixels of a ROS map.
 enum class RosMode {
   trinary,  ///< dark is occupied, bright is free, between the thresholds is unknown
-  scale,    ///< treated as trinary: between the thresholds a cell is neither free nor certainly
-            ///< occupied
-  raw       ///< the value is a percentage; above 100 is unknown
+  scale,    ///< the same; transparent is unknown. Between the thresholds a cell is neither free nor
+            ///< certainly occupied
+  raw       ///< the value is a percentage; above 100 is unknown. Not with negate: ROS 1 turns the
+            ///< values around, ROS 2 does not
 };
 constexpr auto enum_names(RosMode) {
   return std::array<std::pair<RosMode, std::string_view>, 3>{
@@ -50,14 +53,17 @@ struct RosHeader {
   }
 };
 
-/// Reads the YAML file. Throws InputError "NAME:LINE:COLUMN: WHY", also for a non-zero yaw.
+/// Reads the YAML file. Throws InputError "NAME:LINE:COLUMN: WHY", also for a non-zero yaw
+/// and for negate in the mode raw.
 RosHeader read_ros_header(const std::filesystem::path& path);
 RosHeader parse_ros_header(std::string_view text, std::string_view name);
 
-/// Wall cells: the occupied ones, and the unknown ones unless `unknown_free`.
-Mask ros_walls(const Image& image, const RosHeader& header, bool unknown_free = false);
+/// Wall cells: the occupied ones, and the unknown ones unless `unknown_free`. Pixels that
+/// `transparent` marks, as of read_transparency, are unknown; it may be empty.
+Mask ros_walls(const Image& image, const RosHeader& header, bool unknown_free = false,
+               std::span<const std::uint8_t> transparent = {});
 
-/// YAML text for a map whose pixels are 0 (occupied) and 254 (free).
+/// The YAML file of a header.
 std::string ros_header_text(const RosHeader& header);
 
 }  // namespace microswarm

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The layout that ompl::tools::Benchmark writes and ompl_benchmark_statistics.py reads.
+// The layout that ompl::tools::Benchmark writes and ompl_benchmark_statistics.py reads, by the
+// grammar of OMPL's page "How to Benchmark Planners"; tests/sweep/ompl_grammar.py checks it.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "microswarm/config/number.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/sweep/export.hpp"
@@ -15,12 +18,52 @@ namespace {
 using Role = SweepColumn::Role;
 using Lines = std::vector<std::string>;
 
-/// The reader takes a line apart at its spaces.
-std::string one_word(std::string_view text) {
-  std::string word(text.empty() ? "sweep" : text);
+/// A text of the grammar, which has no spaces; `none` for an empty one.
+std::string one_word(std::string_view text, std::string_view none) {
+  std::string word(text.empty() ? none : text);
   for (char& c : word)
     if (static_cast<unsigned char>(c) <= ' ') c = '_';
   return word;
+}
+
+/// A value as one word: "[700,500]".
+std::string value_word(std::string_view value) {
+  std::string text;
+  for (const char c : value)
+    if (c != ' ' || text.empty() || text.back() != ',') text += c;
+  return one_word(text, "~");
+}
+
+/// A property of the experiment in SQL: its name is not that of a column that each experiment has.
+std::string property_name(const std::string& column) {
+  constexpr std::array<std::string_view, 12> taken{
+      "id",      "name",     "totaltime", "timelimit", "memorylimit", "runcount",
+      "version", "hostname", "cpuinfo",   "date",      "seed",        "setup"};
+  std::string lower = column;
+  for (char& c : lower)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return std::ranges::find(taken, lower) == taken.end() ? column : "set_" + column;
+}
+
+/// A grid's value as a number: itself, of true and false 1 and 0, of another text its place.
+std::string property_value(const SweepParameter& parameter, std::size_t place,
+                           SweepColumnKind kind) {
+  const std::string& text = parameter.values[place];
+  if (kind != SweepColumnKind::text) return number_text(parse_number(text).value_or(0));
+  if (text == "true" || text == "false") return text == "true" ? "1" : "0";
+  return std::to_string(place);
+}
+
+/// Whether values are neither numbers nor true and false.
+bool are_words(const SweepParameter& parameter, SweepColumnKind kind) {
+  return kind == SweepColumnKind::text && std::ranges::any_of(parameter.values, [](const auto& v) {
+           return v != "true" && v != "false";
+         });
+}
+
+std::string_view property_type(const SweepParameter& parameter, SweepColumnKind kind) {
+  if (kind != SweepColumnKind::text) return enum_name(kind);
+  return are_words(parameter, kind) ? "INTEGER" : "BOOLEAN";
 }
 
 /// Free text inside the log must not look like the end of its block, and stays on its line.
@@ -57,7 +100,7 @@ class LogWriter {
     }
   }
 
-  /// The log of cells first … first + methods − 1.
+  /// The log of cells first … first + methods − 1; empty if they have no trials yet.
   std::string log(std::size_t first) const {
     const std::size_t methods = sweep_.sweep().methods.size();
     std::vector<std::vector<std::vector<SqlValue>>> rows(methods);
@@ -69,9 +112,15 @@ class LogWriter {
             if (const auto* seconds = std::get_if<double>(&row[compute_])) total += *seconds;
           },
           first + i);
-    std::string text = head(first, total);
-    for (std::size_t i = 0; i < methods; ++i) text += planner(sweep_.sweep().methods[i], rows[i]);
-    return text;
+    std::string planners;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < methods; ++i) {
+      if (rows[i].empty()) continue;
+      planners += planner(sweep_.sweep().methods[i], rows[i]);
+      ++count;
+    }
+    if (count == 0) return {};
+    return head(first, total) + fmt::format("{} planners\n", count) + planners;
   }
 
  private:
@@ -80,53 +129,68 @@ class LogWriter {
     const Scenario scenario =
         read_yaml_text<Scenario>(sweep_.scenario(cell), sweep_.name() + ", cell's scenario");
     std::string text = fmt::format("microswarm version {}\nExperiment {}\n",
-                                   sweep_.about("version"), one_word(sweep.name));
+                                   sweep_.about("version"), one_word(sweep.name, "sweep"));
     text += properties_of(cell / sweep.methods.size());
-    text += fmt::format("Running on {}\nStarting at {}\n", one_word(sweep_.about("host")),
-                        sweep_.about("begun"));
-    text += "<<<|\n" + setup(sweep) + "|>>>\n<<<|\n|>>>\n";
+    text += fmt::format("Running on {}\nStarting at {}\n",
+                        one_word(sweep_.about("host"), "UNKNOWN"), sweep_.about("begun"));
+    text += "<<<|\n" + setup(cell / sweep.methods.size()) + "|>>>\n";
     text += fmt::format("{} is the random seed\n{} seconds per run\n0 MB per run\n",
                         sweep_.about("seed"), number_text(scenario.time_limit));
     text += fmt::format("{} runs per planner\n{} seconds spent to collect the data\n", sweep.trials,
                         number_text(total));
     text += "1 enum type\nstatus";
     for (const std::string& word : statuses()) text += "|" + word;
-    return text + fmt::format("\n{} planners\n", sweep.methods.size());
+    return text + "\n";
+  }
+
+  /// Places of the grid's values in their lists.
+  std::vector<std::size_t> places_of(std::size_t combination) const {
+    const auto& grid = sweep_.sweep().grid;
+    std::vector<std::size_t> places(grid.size());
+    for (std::size_t i = grid.size(); i-- > 0;) {
+      places[i] = combination % grid[i].values.size();
+      combination /= grid[i].values.size();
+    }
+    return places;
   }
 
   /// The grid's values as properties of the experiment.
   std::string properties_of(std::size_t combination) const {
     const auto& grid = sweep_.sweep().grid;
-    Lines values(grid.size());
-    for (std::size_t i = grid.size(); i-- > 0;) {
-      values[i] = grid[i].values[combination % grid[i].values.size()];
-      combination /= grid[i].values.size();
-    }
+    if (grid.empty()) return {};
+    const std::vector<std::size_t> places = places_of(combination);
     std::string text = fmt::format("{} experiment properties\n", grid.size());
     for (std::size_t i = 0; i < grid.size(); ++i) {
       const SweepColumn& column = sweep_.columns()[parameters_[i]];
-      text +=
-          fmt::format("{} {} = {}\n", column.name, enum_name(column.kind), plain_line(values[i]));
+      text += fmt::format("{} {} = {}\n", property_name(column.name),
+                          property_type(grid[i], column.kind),
+                          property_value(grid[i], places[i], column.kind));
     }
     return text;
   }
 
-  static std::string setup(const Sweep& sweep) {
+  std::string setup(std::size_t combination) const {
+    const Sweep& sweep = sweep_.sweep();
     std::string text = fmt::format("scenario: {}\n", plain_line(sweep.scenario));
     if (!sweep.description.empty())
       text += fmt::format("description: {}\n", plain_line(sweep.description));
     for (const std::string& setting : sweep.set)
       text += fmt::format("set: {}\n", plain_line(setting));
+    const std::vector<std::size_t> places = places_of(combination);
+    for (std::size_t i = 0; i < sweep.grid.size(); ++i)
+      text += fmt::format("set: {}={}\n", sweep.grid[i].key,
+                          plain_line(sweep.grid[i].values[places[i]]));
     return text;
   }
 
   std::string planner(const SweepMethod& method,
                       const std::vector<std::vector<SqlValue>>& rows) const {
-    std::string text = fmt::format("{}\n{} common properties\n", method.name, method.set.size());
+    std::string text = fmt::format("{}\n{} common properties\n", one_word(method.name, "method"),
+                                   method.set.size());
     for (const std::string& setting : method.set) {
-      const std::size_t equals = setting.find('=');
+      const std::size_t equals = std::min(setting.find('='), setting.size());
       text += fmt::format("{} = {}\n", plain_line(setting.substr(0, equals)),
-                          plain_line(setting.substr(equals + 1)));
+                          value_word(setting.substr(std::min(equals + 1, setting.size()))));
     }
     text += fmt::format("{} properties for each run\n", properties_.size() + 3);
     text += "solved BOOLEAN\nstatus ENUM\ntime REAL\n";
@@ -157,7 +221,8 @@ std::vector<std::pair<std::string, std::string>> ompl_logs(const SweepReader& sw
   const std::size_t methods = sweep.sweep().methods.size();
   std::vector<std::pair<std::string, std::string>> logs;
   for (std::size_t cell = 0; cell < sweep.cells(); cell += methods)
-    logs.emplace_back(fmt::format("{:05}.log", cell / methods), writer.log(cell));
+    if (std::string log = writer.log(cell); !log.empty())
+      logs.emplace_back(fmt::format("{:05}.log", cell / methods), std::move(log));
   return logs;
 }
 

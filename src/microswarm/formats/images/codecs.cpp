@@ -81,30 +81,45 @@ cv::Mat looked_up(const cv::Mat& packed, const spng_ihdr& header, const spng_plt
   return rgb;
 }
 
-cv::Mat decode_png(Bytes bytes, std::string_view name) {
-  const std::unique_ptr<spng_ctx, void (*)(spng_ctx*)> png(spng_ctx_new(0), spng_ctx_free);
-  const auto check = [&](int code) {
+/// A PNG that is being decoded.
+struct OpenPng {
+  OpenPng(Bytes bytes, std::string_view name_) : name(name_) {
+    check(spng_set_crc_action(png.get(), SPNG_CRC_ERROR, SPNG_CRC_ERROR));
+    check(spng_set_chunk_limits(png.get(), max_chunk_bytes, max_chunk_bytes));
+    check(spng_set_png_buffer(png.get(), bytes.data(), bytes.size()));
+    check(spng_get_ihdr(png.get(), &header));
+    check_image_size(header.width, header.height, name);
+    const int no_trns = spng_get_trns(png.get(), &of_colours);
+    if (no_trns != SPNG_ECHUNKAVAIL) check(no_trns);
+    transparent = (header.color_type & alpha_bit) != 0 || no_trns == 0;
+  }
+  void check(int code) const {
     if (code) fail_image(name, std::string("damaged PNG: ") + spng_strerror(code));
-  };
-  check(spng_set_crc_action(png.get(), SPNG_CRC_ERROR, SPNG_CRC_ERROR));
-  check(spng_set_chunk_limits(png.get(), max_chunk_bytes, max_chunk_bytes));
-  check(spng_set_png_buffer(png.get(), bytes.data(), bytes.size()));
-  spng_ihdr header{};
-  check(spng_get_ihdr(png.get(), &header));
-  check_image_size(header.width, header.height, name);
+  }
+  void decode(cv::Mat& pixels, int format) const {
+    check(spng_decode_image(png.get(), pixels.data, pixels.total() * pixels.elemSize(), format,
+                            SPNG_DECODE_TRNS));
+    check(spng_decode_chunks(png.get()));  // up to IEND
+  }
 
+  std::string_view name;
+  std::unique_ptr<spng_ctx, void (*)(spng_ctx*)> png{spng_ctx_new(0), spng_ctx_free};
+  spng_ihdr header{};
+  spng_trns of_colours{};
+  bool transparent = false;  ///< whether pixels may be
+};
+
+cv::Mat decode_png(Bytes bytes, std::string_view name) {
+  const OpenPng png(bytes, name);
+  const spng_ihdr& header = png.header;
   const auto width = static_cast<int>(header.width), height = static_cast<int>(header.height);
   const bool grey = header.color_type == SPNG_COLOR_TYPE_GRAYSCALE ||
                     header.color_type == SPNG_COLOR_TYPE_GRAYSCALE_ALPHA;
-  spng_trns of_colours{};
-  const int no_trns = spng_get_trns(png.get(), &of_colours);
-  if (no_trns != SPNG_ECHUNKAVAIL) check(no_trns);
-  const bool transparent = (header.color_type & alpha_bit) != 0 || no_trns == 0;
   cv::Mat pixels;
   int format = SPNG_FMT_PNG;
   if (header.color_type == SPNG_COLOR_TYPE_INDEXED) {
     pixels.create(height, (width * header.bit_depth + 7) / 8, CV_8UC1);
-  } else if (transparent) {
+  } else if (png.transparent) {
     pixels.create(height, width, header.bit_depth == 16 ? CV_16UC4 : CV_8UC4);
     format = header.bit_depth == 16 ? SPNG_FMT_RGBA16 : SPNG_FMT_RGBA8;
   } else if (header.bit_depth == 16) {
@@ -113,15 +128,13 @@ cv::Mat decode_png(Bytes bytes, std::string_view name) {
     pixels.create(height, width, grey ? CV_8UC1 : CV_8UC3);
     format = grey ? SPNG_FMT_G8 : SPNG_FMT_RGB8;
   }
-  check(spng_decode_image(png.get(), pixels.data, pixels.total() * pixels.elemSize(), format,
-                          SPNG_DECODE_TRNS));
-  check(spng_decode_chunks(png.get()));  // up to IEND
+  png.decode(pixels, format);
   if (header.color_type == SPNG_COLOR_TYPE_INDEXED) {
     spng_plte palette{};
-    check(spng_get_plte(png.get(), &palette));
-    return looked_up(pixels, header, palette, of_colours, name);
+    png.check(spng_get_plte(png.png.get(), &palette));
+    return looked_up(pixels, header, palette, png.of_colours, name);
   }
-  if (transparent)
+  if (png.transparent)
     pixels = pixels.depth() == CV_16U ? over_white<std::uint16_t>(pixels)
                                       : over_white<std::uint8_t>(pixels);
   if (grey && pixels.channels() > 1) cv::extractChannel(pixels, pixels, 0);
@@ -220,6 +233,17 @@ std::string encode_png(const Image& image) {
                                                      std::free);
   check(error);
   return {static_cast<const char*>(bytes.get()), size};
+}
+
+std::vector<std::uint8_t> transparency_of(Bytes bytes, std::string_view name) {
+  if (!is_png(bytes)) return {};
+  const OpenPng png(bytes, name);
+  if (!png.transparent) return {};
+  cv::Mat rgba(static_cast<int>(png.header.height), static_cast<int>(png.header.width), CV_8UC4);
+  png.decode(rgba, SPNG_FMT_RGBA8);
+  std::vector<std::uint8_t> out(rgba.total());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = rgba.data[4 * i + 3] < 255;
+  return out;
 }
 
 bool is_png(Bytes bytes) { return starts_with(bytes, "\x89PNG\r\n\x1a\n"); }

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "microswarm/formats/images/image.hpp"
 
@@ -23,6 +25,10 @@ bool is_png(std::span<const std::byte> bytes);
 /// is decoded. A JPEG is turned as its EXIF says; a BMP has three channels always. Throws
 /// InputError "NAME: WHY".
 cv::Mat decode_pixels(std::span<const std::byte> bytes, std::string_view name);
+
+/// 1 for each pixel of a PNG that is not opaque, else 0; empty for a picture without transparency.
+/// Throws as `decode_pixels`.
+std::vector<std::uint8_t> transparency_of(std::span<const std::byte> bytes, std::string_view name);
 
 /// An 8-bit PNG of an image. Throws InputError "cannot encode a PNG: WHY".
 std::string encode_png(const Image& image);

@@ -49,6 +49,11 @@ Image read_image(const std::filesystem::path& path, int depth) {
   return decode_image(std::as_bytes(std::span(bytes.data(), bytes.size())), path.string(), depth);
 }
 
+std::vector<std::uint8_t> read_transparency(const std::filesystem::path& path) {
+  const std::string bytes = read_file(path, max_file_bytes);
+  return transparency_of(std::as_bytes(std::span(bytes.data(), bytes.size())), path.string());
+}
+
 std::optional<int> sample_depth(const std::filesystem::path& path) {
   const std::string bytes = read_file(path, max_file_bytes);
   const auto raw = std::as_bytes(std::span(bytes.data(), bytes.size()));

@@ -44,6 +44,10 @@ Image read_image(const std::filesystem::path& path, int depth = 16);
 /// The same from memory; `name` stands for the file in messages.
 Image decode_image(std::span<const std::byte> bytes, std::string_view name, int depth = 16);
 
+/// 1 for each pixel of a PNG that is not opaque, else 0; empty for a picture without transparency.
+/// Throws as `read_image`.
+std::vector<std::uint8_t> read_transparency(const std::filesystem::path& path);
+
 /// Bits, 8 to 16, that the largest sample of a PNG or TIFF with more than 8 bits needs; nothing for
 /// another picture or file. Throws as `read_image` for a damaged one.
 std::optional<int> sample_depth(const std::filesystem::path& path);
