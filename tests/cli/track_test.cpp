@@ -41,7 +41,7 @@ TEST_F(Track, PicturesBecomeTables) {
   const std::string csv = read("out/tracks.csv");
   EXPECT_TRUE(
       csv.starts_with("frame,id,t_s,x_um,y_um,vx_um_per_s,vy_um_per_s,radius_um,mass,"
-                      "signal,eccentricity\n0,0,0,15.25,64.75,"))
+                      "signal,eccentricity,particle,x,y\n0,0,0,15.25,64.75,"))
       << csv.substr(0, 200);
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 12 * 12);
   EXPECT_TRUE(read("out/tracks.h5").starts_with("\x89HDF"));
@@ -62,6 +62,32 @@ std::function<int(int, int)> noisy(int k) {
     }
     return grey;
   };
+}
+
+TEST_F(Track, TablesHaveTheColumnsOfTrackpy) {
+  film("video", 6);
+  good({"track", "video", "--um-per-px", "0.5", "--rate", "10", "--out", "out"});
+  write("read.py", R"(import csv
+rows = list(csv.DictReader(open("out/tracks.csv", newline="")))
+assert len(rows) == 6 * 12
+for row in rows:
+    frame, particle = int(row["frame"]), int(row["particle"])
+    assert particle == int(row["id"])
+    x, y = float(row["x"]), float(row["y"])
+    assert abs(x - (30 + 40 * (particle % 4) + frame)) < 0.1, row
+    assert abs(float(row["x_um"]) - 0.5 * (x + 0.5)) < 1e-9
+    assert abs(float(row["y_um"]) - 0.5 * (160 - 0.5 - y)) < 1e-9
+    assert abs(float(row["t_s"]) - frame / 10) < 1e-9
+try:
+    import pandas
+except ImportError:
+    raise SystemExit
+table = pandas.read_csv("out/tracks.csv")
+assert {"frame", "particle", "x", "y"} <= set(table.columns)
+assert (table.groupby("particle").frame.count() == 6).all()
+)");
+  const std::string in_folder = "cd " + at.folder.string() + " && python3 read.py";
+  EXPECT_EQ(std::system(in_folder.c_str()), 0);
 }
 
 TEST_F(Track, SuggestsWhatSeparatesRobotsFromNoise) {

@@ -27,6 +27,16 @@ TEST(Tracks, AnyOrderOfColumnsAndRows) {
   EXPECT_EQ(tracks.at("b").points, (std::vector<Vec2>{{5, 6}}));
 }
 
+TEST(Tracks, ParticleIsTakenForAMissingId) {
+  const Tracks tracks = parsed_tracks("frame,particle,t_s,x_um,y_um\n0,7,0,1,2\n1,7,1,3,4\n");
+  EXPECT_EQ(tracks.at("7").points, (std::vector<Vec2>{{1, 2}, {3, 4}}));
+  const Tracks both = parsed_tracks("particle,t_s,x_um,y_um,id\n0,0,1,2,a\n");
+  EXPECT_TRUE(both.contains("a"));
+  EXPECT_TRUE(
+      test::is_one_line_naming(tracks_complaint("particle,t_s,x_um,y_um,particle\n0,0,1,2,0\n"),
+                               "x.csv:1", {"column", "particle", "twice"}));
+}
+
 TEST(TracksErrors, NameTheLine) {
   const std::string head = "id,t_s,x_um,y_um\n";
   EXPECT_EQ(tracks_complaint(""), "x.csv: no tracks: columns id,t_s,x_um,y_um and rows expected");

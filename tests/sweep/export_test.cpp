@@ -94,6 +94,64 @@ TEST_F(SweepExport, PlannerArenasImporterReadsTheLogs) {
   EXPECT_TRUE(python("sqlite3", "read_ompl_logs.py " + (folder() / "sweep.csv").string() + files));
 }
 
+/// Writes logs into the folder; their names with a blank before each.
+std::string write_logs(const SweepReader& sweep, const std::filesystem::path& folder) {
+  std::string files;
+  for (const auto& [name, log] : ompl_logs(sweep)) {
+    write_file_atomically(folder / name, log);
+    files += " " + (folder / name).string();
+  }
+  return files;
+}
+
+TEST_F(SweepExport, LogsKeepToOmplsGrammar) {
+  if (python_with("re").empty()) GTEST_SKIP() << "python3 is not installed";
+  EXPECT_TRUE(python("re", "ompl_grammar.py" + write_logs(sweep, folder())));
+
+  // Keys that are columns of every experiment, words, truth values, a description, nothing to try.
+  const auto odd = sweep_folder("sweep_odd", R"(name: "odd: | sweep"
+scenario: flight.yaml
+description: |
+  of two lines,
+  |>>> like a mark
+set: [time_limit_s=1]
+grid:
+  - {key: seed, values: [1, 2]}
+  - {key: stop_at_contact, values: [true, false]}
+  - {key: navigator.guide, values: [straight, route]}
+methods:
+  - {name: a | b, set: ["goal_um=[700, 500]", "name=a = b"]}
+  - {name: plain}
+trials: 1
+)");
+  run_alone(load_sweep(odd / "sweep.yaml", 1), odd / "sweep.db", 2);
+  const SweepReader odd_sweep(odd / "sweep.db");
+  ASSERT_EQ(ompl_logs(odd_sweep).size(), 8u);
+  EXPECT_TRUE(python("re", "ompl_grammar.py" + write_logs(odd_sweep, odd)));
+}
+
+TEST_F(SweepExport, TrialsThatAreMissingAreNotInTheLogs) {
+  const auto file = folder() / "partial.db";
+  std::filesystem::copy_file(folder() / "sweep.db", file,
+                             std::filesystem::copy_options::overwrite_existing);
+  Database(file, Database::Access::write).run("DELETE FROM trials WHERE cell < 3 OR trial = 1");
+  const auto logs = ompl_logs(SweepReader(file));
+  ASSERT_EQ(logs.size(), 3u);
+  EXPECT_EQ(logs[0].first, "00001.log");
+  EXPECT_NE(logs[0].second.find("\n1 planners\nroute\n"), std::string::npos);
+  const auto partial = empty_folder("partial_logs");
+  EXPECT_TRUE(python("re", "ompl_grammar.py" + write_logs(SweepReader(file), partial)));
+}
+
+#ifdef OMPL_LOG_WRITER
+TEST_F(SweepExport, OmplsOwnLogHasTheSameGrammar) {
+  if (python_with("re").empty()) GTEST_SKIP() << "python3 is not installed";
+  const std::string log = (folder() / "ompl.log").string();
+  ASSERT_EQ(std::system((OMPL_LOG_WRITER " " + log).c_str()), 0);
+  EXPECT_TRUE(python("re", "ompl_grammar.py --ompl " + log));
+}
+#endif
+
 TEST_F(SweepExport, WhatAKilledWriterLeftHalfDoneIsUndone) {
   const auto file = folder() / "killed.db";
   std::filesystem::copy_file(folder() / "sweep.db", file);

@@ -25,10 +25,15 @@ std::array<std::size_t, column_count> find_columns(const Lines& lines, std::stri
   const std::vector<std::string_view> names = split(header, ',');
   std::array<std::size_t, column_count> places{};
   for (std::size_t c = 0; c < column_count; ++c) {
-    const std::string wanted = "column '" + std::string(column_names[c]) + "'";
-    const auto found = std::find(names.begin(), names.end(), column_names[c]);
+    std::string_view name = column_names[c];
+    auto found = std::find(names.begin(), names.end(), name);
+    if (c == id && found == names.end()) {
+      const auto other = std::find(names.begin(), names.end(), "particle");
+      if (other != names.end()) name = "particle", found = other;
+    }
+    const std::string wanted = "column '" + std::string(name) + "'";
     if (found == names.end()) lines.fail(wanted + " is missing: id,t_s,x_um,y_um expected");
-    if (std::find(found + 1, names.end(), column_names[c]) != names.end())
+    if (std::find(found + 1, names.end(), name) != names.end())
       lines.fail(wanted + " stands twice");
     places[c] = static_cast<std::size_t>(found - names.begin());
   }

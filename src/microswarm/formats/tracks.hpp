@@ -13,10 +13,10 @@ namespace microswarm {
 /// Recorded positions of bodies, by id.
 using Tracks = std::map<std::string, Samples>;
 
-/// Reads a CSV of moving bodies: a header with the columns id, t_s, x_um and y_um in any order
-/// (further columns are ignored), then one row per body and time. Bodies may be interleaved; the
-/// times of each must ascend. Blank lines and lines that start with '#' are skipped. Throws
-/// InputError "NAME:LINE: WHY".
+/// Reads a CSV of moving bodies: a header with the columns id (or else particle, trackpy's name),
+/// t_s, x_um and y_um in any order (further columns are ignored), then one row per body and time.
+/// Bodies may be interleaved; the times of each must ascend. Blank lines and lines that start with
+/// '#' are skipped. Throws InputError "NAME:LINE: WHY".
 Tracks read_tracks(const std::filesystem::path& path);
 Tracks parse_tracks(std::string_view text, std::string_view name);
 

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 
-#include "microswarm/config/number.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/sweep/export.hpp"
@@ -45,20 +44,19 @@ std::string property_name(const std::string& column) {
   return std::ranges::find(taken, lower) == taken.end() ? column : "set_" + column;
 }
 
-/// A grid's value as a number: itself, of true and false 1 and 0, of another text its place.
+/// Whether values are neither numbers nor true and false.
+bool are_words(const SweepParameter& parameter, SweepColumnKind kind) {
+  const auto is_word = [](const std::string& v) { return v != "true" && v != "false"; };
+  return kind == SweepColumnKind::text && std::ranges::any_of(parameter.values, is_word);
+}
+
+/// A grid's value as a number: itself, of true and false 1 and 0, of words its place.
 std::string property_value(const SweepParameter& parameter, std::size_t place,
                            SweepColumnKind kind) {
   const std::string& text = parameter.values[place];
   if (kind != SweepColumnKind::text) return number_text(parse_number(text).value_or(0));
-  if (text == "true" || text == "false") return text == "true" ? "1" : "0";
-  return std::to_string(place);
-}
-
-/// Whether values are neither numbers nor true and false.
-bool are_words(const SweepParameter& parameter, SweepColumnKind kind) {
-  return kind == SweepColumnKind::text && std::ranges::any_of(parameter.values, [](const auto& v) {
-           return v != "true" && v != "false";
-         });
+  if (are_words(parameter, kind)) return std::to_string(place);
+  return text == "true" ? "1" : "0";
 }
 
 std::string_view property_type(const SweepParameter& parameter, SweepColumnKind kind) {

@@ -39,7 +39,8 @@ const std::vector<TrackRow>& VideoTracker::step(const VideoFrame& frame) {
                      .radius = um_per_px_ * found[i].radius_px,
                      .mass = found[i].mass,
                      .signal = found[i].signal,
-                     .eccentricity = found[i].eccentricity});
+                     .eccentricity = found[i].eccentricity,
+                     .at_px = found[i].at_px});
   return rows_;
 }
 

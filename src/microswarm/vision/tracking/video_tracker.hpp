@@ -32,7 +32,8 @@ struct TrackSettings {
   }
 };
 
-/// A robot seen in a frame. The world's origin is the picture's lower left corner, y points up.
+/// A robot seen in a frame. The world's origin is the picture's lower left corner, y points up. The
+/// last columns repeat number and position under the names that trackpy and its users know.
 struct TrackRow {
   int frame = 0;
   double t = 0;  ///< [s]
@@ -43,6 +44,7 @@ struct TrackRow {
   double mass = 0;    ///< [grey]
   double signal = 0;  ///< [grey]
   double eccentricity = 0;
+  Vec2 at_px;  ///< measured position [px]: y down, (0, 0) is the centre of the first pixel
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.frame, {"frame", Unit::none, {}, "Picture, from 0."});
@@ -56,6 +58,9 @@ struct TrackRow {
     visit(self.mass, {"mass", Unit::none, {}, "Sum of greys above the background."});
     visit(self.signal, {"signal", Unit::none, {}, "Highest grey above the background."});
     visit(self.eccentricity, {"eccentricity", Unit::none, {}, "0 if round, towards 1 for a line."});
+    visit(self.id, {"particle", Unit::none, {}, "The same as id, as trackpy names it."});
+    visit(self.at_px.x, {"x", Unit::none, {}, "Centre in the picture in px, to the right."});
+    visit(self.at_px.y, {"y", Unit::none, {}, "Centre in the picture in px, downwards."});
   }
 };
 
