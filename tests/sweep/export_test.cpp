@@ -116,7 +116,7 @@ description: |
   |>>> like a mark
 set: [time_limit_s=1]
 grid:
-  - {key: seed, values: [1, 2]}
+  - {key: name, values: [one, two]}
   - {key: stop_at_contact, values: [true, false]}
   - {key: navigator.guide, values: [straight, route]}
 methods:
