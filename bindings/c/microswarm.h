@@ -77,6 +77,19 @@ int32_t ms_session_open(const char* file, const char* const* settings, size_t co
 /* Opens a scenario from YAML text; `folder` is that of the files it names, null for the present. */
 int32_t ms_session_open_text(const char* text, const char* folder, const char* const* settings,
                              size_t count, uint64_t* session);
+/* A scenario as a whole: a file or a text, the other null. All zero but those is as in
+ * ms_session_open. */
+typedef struct ms_scenario {
+  const char* file; /* of a session also a record, which takes neither settings nor trial */
+  const char* text;
+  const char* folder; /* of the files that the text names, null for the present */
+  const char* const* settings;
+  size_t setting_count;
+  uint32_t trial; /* selects the random streams: trial k is that of `microswarm run --trials` */
+} ms_scenario;
+
+/* Opens one trial of a scenario. */
+int32_t ms_session_open_trial(const ms_scenario* scenario, uint64_t* session);
 /* The next tick; `frame` may be null. MS_END after the last one. */
 int32_t ms_session_step(uint64_t session, ms_frame* frame);
 /* Steps to the end. */
@@ -110,7 +123,7 @@ typedef struct ms_obstacle {
   double radius_um;
   const double* outline_um; /* null for a disc */
   size_t points;
-  int32_t number; /* the same in all pictures; see ms_observation */
+  int32_t number; /* the same in all pictures, 0 or more; see ms_observation */
 } ms_obstacle;
 
 /* What the camera saw. */
@@ -127,6 +140,8 @@ typedef struct ms_observation {
   size_t obstacle_count;
   const double* robots_um; /* x0, y0, x1, ...: robot i is the same in every picture */
   size_t robot_count;
+  int32_t unseen;   /* how many of the robots were not seen and are where they are expected */
+  int32_t reserved; /* 0 */
 } ms_observation;
 
 /* What to drive until the next one. Speed 0 is hold. */
@@ -144,6 +159,7 @@ int32_t ms_navigator_open(const char* file, const char* const* settings, size_t 
                           uint64_t* navigator);
 int32_t ms_navigator_open_text(const char* text, const char* folder, const char* const* settings,
                                size_t count, uint64_t* navigator);
+int32_t ms_navigator_open_trial(const ms_scenario* scenario, uint64_t* navigator);
 /* The command for an observation. A refused observation changes nothing. */
 int32_t ms_navigator_step(uint64_t navigator, const ms_observation* seen, ms_command* command);
 /* The path that it follows, x0, y0, x1, ... */
@@ -179,9 +195,9 @@ typedef struct ms_path {
   int32_t solved;   /* 0: the points are the beginning of a path */
   double length_um; /* arcs as arcs */
   double turning_rad;
-  double seconds;      /* that the planner took */
-  const double* xy_um; /* x0, y0, x1, ... */
-  size_t points;
+  double time_s;           /* that the planner took */
+  const double* points_um; /* x0, y0, x1, ... */
+  size_t point_count;
   const char* why_none; /* why there is no path; empty with one */
 } ms_path;
 

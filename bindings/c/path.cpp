@@ -69,11 +69,11 @@ int32_t ms_plan(uint64_t handle, const ms_query* query, ms_path* path) {
     *path = {.solved = made.plan.status == Status::solved,
              .length_um = path_length(made.plan),
              .turning_rad = path_turning(made.plan.path, query->start_heading_rad),
-             .seconds = made.seconds,
-             .xy_um = nullptr,
-             .points = 0,
+             .time_s = made.seconds,
+             .points_um = nullptr,
+             .point_count = 0,
              .why_none = object.why.c_str()};
-    c::show(object, made.plan.path, &path->xy_um, &path->points);
+    c::show(object, made.plan.path, &path->points_um, &path->point_count);
     const bool stopped = made.plan.status == Status::stopped;
     object.stops = false;
     return stopped ? c::fail(MS_STOPPED, "the search was stopped") : MS_OK;

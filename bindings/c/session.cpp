@@ -29,6 +29,18 @@ Experiment experiment_of(const char* text, const char* folder, const char* const
   return open_experiment_text(text, "scenario", folder ? folder : "", c::texts(settings, count));
 }
 
+Experiment experiment_of(const ms_scenario& given) {
+  if (given.text)
+    return experiment_of(given.text, given.folder, given.settings, given.setting_count);
+  return open_experiment(given.file, c::texts(given.settings, given.setting_count));
+}
+
+void require_one_source(const ms_scenario* given) {
+  c::require(given, "scenario");
+  if (!given->file == !given->text)
+    throw c::BadCall{"either file or text of the scenario must be null"};
+}
+
 ms_frame plain(const Frame& frame) {
   return {.t_s = frame.t,
           .x_um = frame.pose.position.x,
@@ -75,6 +87,7 @@ ExternalObservation observation_of(const ms_observation& seen) {
     given.obstacles.push_back(std::move(body));
   }
   given.robots = places(seen.robots_um, seen.robot_count, "robots_um");
+  given.unseen = seen.unseen;
   return given;
 }
 
@@ -94,6 +107,19 @@ int32_t ms_session_open_text(const char* text, const char* folder, const char* c
   return c::guarded([&]() -> int32_t {
     c::require(session, "session");
     *session = c::keep(of(std::make_unique<Session>(experiment_of(text, folder, settings, count))));
+    return MS_OK;
+  });
+}
+
+int32_t ms_session_open_trial(const ms_scenario* scenario, uint64_t* session) {
+  return c::guarded([&]() -> int32_t {
+    require_one_source(scenario), c::require(session, "session");
+    if (scenario->file)
+      *session = c::keep(of(open_session(
+          scenario->file, {.settings = c::texts(scenario->settings, scenario->setting_count),
+                           .trial = scenario->trial})));
+    else
+      *session = c::keep(of(std::make_unique<Session>(experiment_of(*scenario), scenario->trial)));
     return MS_OK;
   });
 }
@@ -231,6 +257,15 @@ int32_t ms_navigator_open_text(const char* text, const char* folder, const char*
     c::require(navigator, "navigator");
     *navigator = c::keep(
         of(std::make_unique<StandaloneNavigator>(experiment_of(text, folder, settings, count))));
+    return MS_OK;
+  });
+}
+
+int32_t ms_navigator_open_trial(const ms_scenario* scenario, uint64_t* navigator) {
+  return c::guarded([&]() -> int32_t {
+    require_one_source(scenario), c::require(navigator, "navigator");
+    *navigator = c::keep(
+        of(std::make_unique<StandaloneNavigator>(experiment_of(*scenario), scenario->trial)));
     return MS_OK;
   });
 }

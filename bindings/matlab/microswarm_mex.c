@@ -113,28 +113,34 @@ static mxArray* close_handle(arguments in) {
   return NULL;
 }
 
-static mxArray* open_file(arguments in,
-                          int32_t (*open)(const char*, const char* const*, size_t, uint64_t*)) {
-  const char* file = text_of(in[0], "the file");
-  const texts settings = settings_of(in[1]);
+/* file or text, settings, trial */
+static mxArray* open_scenario(arguments in, int is_text,
+                              int32_t (*open)(const ms_scenario*, uint64_t*)) {
+  ms_scenario scenario;
+  texts settings;
   uint64_t handle = 0;
-  check(open(file, settings.all, settings.count, &handle));
+  memset(&scenario, 0, sizeof scenario);
+  if (is_text)
+    scenario.text = text_of(in[0], "the scenario");
+  else
+    scenario.file = text_of(in[0], "the file");
+  settings = settings_of(in[1]);
+  scenario.settings = settings.all, scenario.setting_count = settings.count;
+  scenario.trial = (uint32_t)whole(in[2], "trial", UINT32_MAX);
+  check(open(&scenario, &handle));
   return keep(handle);
 }
 
-static mxArray* open_text(arguments in, int32_t (*open)(const char*, const char*,
-                                                        const char* const*, size_t, uint64_t*)) {
-  const char* text = text_of(in[0], "the scenario");
-  const texts settings = settings_of(in[1]);
-  uint64_t handle = 0;
-  check(open(text, NULL, settings.all, settings.count, &handle));
-  return keep(handle);
+static mxArray* session_open(arguments in) { return open_scenario(in, 0, ms_session_open_trial); }
+static mxArray* session_open_text(arguments in) {
+  return open_scenario(in, 1, ms_session_open_trial);
 }
-
-static mxArray* session_open(arguments in) { return open_file(in, ms_session_open); }
-static mxArray* session_open_text(arguments in) { return open_text(in, ms_session_open_text); }
-static mxArray* navigator_open(arguments in) { return open_file(in, ms_navigator_open); }
-static mxArray* navigator_open_text(arguments in) { return open_text(in, ms_navigator_open_text); }
+static mxArray* navigator_open(arguments in) {
+  return open_scenario(in, 0, ms_navigator_open_trial);
+}
+static mxArray* navigator_open_text(arguments in) {
+  return open_scenario(in, 1, ms_navigator_open_trial);
+}
 
 /* At most so many ticks, to keep MATLAB able to interrupt; whether the run has ended. */
 static mxArray* session_advance(arguments in) {
@@ -232,7 +238,7 @@ static void set_numbers(const mxArray* a, ms_obstacle* obstacles, size_t count) 
   }
 }
 
-/* handle, now, seen, swarm, obstacles, numbers, robots; empty for what is not there. */
+/* handle, now, seen, swarm, obstacles, numbers, robots, unseen; empty for what is not there. */
 static mxArray* navigator_step(arguments in) {
   static const char* const names[] = {"heading_rad", "speed_um_per_s", "state", "target_um",
                                       "planned"};
@@ -256,6 +262,8 @@ static mxArray* navigator_step(arguments in) {
   seen.numbered = !mxIsEmpty(in[5]);
   if (seen.numbered) set_numbers(in[5], obstacles, seen.obstacle_count);
   seen.robots_um = rows_of(in[6], "robots", 2, &seen.robot_count);
+  if (!mxIsDouble(in[7]) || !mxIsEmpty(in[7]))
+    seen.unseen = (int32_t)whole(in[7], "unseen", INT32_MAX);
   check(ms_navigator_step(navigator, &seen, &command));
   made = mxCreateStructMatrix(1, 1, 5, (const char**)names);
   mxSetFieldByNumber(made, 0, 0, mxCreateDoubleScalar(command.heading_rad));
@@ -326,10 +334,10 @@ static mxArray* plan(arguments in) {
   check(ms_plan(map, &query, &path));
   made = mxCreateStructMatrix(1, 1, 0, NULL);
   put(made, "solved", mxCreateLogicalScalar(path.solved != 0));
-  put(made, "points_um", matrix_of(path.xy_um, path.points, 2));
+  put(made, "points_um", matrix_of(path.points_um, path.point_count, 2));
   put(made, "length_um", mxCreateDoubleScalar(path.length_um));
   put(made, "turning_rad", mxCreateDoubleScalar(path.turning_rad));
-  put(made, "time_s", mxCreateDoubleScalar(path.seconds));
+  put(made, "time_s", mxCreateDoubleScalar(path.time_s));
   put(made, "why_none", mxCreateString(path.why_none));
   return made;
 }
@@ -343,8 +351,8 @@ static const struct {
 } commands[] = {
     COMMAND(version, 0),
     {"close", close_handle, 1},
-    COMMAND(session_open, 2),
-    COMMAND(session_open_text, 2),
+    COMMAND(session_open, 3),
+    COMMAND(session_open_text, 3),
     COMMAND(session_step, 1),
     COMMAND(session_advance, 2),
     COMMAND(session_frames, 1),
@@ -356,9 +364,9 @@ static const struct {
     COMMAND(session_robots, 1),
     COMMAND(session_path, 1),
     COMMAND(session_obstacles, 1),
-    COMMAND(navigator_open, 2),
-    COMMAND(navigator_open_text, 2),
-    COMMAND(navigator_step, 7),
+    COMMAND(navigator_open, 3),
+    COMMAND(navigator_open_text, 3),
+    COMMAND(navigator_step, 8),
     COMMAND(navigator_path, 1),
     COMMAND(map_open, 2),
     COMMAND(map_bounds, 1),

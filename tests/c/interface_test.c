@@ -96,6 +96,39 @@ static void bad_sessions(void) {
   EXPECT_ERROR(ms_session_step(0, NULL), MS_BAD_CALL, "never");
 }
 
+/* Trials differ by their random streams; trial 0 is what the plain functions open. */
+static void trials(const char* record) {
+  const char* settings[] = {"time_limit_s=5", "swarm.position_noise_um=5"};
+  ms_scenario given;
+  char hashes[3][64] = {"", "", ""};
+  uint64_t session = 0, navigator = 0;
+  const char* hash = NULL;
+  uint32_t k;
+  memset(&given, 0, sizeof given);
+  EXPECT_ERROR(ms_session_open_trial(&given, &session), MS_BAD_CALL, "file or text");
+  EXPECT_ERROR(ms_session_open_trial(NULL, &session), MS_BAD_CALL, "scenario is null");
+  given.text = scenario, given.settings = settings, given.setting_count = 2;
+  EXPECT_ERROR(ms_session_open_trial(&given, NULL), MS_BAD_CALL, "session is null");
+  for (k = 0; k < 3; ++k) {
+    given.trial = k;
+    EXPECT(ms_session_open_trial(&given, &session) == MS_OK);
+    EXPECT(ms_session_finish(session) == MS_OK && ms_session_hash(session, &hash) == MS_OK);
+    strncpy(hashes[k], hash, 63);
+    EXPECT(ms_close(session) == MS_OK);
+    EXPECT(ms_navigator_open_trial(&given, &navigator) == MS_OK && ms_close(navigator) == MS_OK);
+  }
+  EXPECT(strcmp(hashes[0], hashes[1]) != 0 && strcmp(hashes[1], hashes[2]) != 0);
+  EXPECT(ms_session_open_text(scenario, NULL, settings, 2, &session) == MS_OK);
+  EXPECT(ms_session_finish(session) == MS_OK && ms_session_hash(session, &hash) == MS_OK);
+  EXPECT(strcmp(hash, hashes[0]) == 0 && ms_close(session) == MS_OK);
+  given.file = record;
+  EXPECT_ERROR(ms_session_open_trial(&given, &session), MS_BAD_CALL, "file or text");
+  given.text = NULL;
+  EXPECT_ERROR(ms_session_open_trial(&given, &session), MS_BAD_INPUT, "accepts no options");
+  given.setting_count = 0, given.trial = 0;
+  EXPECT(ms_session_open_trial(&given, &session) == MS_OK && ms_close(session) == MS_OK);
+}
+
 static void navigators(void) {
   uint64_t navigator = 0;
   ms_obstacle obstacle = {600, 300, 60, NULL, 0, 0};
@@ -119,6 +152,11 @@ static void navigators(void) {
   EXPECT(strcmp(ms_state_name(command.state), "follow") == 0);
   EXPECT(strcmp(ms_state_name(-1), "") == 0 && strcmp(ms_state_name(1000), "") == 0);
   EXPECT(ms_navigator_path(navigator, &path, &count) == MS_OK && count >= 2);
+  seen.unseen = 1;
+  EXPECT_ERROR(ms_navigator_step(navigator, &seen, &command), MS_BAD_INPUT, "no robots");
+  seen.unseen = 0, seen.numbered = 1, obstacle.number = -1;
+  EXPECT_ERROR(ms_navigator_step(navigator, &seen, &command), MS_BAD_INPUT, "is -1");
+  seen.numbered = 0;
   obstacle.outline_um = outline, obstacle.points = 3;
   EXPECT(ms_navigator_step(navigator, &seen, &command) == MS_OK);
   obstacle.points = 2;
@@ -152,11 +190,13 @@ static void paths(void) {
   query.start_x_um = 50, query.start_y_um = 50, query.goal_x_um = 350, query.goal_y_um = 50;
   query.seed = 1, query.settings = settings, query.setting_count = 2;
   EXPECT(ms_plan(map, &query, &path) == MS_OK);
-  EXPECT(path.solved && path.points >= 3 && path.length_um > 600 && path.why_none[0] == '\0');
-  EXPECT(path.xy_um[0] == 50 && path.xy_um[1] == 50);
+  EXPECT(path.solved && path.point_count >= 3 && path.length_um > 600 && path.why_none[0] == '\0');
+  EXPECT(path.points_um[0] == 50 && path.points_um[1] == 50);
   query.settings = typo, query.setting_count = 1;
   EXPECT_ERROR(ms_plan(map, &query, &path), MS_BAD_INPUT, "did you mean");
-  query.setting_count = 0, query.goal_x_um = 200;
+  query.setting_count = 0, query.start_heading_rad = NAN;
+  EXPECT_ERROR(ms_plan(map, &query, &path), MS_BAD_INPUT, "finite");
+  query.start_heading_rad = 0, query.goal_x_um = 200;
   EXPECT_ERROR(ms_plan(map, &query, &path), MS_BAD_INPUT, "goal");
   EXPECT(ms_close(map) == MS_OK);
   EXPECT_ERROR(ms_map_from_pixels(pixels, 0, 40, 10, &map), MS_BAD_INPUT, "must be 1 to");
@@ -167,8 +207,9 @@ static void paths(void) {
 /* What docs/how-to/use-from-matlab.md tells users of LabVIEW about structures. */
 static void layout(void) {
   if (sizeof(void*) != 8) return;
-  EXPECT(sizeof(ms_observation) == 88 && offsetof(ms_observation, x_um) == 24);
+  EXPECT(sizeof(ms_observation) == 96 && offsetof(ms_observation, x_um) == 24);
   EXPECT(offsetof(ms_observation, obstacles) == 56 && offsetof(ms_observation, robots_um) == 72);
+  EXPECT(offsetof(ms_observation, unseen) == 88);
   EXPECT(sizeof(ms_obstacle) == 48 && offsetof(ms_obstacle, number) == 40);
   EXPECT(sizeof(ms_command) == 40 && offsetof(ms_command, state) == 32);
 }
@@ -216,6 +257,7 @@ int main(int count, char** arguments) {
   EXPECT(ms_error_text()[0] == '\0');
   sessions(arguments[1]);
   bad_sessions();
+  trials(arguments[1]);
   navigators();
   paths();
   layout();

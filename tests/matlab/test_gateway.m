@@ -16,11 +16,11 @@ function bad_calls(world)
   refuses(@() microswarm_mex('session_step', uint64(123456)), 'bad_call', 'never');
   map = microswarm.Map(true(9, 9), 10);
   refuses(@() microswarm_mex('session_step', map.id), 'bad_call', 'not that of a session');
-  refuses(@() microswarm_mex('session_open', world.flight, 'seed=1'), 'bad_input', 'cell array');
-  refuses(@() microswarm_mex('session_open', world.flight, {1}), 'bad_input', 'setting');
-  refuses(@() microswarm_mex('session_open', world.flight, cell(1, 2)), 'bad_input', 'setting');
-  refuses(@() microswarm_mex('session_open', ['a' char(0) 'b'], {}), 'bad_input', 'zero character');
-  refuses(@() microswarm_mex('session_open', ['ab'; 'cd'], {}), 'bad_input', 'one row');
+  refuses(@() microswarm_mex('session_open', world.flight, 'seed=1', 0), 'bad_input', 'cell array');
+  refuses(@() microswarm_mex('session_open', world.flight, {1}, 0), 'bad_input', 'setting');
+  refuses(@() microswarm_mex('session_open', world.flight, cell(1, 2), 0), 'bad_input', 'setting');
+  refuses(@() microswarm_mex('session_open', ['a' char(0) 'b'], {}, 0), 'bad_input', 'zero character');
+  refuses(@() microswarm_mex('session_open', ['ab'; 'cd'], {}, 0), 'bad_input', 'one row');
   session = microswarm.Session(world.flight);
   for bad = {-1, 0.5, NaN, Inf, [], 'a'}
     refuses(@() session.advance(bad{1}), 'bad_input', 'ticks');
@@ -72,6 +72,8 @@ function all_is_closed_with_the_file(world)
   session.step();
   clear('microswarm_mex');
   refuses(@() session.step(), 'bad_call', 'closed');
+  other = microswarm.Session(world.flight);
+  assert(other.id ~= session.id);
   session.delete();
-  assert(strcmp(microswarm.Session(world.flight).status(), 'running'));
+  assert(strcmp(other.status(), 'running'));
 end

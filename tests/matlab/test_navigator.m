@@ -2,7 +2,7 @@
 function tests = test_navigator()
 % test_navigator  The navigator in a loop of one's own.
   tests = {@commands_are_those_of_the_run, @obstacles_in_every_form, @a_refused_step_changes_nothing, ...
-           @robots_gather, @the_example_arrives, @time_of_a_step};
+           @robots_gather, @robots_may_be_unseen, @trials_differ, @the_example_arrives, @time_of_a_step};
 end
 
 function commands_are_those_of_the_run(world)
@@ -82,16 +82,40 @@ end
 
 function robots_gather(world)
   nav = microswarm.Navigator(fullfile(world.scenarios, 'papers', 'gather', 't_junction.yaml'));
-  count = size(microswarm_robots(world), 1);
-  robots = [linspace(40, 60, count)' 2 + 6 * mod((1:count)' * 0.618, 1)];
+  robots = robots_of_the_junction(world);
   assert(strcmp(nav.step(0, [], [], robots).state, 'gather'));
   refuses(@() nav.step(0.1, [], [], robots(2:end, :)), 'bad_input', 'robots');
 end
 
-function places = microswarm_robots(world)
+function robots = robots_of_the_junction(world)
   session = microswarm.Session(fullfile(world.scenarios, 'papers', 'gather', 't_junction.yaml'));
   session.step();
-  places = session.robots();
+  count = size(session.robots(), 1);
+  robots = [linspace(40, 60, count)' 2 + 6 * mod((1:count)' * 0.618, 1)];
+end
+
+function robots_may_be_unseen(world)
+  nav = microswarm.Navigator(fullfile(world.scenarios, 'papers', 'gather', 't_junction.yaml'));
+  robots = robots_of_the_junction(world);
+  assert(strcmp(nav.step(0, [], [], robots, 'unseen', 2).state, 'gather'));
+  refuses(@() nav.step(1, [], [], robots, 'unseen', size(robots, 1) + 1), 'bad_input', 'unseen');
+  for bad = {-1, 0.5, NaN, 'a', {1}, 2^31}
+    refuses(@() nav.step(1, [], [], robots, 'unseen', bad{1}), 'bad_input', 'unseen');
+  end
+  assert(strcmp(nav.step(1, [], [], robots, 'unseen', []).state, 'gather'));
+end
+
+function trials_differ(world)
+  settings = {'time_limit_s', 5, 'swarm.position_noise_um', 5};
+  first = microswarm.run(world.flight, settings{:});
+  same = microswarm.run(world.flight, 'trial', 0, settings{:});
+  other = microswarm.run(world.flight, settings{:}, 'trial', uint8(1));
+  assert(strcmp(same.hash, first.hash) && ~strcmp(other.hash, first.hash));
+  microswarm.Navigator(world.flight, 'seed=2', 'trial', 3);
+  for bad = {-1, 0.5, NaN, 'a', {}, 2^32}
+    refuses(@() microswarm.Session(world.flight, 'trial', bad{1}), 'bad_input', 'trial');
+  end
+  refuses(@() microswarm.Session(world.flight, 'trial'), 'bad_input', 'trial');
 end
 
 function the_example_arrives(world)

@@ -20,12 +20,13 @@ classdef Navigator < microswarm.internal.Handle
     %
     % scenario   a file, or YAML text of several lines
     % settings   'KEY=VALUE', or 'KEY', value, with the keys of a scenario file
+    %            and 'trial', k, which selects the random streams; 0 without
       if nargin < 1, error('microswarm:bad_call', 'a navigator needs a scenario'); end
       self.id = microswarm.internal.open_source('navigator', scenario, varargin);
     end
 
     function command = step(self, t, swarm, obstacles, robots, varargin)
-    % command = nav.step(t, swarm, obstacles, robots, 'seen', time, 'numbers', numbers)
+    % command = nav.step(t, swarm, obstacles, robots, 'seen', time, 'numbers', numbers, 'unseen', count)
     %
     % t           the present [s]; never before that of the step before
     % swarm       [x_um y_um heading_rad radius_um]; [] if it was not found, and for robots
@@ -33,7 +34,8 @@ classdef Navigator < microswarm.internal.Handle
     %             outlines (n x 2); [] for none
     % robots      n x 2; robot i is the same in every step
     % seen        when the picture was taken [s]; t without
-    % numbers     one for each obstacle, the same in every step; without, they are matched by distance
+    % numbers     one for each obstacle, the same in every step, 0 or more; without, they are matched by distance
+    % unseen      how many of the robots were not seen and are where they are expected; 0 without
     %
     % command.heading_rad, command.speed_um_per_s   to drive until the next step; speed 0 is hold
     % command.state       'follow', 'hold', 'arrived', 'blind', ...
@@ -47,8 +49,9 @@ classdef Navigator < microswarm.internal.Handle
       if nargin < 5, robots = []; end
       seen = [];
       numbers = [];
-      if nargin > 5, [seen, numbers] = options_of(varargin); end
-      command = microswarm_mex('navigator_step', self.id, t, seen, swarm, obstacles, numbers, robots);
+      unseen = [];
+      if nargin > 5, [seen, numbers, unseen] = options_of(varargin); end
+      command = microswarm_mex('navigator_step', self.id, t, seen, swarm, obstacles, numbers, robots, unseen);
     end
 
     function places = path(self)
@@ -58,16 +61,19 @@ classdef Navigator < microswarm.internal.Handle
   end
 end
 
-function [seen, numbers] = options_of(values)
+function [seen, numbers, unseen] = options_of(values)
   seen = [];
   numbers = [];
+  unseen = [];
   for k = 1:2:numel(values)
     name = microswarm.internal.plain_text(values{k}, 'the name of an option');
     if k == numel(values), error('microswarm:bad_input', 'the option %s has no value', name); end
     switch name
       case 'seen', seen = values{k + 1};
       case 'numbers', numbers = values{k + 1};
-      otherwise, error('microswarm:bad_input', 'there is no option ''%s''; there are seen and numbers', name);
+      case 'unseen', unseen = values{k + 1};
+      otherwise
+        error('microswarm:bad_input', 'there is no option ''%s''; there are seen, numbers and unseen', name);
     end
   end
 end

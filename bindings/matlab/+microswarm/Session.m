@@ -22,6 +22,7 @@ classdef Session < microswarm.internal.Handle
     %
     % scenario   a file, or YAML text of several lines
     % settings   'KEY=VALUE', or 'KEY', value, with the keys of a scenario file
+    %            and 'trial', k, which selects the random streams; 0 without
       if nargin < 1, error('microswarm:bad_call', 'a session needs a scenario'); end
       self.id = microswarm.internal.open_source('session', scenario, varargin);
     end

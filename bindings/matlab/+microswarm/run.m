@@ -6,6 +6,7 @@ function result = run(scenario, varargin)
 %
 % scenario   a file, or YAML text of several lines
 % settings   'KEY=VALUE', or 'KEY', value, with the keys of a scenario file
+%            and 'trial', k, which selects the random streams; 0 without
 %
 % result.status    'solved', 'collided', 'time_limit', ...
 % result.metrics   struct, units in the names; Inf for a distance that never came about

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "microswarm/config/key_locations.hpp"
@@ -70,6 +71,9 @@ const Type& path_settings() { return type_of<PathChoice>(); }
 
 PathAnswer answer(const Snapshot& world, const PathQuery& query, const std::string& name,
                   const Stop& stop) {
+  for (const double v : {query.start.position.x, query.start.position.y, query.start.heading,
+                         query.goal.x, query.goal.y})
+    if (!std::isfinite(v)) throw InputError("start and goal must be finite numbers");
   PathAnswer made;
   PathChoice choice;
   made.notes = set_values(choice, query.settings);
