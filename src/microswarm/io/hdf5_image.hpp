@@ -26,9 +26,9 @@ class Hdf5Writer {
   virtual void dataset(const std::string& path, std::span<const double> values) = 0;
   virtual void dataset(const std::string& path, std::span<const float> values) = 0;
   virtual void dataset(const std::string& path, std::span<const std::int64_t> values) = 0;
-  /// Texts in UTF-8, all stored with the length of the longest.
+  /// Texts in UTF-8, or ASCII if they are that, all stored with the length of the longest.
   virtual void dataset(const std::string& path, std::span<const std::string> values) = 0;
-  /// One text of fixed length, UTF-8.
+  /// One text of fixed length, ASCII or UTF-8.
   virtual void text(const std::string& path, std::string_view value) = 0;
 
   /// Attribute of an existing dataset or group; "/" is the root.

@@ -77,7 +77,8 @@ class Recorder : public RunListener {
 };
 
 /// Writes an HDF5 file with the layout in docs/reference/record.md, atomically through a temporary
-/// file. Throws InputError "FILE: cannot write: REASON" and leaves nothing behind.
+/// file. A symbolic link is replaced; what it points to stays. Throws InputError "FILE: cannot
+/// write: REASON" and leaves nothing behind; what a killed process left is removed.
 void write_record(const Record& record, const std::filesystem::path& file);
 
 /// Reads a record. Throws InputError if the file is not a record, is damaged or is inconsistent.

@@ -130,6 +130,8 @@ void write_record(const Record& record, const std::filesystem::path& file) {
               "Wall-clock time of the navigator's step, one a tick.");
   write_times(out, "/timing/planning_s", record.result.timing.planning,
               "Wall-clock time of the steps in which it planned.");
+  // A process that was killed while it wrote here left its part.
+  clear_staged(file.has_parent_path() ? file.parent_path() : ".");
   write_file_atomically(file, out.finish());
 }
 

@@ -16,11 +16,17 @@ void need(bool done) {
   if (!done) throw InputError("cannot make an HDF5 record");
 }
 
-Id text_type(std::size_t size) {
+/// UTF-8 only where it is needed: Octave cannot read it.
+H5T_cset_t characters_of(std::string_view text) {
+  const bool plain = std::ranges::all_of(text, [](char c) { return (c & 0x80) == 0; });
+  return plain ? H5T_CSET_ASCII : H5T_CSET_UTF8;
+}
+
+Id text_type(std::size_t size, H5T_cset_t characters) {
   Id type(H5Tcopy(H5T_C_S1), H5Tclose);
   H5Tset_size(type, std::max<std::size_t>(size, 1));
   H5Tset_strpad(type, H5T_STR_NULLPAD);
-  H5Tset_cset(type, H5T_CSET_UTF8);
+  H5Tset_cset(type, characters);
   return type;
 }
 
@@ -110,18 +116,21 @@ class ImageWriter : public Hdf5Writer {
     for (const std::string& value : values) longest = std::max(longest, value.size());
     std::string bytes(longest * values.size(), '\0');
     for (std::size_t i = 0; i < values.size(); ++i) values[i].copy(&bytes[i * longest], longest);
-    write_column(file_, path, text_type(longest), values.size(), bytes.data());
+    write_column(file_, path, text_type(longest, characters_of(bytes)), values.size(),
+                 bytes.data());
   }
 
   void text(const std::string& path, std::string_view value) override {
     const Use use;
     const Id space(H5Screate(H5S_SCALAR), H5Sclose);
-    write_dataset(file_, path, text_type(value.size()), space, 1, std::string(value).c_str());
+    const Id type = text_type(value.size(), characters_of(value));
+    write_dataset(file_, path, type, space, 1, std::string(value).c_str());
   }
 
   void attribute(const std::string& path, const char* name, std::string_view value) override {
     const Use use;
-    write_attribute(file_, path, name, text_type(value.size()), std::string(value).c_str());
+    const Id type = text_type(value.size(), characters_of(value));
+    write_attribute(file_, path, name, type, std::string(value).c_str());
   }
 
   void attribute(const std::string& path, const char* name, double value) override {
