@@ -48,10 +48,10 @@ class Free {
 
 /// Calls `work(stop)` in another thread, without the GIL, and looks for signals meanwhile: Ctrl-C
 /// stops it, and KeyboardInterrupt is raised once it has ended. `look` is called 10 times a second.
-/// After `budget` it is stopped too, which raises nothing.
+/// After `budget` it is stopped too, which raises nothing, and whoever sets `flag` stops it.
 template <class Work, class Look>
-auto interruptible(Work&& work, Look&& look, std::optional<Stop::Clock::duration> budget = {}) {
-  std::atomic<bool> flag{};
+auto interruptible(std::atomic<bool>& flag, Work&& work, Look&& look,
+                   std::optional<Stop::Clock::duration> budget = {}) {
   const Stop stop = budget ? Stop(*budget, &flag) : Stop(&flag);
   auto task = std::async(std::launch::async, [&] { return work(stop); });
   std::optional<py::error_already_set> raised;
@@ -78,6 +78,11 @@ auto interruptible(Work&& work, Look&& look, std::optional<Stop::Clock::duration
     throw std::move(*raised);
   }
   return task.get();
+}
+template <class Work, class Look>
+auto interruptible(Work&& work, Look&& look, std::optional<Stop::Clock::duration> budget = {}) {
+  std::atomic<bool> flag{};
+  return interruptible(flag, work, look, budget);
 }
 template <class Work>
 auto interruptible(Work&& work) {

@@ -33,6 +33,10 @@ class Guarded {
     in_use_ = false;
   }
 
+ protected:
+  /// Ends it when nobody else can use it any more.
+  void end() { held_.reset(); }
+
  private:
   std::unique_ptr<T> held_;
   const char* kind_;

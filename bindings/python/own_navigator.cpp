@@ -18,7 +18,7 @@ py::array_t<double> circles_of(std::span<const Body> bodies) {
   return array;
 }
 
-OwnNavigator::OwnNavigator(py::object navigator) : navigator_(std::move(navigator)) {
+OwnNavigator::OwnNavigator(py::handle navigator) : navigator_(navigator) {
   if (!py::hasattr(navigator_, "step"))
     throw InputError("a navigator needs a method step(observation)");
 }

@@ -12,15 +12,15 @@ py::array_t<double> circles_of(std::span<const Body> bodies);
 /// A navigator written in Python, in the library's loop. Its methods are called with the GIL held.
 class OwnNavigator final : public Navigator {
  public:
-  /// `navigator` has a method step(observation), and may have prepare().
-  explicit OwnNavigator(py::object navigator);
+  /// `navigator` has a method step(observation), and may have prepare(). It must outlive this.
+  explicit OwnNavigator(py::handle navigator);
 
   void prepare(const Snapshot& world, const Stop& stop) override;
   Command step(const Observation& seen, const Stop& stop) override;
   NavigatorView view() const override { return {.state = state_, .local_target = {}, .path = {}}; }
 
  private:
-  py::object navigator_;
+  py::handle navigator_;
   NavigatorState state_ = NavigatorState::hold;
 };
 

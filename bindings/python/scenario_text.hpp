@@ -8,8 +8,11 @@
 #include <vector>
 
 #include "calls.hpp"
+#include "microswarm/config/write.hpp"
 #include "microswarm/config/yaml.hpp"
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/experiment/scenario/experiment.hpp"
+#include "setting_list.hpp"
 
 namespace microswarm::python {
 
@@ -20,6 +23,7 @@ struct ScenarioText {
   std::filesystem::path base;
   std::vector<std::string> settings{};
   Scenario value{};
+  Scenario unset{};  ///< without the settings
 
   static ScenarioText load(const std::string& file) {
     const std::filesystem::path path(file);
@@ -32,13 +36,24 @@ struct ScenarioText {
     made.value = read_yaml_text<Scenario>(made.text, made.name, {}, keys, mistakes);
     mistakes.require_none();
     warn(keys.notes());
+    made.unset = made.value;
     return made;
   }
   void set(const std::string& setting) {
     Notes notes;
     const auto present = set_value(value, setting, "set", notes);
     warn(notes);
-    if (present) settings.push_back(*present);
+    if (!present) return;
+    const std::string now = to_json_text(value);
+    settings = with_setting(settings, *present, [&](const std::vector<std::string>& list) {
+      try {
+        Scenario other = unset;
+        set_values(other, Settings(list, "set"));
+        return to_json_text(other) == now;
+      } catch (const InputError&) {
+        return false;
+      }
+    });
   }
   Experiment open(std::optional<std::uint64_t> seed = {}) const {
     return open_experiment_text(text, name, base, settings, seed);

@@ -18,31 +18,85 @@ namespace {
 
 class OpenSession : public Guarded<Session> {
  public:
-  OpenSession(std::unique_ptr<Session> session, bool has_own_navigator)
-      : Guarded(std::move(session), "session"), has_own_navigator_(has_own_navigator) {}
+  /// `navigator` is the caller's own, which the session uses, or None.
+  OpenSession(std::unique_ptr<Session> session, py::object navigator)
+      : Guarded(std::move(session), "session"), navigator_(std::move(navigator)) {}
+  /// The session ends before the navigator that it uses.
+  ~OpenSession() { end(); }
+
+  /// Ends the run, from any thread and also while another one steps.
+  void stop() {
+    is_stopped_ = true;
+    stops_ = true;
+  }
 
   /// Calls `work(stop)`, which steps. With a navigator of the caller's own it stays in this thread,
   /// where Ctrl-C reaches that; an exception of its ends the session.
   template <class Work, class Look>
   auto drive(Work&& work, Look&& look) {
     if (has_failed_) throw InputError("the navigator of the session has raised an exception");
-    if (!has_own_navigator_) return interruptible(work, look);
+    if (is_stopped_) stops_ = true;
+    const struct Forget {  // Ctrl-C ends a call, stop() the run
+      OpenSession& open;
+      ~Forget() { open.stops_ = open.is_stopped_.load(); }
+    } forget{*this};
+    if (!has_own_navigator()) return interruptible(stops_, work, look);
     has_failed_ = true;
     const auto made = [&] {
       const Free free;
-      return work(Stop());
+      return work(Stop(&stops_));
     }();
     has_failed_ = false;
     return made;
   }
-  bool has_own_navigator() const { return has_own_navigator_; }
+  bool has_own_navigator() const { return !navigator_.is_none(); }
+  /// For a step that is too short for Ctrl-C.
+  Stop when_stopped() const { return Stop(&is_stopped_); }
+
+  /// For the garbage collector: a navigator may refer to the session that uses it.
+  int traverse(visitproc visit, void* arg) const {
+    Py_VISIT(navigator_.ptr());
+    return 0;
+  }
+  void clear() {
+    end();
+    navigator_ = py::none();
+  }
+  void close() {
+    Guarded::close();
+    navigator_ = py::none();
+  }
 
   bool has_begun = false;  ///< the first step may take longer
 
  private:
-  bool has_own_navigator_;
+  py::object navigator_;
   bool has_failed_ = false;
+  std::atomic<bool> stops_ = false;
+  std::atomic<bool> is_stopped_ = false;
 };
+
+/// The session of a Python object; null while it is not constructed.
+OpenSession* session_of(PyObject* self) {
+  auto* const instance = reinterpret_cast<py::detail::instance*>(self);
+  const auto parts = instance->get_value_and_holder();
+  return parts.holder_constructed() ? parts.value_ptr<OpenSession>() : nullptr;
+}
+
+/// Lets the garbage collector see what a session refers to.
+void collect_garbage(PyHeapTypeObject* heap_type) {
+  PyTypeObject& type = heap_type->ht_type;
+  type.tp_flags |= Py_TPFLAGS_HAVE_GC;
+  type.tp_traverse = [](PyObject* self, visitproc visit, void* arg) {
+    Py_VISIT(Py_TYPE(self));
+    const OpenSession* const open = session_of(self);
+    return open ? open->traverse(visit, arg) : 0;
+  };
+  type.tp_clear = [](PyObject* self) {
+    if (OpenSession* const open = session_of(self)) open->clear();
+    return 0;
+  };
+}
 
 std::unique_ptr<OpenSession> open(const ScenarioText& scenario, std::optional<std::uint64_t> seed,
                                   std::uint32_t trial, const py::object& navigator) {
@@ -51,7 +105,7 @@ std::unique_ptr<OpenSession> open(const ScenarioText& scenario, std::optional<st
   auto session = interruptible([&](const Stop&) {
     return std::make_unique<Session>(scenario.open(seed), trial, nullptr, std::move(own));
   });
-  return std::make_unique<OpenSession>(std::move(session), !navigator.is_none());
+  return std::make_unique<OpenSession>(std::move(session), navigator);
 }
 
 /// The present view as a dictionary of numbers and arrays.
@@ -79,7 +133,7 @@ bool step(OpenSession& open) {
     if (open.has_own_navigator() || !std::exchange(open.has_begun, true))
       return open.drive(made, [] {});
     const Free free;
-    return made({});
+    return made(open.when_stopped());
   });
 }
 
@@ -166,8 +220,8 @@ py::tuple step_navigator(OpenNavigator& open, double now, std::optional<double> 
       throw InputError("there must be as many numbers as obstacles");
     given.are_numbered = true;
     for (std::size_t i = 0; i < numbers->size(); ++i) {
-      if ((*numbers)[i] < 0 || (*numbers)[i] > UINT32_MAX)
-        throw InputError("the number of an obstacle must be 0 to 4294967295");
+      if ((*numbers)[i] < 0 || (*numbers)[i] > INT32_MAX)
+        throw InputError("the number of an obstacle must be 0 to 2147483647");
       given.obstacles[i].obstacle = static_cast<std::uint32_t>((*numbers)[i]);
     }
   }
@@ -214,11 +268,12 @@ void add_session(py::module_& module) {
       .def_readonly("settings", &ScenarioText::settings);
   module.def("schema", session_schema);
 
-  py::class_<OpenSession>(module, "Session")
+  py::class_<OpenSession>(module, "Session", py::custom_type_setup(collect_garbage))
       .def(py::init(&open))
       .def("step", step)
       .def("finish", finish)
       .def("close", &OpenSession::close)
+      .def("stop", &OpenSession::stop)
       .def("set",
            [](OpenSession& open, const std::string& key, const std::string& value) {
              open.use([&](Session& session) {

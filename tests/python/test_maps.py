@@ -92,6 +92,8 @@ def test_what_cannot_be_planned(room):
         ((50, 50), (5000, 50), {}, "outside"),
         ((50,), (350, 50), {}, "start must be"),
         ((50, 50), (350, np.nan), {}, "finite"),
+        ((50, 50, np.nan), (350, 50), {}, "finite"),
+        ((50, 50, -np.inf), (350, 50), {}, "finite"),
         ((50, 50), (350, 50), {"planner": "magic"}, "allowed"),
         ((50, 50), (350, 50), {"planner": "rrt", "stpe_um": 5}, "did you mean 'step_um'"),
         ((50, 50), (350, 50), {"planner": "rrt", "max_nodes": -1}, "max_nodes"),

@@ -50,7 +50,8 @@ def test_obstacles_in_every_form(flight):
         ({"obstacles": [[[0, 0], [1, 0]]]}, "fewer than 3"),
         ({"obstacles": [(1, 2, math.inf)]}, "radius of an obstacle is inf"),
         ({"obstacles": [(1, 2, 3)], "numbers": [1, 2]}, "as many numbers"),
-        ({"obstacles": [(1, 2, 3)], "numbers": [-1]}, "must be 0 to"),
+        ({"obstacles": [(1, 2, 3)], "numbers": [-1]}, "must be 0 to 2147483647"),
+        ({"obstacles": [(1, 2, 3)], "numbers": [2**31]}, "must be 0 to 2147483647"),
         ({"unseen": 3}, "has no robots"),
         ({"robots": np.zeros((3, 2))}, "has no robots"),
         ({"robots": np.zeros(3)}, r"shape \(n, 2\)"),
@@ -87,3 +88,6 @@ def test_robots_gather_in_a_loop_of_ones_own():
         nav.step(0.1, swarm=(1, 2, 0, 3))
     with pytest.raises(ms.InputError, match="robots, the scenario has"):
         nav.step(0.1, robots=robots[1:])
+    with pytest.raises(ms.InputError, match="are unseen"):
+        nav.step(0.1, robots=robots, unseen=len(robots) + 1)
+    assert nav.step(0.1, robots=robots, unseen=1).state == "gather"

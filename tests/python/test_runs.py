@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs, sessions and records, also those with a navigator of one's own."""
 
+import gc
 import json
+import os
 import signal
 import subprocess
 import sys
 import threading
 import time
+import weakref
 
 import numpy as np
 import pytest
@@ -235,3 +238,111 @@ def test_a_navigator_is_called_in_the_callers_thread_and_its_exception_ends_the_
     assert session.record().replay() == (True, "")
     session.close()
     session.close()
+
+
+def endless():
+    """A run that neither its goal nor its limits end soon."""
+    scenario = ms.Scenario.load(SCENARIOS / "first_flight.yaml").set("navigator.speed_um_per_s", 0.001)
+    return scenario.set("time_limit_s", 1e5).set("hold_limit_s", 1e5).set("obstacles", [])
+
+
+class Waits:
+    """Holds, and tells when it was called."""
+
+    def __init__(self):
+        self.called = threading.Event()
+
+    def step(self, seen):
+        self.called.set()
+        return 0.0, 1e-3
+
+
+@pytest.mark.parametrize("with_own", [False, True])
+def test_another_thread_stops_a_session(with_own):
+    own = Waits() if with_own else None
+    session = ms.Session(endless(), navigator=own)
+    assert session.step()
+
+    def stop():
+        if own:
+            own.called.wait()
+        time.sleep(0.3)
+        session.stop()
+
+    other = threading.Thread(target=stop)
+    other.start()
+    began = time.monotonic()
+    record = session.finish(False)
+    other.join()
+    assert time.monotonic() - began < 20
+    assert record.status == "stopped" and record.frames.rows > 2
+    assert not session.step() and session.status == "stopped"
+    assert record.replay() == (True, "")
+    session.stop()
+    session.close()
+    session.stop()
+
+
+def test_a_session_that_was_stopped_before_its_first_step_ends(flight):
+    session = ms.Session(flight)
+    session.stop()
+    record = session.finish(False)
+    assert record.status == "stopped" and record.frames.rows <= 1
+
+
+def test_a_navigator_that_knows_its_session_is_collected(flight):
+    for closes in (False, True):
+        own = Straight(flight.goal_um)
+        own.session = ms.Session(flight, navigator=own)
+        own.session.step()
+        if closes:
+            own.session.close()
+        gone = weakref.ref(own), weakref.ref(own.session)
+        del own
+        gc.collect()
+        assert [one() for one in gone] == [None, None]
+
+
+def test_collecting_garbage_all_the_time_does_no_harm(flight):
+    before = gc.get_threshold()
+    gc.set_threshold(1)
+    try:
+        for _ in range(3):
+            own = Straight(flight.goal_um)
+            own.session = ms.Session(flight, navigator=own)
+            assert own.session.finish(False).status == "time_limit"
+            with pytest.raises(ms.InputError):
+                ms.Session(flight, navigator=3)
+    finally:
+        gc.set_threshold(*before)
+
+
+def test_a_saved_record_takes_the_place_of_a_link(flight, tmp_path):
+    record = ms.run(flight, progress=False)
+    (tmp_path / "other.h5").write_text("mine")
+    (tmp_path / "run.h5").symlink_to("other.h5")
+    record.save(tmp_path / "run.h5")
+    assert not (tmp_path / "run.h5").is_symlink()
+    assert ms.read_record(tmp_path / "run.h5").hash == record.hash
+    assert (tmp_path / "other.h5").read_text() == "mine"
+
+
+def test_what_a_killed_process_left_is_removed_by_the_next_record(flight, tmp_path):
+    code = f"""
+import microswarm as ms, os, signal, threading
+record = ms.run(ms.Scenario.load({str(SCENARIOS / "first_flight.yaml")!r}).set("time_limit_s", 5), progress=False)
+def kill():
+    while not os.listdir({str(tmp_path)!r}): pass
+    os.kill(os.getpid(), signal.SIGKILL)
+threading.Thread(target=kill).start()
+while True:
+    record.save({str(tmp_path / "run.h5")!r})
+"""
+    subprocess.run([sys.executable, "-c", code], cwd=ROOT, timeout=60, check=False)
+    # Whether or not it was killed amid a write: a part of a process that is gone, one of ours, and a file of the user.
+    (tmp_path / "run.tmp-microswarm-4194304-0.h5").write_text("part")
+    (tmp_path / f"run.tmp-microswarm-{os.getpid()}-7.h5").write_text("ours")
+    (tmp_path / "run.tmp.h5").write_text("theirs")
+    ms.run(flight, progress=False).save(tmp_path / "run.h5")
+    left = sorted(one.name for one in tmp_path.iterdir())
+    assert left == ["run.h5", f"run.tmp-microswarm-{os.getpid()}-7.h5", "run.tmp.h5"]

@@ -3,6 +3,7 @@
 
 import copy
 import pickle
+import random
 
 import numpy as np
 import pytest
@@ -110,3 +111,57 @@ def test_files_are_found_from_another_folder(tmp_path, monkeypatch):
     assert ms.run(scenario, progress=False).status == "time_limit"
     with pytest.raises(ms.InputError, match="no name of a file"):
         ms.Scenario.load(str(SCENARIOS / "demo.yaml") + "\0more")
+
+
+def test_the_list_of_settings_does_not_grow_with_sets_of_the_same_key(flight):
+    for k in range(200):
+        flight.navigator.speed_um_per_s = 20 + k % 7
+        flight.obstacles = [flight.obstacles[0].to_dict()] * (1 + k % 2)
+        flight.obstacles[0].shape.radius_um = 30 + k % 3
+        flight.start = {"x_um": 200, "y_um": 500 + k % 5, "heading_deg": 0}
+    assert len(flight._core.settings) <= 6
+    assert pickle.loads(pickle.dumps(flight)) == flight
+
+
+def test_a_type_may_be_chosen_again(flight):
+    for kind in ("radar", "predictive", "hierarchical_drrt_star", "hierarchical_drrt_star", "radar"):
+        flight.navigator.speed_um_per_s = 33
+        flight.set("navigator.type", kind)
+    flight.navigator.speed_um_per_s = 44
+    flight.navigator.type = "radar"
+    assert flight.navigator.speed_um_per_s == 44
+    assert pickle.loads(pickle.dumps(flight)) == flight
+    assert ms.run(flight.set("time_limit_s", 1), progress=False).status == "time_limit"
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_settings_give_the_values_in_any_order(flight, seed):
+    rng = random.Random(seed)
+    sets = [
+        lambda: ("navigator.type", rng.choice(["radar", "predictive", "hierarchical_drrt_star"])),
+        lambda: ("navigator.speed_um_per_s", rng.randint(10, 12)),
+        lambda: ("navigator.clearance_um", rng.randint(41, 43)),
+        lambda: ("navigator", {"type": "radar", "speed_um_per_s": rng.randint(10, 12)}),
+        lambda: ("navigator", {"speed_um_per_s": rng.randint(10, 12)}),
+        lambda: ("obstacles", [{"shape": {"type": "disc", "radius_um": 20}, "motion": {"type": "still", "position_um": [900, 500]}}] * rng.randint(1, 3)),
+        lambda: ("obstacles.0.shape.radius_um", rng.randint(10, 12)),
+        lambda: ("obstacles.1.motion.type", rng.choice(["still", "track"])),
+        lambda: ("obstacles.1.shape.type", rng.choice(["disc", "polygon"])),
+        lambda: ("swarm.type", rng.choice(["ribbon", "vortex"])),
+        lambda: ("swarm.radius_um", rng.randint(10, 12)),
+        lambda: ("seed", rng.randint(1, 3)),
+    ]
+    for k in range(60):
+        key, value = rng.choice(sets)()
+        try:
+            flight.set(key, value)
+        except ms.InputError:
+            continue
+        assert pickle.loads(pickle.dumps(flight)) == flight, (key, value)
+        if k % 6 != 0:
+            continue
+        try:
+            ms.Session(flight).close()
+        except ms.InputError as error:  # what the values mean together, never their order
+            assert "comes after" not in str(error)
+    assert len(flight._core.settings) <= 25

@@ -120,7 +120,7 @@ grid:
   - {key: stop_at_contact, values: [true, false]}
   - {key: navigator.guide, values: [straight, route]}
 methods:
-  - {name: a | b, set: ["goal_um=[700, 500]", "name=a = b"]}
+  - {name: a | b, set: ["goal_um=[700, 500]", "description=a = b"]}
   - {name: plain}
 trials: 1
 )");

@@ -55,13 +55,13 @@ class Navigator:
                    the shape (n, 2)
         robots     array of the shape (n, 2); robot i is the same in every step
         seen       when the picture was taken [s]; `t` without
-        numbers    of the obstacles, the same in every step; without, they are matched by distance
-        unseen     number of robots that are where they are expected
+        numbers    of the obstacles, the same in every step, 0 to 2147483647; without, they are matched by distance
+        unseen     how many of the robots were not seen and are where they are expected
         """
         if swarm is not None:
             swarm = numbers_of("swarm", swarm, (4,), "(x_um, y_um, heading_rad, radius_um)")
         if numbers is not None:
-            numbers = [whole("the number of an obstacle", one, 2**32 - 1) for one in numbers]
+            numbers = [whole("the number of an obstacle", one, 2**31 - 1) for one in numbers]
         try:
             made = self._core.step(t, seen, swarm, obstacles, numbers, robots, unseen)
         except InputError:

@@ -139,7 +139,7 @@ class Record(Drawable):
         return self._core.scenario()
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the record as HDF5."""
+        """Writes the record as HDF5. A file of that name is replaced whole; of a symbolic link the link, not what it points to."""
         self._core.write(path_text(path))
 
     def replay(self) -> tuple[bool, str]:

@@ -40,7 +40,8 @@ def shown(progress: Progress) -> Iterator[Optional[Callable[[float], Any]]]:
 class Session(Drawable):
     """An open experiment, which advances when it is stepped and can be changed between steps.
 
-    Use a session from one thread at a time; several sessions may run in threads of their own.
+    Use a session from one thread at a time; several sessions may run in threads of their own. Only stop() may be called
+    from any thread.
     """
 
     def __init__(self, scenario: Source, *, seed: Optional[int] = None, trial: int = 0, navigator: Any = None) -> None:
@@ -96,6 +97,11 @@ class Session(Drawable):
             return f"<Session: {self.status} at {self.view()['t_s']:.4g} s>"
         except InputError:
             return "<Session: closed, or in use>"
+
+    def stop(self) -> None:
+        """Ends the run, from any thread: finish() or step() of another one returns soon, the next tick is the last one,
+        and the record has what was done, with the status "stopped", or "solved" if the swarm was held at the goal."""
+        self._core.stop()
 
     def close(self) -> None:
         """Ends the session; what is called later raises InputError. Closing twice is no mistake."""

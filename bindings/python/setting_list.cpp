@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "setting_list.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+#include "microswarm/config/yaml_node.hpp"
+#include "microswarm/core/errors/error.hpp"
+
+namespace microswarm::python {
+namespace {
+
+constexpr std::string_view type_word = ".type";
+
+std::string_view key_of(std::string_view setting) { return setting.substr(0, setting.find('=')); }
+
+std::string_view value_of(std::string_view setting) {
+  return setting.substr(std::min(setting.find('=') + 1, setting.size()));
+}
+
+bool is_at_or_within(std::string_view key, std::string_view outer) {
+  return key.starts_with(outer) && (key.size() == outer.size() || key[outer.size()] == '.');
+}
+
+/// The keys of a map, its inner ones in brackets; empty for another value.
+std::string keys_in(const YamlNode& node) {
+  if (node.kind != YamlNode::Kind::map) return {};
+  std::string keys = "{";
+  for (std::size_t i = 0; i + 1 < node.items.size(); i += 2) {
+    keys += node.items[i].text + keys_in(node.items[i + 1]) + ",";
+    if (node.items[i].text == "type") keys += node.items[i + 1].text + ",";
+  }
+  return keys + "}";
+}
+
+std::string keys_in_value(std::string_view setting) {
+  try {
+    return keys_in(parse_yaml(value_of(setting), "set"));
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> with_setting(
+    const std::vector<std::string>& settings, const std::string& added,
+    const std::function<bool(const std::vector<std::string>&)>& is_same) {
+  const std::string_view key = key_of(added);
+  std::vector<std::string> list = settings;
+  if (key.ends_with(type_word)) {
+    const std::string_view variant = key.substr(0, key.size() - type_word.size());
+    const auto is_part = [&](const std::string& s) { return is_at_or_within(key_of(s), variant); };
+    // The same alternative as before: what is within stays.
+    std::erase_if(list, [&](const std::string& s) { return key_of(s) == key; });
+    list.insert(std::ranges::find_if(list, is_part), added);
+    if (is_same(list)) return list;
+    if (is_same(settings)) return settings;
+    // Another one, which has its defaults.
+    list = settings;
+    std::erase_if(list, is_part);
+  } else if (const std::string keys = keys_in_value(added); keys.empty()) {
+    std::erase_if(list, [&](const std::string& s) { return is_at_or_within(key_of(s), key); });
+  } else {  // what a map does not name stays
+    std::erase_if(
+        list, [&](const std::string& s) { return key_of(s) == key && keys_in_value(s) == keys; });
+  }
+  const bool is_plain = list.size() == settings.size();
+  list.push_back(added);
+  if (is_plain || is_same(list)) return list;
+  list = settings;
+  list.push_back(added);
+  return list;
+}
+
+}  // namespace microswarm::python
