@@ -38,8 +38,8 @@ struct PathAnswer {
 };
 
 /// Plans a path with the planner of the settings, or the shortest one. `name` stands for the map in
-/// messages. Throws InputError for numbers that are not finite, mistakes in the settings, and where no path can exist: a blocked
-/// start or goal, a swarm too wide, or a goal that is cut off.
+/// messages. Throws InputError for numbers that are not finite, mistakes in the settings, and where
+/// no path can exist: a blocked start or goal, a swarm too wide, or a goal that is cut off.
 PathAnswer answer(const Snapshot& world, const PathQuery& query, const std::string& name,
                   const Stop& stop = {});
 
