@@ -246,7 +246,7 @@ py::tuple step_navigator(OpenNavigator& open, double now, std::optional<double> 
 }  // namespace
 
 py::object session_object(std::unique_ptr<Session> session) {
-  return py::cast(std::make_unique<OpenSession>(std::move(session), false));
+  return py::cast(std::make_unique<OpenSession>(std::move(session), py::none()));
 }
 
 void add_session(py::module_& module) {

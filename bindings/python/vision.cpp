@@ -70,12 +70,11 @@ py::dict events_of(const std::vector<TrackEvent>& events) {
   return out;
 }
 
-py::dict tracks_of(const TrackResult& result, int height) {
+py::dict tracks_of(const TrackResult& result) {
   py::dict out;
   out["rows"] = columns_of_list({&type_of<std::vector<TrackRow>>(), &result.rows});
   out["events"] = events_of(result.events);
   out["frames"] = result.frames;
-  out["height"] = height;
   out["is_noise"] = looks_like_noise(summarise(result.rows, result.frames));
   return out;
 }
@@ -109,7 +108,7 @@ class ArrayTracker {
   py::dict finish() {
     tracker_.finish();
     result_.events = tracker_.events();
-    return tracks_of(result_, height_);
+    return tracks_of(result_);
   }
 
  private:
@@ -123,7 +122,6 @@ class ArrayTracker {
 py::dict track_file(const std::string& file, const Texts& texts, const py::object& report) {
   const TrackSettings settings = track_settings(texts);
   std::atomic<double> done = 0;
-  int height = 0;
   std::string ended;
   const auto work = [&](const Stop& stop) {
     const auto frames = open_frames(file, settings.rate, settings.depth);
@@ -132,7 +130,6 @@ py::dict track_file(const std::string& file, const Texts& texts, const py::objec
     TrackResult result = track_video(
         *frames, file, settings,
         [&](const VideoFrame& frame, const std::vector<TrackRow>&) {
-          height = frame.picture.height;
           if (all > 0) done = std::min(1.0, (frame.index + 1) / all);
         },
         stop);
@@ -144,7 +141,7 @@ py::dict track_file(const std::string& file, const Texts& texts, const py::objec
   const TrackResult result = interruptible(work, [&] {
     if (!report.is_none()) report(done.load());
   });
-  py::dict out = tracks_of(result, height);
+  py::dict out = tracks_of(result);
   out["ended"] = ended;
   return out;
 }

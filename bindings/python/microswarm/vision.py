@@ -115,7 +115,7 @@ def track(
         raise InputError(f"times_s has {len(times)} times, there are {made['frames']} pictures")
     if made["is_noise"]:
         warnings.warn("most tracks are one picture long: noise may be taken for robots; raise min_mass", stacklevel=2)
-    tracks = tracks_of(made, scale)
+    tracks = tracks_of(made)
     if times is not None:
         tracks["t_s"] = times[tracks["frame"]]
     return (tracks, structured(made["events"])) if return_events else tracks
@@ -158,14 +158,11 @@ def track_settings(values: dict[str, Any]) -> list[str]:
     return settings
 
 
-def tracks_of(made: dict[str, Any], um_per_px: float) -> np.ndarray:
-    """The rows of a result as a structured array, with the pixels of each robot."""
+def tracks_of(made: dict[str, Any]) -> np.ndarray:
+    """The rows of a result as a structured array, trackpy's columns first."""
     rows = dict(made["rows"])
-    columns = {"frame": rows.pop("frame"), "particle": rows.pop("id")}
-    columns["x"] = rows["x_um"] / um_per_px - 0.5
-    columns["y"] = made["height"] - 0.5 - rows["y_um"] / um_per_px
-    for key in ("x_um", "y_um", "t_s"):
-        columns[key] = rows.pop(key)
+    rows.pop("id")  # is particle
+    columns = {key: rows.pop(key) for key in ("frame", "particle", "x", "y", "x_um", "y_um", "t_s")}
     return structured({**columns, **rows})
 
 
