@@ -30,7 +30,9 @@ TEST(Route, LeadsToTheGoalPastNineTenthsOfTheClearance) {
       const Vec2 next = route.ahead(p, 10);
       ASSERT_FALSE(next == p);
       EXPECT_LE(distance(p, next), 10 + 2 * clearance);
-      if (step > 0) EXPECT_TRUE(map->is_free(Segment{p, next}, 0.9 * clearance));
+      if (step > 0) {
+        EXPECT_TRUE(map->is_free(Segment{p, next}, 0.9 * clearance));
+      }
       gone += distance(p, next);
       p = next;
     }
