@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// The area along outlines beside the one by slabs.
+// The areas along outlines and by arcs beside the one by slabs.
 #include "microswarm/geometry/union_area.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <utility>
 
+#include "microswarm/geometry/arc_area.hpp"
 #include "microswarm/geometry/outline_area.hpp"
 #include "microswarm/geometry/predicates.hpp"
 #include "microswarm/geometry/slab_area.hpp"
@@ -79,14 +81,21 @@ double sliced_area(double radius, const Near& near) {
   return sum * 2 * radius / slices;
 }
 
-/// Compares both areas, and counts the query if the one along outlines is left to the slabs. In a
+/// Compares the areas, and counts the query if the one along outlines is left to the slabs. In a
 /// few degenerate cases the slabs are wrong, which slices tell.
 void expect_same_area(double radius, const Near& near, int& left, double tolerance = 1e-9) {
   Memory memory;
   const auto fast = outline_area(radius, near.edges, near.winding, near.discs, memory.resource);
   const double slow = slab_area(radius, near.obstacles(), memory.resource);
-  EXPECT_EQ(union_area(radius, near.obstacles(), memory.resource), fast.value_or(slow));
+  const double arcs = arc_area(radius, near.edges, near.winding, near.discs, memory.resource);
+  const bool is_small = near.discs.size() + near.edges.size() <= 64;
+  EXPECT_EQ(union_area(radius, near.obstacles(), memory.resource),
+            fast.value_or(is_small ? slow : arcs));
   left += !fast;
+  if (std::abs(arcs - slow) > tolerance * radius * radius) {
+    EXPECT_GT(tolerance, 1e-9) << arcs << " by arcs beside " << slow;
+    EXPECT_NEAR(arcs, sliced_area(radius, near), 1e-3 * radius * radius);
+  }
   if (!fast || std::abs(*fast - slow) <= tolerance * radius * radius) return;
   EXPECT_GT(tolerance, 1e-9) << *fast << " beside " << slow;
   EXPECT_NEAR(*fast, sliced_area(radius, near), 1e-3 * radius * radius);
@@ -157,6 +166,54 @@ TEST(UnionArea, NearlyDegenerate) {
           {shaken(lattice_point(rng, 11) - Vec2{5, 5}), 1.0 + static_cast<double>(rng.below(5))});
     expect_same_area(5, near, left, 1e-6);
   }
+}
+
+// More discs than the outline is followed for, dense and sparse, beside edges or not.
+TEST(UnionArea, ManyDiscs) {
+  for (std::uint32_t trial = 0; trial < 200; ++trial) {
+    Rng rng(6, Purpose::test, trial);
+    const double radius = 100;
+    Near near;
+    const double cell = rng.uniform(30, 200);
+    if (rng.below(2) == 0)
+      for (int i = -2; i <= 2; ++i)
+        for (int j = -2; j <= 2; ++j)
+          near.add(random_star(rng, cell * Vec2{i + 0.1, j - 0.2}, 0.49 * cell), radius);
+    const double most = maths::pow(10, rng.uniform(-1, 2));
+    const std::uint64_t discs = 65 + rng.below(300);
+    for (std::uint64_t k = 0; k < discs; ++k)
+      near.discs.push_back(random_disc(rng, 130, 0.01 * most, most));
+    near.discs.push_back(near.discs[0]);
+    Memory memory;
+    const double arcs = arc_area(radius, near.edges, near.winding, near.discs, memory.resource);
+    EXPECT_EQ(union_area(radius, near.obstacles(), memory.resource), arcs);
+    EXPECT_NEAR(arcs, slab_area(radius, near.obstacles(), memory.resource), 1e-9 * radius * radius);
+  }
+}
+
+// Discs of a lattice that touch, contain one another and cross in common points.
+TEST(UnionArea, ManyOnALattice) {
+  for (std::uint32_t trial = 0; trial < 20; ++trial) {
+    Rng rng(7, Purpose::test, trial);
+    Near near;
+    const std::uint64_t discs = 65 + rng.below(100);
+    for (std::uint64_t k = 0; k < discs; ++k)
+      near.discs.push_back(
+          {lattice_point(rng, 41) - Vec2{20, 20}, 1.0 + static_cast<double>(rng.below(3))});
+    Memory memory;
+    EXPECT_NEAR(union_area(17, near.obstacles(), memory.resource), sliced_area(17, near), 0.05);
+  }
+}
+
+// All of these cross one another, and none is hidden.
+TEST(UnionArea, Stops) {
+  Near near;
+  for (int k = 0; k < 5000; ++k) near.discs.push_back({90 * unit_vector(wrap(0.0012 * k)), 100});
+  const std::atomic<bool> flag = true;
+  Memory memory;
+  const std::vector<NearObstacle> all = near.obstacles();
+  EXPECT_EQ(union_area(250, all, memory.resource, Stop(&flag)), 0);
+  EXPECT_EQ(slab_area(250, all, memory.resource, Stop(&flag)), 0);
 }
 
 TEST(UnionArea, Known) {

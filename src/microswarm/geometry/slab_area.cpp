@@ -57,13 +57,17 @@ bool near_overlap(double a0, double a1, double b0, double b1, double slack) {
 
 class Slabs {
  public:
-  Slabs(double radius, std::span<const NearObstacle> obstacles, std::pmr::memory_resource& memory)
+  Slabs(double radius, std::span<const NearObstacle> obstacles, std::pmr::memory_resource& memory,
+        const Stop& stop)
       : radius_(radius),
         obstacles_(obstacles),
+        stop_(stop),
         events_(&memory),
+        pieces_(&memory),
+        near_(&memory),
+        polygons_(&memory),
         curves_(&memory),
         waiting_(&memory),
-        active_(&memory),
         order_(&memory),
         level_edges_(&memory),
         windings_(obstacles.size(), 0, &memory) {}
@@ -73,7 +77,10 @@ class Slabs {
     find_level_edges();
     find_events();
     double sum = 0;
-    for (std::size_t i = 1; i < events_.size(); ++i) sum += slab(events_[i - 1], events_[i]);
+    for (std::size_t i = 1; i < events_.size(); ++i) {
+      if (stop_()) return 0;
+      sum += slab(events_[i - 1], events_[i]);
+    }
     return sum;
   }
 
@@ -82,6 +89,14 @@ class Slabs {
   struct Crossed {
     double y;
     std::uint32_t curve;
+  };
+
+  /// A disc, or an edge of a polygon, between two x.
+  struct Piece {
+    double left;
+    double right;
+    std::uint32_t obstacle;
+    const Segment* edge;  ///< null for a disc
   };
 
   void add_halves(Disc disc, std::uint32_t obstacle) {
@@ -94,7 +109,10 @@ class Slabs {
   void find_curves() {
     add_halves({{}, radius_}, query);
     for (std::uint32_t i = 0; i < obstacles_.size(); ++i) {
-      if (obstacles_[i].is_disc) add_halves(obstacles_[i].disc, i);
+      if (obstacles_[i].is_disc)
+        add_halves(obstacles_[i].disc, i);
+      else
+        polygons_.push_back(i);
       for (const Segment& e : obstacles_[i].edges) {
         if (e.a.x == e.b.x) continue;
         curves_.push_back(
@@ -155,20 +173,48 @@ class Slabs {
     add_event(middle - std::sqrt(half2) * perpendicular(d));
   }
 
-  void cross(const NearObstacle& a, const NearObstacle& b) {
-    if (a.is_disc && b.is_disc) return cross(a.disc, b.disc);
-    if (a.is_disc) return cross(b, a);
-    for (const Segment& s : a.edges) {
-      if (b.is_disc) cross(s, b.disc);
-      for (const Segment& t : b.edges) cross(s, t);
+  void cross(const Piece& a, const Piece& b) {
+    if (!a.edge && !b.edge) return cross(obstacles_[a.obstacle].disc, obstacles_[b.obstacle].disc);
+    if (!a.edge) return cross(*b.edge, obstacles_[a.obstacle].disc);
+    if (!b.edge) return cross(*a.edge, obstacles_[b.obstacle].disc);
+    cross(*a.edge, *b.edge);
+  }
+
+  void add_piece(double left, double right, std::uint32_t obstacle, const Segment* edge) {
+    const double slack = 2 * event_tolerance * (radius_ + right - left);
+    pieces_.push_back({left - slack, right + slack, obstacle, edge});
+  }
+
+  void find_pieces() {
+    for (std::uint32_t i = 0; i < obstacles_.size(); ++i) {
+      const NearObstacle& o = obstacles_[i];
+      if (o.is_disc)
+        add_piece(o.disc.centre.x - o.disc.radius, o.disc.centre.x + o.disc.radius, i, nullptr);
+      for (const Segment& e : o.edges)
+        add_piece(std::min(e.a.x, e.b.x), std::max(e.a.x, e.b.x), i, &e);
+    }
+    std::ranges::stable_sort(pieces_, {}, &Piece::left);
+  }
+
+  /// Crosses what overlaps from left to right.
+  void cross_pieces() {
+    for (std::uint32_t i = 0; i < pieces_.size(); ++i) {
+      if (stop_()) return;
+      const Piece& piece = pieces_[i];
+      std::erase_if(near_, [&](std::uint32_t k) { return pieces_[k].right < piece.left; });
+      for (const std::uint32_t k : near_) {
+        const Piece& other = pieces_[k];
+        if (piece.obstacle > other.obstacle) cross(piece, other);
+        if (piece.obstacle < other.obstacle) cross(other, piece);
+      }
+      near_.push_back(i);
     }
   }
 
   void find_events() {
     events_ = {-radius_, radius_};
     const Disc disc{{}, radius_};
-    for (std::size_t i = 0; i < obstacles_.size(); ++i) {
-      const NearObstacle& o = obstacles_[i];
+    for (const NearObstacle& o : obstacles_) {
       if (o.is_disc) {
         add_event(o.disc.centre - Vec2{o.disc.radius, 0});
         add_event(o.disc.centre + Vec2{o.disc.radius, 0});
@@ -179,8 +225,9 @@ class Slabs {
         add_event(e.b);
         cross(e, disc);
       }
-      for (std::size_t j = 0; j < i; ++j) cross(o, obstacles_[j]);
     }
+    find_pieces();
+    cross_pieces();
     std::sort(events_.begin(), events_.end());
     events_.erase(std::unique(events_.begin(), events_.end()), events_.end());
   }
@@ -209,22 +256,28 @@ class Slabs {
     return is_left - level.centre_is_left;
   }
 
-  /// Slabs come from left to right: curves wait, are active and are gone.
+  /// Slabs come from left to right: curves wait, are in order and are gone. From one slab to the
+  /// next the order hardly changes.
   void sort_curves(double x) {
+    std::erase_if(order_, [&](const Crossed& c) { return x >= curves_[c.curve].last; });
+    for (Crossed& c : order_) c.y = curves_[c.curve].y(x);
     for (; next_ < waiting_.size() && curves_[waiting_[next_]].first <= x; ++next_)
-      active_.push_back(waiting_[next_]);
-    std::erase_if(active_, [&](std::uint32_t i) { return x >= curves_[i].last; });
-    order_.clear();
-    for (const std::uint32_t i : active_) order_.push_back({curves_[i].y(x), i});
-    std::sort(order_.begin(), order_.end(), [](const Crossed& a, const Crossed& b) {
+      if (const Curve& curve = curves_[waiting_[next_]]; x < curve.last)
+        order_.push_back({curve.y(x), waiting_[next_]});
+    const auto is_below = [](const Crossed& a, const Crossed& b) {
       return std::pair(a.y, a.curve) < std::pair(b.y, b.curve);
-    });
+    };
+    for (std::size_t i = 1; i < order_.size(); ++i) {
+      const Crossed moved = order_[i];
+      std::size_t k = i;
+      for (; k > 0 && is_below(moved, order_[k - 1]); --k) order_[k] = order_[k - 1];
+      order_[k] = moved;
+    }
   }
 
-  /// Sets the winding numbers below all curves of `order_`.
+  /// Sets the winding numbers below all curves of `order_`; those of discs are 0 again.
   void start_windings(double x) {
-    for (std::size_t i = 0; i < obstacles_.size(); ++i)
-      windings_[i] = obstacles_[i].is_disc ? 0 : obstacles_[i].winding;
+    for (const std::uint32_t i : polygons_) windings_[i] = obstacles_[i].winding;
     for (const LevelEdge& level : level_edges_)
       windings_[level.obstacle] += winding_change(level, x);
     for (const Crossed& c : order_) {
@@ -238,7 +291,8 @@ class Slabs {
     sort_curves(x);
     start_windings(x);
     auto holds = [](int winding) { return winding != 0; };
-    auto depth = std::count_if(windings_.begin(), windings_.end(), holds);
+    auto depth =
+        std::ranges::count_if(polygons_, [&](std::uint32_t i) { return holds(windings_[i]); });
     bool in_query = false;
     double sum = 0;
     for (const Crossed& c : order_) {
@@ -260,12 +314,15 @@ class Slabs {
 
   double radius_;
   std::span<const NearObstacle> obstacles_;
+  const Stop& stop_;
   std::pmr::vector<double> events_;
+  std::pmr::vector<Piece> pieces_;        ///< by where they begin
+  std::pmr::vector<std::uint32_t> near_;  ///< of them, at the present x
+  std::pmr::vector<std::uint32_t> polygons_;
   std::pmr::vector<Curve> curves_;
   std::pmr::vector<std::uint32_t> waiting_;  ///< curves by where they begin
   std::size_t next_ = 0;                     ///< of them
-  std::pmr::vector<std::uint32_t> active_;   ///< in the present slab
-  std::pmr::vector<Crossed> order_;
+  std::pmr::vector<Crossed> order_;          ///< in the present slab, upwards
   std::pmr::vector<LevelEdge> level_edges_;
   std::pmr::vector<int> windings_;
 };
@@ -273,8 +330,8 @@ class Slabs {
 }  // namespace
 
 double slab_area(double radius, std::span<const NearObstacle> obstacles,
-                 std::pmr::memory_resource& memory) {
-  return Slabs(radius, obstacles, memory).area();
+                 std::pmr::memory_resource& memory, const Stop& stop) {
+  return Slabs(radius, obstacles, memory, stop).area();
 }
 
 }  // namespace microswarm

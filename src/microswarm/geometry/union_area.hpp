@@ -4,6 +4,7 @@
 #include <memory_resource>
 #include <span>
 
+#include "microswarm/core/execution/stop.hpp"
 #include "microswarm/geometry/shapes.hpp"
 
 namespace microswarm {
@@ -20,8 +21,10 @@ struct NearObstacle {
 
 /// Exact area [µm²] of the union of obstacles inside the disc of radius `radius` about the origin:
 /// by `outline_area` if at most one obstacle is a polygon, which may stand for several that do not
-/// overlap, else by `slab_area`. `memory` provides the work space.
+/// overlap, else by `slab_area`. Where there are many discs, or the outline could be wrong among
+/// many edges, `arc_area` takes the place of either. `memory` provides the work space. 0 if
+/// stopped.
 double union_area(double radius, std::span<const NearObstacle> obstacles,
-                  std::pmr::memory_resource& memory);
+                  std::pmr::memory_resource& memory, const Stop& stop = {});
 
 }  // namespace microswarm
