@@ -2,6 +2,9 @@
 // microswarm-bench compares speeds with those of peers, which only this program links.
 #include <memory>
 
+#ifdef MICROSWARM_BENCH_BINDINGS
+#include "bench/bindings.hpp"
+#endif
 #include "bench/gathering.hpp"
 #include "bench/global.hpp"
 #include "bench/growth.hpp"
@@ -87,6 +90,12 @@ int main(int argc, char** argv) {
       {"gather", "Steps that gather robots, by each method", bench::gather},
       {"radar", "Decisions of the radar", bench::radar},
       {"growth", "How times grow with robots, obstacles, vertices and shapes", bench::growth},
+#ifdef MICROSWARM_BENCH_BINDINGS
+      {"bindings", "Steps of a navigator from C, Python and Octave, a sweep from Python",
+       [](bool quick, const Stop& stop) {
+         return bench::bindings(cli::scenario_folder(), cli::tool(), quick, stop);
+       }},
+#endif
 #ifdef MICROSWARM_BENCH_LAB
       {"lab", "The lab: frames, times, several clients; its page in a browser",
        [](bool quick, const Stop& stop) {

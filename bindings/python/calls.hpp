@@ -103,8 +103,10 @@ void add_environments(py::module_& module);
 void add_gather(py::module_& module);
 void add_global_plan(py::module_& module);
 void add_map(py::module_& module);
+void add_navigator(py::module_& module);
 void add_record(py::module_& module);
 void add_session(py::module_& module);
+void add_sweep(py::module_& module);
 void add_vision(py::module_& module);
 
 }  // namespace microswarm::python

@@ -66,12 +66,33 @@ py::array_t<double> discs(const NamedMap& map) {
   return array;
 }
 
+/// Calls `work(first, count)` for blocks of `all` places, without the GIL; Ctrl-C ends it if they
+/// are many.
+template <class Work>
+void in_blocks(std::size_t all, Work&& work) {
+  constexpr std::size_t block = 4096;
+  constexpr std::size_t many = 16 * block;
+  const auto each = [&](const Stop& stop) {
+    for (std::size_t first = 0; first < all && !stop(); first += block)
+      work(first, std::min(block, all - first));
+    return true;
+  };
+  if (all > many) {
+    interruptible(each);
+    return;
+  }
+  const Free free;
+  each({});
+}
+
 py::array_t<double> clearance(const NamedMap& map, const Numbers& array) {
   const std::vector<Vec2> asked = places(array, "places_um");
   py::array_t<double> found(static_cast<py::ssize_t>(asked.size()));
   double* out = found.mutable_data();
-  const Free free;
-  for (const Vec2& place : asked) *out++ = is_finite(place) ? map.world.clearance(place) : 0;
+  in_blocks(asked.size(), [&](std::size_t first, std::size_t count) {
+    for (std::size_t i = first; i < first + count; ++i)
+      out[i] = is_finite(asked[i]) ? map.world.clearance(asked[i]) : 0;
+  });
   return found;
 }
 
@@ -81,8 +102,10 @@ py::array_t<bool> are_free(const NamedMap& map, const Numbers& array, double cle
   static_assert(sizeof(bool) == 1);
   const std::span<std::uint8_t> out{reinterpret_cast<std::uint8_t*>(found.mutable_data()),
                                     asked.size()};
-  const Free free;
-  map.world.are_free(asked, clearance, out);
+  in_blocks(asked.size(), [&](std::size_t first, std::size_t count) {
+    map.world.are_free(std::span(asked).subspan(first, count), clearance,
+                       out.subspan(first, count));
+  });
   return found;
 }
 

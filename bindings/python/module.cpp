@@ -83,5 +83,7 @@ PYBIND11_MODULE(_core, module) {
   python::add_map(module);
   python::add_record(module);
   python::add_session(module);
+  python::add_navigator(module);
+  python::add_sweep(module);
   python::add_vision(module);
 }

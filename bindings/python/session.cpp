@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenarios, experiments, and navigators in a loop of the caller's own.
+// Scenarios and experiments.
 #include "session.hpp"
 
 #include "calls.hpp"
 #include "drawing.hpp"
 #include "guarded.hpp"
 #include "microswarm/config/write.hpp"
-#include "microswarm/config/yaml.hpp"
-#include "microswarm/core/errors/error.hpp"
-#include "microswarm/session/standalone_navigator.hpp"
 #include "own_navigator.hpp"
 #include "record.hpp"
 #include "scenario_text.hpp"
@@ -177,72 +174,6 @@ py::dict finish(OpenSession& open, const py::object& report) {
   });
 }
 
-using OpenNavigator = Guarded<StandaloneNavigator>;
-
-/// Obstacles of a caller: rows x, y, radius, or outlines of shape (n, 2).
-std::vector<Body> bodies_of(const py::object& obstacles) {
-  std::vector<Body> bodies;
-  if (obstacles.is_none()) return bodies;
-  const auto add_rows = [&](const Numbers& rows) {
-    if (rows.size() == 0) return;
-    if (rows.ndim() != 2 || rows.shape(1) != 3)
-      throw InputError("obstacles must have the shape (n, 3): x_um, y_um, radius_um");
-    const double* row = rows.data();
-    for (py::ssize_t i = 0; i < rows.shape(0); ++i, row += 3)
-      bodies.push_back({.shape = Disc{{row[0], row[1]}, row[2]}});
-  };
-  if (py::isinstance<py::array>(obstacles)) {
-    add_rows(obstacles.cast<Numbers>());
-    return bodies;
-  }
-  for (const py::handle one : obstacles) {
-    const auto numbers = one.cast<Numbers>();
-    if (numbers.ndim() == 1 && numbers.size() == 3)
-      bodies.push_back({.shape = Disc{{numbers.at(0), numbers.at(1)}, numbers.at(2)}});
-    else if (numbers.ndim() == 2 && numbers.shape(1) == 2)
-      bodies.push_back({.shape = Polygon{places(numbers, "outline"), {}}});
-    else
-      throw InputError("an obstacle must be (x_um, y_um, radius_um) or an outline of shape (n, 2)");
-  }
-  return bodies;
-}
-
-py::tuple step_navigator(OpenNavigator& open, double now, std::optional<double> seen,
-                         const std::optional<std::array<double, 4>>& swarm,
-                         const py::object& obstacles,
-                         const std::optional<std::vector<std::int64_t>>& numbers,
-                         const std::optional<Numbers>& robots, int unseen) {
-  ExternalObservation given{.now = now, .seen = seen.value_or(now), .unseen = unseen};
-  if (swarm) given.swarm = {{{(*swarm)[0], (*swarm)[1]}, (*swarm)[2]}, (*swarm)[3]};
-  given.obstacles = bodies_of(obstacles);
-  if (numbers) {
-    if (numbers->size() != given.obstacles.size())
-      throw InputError("there must be as many numbers as obstacles");
-    given.are_numbered = true;
-    for (std::size_t i = 0; i < numbers->size(); ++i) {
-      if ((*numbers)[i] < 0 || (*numbers)[i] > INT32_MAX)
-        throw InputError("the number of an obstacle must be 0 to 2147483647");
-      given.obstacles[i].obstacle = static_cast<std::uint32_t>((*numbers)[i]);
-    }
-  }
-  if (robots) given.robots = places(*robots, "robots");
-  return open.use([&](StandaloneNavigator& navigator) {
-    const auto made = [&](const Stop& stop) { return navigator.step(given, stop); };
-    Command command;
-    if (navigator.is_prepared()) {
-      const Free free;
-      command = made({});
-    } else {
-      command = interruptible(made);
-    }
-    const NavigatorView view = navigator.view();
-    py::object target = py::none();
-    if (view.local_target) target = py::make_tuple(view.local_target->x, view.local_target->y);
-    return py::make_tuple(command.heading, command.speed, std::string(enum_name(view.state)),
-                          target, view.planned);
-  });
-}
-
 }  // namespace
 
 py::object session_object(std::unique_ptr<Session> session) {
@@ -297,20 +228,6 @@ void add_session(py::module_& module) {
         return open.use(
             [](Session& session) { return std::make_shared<Record>(session.record()); });
       });
-
-  py::class_<OpenNavigator>(module, "Navigator")
-      .def(py::init([](const ScenarioText& scenario, std::uint32_t trial) {
-        auto made = interruptible([&](const Stop&) {
-          return std::make_unique<StandaloneNavigator>(scenario.open(), trial);
-        });
-        return std::make_unique<OpenNavigator>(std::move(made), "navigator");
-      }))
-      .def("step", step_navigator)
-      .def("path",
-           [](OpenNavigator& open) {
-             return open.use([](StandaloneNavigator& n) { return array_of(n.view().path); });
-           })
-      .def("close", &OpenNavigator::close);
 }
 
 }  // namespace microswarm::python

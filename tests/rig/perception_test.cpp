@@ -191,5 +191,58 @@ TEST(BodyNumbers, StayWithTheirBodies) {
   EXPECT_EQ(far[0].obstacle, 2U);
 }
 
+/// Numbers by all pairs within reach.
+class NumbersOfAllPairs {
+ public:
+  explicit NumbersOfAllPairs(double reach) : reach_(reach) {}
+
+  std::vector<std::uint32_t> number(const std::vector<Vec2>& places) {
+    std::vector<AssignmentEdge> edges;
+    for (std::size_t i = 0; i < places.size(); ++i)
+      for (std::size_t k = 0; k < known_.size(); ++k) {
+        const double off = squared_norm(places[i] - known_[k]);
+        if (off <= reach_ * reach_)
+          edges.push_back({static_cast<int>(i), static_cast<int>(k), off});
+      }
+    const auto of = Assignment().solve(static_cast<int>(places.size()),
+                                       static_cast<int>(known_.size()), edges, reach_ * reach_);
+    std::vector<std::uint32_t> numbers;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (!of[i]) known_.emplace_back();
+      numbers.push_back(
+          static_cast<std::uint32_t>(of[i] ? *of[i] : static_cast<int>(known_.size()) - 1));
+      known_[numbers.back()] = places[i];
+    }
+    return numbers;
+  }
+
+ private:
+  double reach_;
+  std::vector<Vec2> known_;
+};
+
+// Two pictures, so that no velocity is expected yet.
+TEST(BodyNumbers, AreThoseOfAllPairs) {
+  for (std::uint32_t trial = 0; trial < 100; ++trial) {
+    Rng rng(11, Purpose::test, trial);
+    const double reach = 30;
+    const std::size_t count = 50 + rng.below(400);
+    const double size = rng.uniform(300, 2000);
+    BodyNumbers fast(reach);
+    NumbersOfAllPairs slow(reach);
+    std::vector<Vec2> places;
+    for (std::size_t i = 0; i < count; ++i)
+      places.push_back({rng.uniform(0, size), rng.uniform(0, size)});
+    for (const double t : {0.0, 0.1}) {
+      std::vector<Body> bodies;
+      for (const Vec2 place : places) bodies.push_back({.shape = Disc{place, 5}});
+      fast.number(bodies, t);
+      const std::vector<std::uint32_t> expected = slow.number(places);
+      for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(bodies[i].obstacle, expected[i]) << trial;
+      for (Vec2& place : places) place += Vec2{rng.uniform(-10, 10), rng.uniform(-10, 10)};
+    }
+  }
+}
+
 }  // namespace
 }  // namespace microswarm

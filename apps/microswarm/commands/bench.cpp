@@ -17,8 +17,8 @@ struct BenchOptions {
   bool json = false;
 };
 
-constexpr const char* groups[] = {"planning", "sweep",  "swarm",  "global", "gather",
-                                  "radar",    "growth", "vision", "lab",    "rig"};
+constexpr const char* groups[] = {"planning", "sweep",  "swarm", "global", "gather",  "radar",
+                                  "growth",   "vision", "lab",   "rig",    "bindings"};
 
 int measure(const BenchOptions& o) {
   if (std::find(std::begin(groups), std::end(groups), o.group) == std::end(groups))

@@ -164,9 +164,10 @@ int sweep_command(SweepOptions o, const Context& context) {
   }
   RemoteWorkers workers(ranks);
   const std::filesystem::path file = o.sweep;
-  const SweepPlan plan = load_sweep(file, o.jobs);
+  const SweepPlan plan = load_sweep(file, o.jobs, context.stop);
   note_each(plan.notes);
-  check(plan, o.jobs);
+  check(plan, o.jobs, context.stop);
+  if (context.stop()) return not_reached;
   if (o.out.empty()) o.out = file.stem().string() + ".db";
   keep_input(o.out, o.sweep);
   keep_input(o.csv, o.sweep);

@@ -20,6 +20,7 @@ from .navigator import Command, Navigator
 from .record import Record, Table, read_record
 from .runs import Session, run
 from .scenario import Scenario
+from .sweeps import sweep
 from .vision import Segmentation, segment, track
 
 __all__ = [
@@ -45,4 +46,5 @@ __all__ = [
     "run",
     "segment",
     "track",
+    "sweep",
 ]

@@ -9,7 +9,9 @@ import numpy as np
 
 from . import _core
 from .runs import Source, scenario_of
-from .values import InputError, numbers as numbers_of, whole
+from .values import InputError, whole
+
+_made = tuple.__new__  # without the checks of Command()
 
 
 class Command(NamedTuple):
@@ -58,17 +60,14 @@ class Navigator:
         numbers    of the obstacles, the same in every step, 0 to 2147483647; without, they are matched by distance
         unseen     how many of the robots were not seen and are where they are expected
         """
-        if swarm is not None:
-            swarm = numbers_of("swarm", swarm, (4,), "(x_um, y_um, heading_rad, radius_um)")
         if numbers is not None:
             numbers = [whole("the number of an obstacle", one, 2**31 - 1) for one in numbers]
         try:
-            made = self._core.step(t, seen, swarm, obstacles, numbers, robots, unseen)
+            return _made(Command, self._core.step(t, swarm, obstacles, robots, seen, numbers, unseen))
         except InputError:
             raise
         except (TypeError, ValueError):
             raise InputError("t, seen and unseen must be numbers, obstacles and robots arrays of numbers") from None
-        return Command(*made)
 
     def path(self) -> np.ndarray:
         """The path that it follows, of the shape (n, 2) [µm]."""

@@ -22,14 +22,14 @@ def path_text(path: str | os.PathLike[str]) -> str:
     return text
 
 
-def whole(name: str, value: Any, most: int) -> int:
-    """A whole number from 0 to `most`."""
+def whole(name: str, value: Any, most: int, least: int = 0) -> int:
+    """A whole number from `least` to `most`."""
     try:
         number = operator.index(value)
     except TypeError:
         raise InputError(f"{name} is {value!r}, must be a whole number") from None
-    if not 0 <= number <= most:
-        raise InputError(f"{name} is {number}, must be 0 to {most}")
+    if not least <= number <= most:
+        raise InputError(f"{name} is {number}, must be {least} to {most}")
     return number
 
 

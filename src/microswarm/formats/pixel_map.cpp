@@ -9,6 +9,12 @@
 #include "microswarm/formats/images/mask.hpp"
 
 namespace microswarm {
+namespace {
+
+/// With so many a map takes some seconds and a few GB.
+constexpr std::size_t max_corners = 5'000'000;
+
+}  // namespace
 
 Map map_of_pixels(std::span<const std::uint8_t> pixels, std::size_t width, std::size_t height,
                   double um_per_px, double tolerance) {
@@ -28,6 +34,16 @@ Map map_of_pixels(std::span<const std::uint8_t> pixels, std::size_t width, std::
   std::ranges::transform(pixels, blocked.cells.begin(), [](std::uint8_t v) { return v == 0; });
   std::vector<Polygon> walls = mask_walls(blocked, um_per_px);
   simplify(walls, tolerance);
+  std::size_t corners = 0;
+  for (const Polygon& wall : walls) {
+    corners += wall.outer.size();
+    for (const auto& hole : wall.holes) corners += hole.size();
+  }
+  if (corners > max_corners)
+    throw InputError(
+        fmt::format("an image whose walls have {} corners, at most {} are taken: simplify them, or "
+                    "remove its noise",
+                    corners, max_corners));
   return Map(cell_bounds(blocked, um_per_px), std::move(walls));
 }
 

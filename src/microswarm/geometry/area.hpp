@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "microswarm/core/execution/stop.hpp"
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/geometry/edge_grid.hpp"
 #include "microswarm/geometry/shapes.hpp"
@@ -20,9 +21,10 @@ double intersection_area(Disc a, Disc b);
 
 /// Exact area of `disc` ∩ (union of polygons and discs) [µm²]; overlaps count once. Obstacles that
 /// overlap no other are summed. The others are cut into slabs between all vertices and crossings
-/// inside the disc, and each slab is integrated in closed form.
+/// inside the disc, and each slab is integrated in closed form; see `union_area`. Of no meaning if
+/// stopped.
 double covered_area(Disc disc, std::span<const Polygon* const> polygons,
-                    std::span<const Disc> discs);
+                    std::span<const Disc> discs, const Stop& stop = {});
 
 /// Exact area of `disc` ∩ solid [µm²], from the edges near the disc alone. Bodies may touch;
 /// overlapping bodies count separately.

@@ -105,10 +105,11 @@ double area_of(const NearObstacle& obstacle, double r) {
 
 /// Moves everything that overlaps obstacles[first], directly or through others, next to it; returns
 /// the end of this group.
-std::size_t gather_group(Obstacles& obstacles, std::size_t first, double r) {
+std::size_t gather_group(Obstacles& obstacles, std::size_t first, double r, const Stop& stop) {
   std::size_t end = first + 1;
   for (std::size_t i = first; i < end; ++i) {
     for (std::size_t j = end; j < obstacles.size(); ++j) {
+      if (!obstacles[j].is_disc && stop()) return obstacles.size();
       if (may_overlap(obstacles[i], obstacles[j], r)) std::swap(obstacles[end++], obstacles[j]);
     }
   }
@@ -118,7 +119,7 @@ std::size_t gather_group(Obstacles& obstacles, std::size_t first, double r) {
 }  // namespace
 
 double covered_area(Disc disc, std::span<const Polygon* const> polygons,
-                    std::span<const Disc> discs) {
+                    std::span<const Disc> discs, const Stop& stop) {
   const double r = disc.radius;
   Scratch scratch;
   Edges edges(&scratch.memory);
@@ -148,10 +149,11 @@ double covered_area(Disc disc, std::span<const Polygon* const> polygons,
   }
   double sum = 0;
   for (std::size_t first = 0; first < obstacles.size();) {
-    const std::size_t end = gather_group(obstacles, first, r);
-    sum += end == first + 1
-               ? area_of(obstacles[first], r)
-               : union_area(r, std::span(obstacles).subspan(first, end - first), scratch.memory);
+    const std::size_t end = gather_group(obstacles, first, r, stop);
+    if (stop()) return 0;
+    sum += end == first + 1 ? area_of(obstacles[first], r)
+                            : union_area(r, std::span(obstacles).subspan(first, end - first),
+                                         scratch.memory, stop);
     first = end;
   }
   return std::clamp(sum, 0.0, area(disc));

@@ -18,6 +18,7 @@ constexpr double max_time = 1e9;    // [s]
 constexpr double max_place = 1e7;   // [µm]
 constexpr double max_radius = 1e6;  // [µm]
 constexpr std::size_t max_bodies = 5'000;
+constexpr std::size_t max_corners = 100'000;  // of all outlines
 
 /// How far [µm] a body is looked for from where it is expected: as in a picture of the map.
 double reach_in(const Map& map) {
@@ -74,6 +75,7 @@ void StandaloneNavigator::check(const ExternalObservation& given) const {
   if (given.obstacles.size() > max_bodies)
     throw InputError(
         fmt::format("{} obstacles, at most {} are taken", given.obstacles.size(), max_bodies));
+  std::size_t corners = 0;
   for (const Body& body : given.obstacles) {
     if (const auto* disc = std::get_if<Disc>(&body.shape)) {
       require_place("place of an obstacle", disc->centre);
@@ -84,7 +86,11 @@ void StandaloneNavigator::check(const ExternalObservation& given) const {
     const std::vector<Vec2>& outline = *outline_of(body);
     if (outline.size() < 3) throw InputError("the outline of an obstacle has fewer than 3 points");
     for (const Vec2& p : outline) require_place("outline of an obstacle", p);
+    corners += outline.size();
   }
+  if (corners > max_corners)
+    throw InputError(fmt::format("outlines of obstacles have {} points, at most {} are taken",
+                                 corners, max_corners));
 }
 
 Command StandaloneNavigator::step(const ExternalObservation& given, const Stop& stop) {
@@ -96,7 +102,7 @@ Command StandaloneNavigator::step(const ExternalObservation& given, const Stop& 
   }
   last_ = given.now;
   std::vector<Body> bodies = given.obstacles;
-  if (!given.are_numbered) numbers_.number(bodies, given.seen);
+  if (!given.are_numbered) numbers_.number(bodies, given.seen, stop);
   std::optional<SwarmPose> swarm = given.swarm;
   if (!given.robots.empty()) swarm = body_of(given.robots, command_.heading);
   const Observation seen =

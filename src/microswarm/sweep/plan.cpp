@@ -19,11 +19,13 @@
 namespace microswarm {
 namespace {
 
-/// Calls body(i) for all i on several threads and rethrows the exception of the lowest i.
+/// Calls body(i) for all i, until stopped, on several threads and rethrows the exception of the
+/// lowest i.
 template <class Body>
-void for_each_in_order(std::size_t count, int jobs, Body body) {
+void for_each_in_order(std::size_t count, int jobs, const Stop& stop, Body body) {
   std::vector<std::exception_ptr> thrown(count);
   for_each_index(count, jobs, [&](std::size_t i) {
+    if (stop()) return;
     try {
       body(i);
     } catch (...) {
@@ -164,21 +166,21 @@ std::string SweepPlan::hash() const {
   return hash.hex();
 }
 
-SweepPlan load_sweep(const std::filesystem::path& file, int jobs) {
-  SweepPlan plan{.sweep = read_sweep(file), .file = file.string()};
-  const std::filesystem::path scenario_file = file.parent_path() / plan.sweep.scenario;
-  const Scenario base = read_scenario(scenario_file);
-  plan.scenario_document =
-      parse_yaml(read_file(scenario_file, max_yaml_bytes), scenario_file.string());
-  use_present_keys(type_of<Scenario>(), plan.scenario_document, scenario_file.string(),
-                   Scenario::moved_keys, plan.notes);
-  plan.scenario_text = scenario_text(base);
+SweepPlan plan_sweep(Sweep sweep, const std::string& name, const SweepBase& base, int jobs,
+                     const Stop& stop) {
+  SweepPlan plan{.sweep = std::move(sweep), .file = name};
+  const auto scenario = read_yaml_text<Scenario>(base.text, base.name);
+  plan.scenario_document = parse_yaml(base.text, base.name);
+  use_present_keys(type_of<Scenario>(), plan.scenario_document, base.name, Scenario::moved_keys,
+                   plan.notes);
+  plan.scenario_text = scenario_text(scenario);
   MapCache maps;
-  const Loader loader{plan, base, scenario_file.parent_path(), maps};
+  const Loader loader{plan, scenario, base.folder, maps};
   std::vector<SweepCell> cells(cell_count(plan.sweep));
   cells[0] = loader.cell_of(0);  // alone, for the map that all may share
-  for_each_in_order(cells.size() - 1, jobs,
+  for_each_in_order(cells.size() - 1, jobs, stop,
                     [&](std::size_t i) { cells[i + 1] = loader.cell_of(i + 1); });
+  if (stop()) return plan;
   plan.cells = std::move(cells);
   for (const SweepCell& cell : plan.cells)
     for (const std::string& note : cell.notes)
@@ -186,8 +188,16 @@ SweepPlan load_sweep(const std::filesystem::path& file, int jobs) {
   return plan;
 }
 
-void check(const SweepPlan& plan, int jobs) {
-  for_each_in_order(plan.cells.size(), jobs, [&](std::size_t i) {
+SweepPlan load_sweep(const std::filesystem::path& file, int jobs, const Stop& stop) {
+  Sweep sweep = read_sweep(file);
+  const std::filesystem::path scenario = file.parent_path() / sweep.scenario;
+  const SweepBase base{read_file(scenario, max_yaml_bytes), scenario.string(),
+                       scenario.parent_path()};
+  return plan_sweep(std::move(sweep), file.string(), base, jobs, stop);
+}
+
+void check(const SweepPlan& plan, int jobs, const Stop& stop) {
+  for_each_in_order(plan.cells.size(), jobs, stop, [&](std::size_t i) {
     const SweepCell& cell = plan.cells[i];
     const KeyLocations keys = locations_of(plan, cell);
     keys.require_none(validate(cell.scenario, cell.world, keys.is_given()));

@@ -7,6 +7,7 @@
 
 #include "microswarm/config/former_keys.hpp"
 #include "microswarm/config/yaml_node.hpp"
+#include "microswarm/core/execution/stop.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/sweep/sweep_file.hpp"
 
@@ -37,12 +38,26 @@ struct SweepPlan {
   std::string hash() const;
 };
 
-/// Reads a sweep file and the files it names and builds the cells on `jobs` threads (0: one per
-/// core). Throws InputError, one line, for the first invalid cell.
-SweepPlan load_sweep(const std::filesystem::path& file, int jobs = 0);
+/// The text of a base scenario; `name` stands for its file in messages, and files that it names are
+/// relative to `folder`.
+struct SweepBase {
+  std::string text;
+  std::string name;
+  std::filesystem::path folder;
+};
 
-/// Validates every cell; throws InputError for the first invalid one. See check(Scenario).
-void check(const SweepPlan& plan, int jobs = 0);
+/// Builds the cells of a checked sweep on `jobs` threads (0: one per core); `name` stands for the
+/// sweep file in messages. Throws InputError, one line, for the first invalid cell. If stopped,
+/// there are no cells.
+SweepPlan plan_sweep(Sweep sweep, const std::string& name, const SweepBase& base, int jobs = 0,
+                     const Stop& stop = {});
+
+/// The same of a sweep file and the files it names.
+SweepPlan load_sweep(const std::filesystem::path& file, int jobs = 0, const Stop& stop = {});
+
+/// Validates every cell until stopped; throws InputError for the first invalid one. See
+/// check(Scenario).
+void check(const SweepPlan& plan, int jobs = 0, const Stop& stop = {});
 
 /// One trial of a sweep.
 struct SweepTask {

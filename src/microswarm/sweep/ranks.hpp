@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace microswarm {
 
@@ -29,6 +30,8 @@ class Ranks {
  public:
   /// Throws InputError under mpirun when the program was built without MPI.
   Ranks();
+  /// Only this process, whoever started it.
+  static Ranks alone() { return Ranks(nullptr); }
 
   int rank() const { return messages_ ? messages_->rank() : 0; }
   int count() const { return messages_ ? messages_->count() : 1; }
@@ -39,6 +42,8 @@ class Ranks {
   std::optional<RankMessage> receive() const;
 
  private:
+  explicit Ranks(std::unique_ptr<RankMessages> messages) : messages_(std::move(messages)) {}
+
   std::unique_ptr<RankMessages> messages_;
 };
 

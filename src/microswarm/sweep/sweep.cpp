@@ -23,11 +23,11 @@ void append(std::vector<SweepRow>& rows, std::vector<SweepRow> more) {
               std::make_move_iterator(more.end()));
 }
 
-/// Writes rows to the database in batches. After a transaction it pauses for as long as the
+/// Adds rows to the store in batches. After a transaction it pauses for as long as the
 /// transaction took, so that others can read.
 class RowWriter {
  public:
-  explicit RowWriter(SweepDatabase& database) : database_(database) {}
+  explicit RowWriter(SweepStore& store) : store_(store) {}
 
   void add(std::vector<SweepRow> rows) { append(rows_, std::move(rows)); }
   bool waits() const { return !rows_.empty(); }
@@ -35,14 +35,14 @@ class RowWriter {
   std::size_t write_when_due() { return waits() && Stop::Clock::now() >= due_ ? write() : 0; }
   std::size_t write() {
     const auto began = Stop::Clock::now();
-    database_.add(rows_);
+    store_.add(rows_);
     const auto ended = Stop::Clock::now();
     due_ = ended + (ended - began);
     return std::exchange(rows_, {}).size();
   }
 
  private:
-  SweepDatabase& database_;
+  SweepStore& store_;
   std::vector<SweepRow> rows_;
   Stop::Clock::time_point due_{};
 };
@@ -114,9 +114,9 @@ std::vector<SweepRow> RemoteWorkers::shutdown() {
   return std::exchange(rows_, {});
 }
 
-SweepProgress run_sweep(const SweepPlan& plan, SweepDatabase& database, RemoteWorkers& workers,
+SweepProgress run_sweep(const SweepPlan& plan, SweepStore& store, RemoteWorkers& workers,
                         const SweepOptions& options, const Stop& stop) {
-  const std::vector<SweepTask> tasks = database.missing();
+  const std::vector<SweepTask> tasks = store.missing();
   const std::size_t all = plan.cells.size() * static_cast<std::size_t>(plan.sweep.trials);
   SweepProgress progress{all - tasks.size(), 0, tasks.size()};
   std::size_t begun = 0;
@@ -125,7 +125,7 @@ SweepProgress run_sweep(const SweepPlan& plan, SweepDatabase& database, RemoteWo
     const auto first = tasks.begin() + static_cast<std::ptrdiff_t>(std::exchange(begun, begun + n));
     return std::vector<SweepTask>(first, first + static_cast<std::ptrdiff_t>(n));
   };
-  RowWriter writer(database);
+  RowWriter writer(store);
   const std::string hash = plan.hash();
   {
     WorkerPool pool(plan, options.jobs);

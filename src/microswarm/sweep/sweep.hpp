@@ -55,10 +55,10 @@ class RemoteWorkers {
   int at_work_ = 0;
 };
 
-/// Runs all trials missing from the database, in this process and in the workers, and adds the rows
+/// Runs all trials missing from the store, in this process and in the workers, and adds the rows
 /// as they arrive. Apart from wall-clock times the rows do not depend on the number of threads and
 /// processes. When stopped, only trials in flight are lost.
-SweepProgress run_sweep(const SweepPlan& plan, SweepDatabase& database, RemoteWorkers& workers,
+SweepProgress run_sweep(const SweepPlan& plan, SweepStore& store, RemoteWorkers& workers,
                         const SweepOptions& options = {}, const Stop& stop = {});
 
 /// Main loop of a worker process: runs the tasks that rank 0 sends until rank 0 ends it.

@@ -16,7 +16,7 @@ struct SweepOrigin {
 
 /// The output database of a sweep: one row per trial, layout in docs/reference/sweep.md. Only one
 /// process can hold it open for writing; any number can read.
-class SweepDatabase {
+class SweepDatabase : public SweepStore {
  public:
   /// Creates the database or resumes an existing one. Throws InputError, one line, when another
   /// sweep has it open, when it is not writable, when it is not a sweep database, and when it was
@@ -24,10 +24,9 @@ class SweepDatabase {
   SweepDatabase(const std::filesystem::path& file, const SweepPlan& plan,
                 const SweepOrigin& origin);
 
-  /// Trials without a row, cell by cell.
-  std::vector<SweepTask> missing() const;
+  std::vector<SweepTask> missing() const override;
   /// Adds rows in one transaction; they are on disk when it returns.
-  void add(const std::vector<SweepRow>& rows);
+  void add(const std::vector<SweepRow>& rows) override;
 
  private:
   void make(const SweepOrigin& origin);

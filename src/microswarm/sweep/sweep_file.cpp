@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
@@ -22,9 +23,11 @@ std::optional<std::string> twin(std::vector<std::string> texts) {
 
 bool is_seed(std::string_view key) { return key == "seed" || key.starts_with("seed="); }
 
+enum class Seeds { by_trials, settable };
+
 class Checker {
  public:
-  explicit Checker(const std::string& name) : name_(name) {}
+  Checker(const std::string& name, Seeds seeds) : name_(name), seeds_(seeds) {}
 
   template <class... Values>
   void need(bool good, fmt::format_string<Values...> format, Values&&... values) const {
@@ -35,14 +38,14 @@ class Checker {
   void parameter(const SweepParameter& parameter) const {
     need(!parameter.key.empty(), "a parameter of the grid has an empty key");
     need(!parameter.values.empty(), "values of {} is empty", quote(parameter.key));
-    need(!is_seed(parameter.key), "the grid sets 'seed': trials differ by themselves");
+    need(may_set(parameter.key), "the grid sets 'seed': trials differ by themselves");
     const auto twice = twin(parameter.values);
     need(!twice, "values of {} has {} twice", quote(parameter.key), quote(twice.value_or("")));
   }
 
   void settings(const std::vector<std::string>& settings) const {
     for (const std::string& setting : settings)
-      need(!is_seed(setting), "{} stands in 'set': give the sweep's key 'seed'", quote(setting));
+      need(may_set(setting), "{} stands in 'set': give the sweep's key 'seed'", quote(setting));
   }
 
   void method(const SweepMethod& method) const {
@@ -66,8 +69,17 @@ class Checker {
   }
 
  private:
+  bool may_set(std::string_view key) const { return seeds_ == Seeds::settable || !is_seed(key); }
+
   const std::string& name_;
+  Seeds seeds_;
 };
+
+Sweep checked(Sweep sweep, const std::string& name, Seeds seeds) {
+  Checker(name, seeds).sweep(sweep);
+  if (sweep.methods.empty()) sweep.methods.push_back({"default", {}});
+  return sweep;
+}
 
 }  // namespace
 
@@ -79,10 +91,11 @@ std::size_t cell_count(const Sweep& sweep) {
 }
 
 Sweep read_sweep_text(std::string_view text, const std::string& name) {
-  Sweep sweep = read_yaml_text<Sweep>(text, name);
-  Checker(name).sweep(sweep);
-  if (sweep.methods.empty()) sweep.methods.push_back({"default", {}});
-  return sweep;
+  return checked(read_yaml_text<Sweep>(text, name), name, Seeds::by_trials);
+}
+
+Sweep checked_sweep(Sweep sweep, const std::string& name) {
+  return checked(std::move(sweep), name, Seeds::settable);
 }
 
 Sweep read_sweep(const std::filesystem::path& file) {

@@ -68,6 +68,10 @@ Sweep read_sweep(const std::filesystem::path& file);
 /// The same from a text; `name` stands for the file in messages.
 Sweep read_sweep_text(std::string_view text, const std::string& name);
 
+/// The same of a sweep that was put together by a program, called `name` in messages. Its settings
+/// and its grid may set the seed, which a file may not.
+Sweep checked_sweep(Sweep sweep, const std::string& name);
+
 /// Number of combinations of a sweep's values and methods.
 std::size_t cell_count(const Sweep& sweep);
 

@@ -121,4 +121,35 @@ std::vector<SqlValue> task_values(const SweepPlan& plan, const std::vector<Sweep
 
 std::vector<SqlValue> result_values(const TrialResult& trial) { return results_of(trial).values; }
 
+SweepTable::SweepTable(const SweepPlan& plan)
+    : plan_(plan),
+      columns_(sweep_columns(plan)),
+      rows_(plan.cells.size() * static_cast<std::size_t>(plan.sweep.trials)) {}
+
+std::vector<SweepTask> SweepTable::missing() const {
+  const auto trials = static_cast<std::size_t>(plan_.sweep.trials);
+  std::vector<SweepTask> tasks;
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+    if (rows_[i].empty())
+      tasks.push_back(
+          {static_cast<std::uint32_t>(i / trials), static_cast<std::uint32_t>(i % trials)});
+  return tasks;
+}
+
+void SweepTable::add(const std::vector<SweepRow>& rows) {
+  for (const SweepRow& row : rows) {
+    std::vector<SqlValue> values = task_values(plan_, columns_, row.task);
+    values.insert(values.end(), row.values.begin(), row.values.end());
+    rows_[std::size_t{row.task.cell} * static_cast<std::size_t>(plan_.sweep.trials) +
+          row.task.trial] = std::move(values);
+  }
+}
+
+std::vector<std::span<const SqlValue>> SweepTable::rows() const {
+  std::vector<std::span<const SqlValue>> all;
+  for (const auto& row : rows_)
+    if (!row.empty()) all.emplace_back(row);
+  return all;
+}
+
 }  // namespace microswarm

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,33 @@ std::vector<SqlValue> result_values(const TrialResult& trial);
 struct SweepRow {
   SweepTask task;
   std::vector<SqlValue> values;
+};
+
+/// Where the rows of a sweep are kept.
+class SweepStore {
+ public:
+  virtual ~SweepStore() = default;
+  /// Trials without a row, cell by cell.
+  virtual std::vector<SweepTask> missing() const = 0;
+  virtual void add(const std::vector<SweepRow>& rows) = 0;
+};
+
+/// Rows in memory.
+class SweepTable : public SweepStore {
+ public:
+  /// The plan must outlive it.
+  explicit SweepTable(const SweepPlan& plan);
+
+  std::vector<SweepTask> missing() const override;
+  void add(const std::vector<SweepRow>& rows) override;
+  const std::vector<SweepColumn>& columns() const { return columns_; }
+  /// Values of the trials that have a row, cell by cell; valid until rows are added.
+  std::vector<std::span<const SqlValue>> rows() const;
+
+ private:
+  const SweepPlan& plan_;
+  std::vector<SweepColumn> columns_;
+  std::vector<std::vector<SqlValue>> rows_;  ///< empty without a row
 };
 
 }  // namespace microswarm

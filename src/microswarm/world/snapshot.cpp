@@ -97,12 +97,13 @@ bool Snapshot::is_free(std::span<const Vec2> polyline, double r) const {
           free_by_distances(moving_, polyline, r, 2 * size));
 }
 
-Survey Snapshot::survey(Disc circle) const {
+Survey Snapshot::survey(Disc circle, const Stop& stop) const {
   const bool sees_walls = map_->field().lower(circle.centre) <= circle.radius;
-  if (sees_walls && !moving_.empty()) return microswarm::survey(circle, map_->walls(), moving_);
+  if (sees_walls && !moving_.empty())
+    return microswarm::survey(circle, map_->walls(), moving_, stop);
   Survey survey;
-  if (sees_walls) map_->walls().survey(circle, survey);
-  if (!moving_.empty()) moving_.survey(circle, survey);
+  if (sees_walls) map_->walls().survey(circle, survey, stop);
+  if (!moving_.empty()) moving_.survey(circle, survey, stop);
   return survey;
 }
 

@@ -54,7 +54,7 @@ class Snapshot {
   /// cost one lookup.
   bool is_free(std::span<const Vec2> polyline, double r) const;
   /// Contents of a detection circle: Eq 1–2 [drrt].
-  Survey survey(Disc circle) const;
+  Survey survey(Disc circle, const Stop& stop = {}) const;
   /// Readable reason why `p` is not free with clearance r: "is 12 µm inside wall 3", "is 7 µm from
   /// obstacle 1, needs 40 µm", "is outside the map (0..2000 × 0..1000 µm)"; empty if free.
   std::string blocked_reason(Vec2 p, double r) const;

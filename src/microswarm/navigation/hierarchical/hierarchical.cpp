@@ -145,7 +145,7 @@ void HierarchicalNavigator::replan(const Snapshot& seen, const Stop& stop) {
   const Snapshot ahead = obstacles_.swept_obstacles(
       seen, std::min(params_.horizon, params_.tuning.max_sweep), params_.clearance);
   for (const double clearance : {wanted, params_.clearance}) {
-    if (clearance > here) continue;
+    if (clearance > here || stop()) continue;
     if (replan_with(ahead, clearance, stop) || replan_with(seen, clearance, stop)) return;
   }
   target_.reset();
@@ -211,13 +211,15 @@ bool HierarchicalNavigator::replan_with(const Snapshot& world, double clearance,
                                .clearance = clearance,
                                .min_distance = swarm().radius};
   const bool near_goal =  // line 6
-      params_.as_published ? query.goal_distance <= target_distance(world, query, params_.target)
-                           : query.goal_distance <= ahead() &&
-                                 world.is_free(Segment{from, aim().position}, clearance);
+      params_.as_published
+          ? query.goal_distance <= target_distance(world, query, params_.target, stop)
+          : query.goal_distance <= ahead() &&
+                world.is_free(Segment{from, aim().position}, clearance);
   std::optional<Vec2> target;
   if (near_goal) {
-    target = aim().position;                                                           // line 9
-  } else if (const auto chosen = select_local_target(world, query, params_.target)) {  // line 7
+    target = aim().position;  // line 9
+  } else if (const auto chosen =
+                 select_local_target(world, query, params_.target, stop)) {  // line 7
     target = chosen->position;
   }
   if (target) plan_to(world, *target, clearance, stop);

@@ -56,7 +56,7 @@ std::optional<double> best_heading(const Snapshot& world, const LocalTargetQuery
 
 // The circle lies midway to the previous target; for the first one its diameter is ‖s_s − s_g‖.
 Detection detection_of(const Snapshot& world, const LocalTargetQuery& query,
-                       const LocalTargetParams& params) {
+                       const LocalTargetParams& params, const Stop& stop) {
   const Vec2 from = query.swarm.position;
   const double ahead = query.previous_target
                            ? std::min(params.base_distance, distance(from, *query.previous_target))
@@ -64,30 +64,33 @@ Detection detection_of(const Snapshot& world, const LocalTargetQuery& query,
   const double towards =
       query.previous_target ? heading_of(*query.previous_target - from) : query.goal_heading;
   const double diameter = query.previous_target ? params.detection_diameter : query.goal_distance;
-  return detect(world, {from + 0.5 * ahead * unit_vector(towards), 0.5 * diameter}, params.rho_min);
+  return detect(world, {from + 0.5 * ahead * unit_vector(towards), 0.5 * diameter}, params.rho_min,
+                stop);
 }
 
 }  // namespace
 
 double target_distance(const Snapshot& world, const LocalTargetQuery& query,
-                       const LocalTargetParams& params) {
-  return detection_of(world, query, params).rho * params.base_distance;
+                       const LocalTargetParams& params, const Stop& stop) {
+  return detection_of(world, query, params, stop).rho * params.base_distance;
 }
 
 std::optional<LocalTarget> select_local_target(const Snapshot& world, const LocalTargetQuery& query,
-                                               const LocalTargetParams& params) {
+                                               const LocalTargetParams& params, const Stop& stop) {
   const Vec2 from = query.swarm.position;
   if (!world.is_free(from, query.clearance)) return std::nullopt;
   const double r = std::max(1.0, query.clearance);
   const double range = params.influence_range.value_or(r * r);
-  const Detection detection = detection_of(world, query, params);
+  const Detection detection = detection_of(world, query, params, stop);
 
   double reach = std::min(detection.rho * params.base_distance, query.goal_distance);
   const double least = std::min(reach, std::max(query.min_distance, 1e-3));
   for (; reach >= least; reach /= 2)
-    for (const double half_angle : {params.half_angle, pi})
+    for (const double half_angle : {params.half_angle, pi}) {
+      if (stop()) return std::nullopt;
       if (const auto heading = best_heading(world, query, params, range, reach, half_angle))
         return LocalTarget{from + reach * unit_vector(*heading), detection};
+    }
   return std::nullopt;
 }
 

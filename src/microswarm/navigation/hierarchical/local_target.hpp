@@ -27,12 +27,13 @@ struct LocalTargetQuery {
 
 /// D_ts of the query [µm]: the base distance times ρ of the detection circle (Eq 3 [drrt]).
 double target_distance(const Snapshot& world, const LocalTargetQuery& query,
-                       const LocalTargetParams& params);
+                       const LocalTargetParams& params, const Stop& stop = {});
 
 /// Algorithm 1 [drrt]. If no candidate is free, the fan widens to the full circle, then D_ts is
 /// halved down to `min_distance`. Empty if nothing is free even then, and at once if the swarm
-/// itself is not free.
+/// itself is not free, and if stopped.
 std::optional<LocalTarget> select_local_target(const Snapshot& world, const LocalTargetQuery& query,
-                                               const LocalTargetParams& params);
+                                               const LocalTargetParams& params,
+                                               const Stop& stop = {});
 
 }  // namespace microswarm

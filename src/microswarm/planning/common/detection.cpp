@@ -7,10 +7,10 @@
 
 namespace microswarm {
 
-Detection detect(const Snapshot& world, Disc circle, double rho_min) {
+Detection detect(const Snapshot& world, Disc circle, double rho_min, const Stop& stop) {
   Detection detection{circle, 0, 0, 1};
   if (!(circle.radius > 0)) return detection;
-  const Survey seen = world.survey(circle);
+  const Survey seen = world.survey(circle, stop);
   const double area = pi * circle.radius * circle.radius;
   detection.w1 = std::clamp(seen.covered_area / area, 0.0, 1.0);  // Eq 1 [drrt]
   if (seen.obstacles > 0) {                                       // Eq 2 [drrt]

@@ -102,6 +102,7 @@ class DrrtStar {
       : world_(world),
         start_(start),
         params_(params.in_effect()),
+        stop_(stop),
         arcs_(params_.arcs),
         cost_{params.length_weight, params.smoothness_weight, arcs_ ? params.turn_radius : 0},
         growth_(world, start, goal, params, cost_, rng, stop) {}
@@ -125,7 +126,7 @@ class DrrtStar {
  private:
   Vec2 position(std::uint32_t node) const { return growth_.tree()[node].position; }
   Detection detect_at(Vec2 centre) const {
-    return detect(world_, {centre, 0.5 * params_.detection_diameter}, params_.rho_min);
+    return detect(world_, {centre, 0.5 * params_.detection_diameter}, params_.rho_min, stop_);
   }
 
   /// Algorithm 3 [drrt].
@@ -196,6 +197,7 @@ class DrrtStar {
   const Snapshot& world_;
   Pose2 start_;
   DrrtStarParams params_;
+  const Stop& stop_;
   bool arcs_;
   PathCost cost_;
   TreeGrowth growth_;

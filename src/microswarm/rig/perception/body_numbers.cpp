@@ -2,8 +2,12 @@
 #include "microswarm/rig/perception/body_numbers.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
+#include <span>
+#include <utility>
 
+#include "microswarm/geometry/point_grid.hpp"
 #include "microswarm/navigation/prediction/obstacle_tracker.hpp"
 
 namespace microswarm {
@@ -11,21 +15,75 @@ namespace {
 
 constexpr double memory = 1;       // [s] for which a hidden body is remembered
 constexpr double smoothing = 0.3;  // weight of the newest velocity
+/// Of more known bodies within reach of a body, only so many of the nearest may be the same one.
+constexpr std::size_t candidates = 64;
+constexpr double preference = 1e-12;  // of squared distances
+
+/// Adds the pairs of a body at `place`, row `row`, with the nearest of what is expected in reach,
+/// in ascending order.
+class Pairing {
+ public:
+  Pairing(std::span<const Vec2> expected, double reach)
+      : expected_(expected), reach_(reach), grid_(bounding_box(expected)) {
+    if (expected.size() > candidates)
+      for (const Vec2 place : expected) grid_.add(place);
+  }
+
+  void add(int row, Vec2 place, std::vector<AssignmentEdge>& edges) {
+    find_near(place);
+    const std::size_t first = edges.size();
+    for (const std::uint32_t k : near_) {
+      const double off = squared_norm(place - expected_[k]);
+      if (off <= reach_ * reach_) edges.push_back({row, static_cast<int>(k), off});
+    }
+    if (edges.size() - first <= candidates) return;
+    const auto begin = edges.begin() + static_cast<std::ptrdiff_t>(first);
+    // Where bodies lie on one another, each prefers another one.
+    for (auto edge = begin; edge != edges.end(); ++edge)
+      edge->cost += preference * reach_ * reach_ * std::abs(edge->column - row);
+    std::nth_element(begin, begin + candidates, edges.end(), [](const auto& a, const auto& b) {
+      return std::pair(a.cost, a.column) < std::pair(b.cost, b.column);
+    });
+    edges.resize(first + candidates);
+    std::sort(begin, edges.end(), [](const auto& a, const auto& b) { return a.column < b.column; });
+  }
+
+ private:
+  void find_near(Vec2 place) {
+    near_.clear();
+    if (expected_.size() <= candidates) {
+      near_.resize(expected_.size());
+      std::iota(near_.begin(), near_.end(), 0u);
+      return;
+    }
+    // The radius grows until there are enough in it, so that of a crowd few are looked at.
+    for (double share = 1.0 / 64; near_.size() < candidates; share *= 2) {
+      near_.clear();
+      grid_.within(place, std::min(share, 1.0) * reach_, near_);
+      if (share >= 1) break;
+    }
+  }
+
+  std::span<const Vec2> expected_;
+  double reach_;
+  PointGrid grid_;
+  std::vector<std::uint32_t> near_;
+};
 
 }  // namespace
 
-void BodyNumbers::number(std::vector<Body>& bodies, double t) {
+void BodyNumbers::number(std::vector<Body>& bodies, double t, const Stop& stop) {
   std::erase_if(known_, [&](const Known& k) { return t - k.t > memory; });
+  std::vector<Vec2> expected;
+  expected.reserve(known_.size());
+  for (const Known& k : known_) expected.push_back(k.centre + (t - k.t) * k.velocity);
+  Pairing pairing(expected, reach_);
   std::vector<AssignmentEdge> edges;
-  for (std::size_t b = 0; b < bodies.size(); ++b)
-    for (std::size_t k = 0; k < known_.size(); ++k) {
-      const Known& known = known_[k];
-      const Vec2 expected = known.centre + (t - known.t) * known.velocity;
-      const double off = squared_norm(extent_of(bodies[b]).centre - expected);
-      if (off <= reach_ * reach_) edges.push_back({static_cast<int>(b), static_cast<int>(k), off});
-    }
-  const auto known_of = assignment_.solve(static_cast<int>(bodies.size()),
-                                          static_cast<int>(known_.size()), edges, reach_ * reach_);
+  for (std::size_t b = 0; b < bodies.size() && !stop(); ++b)
+    pairing.add(static_cast<int>(b), extent_of(bodies[b]).centre, edges);
+  const auto known_of =
+      assignment_.solve(static_cast<int>(bodies.size()), static_cast<int>(known_.size()), edges,
+                        reach_ * reach_, stop);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const Vec2 centre = extent_of(bodies[b]).centre;
     const auto* disc = std::get_if<Disc>(&bodies[b].shape);

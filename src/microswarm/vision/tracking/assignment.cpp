@@ -11,9 +11,9 @@ namespace microswarm {
 
 const std::vector<std::optional<int>>& Assignment::solve(int rows, int columns,
                                                          const std::vector<AssignmentEdge>& edges,
-                                                         double alone) {
+                                                         double alone, const Stop& stop) {
   begin(rows, columns, edges);
-  for (int row = 0; row < rows; ++row)
+  for (int row = 0; row < rows && !stop(); ++row)
     if (!take_cheapest(row, edges, alone)) augment(row, edges, alone);
   return column_of_;
 }

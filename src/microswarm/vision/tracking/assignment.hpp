@@ -5,6 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "microswarm/core/execution/stop.hpp"
+
 namespace microswarm {
 
 /// An allowed pair and its cost.
@@ -25,10 +27,11 @@ class Assignment {
  public:
   /// The column of each row; empty for an unpaired row. `edges` are sorted by row; duplicates are
   /// allowed. Costs are finite; those above `alone` are never used. The choice among equally good
-  /// solutions is deterministic. Valid until the next call.
+  /// solutions is deterministic. If stopped, rows that were not reached are alone. Valid until the
+  /// next call.
   const std::vector<std::optional<int>>& solve(int rows, int columns,
                                                const std::vector<AssignmentEdge>& edges,
-                                               double alone);
+                                               double alone, const Stop& stop = {});
 
  private:
   struct Reached {

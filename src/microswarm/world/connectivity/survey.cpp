@@ -107,12 +107,12 @@ class Collection {
     }
   }
 
-  double area_of_union() {
+  double area_of_union(const Stop& stop) {
     for (std::size_t i = 0; i < obstacles_.size(); ++i) {
       const std::size_t first = i == 0 ? 0 : ends_[i - 1];
       obstacles_[i].edges = {edges_.data() + first, ends_[i] - first};
     }
-    return union_area(circle_.radius, obstacles_, memory_);
+    return union_area(circle_.radius, obstacles_, memory_, stop);
   }
 
  private:
@@ -138,7 +138,7 @@ class Collection {
 };
 
 double area_covered(Disc circle, const BodySet& set, const MetBodies& met,
-                    std::pmr::memory_resource& memory) {
+                    std::pmr::memory_resource& memory, const Stop& stop) {
   const EdgeGrid& grid = set.polygons().grid();
   if (!set.polygons_apart() || grid.empty()) {
     std::pmr::vector<const Polygon*> polygons(&memory);
@@ -151,14 +151,14 @@ double area_covered(Disc circle, const BodySet& set, const MetBodies& met,
         polygons.push_back(&std::get<Polygon>(body.shape));
       }
     }
-    return covered_area(circle, polygons, discs);
+    return covered_area(circle, polygons, discs, stop);
   }
   const bool meets_disc = std::any_of(met.begin(), met.end(),
                                       [&](const Met& m) { return as_disc(set.bodies()[m.body]); });
   if (!meets_disc) return covered_area(circle, grid);
   Collection all(circle, memory);
   all.add(set, met);
-  return all.area_of_union();
+  return all.area_of_union(stop);
 }
 
 /// Whether a moving body in the circle may overlap a wall in it. Exact for discs.
@@ -179,16 +179,16 @@ bool may_overlap(const BodySet& walls, const MetBodies& met_walls, const Body& m
 
 }  // namespace
 
-void BodySet::survey(Disc circle, Survey& survey) const {
+void BodySet::survey(Disc circle, Survey& survey, const Stop& stop) const {
   Scratch scratch;
   MetBodies met(&scratch.memory);
   find_met(*this, circle, met);
   if (met.empty()) return;
   count(bodies_, met, survey);
-  survey.covered_area += area_covered(circle, *this, met, scratch.memory);
+  survey.covered_area += area_covered(circle, *this, met, scratch.memory, stop);
 }
 
-Survey survey(Disc circle, const BodySet& walls, const BodySet& moving) {
+Survey survey(Disc circle, const BodySet& walls, const BodySet& moving, const Stop& stop) {
   Scratch scratch;
   MetBodies met_walls(&scratch.memory);
   MetBodies met_moving(&scratch.memory);
@@ -205,11 +205,11 @@ Survey survey(Disc circle, const BodySet& walls, const BodySet& moving) {
     Collection all(circle, scratch.memory);
     all.add(walls, met_walls);
     all.add(moving, met_moving);
-    out.covered_area = all.area_of_union();
+    out.covered_area = all.area_of_union(stop);
     return out;
   }
   for (const auto& [set, met] : {std::pair{&walls, &met_walls}, {&moving, &met_moving}}) {
-    if (!met->empty()) out.covered_area += area_covered(circle, *set, *met, scratch.memory);
+    if (!met->empty()) out.covered_area += area_covered(circle, *set, *met, scratch.memory, stop);
   }
   return out;
 }

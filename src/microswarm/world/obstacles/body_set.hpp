@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "microswarm/core/execution/stop.hpp"
 #include "microswarm/world/obstacles/disc_set.hpp"
 #include "microswarm/world/obstacles/polygon_set.hpp"
 
@@ -45,8 +46,9 @@ class BodySet {
   /// Body that contains or is nearest to `p` within `limit`; bodies().size() if none.
   std::size_t nearest(Vec2 p, double limit) const;
 
-  /// Adds the part of this set in the circle to `survey` (bodies of one obstacle count once).
-  void survey(Disc circle, Survey& survey) const;
+  /// Adds the part of this set in the circle to `survey` (bodies of one obstacle count once). If
+  /// stopped, the area is of no meaning.
+  void survey(Disc circle, Survey& survey, const Stop& stop = {}) const;
 
   const DiscSet& discs() const { return discs_; }
   const PolygonSet& polygons() const { return polygons_; }
@@ -65,6 +67,6 @@ class BodySet {
 double depth_in(const Body& body, Vec2 p);
 
 /// Survey of two sets together: obstacles of both; area covered by both counts once.
-Survey survey(Disc circle, const BodySet& walls, const BodySet& moving);
+Survey survey(Disc circle, const BodySet& walls, const BodySet& moving, const Stop& stop = {});
 
 }  // namespace microswarm

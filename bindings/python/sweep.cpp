@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// Many runs of a scenario.
+#include "microswarm/sweep/sweep.hpp"
+
+#include <algorithm>
+
+#include "calls.hpp"
+#include "scenario_text.hpp"
+
+namespace microswarm::python {
+namespace {
+
+using Grid = std::vector<std::pair<std::string, std::vector<std::string>>>;
+using Methods = std::vector<std::pair<std::string, std::vector<std::string>>>;
+using namespace py::literals;  // NOLINT(google-build-using-namespace): _a
+using Rows = std::vector<std::span<const SqlValue>>;
+
+std::string key_of(const std::string& setting) { return setting.substr(0, setting.find('=')); }
+
+/// The settings of the scenario, but those that the sweep varies or sets.
+std::vector<std::string> unvaried(const std::vector<std::string>& settings, const Grid& grid,
+                                  bool has_seed) {
+  std::vector<std::string> all;
+  std::ranges::copy_if(settings, std::back_inserter(all), [&](const std::string& setting) {
+    const std::string key = key_of(setting);
+    return !(has_seed && key == "seed") &&
+           std::ranges::none_of(grid, [&](const auto& one) { return one.first == key; });
+  });
+  return all;
+}
+
+/// Numbers of a column, NaN where there is none.
+template <class Number>
+py::array_t<Number> numbers_in(const Rows& rows, std::size_t column) {
+  py::array_t<Number> array(static_cast<py::ssize_t>(rows.size()));
+  Number* out = array.mutable_data();
+  for (const auto& row : rows)
+    *out++ = std::visit(
+        [](const auto& value) -> Number {
+          if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(value)>>)
+            return static_cast<Number>(value);
+          else
+            return static_cast<Number>(std::numeric_limits<double>::quiet_NaN());
+        },
+        row[column]);
+  return array;
+}
+
+py::object sweep_column(const Rows& rows, std::size_t column, SweepColumnKind kind) {
+  if (kind == SweepColumnKind::text) {
+    py::list texts;
+    for (const auto& row : rows) texts.append(std::get<std::string>(row[column]));
+    return py::module_::import("numpy").attr("array")(texts, "dtype"_a = "str");
+  }
+  const bool whole =
+      kind == SweepColumnKind::whole && std::ranges::all_of(rows, [&](const auto& row) {
+        return std::holds_alternative<std::int64_t>(row[column]);
+      });
+  if (whole) return numbers_in<std::int64_t>(rows, column);
+  return numbers_in<double>(rows, column);
+}
+
+/// The columns of the table of trials, and what they mean.
+py::tuple sweep_scenario(const ScenarioText& scenario, const Grid& grid, const Methods& methods,
+                         int trials, std::optional<std::uint64_t> seed, int jobs,
+                         const py::object& report) {
+  Sweep asked{
+      .set = unvaried(scenario.settings, grid, seed.has_value()), .trials = trials, .seed = seed};
+  for (const auto& [key, values] : grid) asked.grid.push_back({key, values});
+  for (const auto& [name, set] : methods) asked.methods.push_back({name, set});
+  std::atomic<double> done = 0;
+  SweepPlan plan;
+  std::unique_ptr<SweepTable> table;
+  interruptible(
+      [&](const Stop& stop) {
+        plan = plan_sweep(checked_sweep(std::move(asked), "sweep"), "sweep",
+                          {scenario.text, scenario.name, scenario.base}, jobs, stop);
+        if (stop()) return false;
+        check(plan, jobs, stop);
+        table = std::make_unique<SweepTable>(plan);
+        const Ranks alone = Ranks::alone();
+        RemoteWorkers none(alone);
+        const auto note = [&](const SweepProgress& p) {
+          done = static_cast<double>(p.added) / static_cast<double>(p.added + p.left);
+        };
+        run_sweep(plan, *table, none, {.jobs = jobs, .progress = note}, stop);
+        return true;
+      },
+      [&] {
+        if (!report.is_none()) report(done.load());
+      });
+  warn(plan.notes);
+  const Rows rows = table->rows();
+  py::dict columns, docs;
+  for (std::size_t i = 0; i < table->columns().size(); ++i) {
+    const SweepColumn& column = table->columns()[i];
+    columns[py::str(column.name)] = sweep_column(rows, i, column.kind);
+    docs[py::str(column.name)] = column.description;
+  }
+  return py::make_tuple(columns, docs);
+}
+
+}  // namespace
+
+void add_sweep(py::module_& module) { module.def("sweep", sweep_scenario); }
+
+}  // namespace microswarm::python
