@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+
 #include "microswarm/core/maths/rng.hpp"
 #include "tests/cases.hpp"
 #include "tests/navigation/room.hpp"
@@ -74,6 +76,13 @@ TEST(LocalTarget, AClosedInSwarmHasNone) {
       select_local_target(room_with({{.outer = {{400, 400}, {600, 400}, {600, 600}, {400, 600}}}}),
                           towards({500, 500}, 0, {1800, 500}), {});
   EXPECT_FALSE(in_wall);
+}
+
+TEST(LocalTarget, AStoppedSearchHasNone) {
+  const std::atomic<bool> flag = true;
+  const auto query = towards({500, 500}, 0, {1800, 500});
+  EXPECT_TRUE(select_local_target(room_with(), query, {}));
+  EXPECT_FALSE(select_local_target(room_with(), query, {}, Stop(&flag)));
 }
 
 }  // namespace

@@ -1,10 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """Maps and paths."""
 
+import signal
+import subprocess
+import sys
+import time
+
 import numpy as np
 import pytest
 
 import microswarm as ms
+from conftest import ROOT
 
 
 @pytest.fixture
@@ -21,6 +27,40 @@ def test_a_map_of_an_image(room):
     assert room.is_free(np.array([[50, 50], [175, 50]]), 10).tolist() == [True, False]
     (ring,) = room.walls_um[0]
     assert ring.min(axis=0).tolist() == [180, 0] and ring.max(axis=0).tolist() == [220, 300]
+
+
+def test_an_image_of_noise_is_refused():
+    image = np.ones((2400, 2400), dtype=bool)
+    image[::2, ::2] = False
+    with pytest.raises(ms.InputError, match="5760000 corners, at most 5000000"):
+        ms.Map.from_image(image, 1)
+
+
+def test_ctrl_c_ends_a_question_about_many_places():
+    code = """
+import microswarm as ms, numpy as np
+rng = np.random.default_rng(1)
+map = ms.Map.from_image(rng.random((200, 200)) < 0.9, 1)
+places = np.full((20_000_000, 2), 3.7)
+print("asks", flush=True)
+try:
+    map.clearance(places)
+except KeyboardInterrupt:
+    print("interrupted")
+"""
+    process = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True, cwd=ROOT)
+    assert process.stdout.readline() == "asks\n"
+    time.sleep(0.5)
+    process.send_signal(signal.SIGINT)
+    assert process.communicate(timeout=30)[0] == "interrupted\n"
+
+
+def test_many_places_are_answered_like_few(room):
+    places = np.random.default_rng(2).uniform(-10, 410, (70_000, 2))
+    few = [room.clearance(part) for part in np.split(places, 7)]
+    np.testing.assert_array_equal(room.clearance(places), np.concatenate(few))
+    few = [room.is_free(part, 20) for part in np.split(places, 7)]
+    np.testing.assert_array_equal(room.is_free(places, 20), np.concatenate(few))
 
 
 def test_images_of_every_kind_give_the_same_map(room):

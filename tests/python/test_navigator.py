@@ -2,12 +2,16 @@
 """The library's navigators in a loop of one's own."""
 
 import math
+import signal
+import subprocess
+import sys
+import time
 
 import numpy as np
 import pytest
 
 import microswarm as ms
-from conftest import SCENARIOS
+from conftest import ROOT, SCENARIOS
 
 
 def test_the_commands_are_those_of_the_run(flight):
@@ -76,6 +80,40 @@ def test_bad_types_are_refused(flight):
     nav.close()
     with pytest.raises(ms.InputError, match="closed"):
         nav.step(0, swarm=(200, 500, 0, 40))
+
+
+def test_thousands_of_overlapping_discs_are_no_trouble(flight):
+    flight.set("navigator.guide", "straight")
+    nav = ms.Navigator(flight)
+    rng = np.random.default_rng(1)
+    discs = np.column_stack((rng.uniform(500, 1500, 3000), rng.uniform(0, 800, 3000), np.full(3000, 100.0)))
+    for k in range(3):
+        command = nav.step(0.1 * k, swarm=(200, 500, 0, 40), obstacles=discs)
+        assert math.isfinite(command.heading_rad)
+        discs[:, :2] += rng.normal(0, 1, (3000, 2))
+
+
+def test_ctrl_c_ends_a_step():
+    code = f"""
+import microswarm as ms, numpy as np
+nav = ms.Navigator(ms.Scenario.load({str(SCENARIOS / "first_flight.yaml")!r}).set("navigator.guide", "straight"))
+rng = np.random.default_rng(1)
+angles = np.linspace(0, 2 * np.pi, 90, endpoint=False)
+ring = np.column_stack((np.cos(angles), np.sin(angles)))
+outlines = [rng.uniform((600, 100), (1400, 700)) + 100 * rng.uniform(0.5, 1, (90, 1)) * ring for _ in range(1000)]
+nav.step(0, swarm=(200, 500, 0, 40))
+print("steps", flush=True)
+try:
+    for k in range(1, 1000):
+        nav.step(0.1 * k, swarm=(200, 500, 0, 40), obstacles=outlines)
+except KeyboardInterrupt:
+    print("interrupted")
+"""
+    process = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True, cwd=ROOT)
+    assert process.stdout.readline() == "steps\n"
+    time.sleep(1)
+    process.send_signal(signal.SIGINT)
+    assert process.communicate(timeout=30)[0] == "interrupted\n"
 
 
 def test_robots_gather_in_a_loop_of_ones_own():

@@ -123,6 +123,11 @@ TEST(StandaloneNavigator, BadInputIsRefusedAndChangesNothing) {
         s.obstacles.assign(5'001, {Disc{{1, 2}, 3}});
       },
       "at most 5000");
+  refuses(
+      [&](ExternalObservation& s) {
+        s.obstacles.assign(2, {Polygon{std::vector<Vec2>(60'000, Vec2{1, 2}), {}}});
+      },
+      "120000 points, at most 100000");
   refuses([&](ExternalObservation& s) { s.robots = {{1, 2}}; }, "has no robots");
   good.now = good.seen = 1.1;
   const Command command = navigator.step(good), same = other.step(good);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/sweep/sweep.hpp"
 
+#include <atomic>
 #include <fstream>
 
 #include "tests/sweep/sweeps.hpp"
@@ -129,6 +130,31 @@ TEST(Sweep, WhatIsNoDatabaseOfASweepIsRefused) {
             "database with --out");
   Database(older, Database::Access::write).run("DROP TABLE columns");
   EXPECT_NE(error_of([&] { SweepReader reader(older); }), "");
+}
+
+TEST(Sweep, ATableInMemoryHasTheRowsOfTheDatabase) {
+  const auto folder = sweep_folder("table", sweep_text(2));
+  const SweepPlan plan = load_sweep(folder / "sweep.yaml");
+  run_alone(plan, folder / "rows.db", 1);
+  SweepTable table(plan);
+  EXPECT_EQ(table.missing().size(), 16u);
+  const Ranks alone = Ranks::alone();
+  RemoteWorkers none(alone);
+  run_sweep(plan, table, none, {.jobs = 2, .progress = {}});
+  EXPECT_TRUE(table.missing().empty());
+  std::vector<std::vector<SqlValue>> rows;
+  for (const auto row : table.rows()) {
+    rows.emplace_back();
+    for (std::size_t i = 0; i < row.size(); ++i)
+      if (table.columns()[i].role != SweepColumn::Role::wall_clock) rows.back().push_back(row[i]);
+  }
+  EXPECT_EQ(rows, physical_rows(folder / "rows.db"));
+}
+
+TEST(Sweep, AStoppedPlanHasNoCells) {
+  const auto folder = sweep_folder("stopped_plan", sweep_text());
+  const std::atomic<bool> flag = true;
+  EXPECT_TRUE(load_sweep(folder / "sweep.yaml", 1, Stop(&flag)).cells.empty());
 }
 
 }  // namespace

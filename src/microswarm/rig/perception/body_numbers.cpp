@@ -24,7 +24,7 @@ constexpr double preference = 1e-12;  // of squared distances
 class Pairing {
  public:
   Pairing(std::span<const Vec2> expected, double reach)
-      : expected_(expected), reach_(reach), grid_(bounding_box(expected)) {
+      : expected_(expected), reach_(reach), grid_(bounding_box(expected).grown(reach)) {
     if (expected.size() > candidates)
       for (const Vec2 place : expected) grid_.add(place);
   }
