@@ -89,6 +89,35 @@ auto interruptible(Work&& work) {
   return interruptible(work, [] {});
 }
 
+/// Calls that are quick as a rule: they stay in this thread, since another one costs more than most
+/// of them. The first one, those after a slow one and those that the caller expects to be slow are
+/// interruptible.
+class QuickCalls {
+ public:
+  template <class Work>
+  auto call(Work&& work, bool may_be_slow = false) {
+    const auto here = [&] {
+      const Free free;
+      return work(Stop());
+    };
+    return call(
+        here, [&] { return interruptible(work); }, may_be_slow);
+  }
+  /// Calls `here()` if it may stay in this thread, else `interruptibly()`.
+  template <class Here, class Interruptibly>
+  auto call(Here&& here, Interruptibly&& interruptibly, bool may_be_slow) {
+    const bool stays = !was_slow_ && !may_be_slow;
+    was_slow_ = true;  // also after an exception
+    const auto began = Stop::Clock::now();
+    const auto made = stays ? here() : interruptibly();
+    was_slow_ = Stop::Clock::now() - began > std::chrono::milliseconds(2);
+    return made;
+  }
+
+ private:
+  bool was_slow_ = true;
+};
+
 /// Warns of each outdated key.
 void warn(const Notes& notes);
 

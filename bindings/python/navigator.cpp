@@ -9,36 +9,14 @@
 namespace microswarm::python {
 namespace {
 
-/// A navigator, and whether its last step took long.
+constexpr std::size_t many_obstacles = 200;
+
 class OpenNavigator : public Guarded<StandaloneNavigator> {
  public:
   explicit OpenNavigator(std::unique_ptr<StandaloneNavigator> navigator)
       : Guarded(std::move(navigator), "navigator") {}
 
-  /// In this thread if it is likely to be quick: another one costs more than most steps. Otherwise
-  /// Ctrl-C ends it.
-  Command step(StandaloneNavigator& navigator, const ExternalObservation& seen) {
-    const auto made = [&](const Stop& stop) { return navigator.step(seen, stop); };
-    const bool is_quick =
-        navigator.is_prepared() && !was_slow_ && seen.obstacles.size() <= many_obstacles;
-    was_slow_ = true;
-    const auto began = Stop::Clock::now();
-    Command command;
-    if (is_quick) {
-      const Free free;
-      command = made({});
-    } else {
-      command = interruptible(made);
-    }
-    was_slow_ = Stop::Clock::now() - began > slow_step;
-    return command;
-  }
-
- private:
-  static constexpr std::size_t many_obstacles = 200;
-  static constexpr std::chrono::milliseconds slow_step{2};
-
-  bool was_slow_ = false;
+  QuickCalls steps;
 };
 
 constexpr const char* no_numbers =
@@ -144,7 +122,9 @@ py::tuple step_navigator(OpenNavigator& open, py::handle t, py::handle swarm, py
   if (!PyLong_CheckExact(unseen.ptr()) || PyLong_AsLong(unseen.ptr()) != 0)
     given.unseen = unseen.cast<int>();
   return open.use([&](StandaloneNavigator& navigator) {
-    const Command command = open.step(navigator, given);
+    const Command command =
+        open.steps.call([&](const Stop& stop) { return navigator.step(given, stop); },
+                        given.obstacles.size() > many_obstacles);
     const NavigatorView view = navigator.view();
     py::object target = py::none();
     if (view.local_target) target = py::make_tuple(view.local_target->x, view.local_target->y);

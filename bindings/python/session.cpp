@@ -64,7 +64,7 @@ class OpenSession : public Guarded<Session> {
     navigator_ = py::none();
   }
 
-  bool has_begun = false;  ///< the first step may take longer
+  QuickCalls steps;
 
  private:
   py::object navigator_;
@@ -127,17 +127,19 @@ py::dict view_of(const Session& session) {
 bool step(OpenSession& open) {
   return open.use([&](Session& session) {
     const auto made = [&](const Stop& stop) { return session.step(stop) != nullptr; };
-    if (open.has_own_navigator() || !std::exchange(open.has_begun, true))
-      return open.drive(made, [] {});
-    const Free free;
-    return made(open.when_stopped());
+    const auto driven = [&] { return open.drive(made, [] {}); };
+    if (open.has_own_navigator()) return driven();
+    const auto here = [&] {
+      const Free free;
+      return made(open.when_stopped());
+    };
+    return open.steps.call(here, driven, false);
   });
 }
 
 /// Steps to the end; `report` hears the share that is done, 10 times a second.
 py::dict finish(OpenSession& open, const py::object& report) {
   return open.use([&](Session& session) {
-    open.has_begun = true;
     std::atomic<double> done = 0;
     const auto look = [&] {
       if (!report.is_none()) report(done.load());
