@@ -25,6 +25,15 @@ def gather(
     settings: Sequence[str],
     seed: int,
 ) -> tuple[Session, float, list[str]]: ...
+def sweep(
+    scenario: Scenario,
+    grid: Sequence[tuple[str, Sequence[str]]],
+    methods: Sequence[tuple[str, Sequence[str]]],
+    trials: int,
+    seed: Optional[int],
+    jobs: int,
+    report: Optional[Callable[[float], Any]],
+) -> tuple[dict[str, NDArray[Any]], dict[str, str]]: ...
 def global_plan(
     map: Map, starts: ArrayLike, goals: ArrayLike, settings: Sequence[str], seed: int, shorten: bool, time_limit: Optional[float]
 ) -> dict[str, Any]: ...
@@ -90,11 +99,11 @@ class Navigator:
     def step(
         self,
         now: float,
-        seen: Optional[float],
         swarm: Optional[Sequence[float]],
         obstacles: Any,
-        numbers: Optional[Sequence[int]],
         robots: Optional[ArrayLike],
+        seen: Optional[float],
+        numbers: Optional[Sequence[int]],
         unseen: int,
     ) -> tuple[float, float, str, Optional[tuple[float, float]], bool]: ...
     def path(self) -> NDArray[np.float64]: ...
