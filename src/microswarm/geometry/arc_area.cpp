@@ -228,8 +228,9 @@ class ArcSum {
       if (winding_ != 0) cover_all();
       return;
     }
-    const std::span<Crossing> met =
-        std::ranges::equal_range(crossings_, circle, {}, &Crossing::circle);
+    const auto first = std::ranges::lower_bound(crossings_, circle, {}, &Crossing::circle);
+    const auto last = std::ranges::upper_bound(crossings_, circle, {}, &Crossing::circle);
+    const std::span<Crossing> met(first, last);
     for (Crossing& c : met)
       c.angle = std::clamp(wrap(heading_of(c.at - disc.centre) - begin), from, to);
     std::ranges::stable_sort(met, {}, &Crossing::angle);

@@ -165,15 +165,15 @@ void ParticleMotion::block_full_cells() {
     if (moves) movers_.push_back(i);
   }
   for (std::size_t blocked = 1; blocked > 0;) {
-    const auto first =
-        std::ranges::partition(movers_, [&](std::uint32_t i) { return at_[aims_[i]] <= most; });
-    blocked = first.size();
-    for (const std::uint32_t i : first) {
-      moves_[i] = 0;
-      --at_[aims_[i]];
-      ++at_[cells_[i]];
+    const auto fits = [&](std::uint32_t i) { return at_[aims_[i]] <= most; };
+    const auto first = std::partition(movers_.begin(), movers_.end(), fits);
+    blocked = static_cast<std::size_t>(movers_.end() - first);
+    for (auto i = first; i != movers_.end(); ++i) {
+      moves_[*i] = 0;
+      --at_[aims_[*i]];
+      ++at_[cells_[*i]];
     }
-    movers_.resize(movers_.size() - blocked);
+    movers_.erase(first, movers_.end());
   }
   for (const std::uint32_t i : movers_) at_[aims_[i]] = 0;
   for (const std::uint32_t cell : cells_) at_[cell] = 0;

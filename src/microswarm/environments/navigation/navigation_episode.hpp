@@ -49,6 +49,9 @@ class NavigationEpisode {
   NavigationEpisode(const NavigationTask& task, std::uint64_t seed, std::span<float> observation);
   ~NavigationEpisode();
   NavigationEpisode(NavigationEpisode&&) noexcept;
+  NavigationEpisode(const NavigationEpisode&) = delete;
+  NavigationEpisode& operator=(const NavigationEpisode&) = delete;
+  NavigationEpisode& operator=(NavigationEpisode&&) = delete;
 
   void reset(std::uint64_t seed);
   void reset();

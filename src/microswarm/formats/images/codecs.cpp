@@ -83,7 +83,7 @@ cv::Mat looked_up(const cv::Mat& packed, const spng_ihdr& header, const spng_plt
 
 /// A PNG that is being decoded.
 struct OpenPng {
-  OpenPng(Bytes bytes, std::string_view name_) : name(name_) {
+  OpenPng(Bytes bytes, std::string_view file) : name(file) {
     check(spng_set_crc_action(png.get(), SPNG_CRC_ERROR, SPNG_CRC_ERROR));
     check(spng_set_chunk_limits(png.get(), max_chunk_bytes, max_chunk_bytes));
     check(spng_set_png_buffer(png.get(), bytes.data(), bytes.size()));
