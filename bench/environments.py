@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Environments for learning beside their rules with NumPy: steps a second, of one and of 1,024 at once.
 
-    PYTHONPATH=build/release/python bench/environments.py [--quick] [--csv FILE]
+    PYTHONPATH=build/release/python /usr/bin/python3 bench/environments.py [--quick] [--csv FILE]
 
 The peer is tests/python/gathering_reference.py, whole arrays at a time, as the benchmark's own package works; that needs a
 library which Debian does not have. Ours and the peer take turns; a figure is the median of the turns. With MICROSWARM_DATA
@@ -10,11 +10,15 @@ the maze is the benchmark's Corridor, else one that is drawn here.
 """
 
 import argparse
+import csv
+import dataclasses
+import datetime
 import os
 import pathlib
 import statistics
 import sys
 import time
+from typing import Optional
 
 import numpy as np
 
@@ -22,14 +26,44 @@ import microswarm as ms
 from microswarm import environments
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(ROOT / "bench"), str(ROOT / "tests" / "python")]
+sys.path.insert(0, str(ROOT / "tests" / "python"))
 from gathering_reference import Reference  # noqa: E402
-from rows import Row, finish  # noqa: E402
 
 BATCH = 1024
 PARTICLES = 256
 TIMES_AS_FAST = 100
 ROBOT_STEPS = 1e6
+
+
+@dataclasses.dataclass
+class Row:
+    """A row in the form of `microswarm bench`: rates, the more the better."""
+
+    name: str
+    quantity: str
+    unit: str
+    ours: float
+    peer: Optional[float] = None
+    peer_name: str = ""
+    aim: Optional[float] = None
+
+    def columns(self):
+        shown = lambda value: "" if value is None else f"{value:.6g}"  # noqa: E731
+        ratio = self.ours / self.peer if self.peer else None
+        verdict = "" if self.aim is None and self.peer is None else str(self.ok()).lower()
+        return [self.name, self.quantity, self.unit, shown(self.ours), shown(self.peer), self.peer_name, shown(ratio), shown(self.aim), verdict]
+
+    def ok(self):
+        return all(self.ours >= least for least in (self.aim, self.peer) if least is not None)
+
+
+def machine():
+    lines = pathlib.Path("/proc/cpuinfo").read_text().splitlines()
+    cpu = next((line.split(": ")[1] for line in lines if line.startswith("model name")), "unknown CPU")
+    commit = os.environ.get("MICROSWARM_COMMIT")
+    of = f" of commit {commit}" if commit else ""
+    python = ".".join(str(part) for part in sys.version_info[:3])
+    return f"{cpu}, Python {python}, NumPy {np.__version__}, microswarm {ms.__version__}{of}, {datetime.date.today()}"
 
 
 def maze():
@@ -82,9 +116,21 @@ def rows(turns, steps):
 def main():
     options = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     options.add_argument("--quick", action="store_true", help="fewer turns")
-    options.add_argument("--csv", type=pathlib.Path)
+    options.add_argument("--csv", type=pathlib.Path, help="write the rows into this file")
     given = options.parse_args()
-    return finish(rows(3 if given.quick else 9, 200 if given.quick else 1000), given.csv, f"microswarm {ms.__version__}, NumPy {np.__version__}")
+    made = []
+    for row in rows(3 if given.quick else 9, 200 if given.quick else 1000):
+        made.append(row)
+        print("  ".join(text for text in row.columns() if text), flush=True)
+    if given.csv:
+        part = given.csv.with_suffix(".part")
+        with part.open("w", newline="") as file:
+            file.write(f"# {machine()}\n")
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(["name", "quantity", "unit", "ours", "peer", "peer_name", "ratio", "aim", "ok"])
+            writer.writerows(row.columns() for row in made)
+        part.replace(given.csv)
+    return 0 if all(row.ok() for row in made) else 3
 
 
 if __name__ == "__main__":

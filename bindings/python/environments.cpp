@@ -97,8 +97,8 @@ NavigationAction action_of(const Navigation& all, double heading, double share) 
 template <class All>
 py::array_t<typename All::Number> observation(All& all, std::size_t index) {
   py::array_t<typename All::Number> copy(all.shape);
-  std::ranges::copy(all.batch.observations().subspan(index * all.size(), all.size()),
-                    copy.mutable_data());
+  const std::size_t size = all.size();
+  std::copy_n(all.batch.observations().data() + index * size, size, copy.mutable_data());
   return copy;
 }
 

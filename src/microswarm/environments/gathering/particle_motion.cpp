@@ -44,6 +44,7 @@ void ParticleMotion::place(std::vector<std::uint32_t> cells, Rng& rng) {
   accelerations_.resize(n);
   aims_.resize(n);
   moves_.resize(n);
+  shares_.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     const MazePlace at = maze_.place(cells_[i]);
     rows_.at[i] = at.row;
@@ -89,7 +90,7 @@ void ParticleMotion::merge_groups() {
 void ParticleMotion::step_algorithmic(MazePlace move) {
   const auto offset = static_cast<std::uint32_t>(move.row * maze_.stride() + move.column);
   for (std::uint32_t& cell : cells_)
-    if (maze_.is_free(cell + offset)) cell += offset;
+    cell += maze_.is_free(cell + offset) ? offset : 0;  // no branch, which would be a guess
 }
 
 void ParticleMotion::step_fuzzy(MazePlace move, std::uint64_t key) {
@@ -101,16 +102,13 @@ void ParticleMotion::step_fuzzy(MazePlace move, std::uint64_t key) {
   };
   for (std::uint32_t& cell : cells_) {
     const std::uint64_t first = mixed(key + cell * 0x9e3779b97f4a7c15ULL);
-    if ((first >> 32) < stays) continue;
-    int row = move.row;
-    int column = move.column;
     const std::uint64_t second = mixed(first);
-    if ((first & 0xffffffff) < strays) {
-      row += chosen(second & 0xffff);
-      column += chosen((second >> 16) & 0xffff);
-    }
+    const int strays_now = (first & 0xffffffff) < strays ? 1 : 0;
+    const int row = move.row + strays_now * chosen(second & 0xffff);
+    const int column = move.column + strays_now * chosen((second >> 16) & 0xffff);
     const auto offset = static_cast<std::uint32_t>(row * maze_.stride() + column);
-    if (maze_.is_free(cell + offset)) cell += offset;
+    const bool moves = (first >> 32) >= stays && maze_.is_free(cell + offset);
+    cell += moves ? offset : 0;
   }
 }
 
@@ -120,16 +118,19 @@ void ParticleMotion::step_physical(MazePlace move) {
   accelerate(columns_, move.column);
   const double last_row = maze_.height() - 1;
   const double last_column = maze_.width() - 1;
+  const auto cell_of = [](const Axis& axis, std::size_t i, double last) {
+    const double at = axis.at[i] + axis.speed[i];
+    return static_cast<int>(nearest(std::min(std::max(at, 0.0), last)));
+  };
   for (std::size_t i = 0; i < n; ++i) {
-    const double row = nearest(std::clamp(rows_.at[i] + rows_.speed[i], 0.0, last_row));
-    const double column = nearest(std::clamp(columns_.at[i] + columns_.speed[i], 0.0, last_column));
-    aims_[i] = maze_.number({static_cast<int>(row), static_cast<int>(column)});
+    aims_[i] = maze_.number({cell_of(rows_, i, last_row), cell_of(columns_, i, last_column)});
     moves_[i] = maze_.is_free(aims_[i]);
   }
   if (rules_.particle_self_collision) block_full_cells();
   for (std::size_t i = 0; i < n; ++i) {
-    if (aims_[i] == cells_[i]) moves_[i] = 1;
-    if (moves_[i] != 0) cells_[i] = aims_[i];
+    const bool moves = (moves_[i] != 0) | (aims_[i] == cells_[i]);
+    cells_[i] = moves ? aims_[i] : cells_[i];
+    shares_[i] = moves ? 1 : 0;
   }
   advance(rows_);
   advance(columns_);
@@ -139,18 +140,21 @@ void ParticleMotion::accelerate(Axis& axis, int direction) {
   for (std::size_t i = 0; i < cells_.size(); ++i) axis.speed[i] += direction * accelerations_[i];
 }
 
+// Without a branch, so that several particles are done at once.
 void ParticleMotion::advance(Axis& axis) {
   constexpr double slowest = 0.01;
-  for (std::size_t i = 0; i < cells_.size(); ++i) {
-    const bool moves = moves_[i] != 0;
-    double at = axis.at[i];
-    double speed = axis.speed[i];
-    at = moves ? at + speed : at;
-    speed /= rules_.drag;
-    speed = moves ? speed : speed / 4;
+  const double drag = rules_.drag;
+  const double* const shares = shares_.data();
+  double* const places = axis.at.data();
+  double* const speeds = axis.speed.data();
+  const std::size_t n = cells_.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const double at = places[i] + shares[i] * speeds[i];
+    const double speed = speeds[i] / drag * (0.25 + 0.75 * shares[i]);  // a quarter in a contact
+    const double whole = nearest(at);
     const bool is_fast = std::abs(speed) > slowest;
-    axis.speed[i] = is_fast ? speed : 0;
-    axis.at[i] = is_fast ? at : nearest(at);
+    speeds[i] = is_fast ? speed : 0;
+    places[i] = is_fast ? at : whole;
   }
 }
 
@@ -158,12 +162,15 @@ void ParticleMotion::advance(Axis& axis) {
 // round are judged by the same counts; each round but the last stops at least one.
 void ParticleMotion::block_full_cells() {
   const auto most = static_cast<std::uint32_t>(rules_.max_particles_per_cell);
-  movers_.clear();
+  movers_.resize(cells_.size());
+  std::size_t movers = 0;
   for (std::uint32_t i = 0; i < cells_.size(); ++i) {
-    const bool moves = moves_[i] != 0 && aims_[i] != cells_[i];
+    const bool moves = (moves_[i] != 0) & (aims_[i] != cells_[i]);
     ++at_[moves ? aims_[i] : cells_[i]];
-    if (moves) movers_.push_back(i);
+    movers_[movers] = i;
+    movers += moves;
   }
+  movers_.resize(movers);
   for (std::size_t blocked = 1; blocked > 0;) {
     const auto fits = [&](std::uint32_t i) { return at_[aims_[i]] <= most; };
     const auto first = std::partition(movers_.begin(), movers_.end(), fits);

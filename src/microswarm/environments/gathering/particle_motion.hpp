@@ -52,6 +52,7 @@ class ParticleMotion {
   std::vector<double> accelerations_;
   std::vector<std::uint32_t> aims_;  ///< cells into which they would come
   std::vector<std::uint8_t> moves_;  ///< whether they do
+  std::vector<double> shares_;       ///< 1 for those that do, 0 for those that are stopped
   std::vector<std::uint32_t> movers_;
   std::vector<std::uint32_t> at_;  ///< of each cell, particles or group + 1; 0 between steps
 };
