@@ -12,6 +12,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "microswarm/config/former_keys.hpp"
@@ -28,8 +29,9 @@ using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 /// Whether the interpreter is about to end, and how many threads are on their way back into it.
 struct Ending {
   static std::atomic<bool> begun;
+  static std::thread::id ends_it;  ///< the thread that may still call it, once it has begun
   static std::atomic<int> returning;
-  /// For `atexit`: from now on no thread comes back.
+  /// For `atexit`: from now on no other thread comes back.
   static void begin();
 };
 

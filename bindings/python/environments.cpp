@@ -31,19 +31,22 @@ struct Environments {
   std::unique_ptr<const Task> task;
   std::vector<py::ssize_t> shape;  ///< of one observation
   EnvironmentBatch<Episode, Number> batch;
+  QuickCalls steps;
 
   Environments(Task given, std::vector<py::ssize_t> of_one, std::size_t count, std::uint64_t seed,
                int threads)
       : task(std::make_unique<const Task>(std::move(given))),
         shape(std::move(of_one)),
         batch(*task, count, size(count), seed, threads) {}
-  /// Numbers of one observation. Throws InputError if all together take more than 8 GB.
+  /// Numbers of one observation. Throws InputError if all environments take more than 8 GB.
   std::size_t size(std::size_t count = 1) const {
     constexpr double most = 8e9;
     std::size_t numbers = 1;
     for (const py::ssize_t side : shape) numbers *= static_cast<std::size_t>(side);
-    if (static_cast<double>(numbers * sizeof(Number)) * static_cast<double>(count) > most)
-      throw InputError("the observations of all environments take more than 8 GB");
+    const std::size_t bytes = sizeof(Number) * numbers + task->episode_bytes();
+    if (static_cast<double>(bytes) * static_cast<double>(count) > most)
+      throw InputError("num_envs is " + std::to_string(count) + ", but one takes " +
+                       std::to_string(bytes) + " bytes, and all must not take more than 8 GB");
     return numbers;
   }
 };
@@ -98,7 +101,7 @@ template <class All>
 py::array_t<typename All::Number> observation(All& all, std::size_t index) {
   py::array_t<typename All::Number> copy(all.shape);
   const std::size_t size = all.size();
-  std::copy_n(all.batch.observations().data() + index * size, size, copy.mutable_data());
+  std::copy_n(all.batch.observations()->data() + index * size, size, copy.mutable_data());
   return copy;
 }
 
@@ -126,10 +129,10 @@ py::tuple step_all(All& all, Action&& action) {
   const std::span<double> to{rewards.mutable_data(), all.batch.count()};
   const auto ended = bytes(terminated);
   const auto cut = bytes(truncated);
-  {
-    const Free free;
-    all.batch.step(action, to, ended, cut);
-  }
+  all.steps.call([&](const Stop& stop) {
+    all.batch.step(action, to, ended, cut, stop);
+    return true;
+  });
   return py::make_tuple(rewards, terminated, truncated);
 }
 
@@ -152,18 +155,24 @@ py::class_<Guarded<All>> add_kind(py::module_& module, const char* name) {
       .def("reset",
            [](Guarded<All>& open, std::optional<std::uint64_t> seed) {
              open.use([&](All& all) {
-               const Free free;
-               all.batch.reset(seed);
+               all.steps.call([&](const Stop& stop) {
+                 all.batch.reset(seed, stop);
+                 return true;
+               });
              });
            })
       // The observations themselves, which each step renews.
       .def("observations",
-           [](py::object self) {
-             return self.cast<Guarded<All>&>().use([&](All& all) {
+           [](Guarded<All>& open) {
+             return open.use([&](All& all) {
                std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(all.batch.count())};
                shape.insert(shape.end(), all.shape.begin(), all.shape.end());
-               return py::array_t<typename All::Number>(shape, all.batch.observations().data(),
-                                                        self);
+               using Owner = std::shared_ptr<std::vector<typename All::Number>>;
+               auto owner = std::make_unique<Owner>(all.batch.observations());
+               const auto* const numbers = (*owner)->data();
+               const py::capsule base(owner.release(),
+                                      [](void* held) { delete static_cast<Owner*>(held); });
+               return py::array_t<typename All::Number>(shape, numbers, base);
              });
            })
       .def("observation", of_one<All>(observation<All>));

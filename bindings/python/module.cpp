@@ -10,9 +10,11 @@
 namespace microswarm::python {
 
 std::atomic<bool> Ending::begun = false;
+std::thread::id Ending::ends_it;
 std::atomic<int> Ending::returning = 0;
 
 void Ending::begin() {
+  ends_it = std::this_thread::get_id();
   begun = true;
   while (returning > 0) {
     const py::gil_scoped_release free;
@@ -22,7 +24,7 @@ void Ending::begin() {
 
 Free::~Free() {
   ++Ending::returning;
-  if (Ending::begun) {
+  if (Ending::begun && std::this_thread::get_id() != Ending::ends_it) {
     --Ending::returning;
     for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
   }

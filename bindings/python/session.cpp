@@ -33,7 +33,7 @@ class OpenSession : public Guarded<Session> {
   auto drive(Work&& work, Look&& look) {
     if (has_failed_) throw InputError("the navigator of the session has raised an exception");
     if (is_stopped_) stops_ = true;
-    const struct Forget {  // Ctrl-C ends a call, stop() the run
+    const struct Forget {  // Ctrl-C in this call is not one in the next
       OpenSession& open;
       ~Forget() { open.stops_ = open.is_stopped_.load(); }
     } forget{*this};

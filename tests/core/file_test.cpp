@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
+#include <thread>
 
 #include "microswarm/core/errors/error.hpp"
 
@@ -125,6 +127,27 @@ TEST_F(FileTest, WhatKilledProgramsLeftIsCleared) {
   EXPECT_TRUE(fs::exists(ours.path()));
   for (const std::string& name : not_ours) EXPECT_TRUE(fs::exists(folder_ / name)) << name;
   clear_staged(folder_ / "nowhere");
+}
+
+TEST(WriteFileAtomically, APipeWithoutAReaderIsRefusedAtOnce) {
+  const std::string path = testing::TempDir() + "microswarm_read_pipe";
+  ::unlink(path.c_str());
+  ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+  EXPECT_THROW(write_file_atomically(path, "text"), InputError);
+  std::string got;
+  std::jthread reader([&] {
+    std::ifstream in(path);
+    got.assign(std::istreambuf_iterator<char>(in), {});
+  });
+  const std::string bytes(200'000, 'x');  // more than a pipe holds
+  for (bool is_read = false; !is_read;) try {
+      write_file_atomically(path, bytes);
+      is_read = true;
+    } catch (const InputError&) {  // the reader is on its way
+    }
+  reader.join();
+  EXPECT_EQ(got, bytes);
+  ::unlink(path.c_str());
 }
 
 TEST(ReadFile, APipeIsRefusedAtOnce) {

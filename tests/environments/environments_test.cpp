@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <filesystem>
 
 #include "microswarm/core/errors/error.hpp"
@@ -114,12 +115,25 @@ TEST_P(GatheringPhysics, ThreadsChangeNothing) {
       told.insert(told.end(), ended.begin(), ended.end());
       told.insert(told.end(), cut.begin(), cut.end());
     }
-    pictures.emplace_back(batch.observations().begin(), batch.observations().end());
+    pictures.push_back(*batch.observations());
   }
   for (std::size_t i = 1; i < all.size(); ++i) {
     EXPECT_EQ(all[i], all[0]);
     EXPECT_EQ(pictures[i], pictures[0]);
   }
+}
+
+TEST(EnvironmentBatch, NeedsAResetAfterAStop) {
+  const GatheringTask task(ring(), rules(ParticlePhysics::algorithmic), MazePlace{0, 0});
+  Batch batch(task, 3, task.picture_size(), 1, 1);
+  std::vector<double> rewards(3);
+  std::vector<std::uint8_t> ended(3), cut(3);
+  const auto east = [](std::size_t) { return std::size_t{0}; };
+  std::atomic<bool> stops = true;
+  batch.step(east, rewards, ended, cut, Stop(&stops));
+  EXPECT_THROW(batch.step(east, rewards, ended, cut), InputError);
+  batch.reset();
+  batch.step(east, rewards, ended, cut);
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, GatheringPhysics,
@@ -148,7 +162,7 @@ TEST(NavigationEpisode, ThreadsAndASecondResetChangeNothing) {
               return NavigationAction{0.3 * static_cast<double>(i), task.max_speed()};
             },
             rewards, ended, cut);
-      seen.emplace_back(batch.observations().begin(), batch.observations().end());
+      seen.push_back(*batch.observations());
     }
   }
   for (const auto& one : seen) EXPECT_EQ(one, seen[0]);

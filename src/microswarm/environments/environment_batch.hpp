@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/execution/parallel.hpp"
+#include "microswarm/core/execution/stop.hpp"
 #include "microswarm/environments/environment_step.hpp"
 
 namespace microswarm {
@@ -22,15 +25,18 @@ class EnvironmentBatch {
   template <class Task>
   EnvironmentBatch(const Task& task, std::size_t count, std::size_t size, std::uint64_t seed,
                    int threads)
-      : observations_(count * size), has_ended_(count), threads_(threads) {
+      : observations_(std::make_shared<std::vector<Number>>(count * size)),
+        has_ended_(count),
+        threads_(threads) {
     episodes_.reserve(count);
     for (std::size_t i = 0; i < count; ++i)
-      episodes_.emplace_back(task, seed + i, std::span(observations_).subspan(i * size, size));
+      episodes_.emplace_back(task, seed + i, std::span(*observations_).subspan(i * size, size));
   }
 
-  /// Begins an episode each: the first of the seeds s + i, or the next.
-  void reset(std::optional<std::uint64_t> seed = {}) {
-    for_each([&](std::size_t i) {
+  /// Begins an episode each: the first of the seeds s + i, or the next. After a stop nothing but a
+  /// reset is allowed.
+  void reset(std::optional<std::uint64_t> seed = {}, const Stop& stop = {}) {
+    for_each(stop, [&](std::size_t i) {
       if (seed)
         episodes_[i].reset(*seed + i);
       else
@@ -39,11 +45,13 @@ class EnvironmentBatch {
     });
   }
   /// An input for each environment, `action(i)`. One whose episode ended with the step before
-  /// begins the next one instead, with a reward of 0. The spans have count() values.
+  /// begins the next one instead, with a reward of 0. The spans have count() values. Throws
+  /// InputError after a call that was stopped.
   template <class Action>
   void step(Action&& action, std::span<double> rewards, std::span<std::uint8_t> terminated,
-            std::span<std::uint8_t> truncated) {
-    for_each([&](std::size_t i) {
+            std::span<std::uint8_t> truncated, const Stop& stop = {}) {
+    if (was_stopped_) throw InputError("the last call was interrupted: a reset is needed");
+    for_each(stop, [&](std::size_t i) {
       EnvironmentStep made;
       if (has_ended_[i] != 0)
         episodes_[i].reset();
@@ -58,23 +66,26 @@ class EnvironmentBatch {
 
   std::size_t count() const { return episodes_.size(); }
   Episode& episode(std::size_t index) { return episodes_[index]; }
-  /// Observations, one after the other.
-  std::span<const Number> observations() const { return observations_; }
+  /// Observations, one after the other; they may outlive this.
+  const std::shared_ptr<std::vector<Number>>& observations() const { return observations_; }
 
  private:
   template <class Body>
-  void for_each(Body&& body) {
+  void for_each(const Stop& stop, Body&& body) {
+    was_stopped_ = true;                  // also after an exception
     constexpr std::size_t together = 16;  // environments that a thread takes at once
     const std::size_t blocks = (count() + together - 1) / together;
     threads_.for_each_index(blocks, [&](std::size_t block) {
       const std::size_t end = std::min(count(), (block + 1) * together);
-      for (std::size_t i = block * together; i < end; ++i) body(i);
+      for (std::size_t i = block * together; i < end && !stop(); ++i) body(i);
     });
+    was_stopped_ = stop();
   }
 
-  std::vector<Number> observations_;
+  std::shared_ptr<std::vector<Number>> observations_;
   std::vector<Episode> episodes_;
   std::vector<std::uint8_t> has_ended_;
+  bool was_stopped_ = false;
   ThreadTeam threads_;
 };
 

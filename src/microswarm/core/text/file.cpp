@@ -158,8 +158,11 @@ void clear_staged(const fs::path& folder) {
 
 void write_file_atomically(const fs::path& path, std::string_view bytes, LinkAtFile link) {
   StagedFile staged(path, link);
-  Descriptor file(staged.path(), O_WRONLY);
+  // Opening a pipe must not wait for a reader, writing may.
+  Descriptor file(staged.path(), O_WRONLY | O_NONBLOCK);
+  if (file.error() == ENXIO) fail(path, "write", "it is a pipe that nobody reads");
   if (file.error()) fail_errno(path, "write", file.error());
+  ::fcntl(file.get(), F_SETFL, ::fcntl(file.get(), F_GETFL) & ~O_NONBLOCK);
   write_all(file, bytes, path);
   if (!file.close()) fail_errno(path, "write", errno);
   staged.commit();

@@ -63,6 +63,18 @@ std::size_t GatheringTask::picture_size() const {
          static_cast<std::size_t>(channels());
 }
 
+std::size_t GatheringTask::episode_bytes() const {
+  std::size_t particles = maze.cells().size();
+  if (rules.particle_count == ParticleCount::fixed)
+    particles = static_cast<std::size_t>(rules.n_particles);
+  else if (rules.particle_count == ParticleCount::random)
+    particles = std::min(particles, max_random_particles);
+  const std::size_t a_particle = rules.physics == ParticlePhysics::physical ? 80 : 8;
+  const std::size_t a_number = goal ? 4 : 8;  // of the motion, and of a goal's costs
+  constexpr std::size_t itself = 1000;
+  return a_particle * particles + a_number * maze.size() + (goal ? 0 : picture_size()) + itself;
+}
+
 GatheringEpisode::GatheringEpisode(const GatheringTask& task, std::uint64_t seed,
                                    std::span<std::uint8_t> picture)
     : task_(task),

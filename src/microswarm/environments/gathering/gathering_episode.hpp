@@ -28,6 +28,8 @@ struct GatheringTask {
   int channels() const;
   /// Bytes of a picture: height × width × channels.
   std::size_t picture_size() const;
+  /// Memory that an episode takes beside its picture, at most about.
+  std::size_t episode_bytes() const;
   /// Index of a cell in a picture of one channel.
   std::size_t pixel(std::uint32_t cell) const { return pixels[cell]; }
   std::vector<std::uint32_t> pixels;

@@ -29,6 +29,8 @@ class NavigationTask {
   /// counter-clockwise [µm]; of each of the nearest obstacles x, y from the swarm, radius [µm],
   /// velocity in x and y [µm/s], zeros where there are fewer.
   std::size_t observation_size() const;
+  /// Memory that an episode takes beside its observation, at most about.
+  std::size_t episode_bytes() const { return 20'000 + 1000 * scenario().obstacles.size(); }
   static constexpr std::size_t own_numbers = 6;
   static constexpr std::size_t obstacle_numbers = 5;
 
