@@ -4,12 +4,13 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Optional, Sequence, Union
+from collections.abc import Iterable, Sequence
+from typing import Any, Optional, Union
 
 import numpy as np
 
 from . import _core
-from .values import InputError, numbers, path_text, rows
+from .values import InputError, flag, numbers, path_text, rows, text, told
 
 PathLike = Union[str, "os.PathLike[str]"]
 
@@ -70,11 +71,14 @@ class Coils:
         places = np.zeros((len(currents), 3)) if positions_um is None else checked_rows("positions_um", positions_um, 3, MAX_PLACE_UM)
         if names is None:
             names = [f"coil{k + 1}" for k in range(currents.shape[1])]
-        if isinstance(names, str) or not all(isinstance(one, str) for one in names) or len(names) != currents.shape[1]:
-            raise InputError(f"names must be {currents.shape[1]} words, one for each column of currents_a")
-        if not 1 <= len(names) <= 64:
-            raise InputError(f"currents_a has {len(names)} columns, must be 1 to 64")
-        return cls(*_core.Coils.of_arrays(currents, fields, places, list(names), str(name), offset, gradients, centre(centre_um)))
+        words = list(names) if isinstance(names, Iterable) and not isinstance(names, str) else []
+        if len(words) != currents.shape[1]:
+            raise InputError(f"names is {told(names)}, must be {currents.shape[1]} words, one for each column of currents_a")
+        words = [text("one of names", one) for one in words]
+        parts = flag("offset", offset), flag("gradients", gradients)
+        if not 1 <= len(words) <= 64:
+            raise InputError(f"currents_a has {len(words)} columns, must be 1 to 64")
+        return cls(*_core.Coils.of_arrays(currents, fields, places, words, text("name", name), *parts, centre(centre_um)))
 
     @classmethod
     def from_csv(
@@ -82,7 +86,7 @@ class Coils:
     ) -> "Coils":
         """The same from the file that `microswarm rig calibrate` reads or measures: i_NAME_a of each coil, bx_mt, by_mt,
         bz_mt, and optionally x_um, y_um, z_um."""
-        return cls(*_core.Coils.of_file(path_text(path), offset, gradients, centre(centre_um)))
+        return cls(*_core.Coils.of_file(path_text(path), flag("offset", offset), flag("gradients", gradients), centre(centre_um)))
 
     def save(self, path: PathLike) -> None:
         """Writes calibrated coils as a coil system (YAML). It names no limits of the coils: add its `drives`."""

@@ -8,10 +8,10 @@ from typing import Any, Mapping, Optional, Sequence
 import numpy as np
 
 from . import _core
-from .maps import Map
+from .maps import Map, core_of
 from .record import Record
 from .runs import Progress, Session
-from .values import InputError, number, numbers, rows, setting, whole
+from .values import InputError, mapping, number, numbers, rows, setting, whole
 
 
 class Gathering:
@@ -76,12 +76,10 @@ def gather(
     for key, value in values.items():
         inner = value.items() if isinstance(value, Mapping) else ()
         given += [setting(f"navigator.{key}.{part}", one) for part, one in inner] or [setting(f"navigator.{key}", value)]
-    given += [setting(key, value) for key, value in (settings or {}).items()]
+    given += [setting(key, value) for key, value in mapping("settings", settings).items()]
     if robots_um is None:
         starts = np.empty((0, 2))
-        n = 256 if n is None else whole("n", n, 1_000_000)
-        if n == 0:
-            raise InputError("n is 0, must be 1 to 1000000")
+        n = 256 if n is None else whole("n", n, 1_000_000, least=1)
     else:
         starts = rows("robots_um", robots_um)
         if n is not None:
@@ -91,18 +89,10 @@ def gather(
         n = 0
     if channel_width_um is not None and not 1e-3 <= number("channel_width_um", channel_width_um) <= 1e6:
         raise InputError(f"channel_width_um is {channel_width_um}, must be 0.001 to 1e6")
-    if whole("max_steps", max_steps, 100_000_000) == 0:
-        raise InputError("max_steps is 0, must be 1 to 100000000")
+    max_steps = whole("max_steps", max_steps, 100_000_000, least=1)
     goal = numbers("goal_um", goal_um, (2,), "(x_um, y_um)")
     core, tick, notes = _core.gather(
         core_of(map), goal, n, starts, channel_width_um, max_steps, given, whole("seed", seed, 2**64 - 1)
     )
     with Session._of(core) as session:
         return Gathering(session.finish(progress), tick, notes)
-
-
-def core_of(map: Map) -> Any:
-    """The map of an argument."""
-    if not isinstance(map, Map):
-        raise InputError(f"map is {type(map).__name__}, must be a Map: Map.load(file) or Map.from_image(array, um_per_px)")
-    return map._core

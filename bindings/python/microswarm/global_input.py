@@ -8,9 +8,8 @@ from typing import Any, Optional
 import numpy as np
 
 from . import _core
-from .gathering import core_of
-from .maps import Map
-from .values import InputError, number, rows, setting, whole
+from .maps import Map, core_of
+from .values import InputError, flag, number, rows, setting, whole
 
 
 class GlobalPlan:
@@ -74,4 +73,4 @@ def global_plan(
     if time_limit_s is not None and not 0 <= number("time_limit_s", time_limit_s) <= 1e6:
         raise InputError(f"time_limit_s is {time_limit_s}, must be 0 to 1e6")
     seed = whole("seed", seed, 2**64 - 1)
-    return GlobalPlan(_core.global_plan(core_of(map), starts, goals, settings, seed, bool(shorten), time_limit_s))
+    return GlobalPlan(_core.global_plan(core_of(map), starts, goals, settings, seed, flag("shorten", shorten), time_limit_s))

@@ -11,7 +11,9 @@ import numpy as np
 
 from . import _core
 from .pictures import Drawable
-from .values import InputError, number, numbers, path_text, rows, setting, whole
+from .values import InputError, grid_of, number, numbers, path_text, rows, setting, told, whole
+
+MAX_SIDE_PX = 65_535
 
 
 class Map(Drawable):
@@ -37,7 +39,7 @@ class Map(Drawable):
         try:
             outlines = list(walls_um)
         except TypeError:
-            raise InputError("walls_um must be a list of outlines, each of the shape (n, 2)") from None
+            raise InputError(f"walls_um is {told(walls_um)}, must be a list of outlines, each of the shape (n, 2)") from None
         return cls(_core.Map.from_walls(box, [rows("an outline of walls_um", one) for one in outlines], rows("discs_um", discs_um, "(n, 3)")))
 
     @classmethod
@@ -50,13 +52,9 @@ class Map(Drawable):
         booleans that is where it is True; of one of uint8 the threshold is 128 if it is not given, and of other
         numbers it must be given. A mask of 0 and 1 needs threshold=1.
         """
-        array = np.asarray(image)
-        if array.ndim != 2 or array.dtype.kind not in "buif":
-            raise InputError(f"an image must have 2 dimensions and numbers, this one has {array.ndim} of type {array.dtype}")
+        array = grid_of("image", image, MAX_SIDE_PX)
         if free not in ("bright", "dark"):
-            raise InputError(f"free is {free!r}, must be 'bright' or 'dark'")
-        if array.dtype.kind == "f" and not np.isfinite(array).all():
-            raise InputError("an image must have finite values")
+            raise InputError(f"free is {told(free)}, must be 'bright' or 'dark'")
         if threshold is None and array.dtype != bool:
             if array.dtype != np.uint8 or (array.size > 0 and array.max() <= 1):
                 raise InputError("threshold is missing: this is no image of uint8 with grey values, and no mask of booleans")
@@ -95,6 +93,13 @@ class Map(Drawable):
     def __repr__(self) -> str:
         x_lo, y_lo, x_hi, y_hi = self.bounds_um
         return f"<Map: {x_hi - x_lo:.6g} × {y_hi - y_lo:.6g} µm, {len(self.walls_um) + len(self.discs_um)} walls>"
+
+
+def core_of(map: Map) -> Any:
+    """The map of an argument."""
+    if not isinstance(map, Map):
+        raise InputError(f"map is {told(map)}, must be a Map: Map.load(file) or Map.from_image(array, um_per_px)")
+    return map._core
 
 
 class Path(Drawable):
@@ -159,4 +164,4 @@ def plan(
     settings += [setting(f"planner.{key}", value) for key, value in values.items()]
     begin = numbers("start", start, (2, 3), "(x_um, y_um) or (x_um, y_um, heading_rad)")
     end = numbers("goal", goal, (2,), "(x_um, y_um)")
-    return Path(map._core.plan(begin, end, settings, whole("seed", seed, 2**64 - 1)))
+    return Path(core_of(map).plan(begin, end, settings, whole("seed", seed, 2**64 - 1)))

@@ -3,13 +3,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any, NamedTuple, Optional, Sequence
 
 import numpy as np
 
 from . import _core
 from .runs import Source, scenario_of
-from .values import InputError, whole
+from .values import InputError, told, whole
 
 _made = tuple.__new__  # without the checks of Command()
 
@@ -60,13 +61,18 @@ class Navigator:
         numbers    of the obstacles, the same in every step, 0 to 2147483647; without, they are matched by distance
         unseen     how many of the robots were not seen and are where they are expected
         """
-        if numbers is not None:
-            numbers = [whole("the number of an obstacle", one, 2**31 - 1) for one in numbers]
         try:
+            if numbers is not None:
+                numbers = [whole("the number of an obstacle", one, 2**31 - 1) for one in numbers]
             return _made(Command, self._core.step(t, swarm, obstacles, robots, seen, numbers, unseen))
         except InputError:
             raise
+        except RuntimeError:
+            whole("unseen", unseen, 2**31 - 1)
+            raise
         except (TypeError, ValueError):
+            if not (numbers is None or isinstance(numbers, Iterable)):
+                raise InputError(f"numbers is {told(numbers)}, must be a whole number for each obstacle") from None
             raise InputError("t, seen and unseen must be numbers, obstacles and robots arrays of numbers") from None
 
     def path(self) -> np.ndarray:

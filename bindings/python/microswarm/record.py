@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import json
 import os
+import pathlib
+import tempfile
 from collections.abc import Mapping
 from typing import Any, Iterator, Optional
 
@@ -149,8 +151,22 @@ class Record(Drawable):
     def _picture(self, file: Optional[str]) -> Optional[bytes]:
         return self._core.draw(file)
 
+    def __reduce__(self) -> Any:
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder, "record.h5")
+            self.save(file)
+            return _restored, (file.read_bytes(),)
+
     def __repr__(self) -> str:
         return f"<Record: {self.status} after {self.metrics['time_s']:.4g} s, hash {self.hash}>"
+
+
+def _restored(content: bytes) -> Record:
+    """A record from the content of its file."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder, "record.h5")
+        file.write_bytes(content)
+        return read_record(file)
 
 
 def read_record(path: str | os.PathLike[str]) -> Record:

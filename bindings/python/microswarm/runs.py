@@ -13,7 +13,7 @@ from .pictures import Drawable
 from .progress import Bar
 from .record import Record, finite
 from .scenario import Scenario
-from .values import InputError, seed_of, setting, text_of, whole
+from .values import InputError, key_of, path_text, seed_of, text_of, whole
 
 Source = Union[Scenario, str, "os.PathLike[str]"]
 Progress = Union[bool, Callable[[float], Any], None]
@@ -21,7 +21,7 @@ Progress = Union[bool, Callable[[float], Any], None]
 
 def scenario_of(source: Source) -> Scenario:
     """A scenario, or that of a file."""
-    return source if isinstance(source, Scenario) else Scenario.load(source)
+    return source if isinstance(source, Scenario) else Scenario.load(path_text(source, "scenario", "a Scenario or the name of a file"))
 
 
 @contextmanager
@@ -62,8 +62,7 @@ class Session(Drawable):
 
     def set(self, key: str, value: Any) -> None:
         """Sets a value from the next tick on, for example set("goal_um", [1500, 300])."""
-        setting(key, value)
-        self._core.set(key, text_of(value))
+        self._core.set(key_of(key), text_of(key, value))
 
     def view(self) -> dict[str, Any]:
         """The present state: the numbers of the frame, obstacles_um (x, y, radius), robots_um, path_um."""

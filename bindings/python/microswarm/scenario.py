@@ -11,7 +11,7 @@ from typing import Any, Iterator, Optional
 
 from . import _core
 from ._core import Scenario as CoreScenario
-from .values import path_text, setting
+from .values import path_text, setting, text as checked_text
 
 
 class Group:
@@ -109,7 +109,8 @@ class Scenario(Group):
     @classmethod
     def from_text(cls, text: str, folder: str | os.PathLike[str] = "", name: str = "scenario") -> "Scenario":
         """A scenario from YAML text. Files that it names are relative to `folder`."""
-        return cls(_core.Scenario.of(text, name, path_text(folder)))
+        base = "" if folder == "" else path_text(folder, "folder", "the name of a folder")
+        return cls(_core.Scenario.of(checked_text("text", text), checked_text("name", name), base))
 
     def set(self, key: str, value: Any) -> "Scenario":
         """Sets the value of a key, for example set("navigator.speed_um_per_s", 60). A text is read as in a file."""

@@ -3,13 +3,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any, Iterable, Optional
+from decimal import Decimal, InvalidOperation
+from typing import Any, Iterable, Mapping, Optional
 
 from . import _core
 from .record import Table
 from .runs import Progress, Source, scenario_of, shown
-from .values import InputError, seed_of, setting, text_of, whole
+from .values import InputError, key_of, mapping, seed_of, setting, text, text_of, told, whole
 
 
 def sweep(
@@ -39,13 +39,16 @@ def sweep(
     """
     if navigator is not None:
         raise InputError("a sweep runs in threads of the library, without navigators of your own: call run() in a loop")
-    grid = _mapping("grid", grid)
-    methods = _mapping("methods", methods)
+    grid = mapping("grid", grid)
+    groups = {name: mapping(f"method {told(name)}", settings) for name, settings in mapping("methods", methods).items()}
+    for where, keys in (("grid", grid), *(("methods", settings) for settings in groups.values())):
+        if seed is not None and "seed" in keys:
+            raise InputError(f"seed is {told(seed)}, and {where} sets the seed too: leave one of them out")
     with shown(progress) as report:
         made = _core.sweep(
             scenario_of(scenario)._core,
-            [(_key(key), [text_of(one) for one in _values(key, values)]) for key, values in grid.items()],
-            [(str(name), [setting(*one) for one in _mapping(name, settings).items()]) for name, settings in methods.items()],
+            [(key_of(key), _values(key, values)) for key, values in grid.items()],
+            [(text("the name of a method", str(name)), [setting(*one) for one in settings.items()]) for name, settings in groups.items()],
             whole("trials", trials, 1_000_000, least=1),
             seed_of(seed),
             whole("jobs", jobs, 1024),
@@ -54,20 +57,22 @@ def sweep(
     return Table(*made)
 
 
-def _mapping(name: str, value: Any) -> Mapping[str, Any]:
-    if value is None:
-        return {}
-    if not isinstance(value, Mapping):
-        raise InputError(f"{name} is {value!r}, must be a dictionary")
-    return value
-
-
-def _key(key: Any) -> str:
-    return setting(key, "")[:-1]
-
-
-def _values(key: str, values: Any) -> list[Any]:
-    """The values of a key; a number or a text is none."""
+def _values(key: str, values: Any) -> list[str]:
+    """The values of a key as texts; a number or a text is none."""
     if isinstance(values, (str, bytes)) or not isinstance(values, Iterable):
-        raise InputError(f"values of {key} are {values!r}, must be a list")
-    return list(values)
+        raise InputError(f"values of {key} are {told(values)}, must be a list")
+    made = [text_of(key, one) for one in values]
+    if key == "seed":
+        for one in made:
+            _check_seed(one)
+    return made
+
+
+def _check_seed(value: str) -> None:
+    """Whether the table's column of seeds, which is of floats, can hold it."""
+    try:
+        exact = Decimal(value) <= 2**53
+    except InvalidOperation:  # no number, which the sweep itself tells
+        return
+    if not exact:
+        raise InputError(f"seed in grid is {told(value)}, must be at most {2**53} (2^53) for the table")

@@ -7,6 +7,7 @@ import json
 import math
 import operator
 import os
+from collections.abc import Mapping
 from typing import Any, Optional
 
 import numpy as np
@@ -14,23 +15,46 @@ import numpy as np
 from ._core import InputError
 
 
-def path_text(path: str | os.PathLike[str]) -> str:
+def told(value: Any) -> str:
+    """A value in a message: one line, not a long one."""
+    try:
+        line = " ".join(repr(value).split())
+    except (RecursionError, ValueError):  # nested deeply, or of thousands of digits
+        line = f"{type(value).__name__} too large to show"
+    return line if len(line) <= 80 else line[:79] + "…"
+
+
+def text(name: str, value: Any) -> str:
+    """A text that UTF-8 can hold."""
+    if not isinstance(value, str):
+        raise InputError(f"{name} is {told(value)}, must be a text")
+    try:
+        value.encode()
+    except UnicodeEncodeError:
+        raise InputError(f"{name} is {told(value)}, must be a text of UTF-8") from None
+    return value
+
+
+def path_text(path: Any, name: str = "path", what: str = "the name of a file") -> str:
     """A file's name as text."""
-    text = os.fspath(path)
-    if not isinstance(text, str) or "\0" in text:
-        raise InputError(f"{text!r} is no name of a file")
-    return text
+    try:
+        made = os.fspath(path)
+    except TypeError:
+        made = None
+    if not isinstance(made, str) or not made or "\0" in made:
+        raise InputError(f"{name} is {told(path)}, must be {what}")
+    return text(name, made)
 
 
 def whole(name: str, value: Any, most: int, least: int = 0) -> int:
     """A whole number from `least` to `most`."""
     try:
-        number = operator.index(value)
+        made = operator.index(value)
     except TypeError:
-        raise InputError(f"{name} is {value!r}, must be a whole number") from None
-    if not least <= number <= most:
-        raise InputError(f"{name} is {number}, must be {least} to {most}")
-    return number
+        raise InputError(f"{name} is {told(value)}, must be a whole number from {least} to {most}") from None
+    if not least <= made <= most:
+        raise InputError(f"{name} is {told(made)}, must be {least} to {most}")
+    return made
 
 
 def seed_of(value: Any) -> Optional[int]:
@@ -38,14 +62,30 @@ def seed_of(value: Any) -> Optional[int]:
     return None if value is None else whole("seed", value, 2**64 - 1)
 
 
+def flag(name: str, value: Any) -> bool:
+    """True or False."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise InputError(f"{name} is {told(value)}, must be True or False")
+    return bool(value)
+
+
+def mapping(name: str, value: Any) -> Mapping[str, Any]:
+    """A dictionary; None is an empty one."""
+    if value is None:
+        return {}
+    if not isinstance(value, Mapping):
+        raise InputError(f"{name} is {told(value)}, must be a dictionary")
+    return value
+
+
 def numbers(name: str, values: Any, counts: tuple[int, ...], what: str) -> list[float]:
     """As many numbers as one of `counts`."""
     try:
         made = [float(one) for one in values]
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         made = []
     if isinstance(values, str) or len(made) not in counts:
-        raise InputError(f"{name} must be {what}")
+        raise InputError(f"{name} is {told(values)}, must be {what}")
     return made
 
 
@@ -54,40 +94,69 @@ def number(name: str, value: Any) -> float:
     try:
         made = float(value)
     except (TypeError, ValueError):
-        raise InputError(f"{name} is {value!r}, must be a number") from None
+        raise InputError(f"{name} is {told(value)}, must be a number") from None
+    except OverflowError:
+        made = math.inf
     if not math.isfinite(made):
-        raise InputError(f"{name} is {value!r}, must be finite")
+        raise InputError(f"{name} is {told(value)}, must be finite")
     return made
+
+
+def array_of(name: str, values: Any, what: str, kinds: str = "buif", shape: Optional[tuple[int, ...]] = None) -> np.ndarray:
+    """An array of real numbers, or of the `kinds` of NumPy."""
+    try:
+        array = np.asarray(values)
+    except (TypeError, ValueError):  # rows of different lengths
+        array = np.asarray("ragged")
+    if array.dtype.kind not in kinds or shape not in (None, array.shape):
+        raise InputError(f"{name} is {told(values)}, must be {what}")
+    return array
 
 
 def rows(name: str, values: Any, shape: str = "(n, 2)") -> np.ndarray:
     """An array of real numbers."""
-    try:
-        array = np.asarray(values)
-    except ValueError:
-        array = np.asarray("ragged")
-    if array.dtype.kind not in "buif":
-        raise InputError(f"{name} must be numbers of the shape {shape}")
+    return array_of(name, values, f"numbers of the shape {shape}")
+
+
+def grid_of(name: str, values: Any, most: int) -> np.ndarray:
+    """Finite numbers of two dimensions. The sides are checked before anything reads or copies them."""
+    array = array_of(name, values, "an array of numbers with 2 dimensions")
+    if array.ndim != 2:
+        raise InputError(f"{name} has the shape {array.shape}, must have 2 dimensions")
+    if not all(1 <= side <= most for side in array.shape):
+        raise InputError(f"{name} has the shape {array.shape}, a side must be 1 to {most}")
+    if array.dtype.kind == "f" and not np.isfinite(array).all():
+        raise InputError(f"{name} has {array[~np.isfinite(array)][0]:g}, must be finite")
     return array
+
+
+def key_of(key: Any) -> str:
+    """A key of a scenario."""
+    if not isinstance(key, str) or not key or any(c in key for c in "=\n\r\0# "):
+        raise InputError(f"{told(key)} is no key of a scenario")
+    return text("a key of a scenario", key)
 
 
 def setting(key: Any, value: Any) -> str:
     """KEY=VALUE as in --set."""
-    if not isinstance(key, str) or not key or any(c in key for c in "=\n\r\0# "):
-        raise InputError(f"{key!r} is no key of a scenario")
-    return f"{key}={text_of(value)}"
+    return f"{key_of(key)}={text_of(key, value)}"
 
 
-def text_of(value: Any) -> str:
-    """A value as in a scenario file. Arrays become lists."""
+def text_of(key: str, value: Any) -> str:
+    """A key's value as in a scenario file. Arrays become lists."""
     if isinstance(value, str):
-        return value
+        return text(key, value)
     try:
-        return json.dumps(value, allow_nan=False, default=plain)
+        return text(key, json.dumps(value, allow_nan=False, default=plain))
     except InputError:
         raise
-    except ValueError:
-        raise InputError(f"{value!r}: a value of a scenario must be finite") from None
+    except RecursionError:
+        why = "is nested too deeply"
+    except TypeError as error:
+        why = str(error)
+    except ValueError as error:
+        why = "contains itself" if "Circular" in str(error) else "must be finite"
+    raise InputError(f"{key} is {told(value)}: it {why}")
 
 
 def plain(value: Any) -> Any:
@@ -95,4 +164,4 @@ def plain(value: Any) -> Any:
     for way in ("tolist", "to_dict"):
         if hasattr(value, way):
             return getattr(value, way)()
-    raise InputError(f"a value of a scenario cannot be of type {type(value).__name__}")
+    raise TypeError(f"cannot be of type {type(value).__name__}")

@@ -12,7 +12,7 @@ import numpy as np
 from . import _core
 from .maps import Map
 from .runs import Progress, shown
-from .values import InputError, number, path_text, setting
+from .values import InputError, array_of, number, path_text, setting
 
 PathLike = Union[str, "os.PathLike[str]"]
 
@@ -57,7 +57,7 @@ def segment(image: Any, um_per_px: float, *, smooth_px: float = 1.0, **values: A
     InputError if no vessels are found.
     """
     settings = [setting(key, value) for key, value in values.items()]
-    source: Any = path_text(image) if isinstance(image, (str, os.PathLike)) else picture_of("image", image)
+    source: Any = path_text(image, "image") if isinstance(image, (str, os.PathLike)) else picture_of("image", image)
     scale = in_range("um_per_px", um_per_px, 1e-6, 1e6)
     return Segmentation(_core.segment(source, scale, in_range("smooth_px", smooth_px, 0, 100), settings))
 
@@ -176,10 +176,7 @@ def structured(columns: dict[str, np.ndarray]) -> np.ndarray:
 
 def picture_of(name: str, image: Any) -> np.ndarray:
     """A picture as a contiguous array of uint8 or uint16."""
-    try:
-        array = np.asarray(image)
-    except ValueError:
-        raise InputError(f"{name} must be an array") from None
+    array = array_of(name, image, "an array of uint8 or uint16", kinds="buifcO")
     if array.ndim == 3 and array.shape[2] == 1:
         array = array[:, :, 0]
     if array.ndim != 2 and not (array.ndim == 3 and array.shape[2] == 3):

@@ -8,7 +8,7 @@ from typing import Any, Optional
 
 import numpy as np
 
-from ..values import InputError, seed_of, whole
+from ..values import seed_of, whole
 from .spaces import Env
 
 Steps = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, dict[str, Any]]
@@ -16,9 +16,7 @@ Steps = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, dict[str, Any]]
 
 def count_of(num_envs: Any) -> int:
     """A number of environments."""
-    if whole("num_envs", num_envs, 10**6) == 0:
-        raise InputError("num_envs is 0, must be at least 1")
-    return num_envs
+    return whole("num_envs", num_envs, 10**6, least=1)
 
 
 class SingleEnvironment(Env):
@@ -52,6 +50,20 @@ class VectorEnvironment:
     """
 
     metadata: dict[str, Any] = {"autoreset_mode": "NextStep"}
+    spec: Any = None
+    render_mode: Optional[str] = None
+    closed = False
+
+    @property
+    def unwrapped(self) -> Any:
+        """The environments themselves."""
+        return self
+
+    def __enter__(self) -> Any:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
 
     def __init__(self, core: Any, num_envs: int, copy: bool) -> None:
         self.num_envs = num_envs
@@ -80,3 +92,4 @@ class VectorEnvironment:
     def close(self) -> None:
         """Ends it; what is called later raises InputError. Closing twice is no mistake."""
         self._core.close()
+        self.closed = True

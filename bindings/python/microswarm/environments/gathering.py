@@ -15,7 +15,7 @@ import numpy as np
 
 from .. import _core
 from ..maps import Map
-from ..values import InputError, number, path_text, setting, whole
+from ..values import InputError, array_of, grid_of, number, path_text, setting, told, whole
 from .environment import SingleEnvironment, Steps, VectorEnvironment, count_of
 from .spaces import Box, Discrete, MultiDiscrete
 
@@ -32,6 +32,7 @@ MAZES = {
 PHYSICS = {"Algorithmic": "algorithmic", "Fuzzy": "fuzzy", "Physical": "physical"}
 COUNTS: dict[str, Union[int, str]] = {"FixedPC": 256, "RandomPC": "random", "FilledPC": "filled"}
 GOALS = ("FixedGoal", "RandomGoal")
+MAX_SIDE = 8192
 
 
 def ids() -> list[str]:
@@ -54,7 +55,7 @@ def values_of(name: str) -> dict[str, Any]:
                             "n_particles": COUNTS[count],
                             "observation_type": "simple" if fixed else "multichannel",
                         }
-    raise InputError(f"{name!r} is no environment: it must be a maze of {', '.join(MAZES)}, then {', '.join(PHYSICS)}, then {', '.join(COUNTS)}, then {' or '.join(GOALS)}, then -v0")
+    raise InputError(f"{told(name)} is no environment: it must be a maze of {', '.join(MAZES)}, then {', '.join(PHYSICS)}, then {', '.join(COUNTS)}, then {' or '.join(GOALS)}, then -v0")
 
 
 def _named_maze(name: str) -> np.ndarray:
@@ -86,7 +87,7 @@ def free_cells(maze: Maze, cell_um: Optional[float] = None) -> np.ndarray:
         if not 0 < size <= min(x_hi - x_lo, y_hi - y_lo):
             raise InputError(f"cell_um is {size:g}, must be above 0 and at most the map's {min(x_hi - x_lo, y_hi - y_lo):g}")
         columns, rows = int((x_hi - x_lo) / size + 1e-9), int((y_hi - y_lo) / size + 1e-9)
-        if columns * rows > 8192**2:
+        if columns * rows > MAX_SIDE**2:
             raise InputError(f"cell_um is {size:g}: {columns} × {rows} cells are too many")
         x, y = np.meshgrid(x_lo + size * (np.arange(columns) + 0.5), y_hi - size * (np.arange(rows) + 0.5))
         return maze.is_free(np.column_stack((x.ravel(), y.ravel()))).reshape(rows, columns)
@@ -95,36 +96,36 @@ def free_cells(maze: Maze, cell_um: Optional[float] = None) -> np.ndarray:
     if isinstance(maze, str) and maze in MAZES:
         return _named_maze(maze)
     if isinstance(maze, (str, os.PathLike)):
-        name = path_text(maze)
+        name = path_text(maze, "maze")
         if name.endswith(".csv"):
             try:
-                return np.loadtxt(name, delimiter=",", ndmin=2) > 0.5
+                cells = np.loadtxt(name, delimiter=",", ndmin=2)
             except (OSError, ValueError) as error:
                 raise InputError(f"{name}: {error}") from None
+            return grid_of(name, cells, MAX_SIDE) > 0.5
         return free_cells(Map.load(name, 1), 1)
-    array = np.asarray(maze)
-    if array.ndim != 2 or array.dtype.kind not in "buif":
-        raise InputError(f"a maze must have 2 dimensions and numbers, this one has {array.ndim} of type {array.dtype}")
-    return array != 0
+    return grid_of("maze", maze, MAX_SIDE) != 0
 
 
 def _batch(maze: Maze, goal: Any, n_particles: Union[int, str], cell_um: Optional[float], num_envs: int, threads: int, rules: dict[str, Any]) -> _core.GatheringBatch:
     if isinstance(n_particles, str):
         if n_particles not in ("random", "filled"):
-            raise InputError(f"n_particles is {n_particles!r}, must be a number, 'random' or 'filled'")
+            raise InputError(f"n_particles is {told(n_particles)}, must be a number, 'random' or 'filled'")
         rules["particle_count"] = n_particles
     else:
         rules["n_particles"] = whole("n_particles", n_particles, 10**6)
-    if isinstance(maze, str) and maze in MAZES and isinstance(goal, str) and goal == "default":
+    free = np.ascontiguousarray(free_cells(maze, cell_um), dtype=np.uint8)
+    if isinstance(goal, str) and goal == "default":
+        if not (isinstance(maze, str) and maze in MAZES):
+            raise InputError("goal is missing: only mazes of the benchmark have one; give (column, row), or None for a random one")
         goal = MAZES[maze][0]
     place = None
     if goal is not None:
         try:
             column, row = goal
         except (TypeError, ValueError):
-            raise InputError(f"goal is {goal!r}, must be (column, row) or None for a random one") from None
-        place = [whole("goal column", column, 8191), whole("goal row", row, 8191)]
-    free = np.ascontiguousarray(free_cells(maze, cell_um), dtype=np.uint8)
+            raise InputError(f"goal is {told(goal)}, must be (column, row) or None for a random one") from None
+        place = [whole("goal column", column, MAX_SIDE - 1), whole("goal row", row, MAX_SIDE - 1)]
     return _core.GatheringBatch(free, place, [setting(key, value) for key, value in rules.items()], num_envs, threads)
 
 
@@ -164,7 +165,7 @@ class GatheringEnv(SingleEnvironment):
         **rules: Any,
     ) -> None:
         if render_mode not in (None, "rgb_array"):
-            raise InputError(f"render_mode is {render_mode!r}, must be 'rgb_array' or None")
+            raise InputError(f"render_mode is {told(render_mode)}, must be 'rgb_array' or None")
         self.render_mode = render_mode
         rules |= {"physics": physics, "observation": observation_type}
         self._core = _batch(maze, goal, n_particles, cell_um, 1, 1, rules)
@@ -177,7 +178,7 @@ class GatheringEnv(SingleEnvironment):
         try:
             return self._step(action)
         except TypeError:
-            raise InputError(f"action is {action!r}, must be a whole number from 0 to 7") from None
+            raise InputError(f"action is {told(action)}, must be a whole number from 0 to 7") from None
 
     @property
     def particle_locations(self) -> np.ndarray:
@@ -246,11 +247,10 @@ class GatheringVectorEnv(VectorEnvironment):
 
     def step(self, actions: Sequence[int]) -> Steps:
         """An input for each: arrays of observations, rewards, terminated, truncated, and info."""
-        given = np.asarray(actions)
-        if given.dtype.kind not in "iu" or given.shape != (self.num_envs,):
-            raise InputError(f"actions must be {self.num_envs} whole numbers")
-        if ((given < 0) | (given > 7)).any():
-            raise InputError("an action must be 0 to 7")
+        given = array_of("actions", actions, f"{self.num_envs} whole numbers", kinds="iu", shape=(self.num_envs,))
+        bad = (given < 0) | (given > 7)
+        if bad.any():
+            raise InputError(f"an action is {given[bad][0]}, must be 0 to 7")
         return self._stepped(given.astype(np.uint8))
 
     def particle_locations(self, index: int) -> np.ndarray:

@@ -10,7 +10,7 @@ import numpy as np
 
 from .. import _core
 from ..runs import Source, scenario_of
-from ..values import InputError, setting, whole
+from ..values import InputError, array_of, setting, told, whole
 from .environment import SingleEnvironment, Steps, VectorEnvironment, count_of
 from .spaces import Box
 
@@ -51,7 +51,7 @@ class NavigationEnv(SingleEnvironment):
 
     def __init__(self, scenario: Source, *, render_mode: Optional[str] = None, **rules: Any) -> None:
         if render_mode is not None:
-            raise InputError(f"render_mode is {render_mode!r}, must be None")
+            raise InputError(f"render_mode is {told(render_mode)}, must be None")
         self._core = _batch(scenario, 1, 1, rules)
         self.observation_space, self.action_space = _spaces(self._shape()[0])
 
@@ -59,8 +59,8 @@ class NavigationEnv(SingleEnvironment):
         """One tick: (observation, reward, terminated, truncated, info)."""
         try:
             heading, share = (float(one) for one in action)
-        except (TypeError, ValueError):
-            raise InputError(f"action is {action!r}, must be heading_rad and a share of the speed") from None
+        except (TypeError, ValueError, OverflowError):
+            raise InputError(f"action is {told(action)}, must be heading_rad and a share of the speed") from None
         return self._core.step_one(heading, share)
 
     @property
@@ -90,7 +90,5 @@ class NavigationVectorEnv(VectorEnvironment):
 
     def step(self, actions: Any) -> Steps:
         """An action for each, of shape (num_envs, 2): arrays of observations, rewards, terminated, truncated, and info."""
-        given = np.asarray(actions)
-        if given.dtype.kind not in "buif" or given.shape != (self.num_envs, 2):
-            raise InputError(f"actions must be numbers of the shape ({self.num_envs}, 2)")
-        return self._stepped(given)
+        what = f"numbers of the shape ({self.num_envs}, 2)"
+        return self._stepped(array_of("actions", actions, what, shape=(self.num_envs, 2)))

@@ -33,6 +33,10 @@ except ModuleNotFoundError:
         def close(self) -> None:
             """Nothing is to be closed."""
 
+        def render(self) -> Any:
+            """No picture."""
+            return None
+
     class _Space:
         shape: tuple[int, ...]
         dtype: Any
