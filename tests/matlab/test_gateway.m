@@ -25,6 +25,10 @@ function bad_calls(world)
   for bad = {-1, 0.5, NaN, Inf, [], 'a'}
     refuses(@() session.advance(bad{1}), 'bad_input', 'ticks');
   end
+  refuses(@() session.advance(), 'bad_call', 'advance needs');
+  refuses(@() session.set(), 'bad_call', 'set needs');
+  refuses(@() session.set('goal_um'), 'bad_call', 'set needs a key and a value');
+  refuses(@() session.save(), 'bad_call', 'save needs');
   refuses(@() session.save('no/such/folder/run.h5'), 'bad_input', 'no/such/folder');
   refuses(@() session.save(3), 'bad_input', 'the file');
   assert(~isempty(regexp(microswarm.version(), '^\d+\.\d+\.\d+$', 'once')));

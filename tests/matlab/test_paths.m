@@ -52,6 +52,7 @@ function bad_maps_and_paths(world)
   refuses(@() microswarm.Map(true(2, 2, 2), 10), 'bad_input', 'matrix');
   refuses(@() microswarm.Map(true(0, 3), 10), 'bad_input', 'must be 1 to');
   refuses(@() microswarm.Map('none.png', 10), 'bad_input', 'none.png');
+  refuses(@() map.clearance(), 'bad_call', 'clearance needs');
   refuses(@() map.clearance([1 2 3]), 'bad_input', '2 columns');
   refuses(@() map.clearance([1 NaN]), 'bad_input', 'not finite');
   refuses(@() plan(map), 'bad_call', 'needs a map, a start');

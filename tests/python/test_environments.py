@@ -196,13 +196,19 @@ def test_the_arguments_of_a_gathering_are_checked(maze, tmp_path):
         "n_particles is 'many'": lambda: GatheringEnv(maze, GOAL, n_particles="many"),
         "2 dimensions": lambda: GatheringEnv(np.ones(5), GOAL),
         "no free cell": lambda: GatheringEnv(np.zeros((5, 5)), None),
-        "must have 1 to": lambda: GatheringEnv(np.zeros((0, 5)), None),
+        "a side must be 1 to 8192": lambda: GatheringEnv(np.zeros((0, 5)), None),
         "physics": lambda: GatheringEnv(maze, GOAL, physics="quantum"),
         "drag": lambda: GatheringEnv(maze, GOAL, drag=0.5),
         "colour": lambda: GatheringEnv(maze, GOAL, colour=1),
         "render_mode": lambda: GatheringEnv(maze, GOAL, render_mode="human"),
+        "nope.pgm": lambda: GatheringEnv("nope.pgm"),
+        "maze is None, must be": lambda: GatheringEnv(None),
+        "goal is missing": lambda: GatheringEnv(maze),
+        "maze has nan, must be finite": lambda: environments.free_cells(np.full((2, 2), np.nan)),
+        r"maze has the shape \(100000, 100000\)": lambda: GatheringEnv(np.broadcast_to(np.True_, (100_000, 100_000)), GOAL),
         "cell_um is missing": lambda: GatheringEnv(ms.Map.from_image(maze, 10), GOAL),
-        "num_envs is 0": lambda: GatheringVectorEnv(0, maze, GOAL),
+        "num_envs is 0, must be 1 to": lambda: GatheringVectorEnv(0, maze, GOAL),
+        "num_envs is -1, must be 1 to": lambda: GatheringVectorEnv(-1, maze, GOAL),
         "8 GB": lambda: GatheringVectorEnv(10**6, np.ones((4000, 4000)), (5, 5)),
         "is not here|n_particles": lambda: environments.make("PulmonaryAlgorithmicFixedPCFixedGoal-v0"),
         "maze.csv": lambda: GatheringEnv(tmp_path / "maze.csv", GOAL),
@@ -215,7 +221,7 @@ def test_the_arguments_of_a_gathering_are_checked(maze, tmp_path):
             env.step(bad)
     env.step(np.int64(3)), env.step(np.uint8(3)), env.step(True)
     batch = GatheringVectorEnv(3, maze, GOAL, n_particles=5)
-    for bad in ([1, 2], [1, 2, 8], [1, 2, -1], None, [1.0, 2.0, 3.0], 5, np.zeros((3, 1), int)):
+    for bad in ([1, 2], [[0, 1], [2]], [1, 2, 8], [1, 2, -1], None, [1.0, 2.0, 3.0], 5, np.zeros((3, 1), int)):
         with pytest.raises(ms.InputError, match="action"):
             batch.step(bad)
     batch.step(np.arange(6)[::2])
@@ -249,6 +255,16 @@ def test_observations_that_are_not_copied_stay_the_environments(maze):
     del batch
     gc.collect()
     assert kept.sum() > 0  # keeps the environments alive
+
+
+def test_environments_have_what_gymnasiums_have(maze):
+    with GatheringVectorEnv(2, maze, GOAL, n_particles=5) as batch:
+        assert batch.unwrapped is batch and batch.spec is None and batch.render_mode is None and not batch.closed
+    assert batch.closed
+    with pytest.raises(ms.InputError, match="closed"):
+        batch.reset()
+    if importlib.util.find_spec("gymnasium") is None:
+        assert NavigationEnv(SCENARIOS / "first_flight.yaml").render() is None
 
 
 def test_two_threads_on_one_environment_are_told(maze):
@@ -383,11 +399,11 @@ def test_the_arguments_of_a_navigation_are_checked():
         with pytest.raises(ms.InputError, match=words):
             call()
     env = NavigationEnv(SCENARIOS / "first_flight.yaml")
-    for bad in ((1,), (1, 2, 3), None, (np.nan, 1), (0, -0.1), (0, 1.1), (0, np.nan), "ab", 5):
+    for bad in ((1,), (1, 2, 3), (10**400, 1), None, (np.nan, 1), (0, -0.1), (0, 1.1), (0, np.nan), "ab", 5):
         with pytest.raises(ms.InputError, match="action"):
             env.step(bad)
     batch = NavigationVectorEnv(2, SCENARIOS / "first_flight.yaml")
-    for bad in ([[0, 1]], [[0, 1], [0, 2]], [[0, 1], [np.inf, 1]], None, [0, 1], [["a", "b"], ["c", "d"]]):
+    for bad in ([[0, 1]], [[0, 1], [2]], [[0, 1], [0, 2]], [[0, 1], [np.inf, 1]], None, [0, 1], [["a", "b"], ["c", "d"]]):
         with pytest.raises(ms.InputError, match="action"):
             batch.step(bad)
 

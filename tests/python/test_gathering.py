@@ -98,12 +98,14 @@ def test_what_does_not_suit_the_method_is_noted(tee):
 @pytest.mark.parametrize(
     "values, words",
     [
-        ({"map": None}, "map is NoneType"),
+        ({"map": None}, "map is None"),
         ({"goal_um": (500, 30)}, "goal"),
         ({"goal_um": (5000, 30)}, "outside"),
         ({"goal_um": (np.nan, 30)}, "goal"),
-        ({"goal_um": "there"}, "goal_um must be"),
-        ({"n": 0}, "n is 0"),
+        ({"goal_um": "there"}, "goal_um is 'there', must be"),
+        ({"n": 0}, "n is 0, must be 1 to 1000000"),
+        ({"n": -1}, "n is -1, must be 1 to 1000000"),
+        ({"settings": 5}, "settings is 5, must be a dictionary"),
         ({"n": 2.5}, "n is 2.5"),
         ({"n": 10**9}, "n is"),
         ({"robots_um": []}, "no robots"),
@@ -169,7 +171,7 @@ def test_limits_end_a_search(rooms):
 @pytest.mark.parametrize(
     "values, words",
     [
-        ({"map": "map.png"}, "map is str"),
+        ({"map": "map.png"}, "map is 'map.png'"),
         ({"robots_um": None}, "robots_um"),
         ({"robots_um": []}, "0 robots"),
         ({"robots_um": ROBOTS * 33, "goals_um": GOALS * 33}, "66 robots"),

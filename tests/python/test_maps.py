@@ -92,6 +92,9 @@ def test_images_of_every_kind_give_the_same_map(room):
         (np.full((3, 3), 200.0), 1, "threshold is missing"),
         (np.full((3, 3), 200), 1, "threshold is missing"),
         (None, 1, "2 dimensions"),
+        ([[1, 2], [3]], 1, r"image is \[\[1, 2\], \[3\]\], must be an array"),
+        (np.broadcast_to(np.True_, (100_000, 100_000)), 1, "a side must be 1 to 65535"),
+        (np.ones((3, 3), bool), 10**400, "um_per_px is 1000.*…, must be finite"),
         (np.ones((3, 3), bool), 0, "um_per_px"),
         (np.ones((3, 3), bool), np.nan, "um_per_px"),
     ],
@@ -130,10 +133,11 @@ def test_what_cannot_be_planned(room):
     for start, goal, values, words in [
         ((200, 50), (350, 50), {}, "start"),
         ((50, 50), (5000, 50), {}, "outside"),
-        ((50,), (350, 50), {}, "start must be"),
+        ((50,), (350, 50), {}, r"start is \(50,\), must be"),
         ((50, 50), (350, np.nan), {}, "finite"),
         ((50, 50, np.nan), (350, 50), {}, "finite"),
         ((50, 50, -np.inf), (350, 50), {}, "finite"),
+        ((10**400, 50), (350, 50), {}, "start is"),
         ((50, 50), (350, 50), {"planner": "magic"}, "allowed"),
         ((50, 50), (350, 50), {"planner": "rrt", "stpe_um": 5}, "did you mean 'step_um'"),
         ((50, 50), (350, 50), {"planner": "rrt", "max_nodes": -1}, "max_nodes"),
@@ -144,6 +148,8 @@ def test_what_cannot_be_planned(room):
     ]:
         with pytest.raises(ms.InputError, match=words):
             ms.plan(room, start, goal, **values)
+    with pytest.raises(ms.InputError, match="map is None, must be a Map"):
+        ms.plan(None, (50, 50), (350, 50))
     limited = ms.plan(room, (50, 50), (350, 50), "rrt", max_nodes=3)
     assert not limited.solved and "max_nodes" in limited.why_none
 

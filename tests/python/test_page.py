@@ -56,13 +56,6 @@ def test_plans(names):
 
 
 def test_currents(names, tmp_path):
-    names["positions_um"] = np.tile((1000, 0, 0), (100, 1))
-    first, second = code_of("Currents for a field")
-    exec(first, names)  # noqa: S102
-    assert names["currents_a"].shape == (100, 6)
-    coils, rng = names["coils"], np.random.default_rng(1)
-    names["currents_a"] = rng.uniform(-3, 3, (100, 6))  # measured ones are not in a plane
-    names["fields_mt"] = coils.field(names["currents_a"], (1000, 0, 0))
-    exec(second, names)  # noqa: S102
-    assert (tmp_path / "coils.yaml").exists()
-    assert np.allclose(names["mine"].matrix(), coils.matrix((1000, 0, 0)))
+    made = run("Currents for a field", names)
+    assert made["currents_a"].shape == (100, 6) and (tmp_path / "coils.yaml").exists()
+    assert np.allclose(made["mine"].matrix(), made["coils"].matrix((1000, 0, 0)))

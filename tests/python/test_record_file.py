@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """A record in the hands of other programs: HDF5's own tools, and Octave."""
 
+import copy
+import pickle
 import re
 import shutil
 import subprocess
@@ -80,3 +82,10 @@ def test_octave_reads_groups_by_name_beside_a_text_that_it_cannot_read(flight, t
     record.save(tmp_path / "run.h5")
     printed = octave("run = load('-hdf5', 'run.h5', 'frames'); printf('%.17g ', run.frames.x_um);", tmp_path)
     assert np.array_equal(np.array(printed.split(), dtype=float), record.frames["x_um"])
+
+
+def test_records_pickle(flight):
+    record = ms.run(flight, progress=False)
+    for other in (pickle.loads(pickle.dumps(record)), copy.deepcopy(record)):
+        assert other.hash == record.hash and other.metrics == record.metrics and other.replay() == (True, "")
+        assert np.array_equal(other.step_time_s, record.step_time_s)

@@ -2,6 +2,7 @@
 """Scenarios as objects."""
 
 import copy
+import os
 import pickle
 import random
 
@@ -10,6 +11,7 @@ import pytest
 
 import microswarm as ms
 from conftest import SCENARIOS
+from microswarm.environments import NavigationEnv
 
 
 def test_keys_are_attributes_with_their_units(flight):
@@ -38,6 +40,16 @@ def test_the_yaml_of_a_scenario_is_that_scenario(flight):
     assert ms.run(again, progress=False).hash == ms.run(flight, progress=False).hash
 
 
+def nested(depth):
+    """Lists in lists; with None, a list in itself."""
+    made = []
+    if depth is None:
+        made.append(made)
+    for _ in range(depth or 0):
+        made = [made]
+    return made
+
+
 @pytest.mark.parametrize(
     "key, value, words",
     [
@@ -51,6 +63,14 @@ def test_the_yaml_of_a_scenario_is_that_scenario(flight):
         ("tick_s", {1, 2}, "type set"),
         ("tick_s", object(), "type object"),
         ("navigator.type", "magic", "allowed"),
+        ("navigator.speed_um_per_s", float("nan"), "navigator.speed_um_per_s is nan, must be finite"),
+        ("goal_um", nested(100_000), "goal_um is .*nested too deeply"),
+        ("goal_um", nested(None), "goal_um is .*contains itself"),
+        ("goal_um", {(1, 2): 3}, "goal_um is .*keys must be"),
+        ("tick_s", [10**5000], "tick_s is .*must be finite"),
+        ("name", "\udcff", "name is .*UTF-8"),
+        ("obstacles", ["\udcff"], "obstacles is .*UTF-8"),
+        ("na\udcff", 1, "UTF-8"),
     ],
 )
 def test_bad_values_change_nothing(flight, key, value, words):
@@ -81,6 +101,26 @@ def test_files_that_are_none(tmp_path):
     assert issubclass(ms.InputError, ValueError)
 
 
+@pytest.mark.parametrize("name", [None, 5, "", b"a.yaml", "a\0b", os.fsdecode(b"b\xff/f.yaml")])
+def test_what_is_no_name_of_a_file_is_told(flight, name):
+    record = ms.run(flight.copy().set("time_limit_s", 1), progress=False)
+    for call in (
+        *(ms.Scenario.load, ms.run, ms.sweep, ms.Navigator, ms.Session, NavigationEnv, ms.read_record),
+        *(record.save, record.draw, ms.Coils.load, ms.Coils.from_csv, ms.Map.load),
+    ):
+        with pytest.raises(ms.InputError, match=r"^(path|scenario) is .*, must be [^\n]*$"):
+            call(name)
+
+
+@pytest.mark.parametrize(
+    "values, words",
+    [((None,), "text is None"), (("\udcff",), "UTF-8"), (("a: 1", None), "folder is None"), (("a: 1", "", 5), "name is 5, must be a text")],
+)
+def test_texts_that_are_none(values, words):
+    with pytest.raises(ms.InputError, match=words):
+        ms.Scenario.from_text(*values)
+
+
 def test_places_and_lists_are_replaced_as_a_whole(flight):
     with pytest.raises(TypeError):
         flight.goal_um[0] = 1000
@@ -109,7 +149,7 @@ def test_files_are_found_from_another_folder(tmp_path, monkeypatch):
     scenario = ms.Scenario.load("scenarios/demo.yaml").set("time_limit_s", 1)
     monkeypatch.chdir(tmp_path)
     assert ms.run(scenario, progress=False).status == "time_limit"
-    with pytest.raises(ms.InputError, match="no name of a file"):
+    with pytest.raises(ms.InputError, match="must be the name of a file"):
         ms.Scenario.load(str(SCENARIOS / "demo.yaml") + "\0more")
 
 

@@ -17,7 +17,7 @@ classdef Map < microswarm.internal.Handle
     % source      a picture, ROS .yaml, MovingAI .map, GeoJSON or CSV of rectangles, or a matrix of class
     %             logical or uint8, the upper row first: the swarm may go where it is not 0
     % um_per_px   side of a pixel or cell [um]; needed where the file does not tell it
-      if nargin < 1, error('microswarm:bad_call', 'a map needs a file or a matrix'); end
+      microswarm.internal.need(nargin, 1, 'a map needs a file or a matrix');
       if nargin < 2, um_per_px = 0; end
       if isa(source, 'string') && isscalar(source), source = char(source); end
       if ~ischar(source) && isequal(um_per_px, 0)
@@ -33,6 +33,7 @@ classdef Map < microswarm.internal.Handle
 
     function distances = clearance(self, places_um)
     % distances = map.clearance(places_um)   From each row x, y to walls and border [um], 0 in a wall.
+      microswarm.internal.need(nargin, 2, 'clearance needs places_um');
       distances = microswarm_mex('map_clearance', self.id, places_um);
     end
   end

@@ -21,7 +21,7 @@ classdef Navigator < microswarm.internal.Handle
     % scenario   a file, or YAML text of several lines
     % settings   'KEY=VALUE', or 'KEY', value, with the keys of a scenario file
     %            and 'trial', k, which selects the random streams; 0 without
-      if nargin < 1, error('microswarm:bad_call', 'a navigator needs a scenario'); end
+      microswarm.internal.need(nargin, 1, 'a navigator needs a scenario');
       self.id = microswarm.internal.open_source('navigator', scenario, varargin);
     end
 
@@ -43,7 +43,7 @@ classdef Navigator < microswarm.internal.Handle
     % command.planned     whether it called a planner
     %
     % A step that is refused (microswarm:bad_input) changes nothing.
-      if nargin < 2, error('microswarm:bad_call', 'step needs the time t'); end
+      microswarm.internal.need(nargin, 2, 'step needs the time t');
       if nargin < 3, swarm = []; end
       if nargin < 4, obstacles = []; end
       if nargin < 5, robots = []; end

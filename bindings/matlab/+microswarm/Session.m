@@ -23,7 +23,7 @@ classdef Session < microswarm.internal.Handle
     % scenario   a file, or YAML text of several lines
     % settings   'KEY=VALUE', or 'KEY', value, with the keys of a scenario file
     %            and 'trial', k, which selects the random streams; 0 without
-      if nargin < 1, error('microswarm:bad_call', 'a session needs a scenario'); end
+      microswarm.internal.need(nargin, 1, 'a session needs a scenario');
       self.id = microswarm.internal.open_source('session', scenario, varargin);
     end
 
@@ -34,11 +34,13 @@ classdef Session < microswarm.internal.Handle
 
     function ended = advance(self, ticks)
     % ended = session.advance(ticks)   At most so many ticks; true when the run has ended.
+      microswarm.internal.need(nargin, 2, 'advance needs the number of ticks');
       ended = microswarm_mex('session_advance', self.id, ticks);
     end
 
     function set(self, key, value)
     % session.set(key, value)   Sets a value from the next tick on: session.set('goal_um', [1500 300]).
+      microswarm.internal.need(nargin, 3, 'set needs a key and a value');
       key = microswarm.internal.plain_text(key, 'the key');
       microswarm_mex('session_set', self.id, key, microswarm.internal.value_text(value, key));
     end
@@ -86,6 +88,7 @@ classdef Session < microswarm.internal.Handle
 
     function save(self, file)
     % session.save(file)   Writes the record (HDF5).
+      microswarm.internal.need(nargin, 2, 'save needs a file');
       microswarm_mex('session_record', self.id, microswarm.internal.plain_text(file, 'the file'));
     end
   end

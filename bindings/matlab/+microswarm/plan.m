@@ -26,7 +26,7 @@ function path = plan(map, start, goal, varargin)
 % Errors: microswarm:bad_input for a file, matrix, place or value.
 
   % SPDX-License-Identifier: Apache-2.0
-  if nargin < 3, error('microswarm:bad_call', 'plan needs a map, a start and a goal'); end
+  microswarm.internal.need(nargin, 3, 'plan needs a map, a start and a goal');
   um_per_px = 0;
   seed = 1;
   settings = {'planner.type=exact'};

@@ -10,7 +10,7 @@ function result = read_record(file)
 % Errors: microswarm:bad_input for a file that is no record.
 
   % SPDX-License-Identifier: Apache-2.0
-  if nargin < 1, error('microswarm:bad_call', 'read_record needs a file'); end
+  microswarm.internal.need(nargin, 1, 'read_record needs a file');
   file = microswarm.internal.plain_text(file, 'the file');
   stream = fopen(file, 'r');
   if stream < 0, error('microswarm:bad_input', '%s: cannot be opened', file); end

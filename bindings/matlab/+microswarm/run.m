@@ -17,7 +17,7 @@ function result = run(scenario, varargin)
 % Ctrl-C ends it between ticks. Errors: microswarm:bad_input for a file, key or value.
 
   % SPDX-License-Identifier: Apache-2.0
-  if nargin < 1, error('microswarm:bad_call', 'run needs a scenario'); end
+  microswarm.internal.need(nargin, 1, 'run needs a scenario');
   session = microswarm.Session(scenario, varargin{:});
   while ~session.advance(20), end
   result = session.result();

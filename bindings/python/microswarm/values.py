@@ -147,16 +147,16 @@ def text_of(key: str, value: Any) -> str:
     if isinstance(value, str):
         return text(key, value)
     try:
-        return text(key, json.dumps(value, allow_nan=False, default=plain))
+        return text(key, json.dumps(value, allow_nan=False, ensure_ascii=False, default=plain))
     except InputError:
         raise
     except RecursionError:
-        why = "is nested too deeply"
+        why = "which is nested too deeply"
     except TypeError as error:
         why = str(error)
     except ValueError as error:
-        why = "contains itself" if "Circular" in str(error) else "must be finite"
-    raise InputError(f"{key} is {told(value)}: it {why}")
+        why = "which contains itself" if "Circular" in str(error) else "must be finite"
+    raise InputError(f"{key} is {told(value)}, {why}")
 
 
 def plain(value: Any) -> Any:
@@ -164,4 +164,4 @@ def plain(value: Any) -> Any:
     for way in ("tolist", "to_dict"):
         if hasattr(value, way):
             return getattr(value, way)()
-    raise TypeError(f"cannot be of type {type(value).__name__}")
+    raise TypeError(f"must not be of type {type(value).__name__}")

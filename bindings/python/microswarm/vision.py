@@ -12,7 +12,7 @@ import numpy as np
 from . import _core
 from .maps import Map
 from .runs import Progress, shown
-from .values import InputError, array_of, number, path_text, setting
+from .values import InputError, array_of, number, path_text, setting, told
 
 PathLike = Union[str, "os.PathLike[str]"]
 
@@ -104,7 +104,7 @@ def track(
         settings.append(setting("rate_hz", in_range("fps", fps, 1e-6, 1e6)))
     with shown(progress) as report:
         if isinstance(frames, (str, os.PathLike)):
-            made = _core.track_file(path_text(frames), settings, report)
+            made = _core.track_file(path_text(frames, "frames"), settings, report)
             if made["ended"]:
                 warnings.warn(f"the tracks end at picture {made['frames']}: {made['ended']}", stacklevel=2)
         elif fps is None:
@@ -131,7 +131,7 @@ def track_arrays(frames: Any, settings: list[str], report: Any, times: Optional[
     try:
         pictures = iter(frames)
     except TypeError:
-        raise InputError(f"frames is {type(frames).__name__}, must be an array, an iterable of arrays or a file") from None
+        raise InputError(f"frames is {told(frames)}, must be an array, an iterable of arrays or a file") from None
     tracker = _core.ArrayTracker(settings)
     done = 0
     for done, frame in enumerate(pictures, 1):
@@ -176,7 +176,7 @@ def structured(columns: dict[str, np.ndarray]) -> np.ndarray:
 
 def picture_of(name: str, image: Any) -> np.ndarray:
     """A picture as a contiguous array of uint8 or uint16."""
-    array = array_of(name, image, "an array of uint8 or uint16", kinds="buifcO")
+    array = array_of(name, image, "an array of uint8 or uint16", kinds="buifc")
     if array.ndim == 3 and array.shape[2] == 1:
         array = array[:, :, 0]
     if array.ndim != 2 and not (array.ndim == 3 and array.shape[2] == 3):
