@@ -116,9 +116,17 @@ py::tuple step_one(All& all, const EnvironmentStep& made) {
   return out;
 }
 
+/// Array for a copy of all observations; null for none.
+template <class All>
+using Copy = std::optional<py::array_t<typename All::Number, py::array::c_style>>;
+
 /// Steps all, environment i with `action(i)`.
 template <class All, class Action>
-py::tuple step_all(All& all, Action&& action) {
+py::tuple step_all(All& all, Copy<All>& copy, Action&& action) {
+  std::span<typename All::Number> copied;
+  if (copy) copied = {copy->mutable_data(), static_cast<std::size_t>(copy->size())};
+  if (copy && copied.size() != all.batch.observations()->size())
+    throw InputError("an array for the observations must have their shape");
   const auto count = static_cast<py::ssize_t>(all.batch.count());
   py::array_t<double> rewards(count);
   py::array_t<bool> terminated(count);
@@ -130,7 +138,7 @@ py::tuple step_all(All& all, Action&& action) {
   const auto ended = bytes(terminated);
   const auto cut = bytes(truncated);
   all.steps.call([&](const Stop& stop) {
-    all.batch.step(action, to, ended, cut, stop);
+    all.batch.step(action, to, ended, cut, copied, stop);
     return true;
   });
   return py::make_tuple(rewards, terminated, truncated);
@@ -216,14 +224,14 @@ void add_gathering(py::module_& module) {
            })
       .def("step",
            [](Guarded<Gathering>& open,
-              const py::array_t<std::uint8_t, py::array::c_style>& actions) {
+              const py::array_t<std::uint8_t, py::array::c_style>& actions, Copy<Gathering> copy) {
              return open.use([&](Gathering& all) {
                const std::span<const std::uint8_t> given{actions.data(),
                                                          static_cast<std::size_t>(actions.size())};
                if (given.size() != all.batch.count())
                  throw InputError("there must be an action for each environment");
                for (const std::uint8_t action : given) action_of(all, action);
-               return step_all(all, [&](std::size_t i) { return std::size_t{given[i]}; });
+               return step_all(all, copy, [&](std::size_t i) { return std::size_t{given[i]}; });
              });
            })
       .def("rules",
@@ -252,7 +260,7 @@ void add_navigation(py::module_& module) {
              });
            })
       .def("step",
-           [](Guarded<Navigation>& open, const Numbers& actions) {
+           [](Guarded<Navigation>& open, const Numbers& actions, Copy<Navigation> copy) {
              return open.use([&](Navigation& all) {
                const std::size_t count = all.batch.count();
                if (actions.ndim() != 2 || actions.shape(1) != 2 ||
@@ -263,7 +271,7 @@ void add_navigation(py::module_& module) {
                const double* numbers = actions.data();
                for (std::size_t i = 0; i < count; ++i, numbers += 2)
                  given.push_back(action_of(all, numbers[0], numbers[1]));
-               return step_all(all, [&](std::size_t i) { return given[i]; });
+               return step_all(all, copy, [&](std::size_t i) { return given[i]; });
              });
            })
       .def("rules",

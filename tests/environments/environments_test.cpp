@@ -130,7 +130,7 @@ TEST(EnvironmentBatch, NeedsAResetAfterAStop) {
   std::vector<std::uint8_t> ended(3), cut(3);
   const auto east = [](std::size_t) { return std::size_t{0}; };
   std::atomic<bool> stops = true;
-  batch.step(east, rewards, ended, cut, Stop(&stops));
+  batch.step(east, rewards, ended, cut, {}, Stop(&stops));
   EXPECT_THROW(batch.step(east, rewards, ended, cut), InputError);
   batch.reset();
   batch.step(east, rewards, ended, cut);

@@ -257,6 +257,24 @@ def test_observations_that_are_not_copied_stay_the_environments(maze):
     assert kept.sum() > 0  # keeps the environments alive
 
 
+def test_copied_observations_are_not_written_again_while_they_are_held(maze):
+    batch = GatheringVectorEnv(3, maze, GOAL, n_particles=50)
+    other = GatheringVectorEnv(3, maze, GOAL, n_particles=50, copy=False)
+    batch.reset(seed=1), other.reset(seed=1)
+    held, expected, views = [], [], []
+    for step in range(12):
+        given = [step % 8, 3, 5]
+        observations = batch.step(given)[0]
+        expected.append(other.step(given)[0].copy())
+        assert np.array_equal(observations, expected[-1])
+        if step % 3 == 0:
+            held.append((step, observations))
+        if step % 4 == 0:
+            views.append((step, observations[1]))
+    assert all(np.array_equal(one, expected[step]) for step, one in held)
+    assert all(np.array_equal(one, expected[step][1]) for step, one in views)
+
+
 def test_environments_have_what_gymnasiums_have(maze):
     with GatheringVectorEnv(2, maze, GOAL, n_particles=5) as batch:
         assert batch.unwrapped is batch and batch.spec is None and batch.render_mode is None and not batch.closed

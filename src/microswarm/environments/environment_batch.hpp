@@ -45,11 +45,12 @@ class EnvironmentBatch {
     });
   }
   /// An input for each environment, `action(i)`. One whose episode ended with the step before
-  /// begins the next one instead, with a reward of 0. The spans have count() values. Throws
+  /// begins the next one instead, with a reward of 0. The spans have count() values; `copy` is
+  /// empty or as long as the observations, which are copied there while they are at hand. Throws
   /// InputError after a call that was stopped.
   template <class Action>
   void step(Action&& action, std::span<double> rewards, std::span<std::uint8_t> terminated,
-            std::span<std::uint8_t> truncated, const Stop& stop = {}) {
+            std::span<std::uint8_t> truncated, std::span<Number> copy = {}, const Stop& stop = {}) {
     if (was_stopped_) throw InputError("the last call was interrupted: a reset is needed");
     for_each(stop, [&](std::size_t i) {
       EnvironmentStep made;
@@ -61,6 +62,9 @@ class EnvironmentBatch {
       terminated[i] = made.terminated;
       truncated[i] = made.truncated;
       has_ended_[i] = made.terminated || made.truncated;
+      if (copy.empty()) return;
+      const std::size_t size = observations_->size() / count();
+      std::copy_n(observations_->data() + i * size, size, copy.data() + i * size);
     });
   }
 

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from typing import Any, Optional
 
 import numpy as np
@@ -71,13 +72,22 @@ class VectorEnvironment:
         self._copy = copy
         self._all = core.observations()
         self._all.flags.writeable = False
+        self._made: list[np.ndarray] = []
 
-    def _observations(self) -> np.ndarray:
-        return self._all.copy() if self._copy else self._all
+    def _array(self) -> Optional[np.ndarray]:
+        """An array for a copy of the observations: one that nobody else holds any more, or a new one."""
+        if not self._copy:
+            return None
+        for one in self._made:
+            if sys.getrefcount(one) == 3:  # of the list, of `one` and of the call
+                return one
+        self._made = [np.empty_like(self._all), *self._made[:2]]
+        return self._made[0]
 
     def _stepped(self, actions: np.ndarray) -> Steps:
-        rewards, terminated, truncated = self._core.step(actions)
-        return self._observations(), rewards, terminated, truncated, {}
+        array = self._array()
+        rewards, terminated, truncated = self._core.step(actions, array)
+        return self._all if array is None else array, rewards, terminated, truncated, {}
 
     @property
     def rules(self) -> dict[str, Any]:
@@ -87,7 +97,7 @@ class VectorEnvironment:
     def reset(self, *, seed: Optional[int] = None, options: Any = None) -> tuple[np.ndarray, dict[str, Any]]:
         """Begins an episode in each environment: the first of a seed, or the next."""
         self._core.reset(seed_of(seed))
-        return self._observations(), {}
+        return self._all.copy() if self._copy else self._all, {}
 
     def close(self) -> None:
         """Ends it; what is called later raises InputError. Closing twice is no mistake."""

@@ -69,10 +69,10 @@ std::size_t GatheringTask::episode_bytes() const {
     particles = static_cast<std::size_t>(rules.n_particles);
   else if (rules.particle_count == ParticleCount::random)
     particles = std::min(particles, max_random_particles);
-  const std::size_t a_particle = rules.physics == ParticlePhysics::physical ? 80 : 8;
-  const std::size_t a_number = goal ? 4 : 8;  // of the motion, and of a goal's costs
+  const std::size_t a_particle = rules.physics == ParticlePhysics::physical ? 56 : 8;
+  const std::size_t of_goal = goal ? 0 : 4 * maze.size() + picture_size();
   constexpr std::size_t itself = 1000;
-  return a_particle * particles + a_number * maze.size() + (goal ? 0 : picture_size()) + itself;
+  return a_particle * particles + of_goal + itself;
 }
 
 GatheringEpisode::GatheringEpisode(const GatheringTask& task, std::uint64_t seed,

@@ -27,10 +27,29 @@ std::uint64_t threshold(double probability) {
 
 }  // namespace
 
+/// What a step needs and leaves nothing in. A thread has one, so that many gatherings fit into its
+/// caches.
+struct ParticleMotion::Scratch {
+  std::vector<std::uint32_t> aims;    ///< cells into which the particles would come
+  std::vector<std::uint8_t> moves;    ///< whether they do
+  std::vector<double> shares;         ///< 1 for those that do, 0 for those that are stopped
+  std::vector<std::uint32_t> movers;  ///< those that change their cell
+  std::vector<std::uint32_t> at;      ///< of each cell, particles or group + 1; 0 between steps
+
+  static Scratch& of_thread(std::size_t cells, std::size_t particles) {
+    thread_local Scratch scratch;
+    if (scratch.at.size() < cells) scratch.at.resize(cells, 0);
+    if (scratch.aims.size() < particles) {
+      scratch.aims.resize(particles);
+      scratch.moves.resize(particles);
+      scratch.shares.resize(particles);
+    }
+    return scratch;
+  }
+};
+
 ParticleMotion::ParticleMotion(const GatheringMaze& maze, const GatheringRules& rules)
-    : maze_(maze), rules_(rules) {
-  at_.assign(maze_.size(), 0);
-}
+    : maze_(maze), rules_(rules) {}
 
 void ParticleMotion::place(std::vector<std::uint32_t> cells, Rng& rng) {
   cells_ = std::move(cells);
@@ -42,9 +61,6 @@ void ParticleMotion::place(std::vector<std::uint32_t> cells, Rng& rng) {
   columns_ = rows_;
   weights_.resize(n);
   accelerations_.resize(n);
-  aims_.resize(n);
-  moves_.resize(n);
-  shares_.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     const MazePlace at = maze_.place(cells_[i]);
     rows_.at[i] = at.row;
@@ -71,9 +87,10 @@ void ParticleMotion::step(std::size_t action, Rng& rng) {
 }
 
 void ParticleMotion::merge_groups() {
+  std::vector<std::uint32_t>& at = Scratch::of_thread(maze_.size(), 0).at;
   std::uint32_t kept = 0;
   for (std::size_t i = 0; i < cells_.size(); ++i) {
-    std::uint32_t& other = at_[cells_[i]];
+    std::uint32_t& other = at[cells_[i]];
     if (other != 0) {
       counts_[other - 1] += counts_[i];
       continue;
@@ -84,7 +101,7 @@ void ParticleMotion::merge_groups() {
   }
   cells_.resize(kept);
   counts_.resize(kept);
-  for (const std::uint32_t cell : cells_) at_[cell] = 0;
+  for (const std::uint32_t cell : cells_) at[cell] = 0;
 }
 
 void ParticleMotion::step_algorithmic(MazePlace move) {
@@ -114,26 +131,29 @@ void ParticleMotion::step_fuzzy(MazePlace move, std::uint64_t key) {
 
 void ParticleMotion::step_physical(MazePlace move) {
   const std::size_t n = cells_.size();
+  Scratch& scratch = Scratch::of_thread(maze_.size(), n);
+  std::vector<std::uint32_t>& aims = scratch.aims;
+  std::vector<std::uint8_t>& moves = scratch.moves;
   accelerate(rows_, move.row);
   accelerate(columns_, move.column);
   const double last_row = maze_.height() - 1;
   const double last_column = maze_.width() - 1;
   const auto cell_of = [](const Axis& axis, std::size_t i, double last) {
-    const double at = axis.at[i] + axis.speed[i];
-    return static_cast<int>(nearest(std::min(std::max(at, 0.0), last)));
+    const double exact = axis.at[i] + axis.speed[i];
+    return static_cast<int>(nearest(std::min(std::max(exact, 0.0), last)));
   };
   for (std::size_t i = 0; i < n; ++i) {
-    aims_[i] = maze_.number({cell_of(rows_, i, last_row), cell_of(columns_, i, last_column)});
-    moves_[i] = maze_.is_free(aims_[i]);
+    aims[i] = maze_.number({cell_of(rows_, i, last_row), cell_of(columns_, i, last_column)});
+    moves[i] = maze_.is_free(aims[i]);
   }
-  if (rules_.particle_self_collision) block_full_cells();
+  if (rules_.particle_self_collision) block_full_cells(scratch);
   for (std::size_t i = 0; i < n; ++i) {
-    const bool moves = (moves_[i] != 0) | (aims_[i] == cells_[i]);
-    cells_[i] = moves ? aims_[i] : cells_[i];
-    shares_[i] = moves ? 1 : 0;
+    const bool does = (moves[i] != 0) | (aims[i] == cells_[i]);
+    cells_[i] = does ? aims[i] : cells_[i];
+    scratch.shares[i] = does ? 1 : 0;
   }
-  advance(rows_);
-  advance(columns_);
+  advance(rows_, scratch);
+  advance(columns_, scratch);
 }
 
 void ParticleMotion::accelerate(Axis& axis, int direction) {
@@ -141,10 +161,10 @@ void ParticleMotion::accelerate(Axis& axis, int direction) {
 }
 
 // Without a branch, so that several particles are done at once.
-void ParticleMotion::advance(Axis& axis) {
+void ParticleMotion::advance(Axis& axis, const Scratch& scratch) {
   constexpr double slowest = 0.01;
   const double drag = rules_.drag;
-  const double* const shares = shares_.data();
+  const double* const shares = scratch.shares.data();
   double* const places = axis.at.data();
   double* const speeds = axis.speed.data();
   const std::size_t n = cells_.size();
@@ -160,30 +180,34 @@ void ParticleMotion::advance(Axis& axis) {
 
 // Those that would come into a cell with too many stay, until no cell has more than fit. All of a
 // round are judged by the same counts; each round but the last stops at least one.
-void ParticleMotion::block_full_cells() {
+void ParticleMotion::block_full_cells(Scratch& scratch) {
+  const std::vector<std::uint32_t>& aims = scratch.aims;
+  std::vector<std::uint8_t>& moves = scratch.moves;
+  std::vector<std::uint32_t>& movers = scratch.movers;
+  std::vector<std::uint32_t>& at = scratch.at;
   const auto most = static_cast<std::uint32_t>(rules_.max_particles_per_cell);
-  movers_.resize(cells_.size());
-  std::size_t movers = 0;
+  movers.resize(cells_.size());
+  std::size_t count = 0;
   for (std::uint32_t i = 0; i < cells_.size(); ++i) {
-    const bool moves = (moves_[i] != 0) & (aims_[i] != cells_[i]);
-    ++at_[moves ? aims_[i] : cells_[i]];
-    movers_[movers] = i;
-    movers += moves;
+    const bool does = (moves[i] != 0) & (aims[i] != cells_[i]);
+    ++at[does ? aims[i] : cells_[i]];
+    movers[count] = i;
+    count += does;
   }
-  movers_.resize(movers);
+  movers.resize(count);
   for (std::size_t blocked = 1; blocked > 0;) {
-    const auto fits = [&](std::uint32_t i) { return at_[aims_[i]] <= most; };
-    const auto first = std::partition(movers_.begin(), movers_.end(), fits);
-    blocked = static_cast<std::size_t>(movers_.end() - first);
-    for (auto i = first; i != movers_.end(); ++i) {
-      moves_[*i] = 0;
-      --at_[aims_[*i]];
-      ++at_[cells_[*i]];
+    const auto fits = [&](std::uint32_t i) { return at[aims[i]] <= most; };
+    const auto first = std::partition(movers.begin(), movers.end(), fits);
+    blocked = static_cast<std::size_t>(movers.end() - first);
+    for (auto i = first; i != movers.end(); ++i) {
+      moves[*i] = 0;
+      --at[aims[*i]];
+      ++at[cells_[*i]];
     }
-    movers_.erase(first, movers_.end());
+    movers.erase(first, movers.end());
   }
-  for (const std::uint32_t i : movers_) at_[aims_[i]] = 0;
-  for (const std::uint32_t cell : cells_) at_[cell] = 0;
+  for (const std::uint32_t i : movers) at[aims[i]] = 0;
+  for (const std::uint32_t cell : cells_) at[cell] = 0;
 }
 
 }  // namespace microswarm

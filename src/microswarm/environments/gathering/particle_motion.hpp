@@ -33,12 +33,13 @@ class ParticleMotion {
     std::vector<double> at;
     std::vector<double> speed;
   };
+  struct Scratch;
   void step_algorithmic(MazePlace move);
   void step_fuzzy(MazePlace move, std::uint64_t key);
   void step_physical(MazePlace move);
-  void block_full_cells();
+  void block_full_cells(Scratch& scratch);
   void accelerate(Axis& axis, int direction);
-  void advance(Axis& axis);
+  void advance(Axis& axis, const Scratch& scratch);
   void merge_groups();
 
   const GatheringMaze& maze_;
@@ -50,11 +51,6 @@ class ParticleMotion {
   Axis columns_;
   std::vector<double> weights_;
   std::vector<double> accelerations_;
-  std::vector<std::uint32_t> aims_;  ///< cells into which they would come
-  std::vector<std::uint8_t> moves_;  ///< whether they do
-  std::vector<double> shares_;       ///< 1 for those that do, 0 for those that are stopped
-  std::vector<std::uint32_t> movers_;
-  std::vector<std::uint32_t> at_;  ///< of each cell, particles or group + 1; 0 between steps
 };
 
 }  // namespace microswarm
