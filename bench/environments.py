@@ -96,9 +96,9 @@ def rows(turns, steps):
             peer.begin(single.particle_locations, single.particle_weights if physics == "physical" else None)
             batch.reset(seed=turn)
             one = random.integers(0, 8, steps).tolist()
-            ours_one.append(speed(single.step, one * 5))
+            ours_one.append(speed(single.step, one))
             theirs.append(speed(peer.step, one))
-            ours_all.append(BATCH * speed(batch.step, random.integers(0, 8, (max(20, steps // 20), BATCH))))
+            ours_all.append(BATCH * speed(batch.step, random.integers(0, 8, (steps, BATCH), dtype=np.uint8)))
         one, all_of_them, their = (statistics.median(values) for values in (ours_one, ours_all, theirs))
         peer_name = "the rules with NumPy, one"
         aim = TIMES_AS_FAST * their
