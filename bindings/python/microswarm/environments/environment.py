@@ -20,30 +20,45 @@ def count_of(num_envs: Any) -> int:
     return whole("num_envs", num_envs, 10**6, least=1)
 
 
-class SingleEnvironment(Env):
-    """One environment."""
+class Environments:
+    """One or many environments of the native module."""
 
     _core: Any
-
-    def _shape(self) -> tuple[int, ...]:
-        return self._core.observations().shape[1:]
 
     @property
     def rules(self) -> dict[str, Any]:
         """The rules with every value."""
         return json.loads(self._core.rules())
 
-    def reset(self, *, seed: Optional[int] = None, options: Any = None) -> tuple[np.ndarray, dict[str, Any]]:
-        """Begins an episode: the first of a seed, or the next."""
-        self._core.reset(seed_of(seed))
-        return self._core.observation(0), {}
+    @property
+    def unwrapped(self) -> Any:
+        """Itself: there is no wrapper."""
+        return self
 
     def close(self) -> None:
         """Ends it; what is called later raises InputError. Closing twice is no mistake."""
         self._core.close()
 
+    def __enter__(self) -> Any:
+        return self
 
-class VectorEnvironment:
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+
+class SingleEnvironment(Environments, Env):
+    """One environment."""
+
+    def _shape(self) -> tuple[int, ...]:
+        return self._core.observations().shape[1:]
+
+    def reset(self, *, seed: Optional[int] = None, options: Any = None) -> tuple[np.ndarray, dict[str, Any]]:
+        """Begins an episode: the first of a seed, or the next."""
+        self._core.reset(seed_of(seed))
+        return self._core.observation(0), {}
+
+
+class VectorEnvironment(Environments):
     """Environments that are stepped together on all cores.
 
     Environment i is seeded with seed + i and is then that of a single one with that seed. One whose episode
@@ -54,17 +69,6 @@ class VectorEnvironment:
     spec: Any = None
     render_mode: Optional[str] = None
     closed = False
-
-    @property
-    def unwrapped(self) -> Any:
-        """The environments themselves."""
-        return self
-
-    def __enter__(self) -> Any:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
 
     def __init__(self, core: Any, num_envs: int, copy: bool) -> None:
         self.num_envs = num_envs
@@ -89,17 +93,11 @@ class VectorEnvironment:
         rewards, terminated, truncated = self._core.step(actions, array)
         return self._all if array is None else array, rewards, terminated, truncated, {}
 
-    @property
-    def rules(self) -> dict[str, Any]:
-        """The rules with every value."""
-        return json.loads(self._core.rules())
-
     def reset(self, *, seed: Optional[int] = None, options: Any = None) -> tuple[np.ndarray, dict[str, Any]]:
         """Begins an episode in each environment: the first of a seed, or the next."""
         self._core.reset(seed_of(seed))
         return self._all.copy() if self._copy else self._all, {}
 
     def close(self) -> None:
-        """Ends it; what is called later raises InputError. Closing twice is no mistake."""
-        self._core.close()
+        super().close()
         self.closed = True

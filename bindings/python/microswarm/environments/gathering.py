@@ -107,7 +107,18 @@ def free_cells(maze: Maze, cell_um: Optional[float] = None) -> np.ndarray:
     return grid_of("maze", maze, MAX_SIDE) != 0
 
 
-def _batch(maze: Maze, goal: Any, n_particles: Union[int, str], cell_um: Optional[float], num_envs: int, threads: int, rules: dict[str, Any]) -> _core.GatheringBatch:
+def _batch(
+    num_envs: int,
+    threads: int,
+    maze: Maze,
+    goal: Any,
+    n_particles: Union[int, str] = 256,
+    physics: str = "algorithmic",
+    observation_type: str = "simple",
+    cell_um: Optional[float] = None,
+    **rules: Any,
+) -> _core.GatheringBatch:
+    rules |= {"physics": physics, "observation": observation_type}
     if isinstance(n_particles, str):
         if n_particles not in ("random", "filled"):
             raise InputError(f"n_particles is {told(n_particles)}, must be a number, 'random' or 'filled'")
@@ -142,33 +153,21 @@ class GatheringEnv(SingleEnvironment):
 
     maze         see free_cells()
     goal         (column, row), "default" for a maze of the benchmark, or None: a random one each episode
-    n_particles  a number, "random", or "filled": one in every cell
-    physics      "algorithmic": a cell in the input's direction; "fuzzy": with random errors; "physical": with
-                 mass, drag and contacts
-    rules        goal_range, max_episode_steps, total_cost_reward, max_cost_reward, time_penalty;
+    values       n_particles=256: a number, "random", or "filled": one in every cell;
+                 physics="algorithmic": a cell in the input's direction, "fuzzy": with random errors, or "physical":
+                 with mass, drag and contacts; observation_type="simple" or "multichannel"; cell_um of a Map;
+                 goal_range, max_episode_steps, total_cost_reward, max_cost_reward, time_penalty;
                  fuzzy: random_move_chance, random_move_distance, fuzzy_action_probability; physical: force,
                  drag, max_particle_weight, particle_self_collision, max_particles_per_cell
     """
 
     metadata = {"render_modes": ["rgb_array"], "render_fps": 25}
 
-    def __init__(
-        self,
-        maze: Maze,
-        goal: Any = "default",
-        *,
-        n_particles: Union[int, str] = 256,
-        physics: str = "algorithmic",
-        observation_type: str = "simple",
-        cell_um: Optional[float] = None,
-        render_mode: Optional[str] = None,
-        **rules: Any,
-    ) -> None:
+    def __init__(self, maze: Maze, goal: Any = "default", *, render_mode: Optional[str] = None, **values: Any) -> None:
         if render_mode not in (None, "rgb_array"):
             raise InputError(f"render_mode is {told(render_mode)}, must be 'rgb_array' or None")
         self.render_mode = render_mode
-        rules |= {"physics": physics, "observation": observation_type}
-        self._core = _batch(maze, goal, n_particles, cell_um, 1, 1, rules)
+        self._core = _batch(1, 1, maze, goal, **values)
         self._step = self._core.step_one
         self.action_space = Discrete(8)
         self.observation_space = Box(0, 255, self._shape(), np.uint8)
@@ -224,21 +223,9 @@ class GatheringVectorEnv(VectorEnvironment):
     """
 
     def __init__(
-        self,
-        num_envs: int,
-        maze: Maze,
-        goal: Any = "default",
-        *,
-        n_particles: Union[int, str] = 256,
-        physics: str = "algorithmic",
-        observation_type: str = "simple",
-        cell_um: Optional[float] = None,
-        threads: int = 0,
-        copy: bool = True,
-        **rules: Any,
+        self, num_envs: int, maze: Maze, goal: Any = "default", *, threads: int = 0, copy: bool = True, **values: Any
     ) -> None:
-        rules |= {"physics": physics, "observation": observation_type}
-        core = _batch(maze, goal, n_particles, cell_um, count_of(num_envs), whole("threads", threads, 1024), rules)
+        core = _batch(count_of(num_envs), whole("threads", threads, 1024), maze, goal, **values)
         super().__init__(core, num_envs, copy)
         self.single_action_space = Discrete(8)
         self.single_observation_space = Box(0, 255, self._all.shape[1:], np.uint8)

@@ -19,20 +19,6 @@ except ModuleNotFoundError:
         render_mode: Optional[str] = None
         spec: Any = None
 
-        @property
-        def unwrapped(self) -> Any:
-            """The environment itself."""
-            return self
-
-        def __enter__(self) -> Any:
-            return self
-
-        def __exit__(self, *_: object) -> None:
-            self.close()
-
-        def close(self) -> None:
-            """Nothing is to be closed."""
-
         def render(self) -> Any:
             """No picture."""
             return None
