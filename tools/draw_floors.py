@@ -44,7 +44,7 @@ def drawn(floors):
                      f'stroke="{edge}" stroke-width="1.3"/>')
         lines.append(f'<text x="56" y="{y + 25}" font-size="17" font-weight="bold" fill="{edge}">'
                      f"{escape(name)}</text>")
-        lines.append(f'<text x="190" y="{y + 25}" font-size="14" fill="#333">{escape(words)}</text>')
+        lines.append(f'<text x="205" y="{y + 25}" font-size="14" fill="#333">{escape(words)}</text>')
         if name == last:
             lines.append(f'<text x="850" y="{y + 13}" font-size="10" text-anchor="end" fill="{edge}">'
                          f"{escape(common)}</text>")
