@@ -19,7 +19,7 @@ struct Round {
   double gap = 1;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.gap, {"gap", Unit::um, {0, 100}, "Gap.", false, "margin_um"});
+    visit(self.gap, um("gap", 0, 100, "Gap.").formerly("margin_um"));
   }
 };
 
@@ -28,7 +28,7 @@ struct Square {
   double clearance = 2;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.clearance, {"clearance", Unit::um, {0, 100}, "Clearance.", false, "margin_um"});
+    visit(self.clearance, um("clearance", 0, 100, "Clearance.").formerly("margin_um"));
   }
 };
 
@@ -36,7 +36,7 @@ struct Clock {
   double rate = 1;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.rate, {"rate", Unit::hz, {0, 10}, "Rate."});
+    visit(self.rate, hz("rate", 0, 10, "Rate."));
   }
 };
 
@@ -45,8 +45,8 @@ struct Sensing {
   Clock clock;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.timeout, {"timeout", Unit::s, {0, 10}, "Timeout."});
-    visit(self.clock, {"clock", Unit::none, {}, "Clock."});
+    visit(self.timeout, s("timeout", 0, 10, "Timeout."));
+    visit(self.clock, plain("clock", "Clock."));
   }
 };
 
@@ -59,10 +59,10 @@ struct House {
       {{"body.timeout_s", "sensing.timeout_s"}, {"body.colour", ""}, {"sensing.clock.hand", ""}}};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.body, {"body", Unit::none, {}, "Body.", false, "shape"});
-    visit(self.rooms, {"rooms", Unit::none, {}, "Rooms."});
-    visit(self.cellar, {"cellar", Unit::none, {}, "Cellar."});
-    visit(self.sensing, {"sensing", Unit::none, {}, "Sensing."});
+    visit(self.body, plain("body", "Body.").formerly("shape"));
+    visit(self.rooms, plain("rooms", "Rooms."));
+    visit(self.cellar, plain("cellar", "Cellar."));
+    visit(self.sensing, plain("sensing", "Sensing."));
   }
 };
 

@@ -27,7 +27,7 @@ struct Disc {
   double radius = 50;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.radius, {"radius", Unit::um, {1e-3, 1e6}, "Radius.", true});
+    visit(self.radius, um("radius", 1e-3, 1e6, "Radius.").needed());
   }
   bool operator==(const Disc&) const = default;
 };
@@ -38,8 +38,8 @@ struct Fan {
   double turning = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.opening, {"opening", Unit::deg, {0, 360}, "Angle at its tip."});
-    visit(self.turning, {"turning", Unit::deg_per_s, {}, "How fast it turns."});
+    visit(self.opening, deg("opening", 0, 360, "Angle at its tip."));
+    visit(self.turning, deg_per_s("turning", "How fast it turns."));
   }
   bool operator==(const Fan&) const = default;
 };
@@ -58,8 +58,8 @@ struct Obstacle {
   std::vector<Vec2> way;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.shape, {"shape", Unit::none, {}, "What it is.", true});
-    visit(self.way, {"way", Unit::um, {-1e6, 1e6}, "Where it goes."});
+    visit(self.shape, plain("shape", "What it is.").needed());
+    visit(self.way, um("way", -1e6, 1e6, "Where it goes."));
   }
   bool operator==(const Obstacle&) const = default;
 };
@@ -70,9 +70,9 @@ struct Planner {
   Walls walls = Walls::stop;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.step, {"step", Unit::um, {1, 1e5}, "Length of one extension."});
-    visit(self.max_nodes, {"max_nodes", Unit::none, {1, 1e7}, "Nodes to grow at most."});
-    visit(self.walls, {"walls", Unit::none, {}, "What happens at a wall."});
+    visit(self.step, um("step", 1, 1e5, "Length of one extension."));
+    visit(self.max_nodes, plain("max_nodes", 1, 1e7, "Nodes to grow at most."));
+    visit(self.walls, plain("walls", "What happens at a wall."));
   }
   bool operator==(const Planner&) const = default;
 };
@@ -95,21 +95,21 @@ struct Scene {
   int count = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.name, {"name", Unit::none, {}, "What it is called."});
-    visit(self.seed, {"seed", Unit::none, {}, "Seed of all randomness."});
-    visit(self.noisy, {"noisy", Unit::none, {}, "Whether the camera shakes."});
-    visit(self.start, {"start", Unit::none, {}, "Where it starts."});
-    visit(self.goal, {"goal", Unit::um, {-1e6, 1e6}, "Where it shall go."});
-    visit(self.planner, {"planner", Unit::none, {}, "How it plans."});
-    visit(self.tip, {"tip", Unit::none, {}, "What leads."});
-    visit(self.limit, {"limit", Unit::s, {.min = 0}, "When to give up."});
-    visit(self.second, {"second", Unit::none, {}, "Another planner."});
-    visit(self.note, {"note", Unit::none, {}, "Free text."});
-    visit(self.times, {"times", Unit::s, {.max = 1e9}, "When to look."});
-    visit(self.rings, {"rings", Unit::um, {}, "Outlines."});
-    visit(self.obstacles, {"obstacles", Unit::none, {}, "What is in the way."});
-    visit(self.kinds, {"kinds", Unit::none, {}, "Walls in turn."});
-    visit(self.count, {"count", Unit::none, {}, "Any whole number."});
+    visit(self.name, plain("name", "What it is called."));
+    visit(self.seed, plain("seed", "Seed of all randomness."));
+    visit(self.noisy, plain("noisy", "Whether the camera shakes."));
+    visit(self.start, plain("start", "Where it starts."));
+    visit(self.goal, um("goal", -1e6, 1e6, "Where it shall go."));
+    visit(self.planner, plain("planner", "How it plans."));
+    visit(self.tip, plain("tip", "What leads."));
+    visit(self.limit, s("limit", Range{.min = 0}, "When to give up."));
+    visit(self.second, plain("second", "Another planner."));
+    visit(self.note, plain("note", "Free text."));
+    visit(self.times, s("times", Range{.max = 1e9}, "When to look."));
+    visit(self.rings, um("rings", "Outlines."));
+    visit(self.obstacles, plain("obstacles", "What is in the way."));
+    visit(self.kinds, plain("kinds", "Walls in turn."));
+    visit(self.count, plain("count", "Any whole number."));
   }
   bool operator==(const Scene&) const = default;
 };

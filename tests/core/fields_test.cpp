@@ -21,8 +21,8 @@ struct Params {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor&& visit) {
-    visit(self.step, {"step", Unit::um, {1, 1e5}, "Length of one extension."});
-    visit(self.walls, {.name = "walls", .doc = "What happens at a wall.", .required = true});
+    visit(self.step, um("step", 1, 1e5, "Length of one extension."));
+    visit(self.walls, plain("walls", "What happens at a wall.").needed());
   }
 };
 

@@ -25,8 +25,8 @@ struct Inner {
   int count = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.depth, {"depth", Unit::um, {}, "How deep."});
-    visit(self.count, {"count", Unit::none, {}, "How many."});
+    visit(self.depth, um("depth", "How deep."));
+    visit(self.count, plain("count", "How many."));
   }
 };
 
@@ -43,16 +43,16 @@ struct Row {
   std::vector<Inner> parts;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.t, {"t", Unit::s, {}, "When."});
-    visit(self.turn, {"turn", Unit::deg, {}, "Turning."});
-    visit(self.seen, {"seen", Unit::none, {}, "What was seen."});
-    visit(self.target, {"target", Unit::um, {}, "Target."});
-    visit(self.inner, {"inner", Unit::none, {}, "Inside."});
-    visit(self.mood, {"mood", Unit::none, {}, "Mood."});
-    visit(self.is_last, {"is_last", Unit::none, {}, "Last."});
-    visit(self.index, {"index", Unit::none, {}, "Index."});
-    visit(self.points, {"points", Unit::um, {}, "Points."});
-    visit(self.parts, {"parts", Unit::none, {}, "Parts."});
+    visit(self.t, s("t", "When."));
+    visit(self.turn, deg("turn", "Turning."));
+    visit(self.seen, plain("seen", "What was seen."));
+    visit(self.target, um("target", "Target."));
+    visit(self.inner, plain("inner", "Inside."));
+    visit(self.mood, plain("mood", "Mood."));
+    visit(self.is_last, plain("is_last", "Last."));
+    visit(self.index, plain("index", "Index."));
+    visit(self.points, um("points", "Points."));
+    visit(self.parts, plain("parts", "Parts."));
   }
 };
 
@@ -60,7 +60,7 @@ struct Results {
   std::vector<Row> rows;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.rows, {"rows", Unit::none, {}, "Rows."});
+    visit(self.rows, plain("rows", "Rows."));
   }
 };
 

@@ -21,7 +21,7 @@ struct Keyed {
   T value{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.value, {"value", Unit::none, {}, "The value.", true});
+    visit(self.value, plain("value", "The value.").needed());
   }
 };
 

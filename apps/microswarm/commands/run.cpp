@@ -42,12 +42,12 @@ struct TrialRow {
   std::string record_hash;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.trial, {"trial", Unit::none, {}, "Number of the trial."});
-    visit(self.status, {"status", Unit::none, {}, "How it ended."});
+    visit(self.trial, plain("trial", "Number of the trial."));
+    visit(self.status, plain("status", "How it ended."));
     Metrics::fields(self.metrics, visit);
-    visit(self.planning_mean, {"planning_mean", Unit::s, {}, "Mean time of a plan."});
-    visit(self.planning_max, {"planning_max", Unit::s, {}, "Longest time of a plan."});
-    visit(self.record_hash, {"record_hash", Unit::none, {}, "Hash of the record."});
+    visit(self.planning_mean, s("planning_mean", "Mean time of a plan."));
+    visit(self.planning_max, s("planning_max", "Longest time of a plan."));
+    visit(self.record_hash, plain("record_hash", "Hash of the record."));
   }
 };
 

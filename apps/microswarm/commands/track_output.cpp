@@ -27,11 +27,11 @@ struct EventRow {
   std::optional<int> other;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.frame, {"frame", Unit::none, {}, "Picture, from 0."});
-    visit(self.t, {"t", Unit::s, {}, "Time since the first picture."});
-    visit(self.event, {"event", Unit::none, {}, "Kind of the event."});
-    visit(self.id, {"id", Unit::none, {}, "Robot."});
-    visit(self.other, {"other", Unit::none, {}, "Robot it merged with or split from."});
+    visit(self.frame, plain("frame", "Picture, from 0."));
+    visit(self.t, s("t", "Time since the first picture."));
+    visit(self.event, plain("event", "Kind of the event."));
+    visit(self.id, plain("id", "Robot."));
+    visit(self.other, plain("other", "Robot it merged with or split from."));
   }
 };
 

@@ -134,9 +134,9 @@ requires HasFields<Self>
 void visit_fields(Self& self, Visitor&& visit) { Self::fields(self, visit); }
 template <class Visitor>
 void visit_fields(const Pose2& pose, Visitor&& visit) {
-  visit(pose.position.x, {"x", Unit::um, {}, "Position to the right."});
-  visit(pose.position.y, {"y", Unit::um, {}, "Position upwards."});
-  visit(pose.heading, {"heading", Unit::deg, {}, "Heading, from x towards y."});
+  visit(pose.position.x, um("x", "Position to the right."));
+  visit(pose.position.y, um("y", "Position upwards."));
+  visit(pose.heading, deg("heading", "Heading, from x towards y."));
 }
 
 template <class T>

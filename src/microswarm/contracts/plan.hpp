@@ -22,12 +22,12 @@ struct Detection {
   double rho = 1;  ///< dynamic adjust factor, Eq 3, floored
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.circle.centre.x, {"x", Unit::um, {}, "Centre of the circle, to the right."});
-    visit(self.circle.centre.y, {"y", Unit::um, {}, "Centre of the circle, upwards."});
-    visit(self.circle.radius, {"radius", Unit::um, {}, "Radius of the circle."});
-    visit(self.w1, {"w1", Unit::none, {}, "Density, Eq 1 [drrt]."});
-    visit(self.w2, {"w2", Unit::none, {}, "Distribution, Eq 2 [drrt]."});
-    visit(self.rho, {"rho", Unit::none, {}, "Dynamic adjust factor, Eq 3 [drrt]."});
+    visit(self.circle.centre.x, um("x", "Centre of the circle, to the right."));
+    visit(self.circle.centre.y, um("y", "Centre of the circle, upwards."));
+    visit(self.circle.radius, um("radius", "Radius of the circle."));
+    visit(self.w1, plain("w1", "Density, Eq 1 [drrt]."));
+    visit(self.w2, plain("w2", "Distribution, Eq 2 [drrt]."));
+    visit(self.rho, plain("rho", "Dynamic adjust factor, Eq 3 [drrt]."));
   }
 };
 
@@ -39,11 +39,11 @@ struct TreeNode {
   std::uint32_t parent = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.position.x, {"x", Unit::um, {}, "Position to the right."});
-    visit(self.position.y, {"y", Unit::um, {}, "Position upwards."});
-    visit(self.heading, {"heading", Unit::rad, {}, "Heading of the edge from its parent."});
-    visit(self.cost, {"cost", Unit::none, {}, "Cost from the root, in the planner's measure."});
-    visit(self.parent, {"parent", Unit::none, {}, "Index in its tree, from 0; the root's is 0."});
+    visit(self.position.x, um("x", "Position to the right."));
+    visit(self.position.y, um("y", "Position upwards."));
+    visit(self.heading, rad("heading", "Heading of the edge from its parent."));
+    visit(self.cost, plain("cost", "Cost from the root, in the planner's measure."));
+    visit(self.parent, plain("parent", "Index in its tree, from 0; the root's is 0."));
   }
 };
 

@@ -31,14 +31,12 @@ struct ImageMap {
   double simplify = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.file, {"file", Unit::none, {}, "PNG, JPEG, BMP, TIFF, PGM or PPM image.", true});
-    visit(
-        self.um_per_px,
-        {"um_per_px", Unit::none, {1e-6, 1e6}, "Scale of the image: side of a pixel in µm.", true});
-    visit(self.threshold,
-          {"threshold", Unit::none, {0, 255}, "Grey value from which a pixel is bright."});
-    visit(self.free, {"free", Unit::none, {}, "Free pixels: bright or dark."});
-    visit(self.simplify, {"simplify", Unit::um, {0, 1e6}, "Tolerance of the outlines; 0: exact."});
+    visit(self.file, plain("file", "PNG, JPEG, BMP, TIFF, PGM or PPM image.").needed());
+    visit(self.um_per_px,
+          plain("um_per_px", 1e-6, 1e6, "Scale of the image: side of a pixel in µm.").needed());
+    visit(self.threshold, plain("threshold", 0, 255, "Grey value from which a pixel is bright."));
+    visit(self.free, plain("free", "Free pixels: bright or dark."));
+    visit(self.simplify, um("simplify", 0, 1e6, "Tolerance of the outlines; 0: exact."));
   }
 };
 
@@ -50,11 +48,10 @@ struct RosMap {
   bool unknown_free = false;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.file, {"file", Unit::none, {}, "YAML file with the key `image`.", true});
+    visit(self.file, plain("file", "YAML file with the key `image`.").needed());
     visit(self.um_per_m,
-          {"um_per_m", Unit::none, {1e-3, 1e9}, "µm for a metre of the file; 1e6: true to scale."});
-    visit(self.unknown_free,
-          {"unknown_free", Unit::none, {}, "Treat unknown cells as free, not as walls."});
+          plain("um_per_m", 1e-3, 1e9, "µm for a metre of the file; 1e6: true to scale."));
+    visit(self.unknown_free, plain("unknown_free", "Treat unknown cells as free, not as walls."));
   }
 };
 
@@ -65,8 +62,8 @@ struct MovingAiMap {
   double um_per_cell = 1;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.file, {"file", Unit::none, {}, "MovingAI .map file.", true});
-    visit(self.um_per_cell, {"um_per_cell", Unit::none, {1e-6, 1e6}, "Side of a cell in µm."});
+    visit(self.file, plain("file", "MovingAI .map file.").needed());
+    visit(self.um_per_cell, plain("um_per_cell", 1e-6, 1e6, "Side of a cell in µm."));
   }
 };
 
@@ -77,8 +74,8 @@ struct GeoJsonMap {
   double um_per_unit = 1;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.file, {"file", Unit::none, {}, "GeoJSON file in plane coordinates.", true});
-    visit(self.um_per_unit, {"um_per_unit", Unit::none, {1e-9, 1e9}, "µm for a unit of the file."});
+    visit(self.file, plain("file", "GeoJSON file in plane coordinates.").needed());
+    visit(self.um_per_unit, plain("um_per_unit", 1e-9, 1e9, "µm for a unit of the file."));
   }
 };
 
@@ -91,11 +88,10 @@ struct RectanglesMap {
   std::string file;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.lo, {"lo", Unit::um, {}, "Lower left corner of the map; none: of the walls."});
-    visit(self.hi, {"hi", Unit::um, {}, "Upper right corner of the map; none: of the walls."});
-    visit(self.rectangles,
-          {"rectangles", Unit::um, {}, "Walls: lower left x, y, width, height of each."});
-    visit(self.file, {"file", Unit::none, {}, "CSV of more walls: x,y,width,height in µm."});
+    visit(self.lo, um("lo", "Lower left corner of the map; none: of the walls."));
+    visit(self.hi, um("hi", "Upper right corner of the map; none: of the walls."));
+    visit(self.rectangles, um("rectangles", "Walls: lower left x, y, width, height of each."));
+    visit(self.file, plain("file", "CSV of more walls: x,y,width,height in µm."));
   }
 };
 
@@ -105,8 +101,8 @@ struct DiscWall {
   double radius = 1;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.centre, {"centre", Unit::um, {}, "Centre of the disc.", true});
-    visit(self.radius, {"radius", Unit::um, {1e-3, 1e6}, "Radius of the disc.", true});
+    visit(self.centre, um("centre", "Centre of the disc.").needed());
+    visit(self.radius, um("radius", 1e-3, 1e6, "Radius of the disc.").needed());
   }
 };
 
@@ -119,10 +115,10 @@ struct PolygonsMap {
   std::vector<DiscWall> discs;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.lo, {"lo", Unit::um, {}, "Lower left corner of the map."});
-    visit(self.hi, {"hi", Unit::um, {}, "Upper right corner of the map.", true});
-    visit(self.walls, {"walls", Unit::um, {}, "Outline of each wall: a list of points."});
-    visit(self.discs, {"discs", Unit::none, {}, "Round walls."});
+    visit(self.lo, um("lo", "Lower left corner of the map."));
+    visit(self.hi, um("hi", "Upper right corner of the map.").needed());
+    visit(self.walls, um("walls", "Outline of each wall: a list of points."));
+    visit(self.discs, plain("discs", "Round walls."));
   }
 };
 
@@ -137,14 +133,12 @@ struct ChannelMap {
   double end_length = 300;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.width, {"width", Unit::um, {1, 1e6}, "Width of the map.", true});
-    visit(self.height, {"height", Unit::um, {1, 1e6}, "Height of the map.", true});
-    visit(self.centre_line,
-          {"centre_line", Unit::um, {}, "Centre line of the channel; smoothed.", true});
-    visit(self.half_width, {"half_width", Unit::um, {1, 1e6}, "Half of the channel's width."});
-    visit(self.end_half_width,
-          {"end_half_width", Unit::um, {1, 1e6}, "Half of the width at the ends."});
-    visit(self.end_length, {"end_length", Unit::um, {0, 1e6}, "Length over which an end widens."});
+    visit(self.width, um("width", 1, 1e6, "Width of the map.").needed());
+    visit(self.height, um("height", 1, 1e6, "Height of the map.").needed());
+    visit(self.centre_line, um("centre_line", "Centre line of the channel; smoothed.").needed());
+    visit(self.half_width, um("half_width", 1, 1e6, "Half of the channel's width."));
+    visit(self.end_half_width, um("end_half_width", 1, 1e6, "Half of the width at the ends."));
+    visit(self.end_length, um("end_length", 0, 1e6, "Length over which an end widens."));
   }
 };
 

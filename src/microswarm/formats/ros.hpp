@@ -40,16 +40,15 @@ struct RosHeader {
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.image, {"image", Unit::none, {}, "Image, beside the YAML file.", true});
-    visit(self.resolution, {"resolution", Unit::none, {1e-9, 1e6}, "Side of a pixel [m].", true});
+    visit(self.image, plain("image", "Image, beside the YAML file.").needed());
+    visit(self.resolution, plain("resolution", 1e-9, 1e6, "Side of a pixel [m].").needed());
     visit(self.origin,
-          {"origin", Unit::none, {-1e6, 1e6}, "Lower left corner: x, y [m], yaw [rad].", true});
-    visit(self.negate, {"negate", Unit::none, {0, 1}, "1: bright pixels are occupied."});
+          plain("origin", -1e6, 1e6, "Lower left corner: x, y [m], yaw [rad].").needed());
+    visit(self.negate, plain("negate", 0, 1, "1: bright pixels are occupied."));
     visit(self.occupied_thresh,
-          {"occupied_thresh", Unit::none, {0, 1}, "Probability above which a cell is occupied."});
-    visit(self.free_thresh,
-          {"free_thresh", Unit::none, {0, 1}, "Probability below which a cell is free."});
-    visit(self.mode, {"mode", Unit::none, {}, "Interpretation: trinary, scale or raw."});
+          plain("occupied_thresh", 0, 1, "Probability above which a cell is occupied."));
+    visit(self.free_thresh, plain("free_thresh", 0, 1, "Probability below which a cell is free."));
+    visit(self.mode, plain("mode", "Interpretation: trinary, scale or raw."));
   }
 };
 

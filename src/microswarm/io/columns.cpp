@@ -108,7 +108,7 @@ class ColumnLister {
 
 std::vector<Column> columns_of(const Type& row, ColumnUnits units, Unit unit) {
   ColumnLister lister(units);
-  lister.list(row, {.name = "", .unit = unit, .range = {}, .doc = ""}, "", "");
+  lister.list(row, FieldInfo(unit, "", ""), "", "");
   return lister.take();
 }
 

@@ -24,16 +24,15 @@ struct FollowedPath {
   double fallback_share = 0;  ///< fraction of steps in which the learned follower used its fallback
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.arrived, {"arrived", Unit::none, {}, "1 if the end of the path was reached."});
-    visit(self.time, {"time", Unit::s, {}, "Time of the run."});
-    visit(self.fair_time,
-          {"way_over_speed", Unit::s, {}, "Path length divided by the task's speed."});
-    visit(self.rms_off, {"rms_off", Unit::um, {}, "Root mean square distance from the path."});
-    visit(self.max_off, {"most_off", Unit::um, {}, "Greatest distance from the path."});
+    visit(self.arrived, plain("arrived", "1 if the end of the path was reached."));
+    visit(self.time, s("time", "Time of the run."));
+    visit(self.fair_time, s("way_over_speed", "Path length divided by the task's speed."));
+    visit(self.rms_off, um("rms_off", "Root mean square distance from the path."));
+    visit(self.max_off, um("most_off", "Greatest distance from the path."));
     visit(self.field_turning,
-          {"field_turning", Unit::deg_per_s, {}, "Mean rate of change of the commanded heading."});
+          deg_per_s("field_turning", "Mean rate of change of the commanded heading."));
     visit(self.fallback_share,
-          {"fallback_share", Unit::none, {}, "Fraction of steps that used the fallback."});
+          plain("fallback_share", "Fraction of steps that used the fallback."));
   }
 };
 

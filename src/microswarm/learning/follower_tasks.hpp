@@ -26,52 +26,32 @@ struct FollowerTaskParams {
   double start_spread = 0.15;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.min_speed, {"min_speed",
-                           Unit::um_per_s,
-                           {1, 1e4},
-                           "Minimum commanded speed.",
-                           false,
-                           "least_speed_um_per_s"});
-    visit(self.max_speed, {"max_speed",
-                           Unit::um_per_s,
-                           {1, 1e4},
-                           "Maximum commanded speed.",
-                           false,
-                           "most_speed_um_per_s"});
-    visit(self.min_turn_rate, {"min_turn_rate",
-                               Unit::deg_per_s,
-                               {1, 3600},
-                               "Minimum turning limit of the swarm.",
-                               false,
-                               "least_turn_rate_deg_per_s"});
-    visit(self.max_turn_rate, {"max_turn_rate",
-                               Unit::deg_per_s,
-                               {1, 3600},
-                               "Maximum turning limit of the swarm.",
-                               false,
-                               "most_turn_rate_deg_per_s"});
     visit(
-        self.unlimited_share,
-        {"unlimited_share", Unit::none, {0, 1}, "Share of tasks whose swarm turns at 36000 °/s."});
-    visit(self.max_flow, {"max_flow",
-                          Unit::none,
-                          {0, 0.8},
-                          "Maximum flow, as a share of the speed.",
-                          false,
-                          "most_flow"});
-    visit(self.speed_error, {"speed_error", Unit::none, {0, 0.9}, "Relative error of the speed."});
+        self.min_speed,
+        um_per_s("min_speed", 1, 1e4, "Minimum commanded speed.").formerly("least_speed_um_per_s"));
+    visit(
+        self.max_speed,
+        um_per_s("max_speed", 1, 1e4, "Maximum commanded speed.").formerly("most_speed_um_per_s"));
+    visit(self.min_turn_rate,
+          deg_per_s("min_turn_rate", 1, 3600, "Minimum turning limit of the swarm.")
+              .formerly("least_turn_rate_deg_per_s"));
+    visit(self.max_turn_rate,
+          deg_per_s("max_turn_rate", 1, 3600, "Maximum turning limit of the swarm.")
+              .formerly("most_turn_rate_deg_per_s"));
+    visit(self.unlimited_share,
+          plain("unlimited_share", 0, 1, "Share of tasks whose swarm turns at 36000 °/s."));
+    visit(
+        self.max_flow,
+        plain("max_flow", 0, 0.8, "Maximum flow, as a share of the speed.").formerly("most_flow"));
+    visit(self.speed_error, plain("speed_error", 0, 0.9, "Relative error of the speed."));
     visit(self.position_noise,
-          {"position_noise", Unit::um, {0, 1e3}, "Maximum noise of the observed position (sd)."});
+          um("position_noise", 0, 1e3, "Maximum noise of the observed position (sd)."));
     visit(self.heading_noise,
-          {"heading_noise", Unit::deg, {0, 90}, "Maximum noise of the observed heading (sd)."});
-    visit(self.random_drift,
-          {"random_drift", Unit::um, {0, 1e3}, "Maximum random drift (sd after 1 s)."});
-    visit(self.missed_share,
-          {"missed_share", Unit::none, {0, 1}, "Share of frames without a swarm."});
-    visit(self.start_spread, {"start_spread",
-                              Unit::none,
-                              {0, 10},
-                              "Distance of the start from the path (sd), in seconds."});
+          deg("heading_noise", 0, 90, "Maximum noise of the observed heading (sd)."));
+    visit(self.random_drift, um("random_drift", 0, 1e3, "Maximum random drift (sd after 1 s)."));
+    visit(self.missed_share, plain("missed_share", 0, 1, "Share of frames without a swarm."));
+    visit(self.start_spread,
+          plain("start_spread", 0, 10, "Distance of the start from the path (sd), in seconds."));
   }
 };
 

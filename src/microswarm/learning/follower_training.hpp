@@ -22,19 +22,16 @@ struct FollowerTrainingParams {
   FollowerTaskParams tasks;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.seed, {"seed", Unit::none, {}, "Seed of tasks, noise and initial weights."});
-    visit(self.runs, {"runs", Unit::none, {2, 1e5}, "Tasks run in each round."});
-    visit(self.rounds,
-          {"rounds", Unit::none, {0, 100}, "Rounds in which the student drives (DAgger)."});
-    visit(self.hidden, {"hidden", Unit::none, {1, 64}, "Width of the two hidden layers."});
-    visit(self.iterations,
-          {"iterations", Unit::none, {1, 1e5}, "L-BFGS iterations after a round."});
+    visit(self.seed, plain("seed", "Seed of tasks, noise and initial weights."));
+    visit(self.runs, plain("runs", 2, 1e5, "Tasks run in each round."));
+    visit(self.rounds, plain("rounds", 0, 100, "Rounds in which the student drives (DAgger)."));
+    visit(self.hidden, plain("hidden", 1, 64, "Width of the two hidden layers."));
+    visit(self.iterations, plain("iterations", 1, 1e5, "L-BFGS iterations after a round."));
     visit(self.last_iterations,
-          {"last_iterations", Unit::none, {1, 1e5}, "L-BFGS iterations after the last round."});
-    visit(
-        self.decay,
-        {"decay", Unit::none, {0, 1}, "Weight decay: factor of the squared weights in the loss."});
-    visit(self.tasks, {"tasks", Unit::none, {}, "Distribution of the tasks."});
+          plain("last_iterations", 1, 1e5, "L-BFGS iterations after the last round."));
+    visit(self.decay,
+          plain("decay", 0, 1, "Weight decay: factor of the squared weights in the loss."));
+    visit(self.tasks, plain("tasks", "Distribution of the tasks."));
   }
 };
 

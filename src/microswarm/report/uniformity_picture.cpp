@@ -52,13 +52,13 @@ struct FieldRow {
   double deviation = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.place[0], {"x", Unit::um, {}, "Place among the coils."});
-    visit(self.place[1], {"y", Unit::um, {}, "Place among the coils."});
-    visit(self.place[2], {"z", Unit::um, {}, "Place among the coils."});
-    visit(self.field[0], {"bx", Unit::mt, {}, "Field."});
-    visit(self.field[1], {"by", Unit::mt, {}, "Field."});
-    visit(self.field[2], {"bz", Unit::mt, {}, "Field."});
-    visit(self.deviation, {"deviation", Unit::none, {}, "From the field at the centre."});
+    visit(self.place[0], um("x", "Place among the coils."));
+    visit(self.place[1], um("y", "Place among the coils."));
+    visit(self.place[2], um("z", "Place among the coils."));
+    visit(self.field[0], mt("bx", "Field."));
+    visit(self.field[1], mt("by", "Field."));
+    visit(self.field[2], mt("bz", "Field."));
+    visit(self.deviation, plain("deviation", "From the field at the centre."));
   }
 };
 

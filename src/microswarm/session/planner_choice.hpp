@@ -12,7 +12,7 @@ struct PlannerChoice {
   Planners planner;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.planner, {"planner", Unit::none, {}, "Planner and its parameters."});
+    visit(self.planner, plain("planner", "Planner and its parameters."));
   }
 };
 

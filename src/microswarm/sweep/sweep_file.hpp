@@ -17,8 +17,8 @@ struct SweepParameter {
   std::vector<std::string> values;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.key, {"key", Unit::none, {}, "Key of the scenario, such as swarm.radius_um.", true});
-    visit(self.values, {"values", Unit::none, {}, "Values; lists and mappings in quotes.", true});
+    visit(self.key, plain("key", "Key of the scenario, such as swarm.radius_um.").needed());
+    visit(self.values, plain("values", "Values; lists and mappings in quotes.").needed());
   }
 };
 
@@ -28,8 +28,8 @@ struct SweepMethod {
   std::vector<std::string> set;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.name, {"name", Unit::none, {}, "Name of the method.", true});
-    visit(self.set, {"set", Unit::none, {}, "Settings KEY=VALUE, as for --set."});
+    visit(self.name, plain("name", "Name of the method.").needed());
+    visit(self.set, plain("set", "Settings KEY=VALUE, as for --set."));
   }
 };
 
@@ -45,15 +45,15 @@ struct Sweep {
   std::optional<std::uint64_t> seed;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.name, {"name", Unit::none, {}, "Name of the sweep."});
-    visit(self.description, {"description", Unit::none, {}, "Description of the sweep."});
+    visit(self.name, plain("name", "Name of the sweep."));
+    visit(self.description, plain("description", "Description of the sweep."));
     visit(self.scenario,
-          {"scenario", Unit::none, {}, "Scenario file, from the sweep file's folder.", true});
-    visit(self.set, {"set", Unit::none, {}, "Settings KEY=VALUE of all cells, as for --set."});
-    visit(self.grid, {"grid", Unit::none, {}, "Parameters whose combinations are run."});
-    visit(self.methods, {"methods", Unit::none, {}, "Methods compared in every combination."});
-    visit(self.trials, {"trials", Unit::none, {1, 1e6}, "Trials of each cell: 0 to n - 1.", true});
-    visit(self.seed, {"seed", Unit::none, {}, "Seed in place of the scenario's."});
+          plain("scenario", "Scenario file, from the sweep file's folder.").needed());
+    visit(self.set, plain("set", "Settings KEY=VALUE of all cells, as for --set."));
+    visit(self.grid, plain("grid", "Parameters whose combinations are run."));
+    visit(self.methods, plain("methods", "Methods compared in every combination."));
+    visit(self.trials, plain("trials", 1, 1e6, "Trials of each cell: 0 to n - 1.").needed());
+    visit(self.seed, plain("seed", "Seed in place of the scenario's."));
   }
 };
 

@@ -41,7 +41,7 @@ struct ScalePiece {
   CameraScale scale;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.scale, {"scale", Unit::none, {}, "Position and scale of the camera in the world."});
+    visit(self.scale, plain("scale", "Position and scale of the camera in the world."));
   }
 };
 

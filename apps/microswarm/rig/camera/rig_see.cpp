@@ -30,9 +30,9 @@ struct SeeSettings {
   WallParams walls;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.camera, {"camera", Unit::none, {}, "Camera from which a picture is taken."});
-    visit(self.scene, {"scene", Unit::none, {}, "Detection of the swarm and the obstacles."});
-    visit(self.walls, {"walls", Unit::none, {}, "Detection of walls in the still picture."});
+    visit(self.camera, plain("camera", "Camera from which a picture is taken."));
+    visit(self.scene, plain("scene", "Detection of the swarm and the obstacles."));
+    visit(self.walls, plain("walls", "Detection of walls in the still picture."));
   }
 };
 

@@ -28,13 +28,11 @@ struct HelmholtzCoils {
   double thickness = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.centre, {"centre", Unit::um, {-1e8, 1e8}, "Centre of the pairs, [x, y, z]."});
-    visit(self.radius,
-          {"radius", Unit::um, {1, 1e8}, "Radii of the pairs x, y, z; also their distances."});
-    visit(self.turns,
-          {"turns", Unit::none, {1e-3, 1e6}, "Turns of each winding of the pairs x, y and z."});
-    visit(self.length, {"length", Unit::um, {0, 1e8}, "Length of each winding; 0: thin."});
-    visit(self.thickness, {"thickness", Unit::um, {0, 1e8}, "Outer less inner radius; 0: thin."});
+    visit(self.centre, um("centre", -1e8, 1e8, "Centre of the pairs, [x, y, z]."));
+    visit(self.radius, um("radius", 1, 1e8, "Radii of the pairs x, y, z; also their distances."));
+    visit(self.turns, plain("turns", 1e-3, 1e6, "Turns of each winding of the pairs x, y and z."));
+    visit(self.length, um("length", 0, 1e8, "Length of each winding; 0: thin."));
+    visit(self.thickness, um("thickness", 0, 1e8, "Outer less inner radius; 0: thin."));
   }
 };
 
@@ -51,13 +49,12 @@ struct CubeCoils {
   double thickness = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.centre, {"centre", Unit::um, {-1e8, 1e8}, "Centre of the cube, [x, y, z]."});
-    visit(self.radius, {"radius", Unit::um, {1, 1e8}, "Radius of the middle turn."});
-    visit(self.distance,
-          {"distance", Unit::um, {0, 1e8}, "From the centre to the middle of each coil."});
-    visit(self.turns, {"turns", Unit::none, {1e-3, 1e6}, "Turns of each coil."});
-    visit(self.length, {"length", Unit::um, {0, 1e8}, "Length of each coil; 0: thin."});
-    visit(self.thickness, {"thickness", Unit::um, {0, 1e8}, "Outer less inner radius; 0: thin."});
+    visit(self.centre, um("centre", -1e8, 1e8, "Centre of the cube, [x, y, z]."));
+    visit(self.radius, um("radius", 1, 1e8, "Radius of the middle turn."));
+    visit(self.distance, um("distance", 0, 1e8, "From the centre to the middle of each coil."));
+    visit(self.turns, plain("turns", 1e-3, 1e6, "Turns of each coil."));
+    visit(self.length, um("length", 0, 1e8, "Length of each coil; 0: thin."));
+    visit(self.thickness, um("thickness", 0, 1e8, "Outer less inner radius; 0: thin."));
   }
 };
 
@@ -67,7 +64,7 @@ struct LoopCoils {
   std::vector<CoilParams> coils;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.coils, {"coils", Unit::none, {}, "The coils one by one.", true});
+    visit(self.coils, plain("coils", "The coils one by one.").needed());
   }
 };
 
@@ -77,7 +74,7 @@ struct MpemCoils {
   std::string file;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.file, {"file", Unit::none, {}, "Calibration in MPEM YAML.", true});
+    visit(self.file, plain("file", "Calibration in MPEM YAML.").needed());
   }
 };
 
@@ -87,7 +84,7 @@ struct VfieldCoils {
   std::vector<std::string> files;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.files, {"files", Unit::none, {}, "A VField grid for each coil.", true});
+    visit(self.files, plain("files", "A VField grid for each coil.").needed());
   }
 };
 
@@ -104,20 +101,16 @@ struct MatrixCoils {
   std::vector<double> centre{0, 0, 0};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.names, {"names", Unit::none, {}, "Names of the coils.", true});
-    visit(self.field, {"field",
-                       Unit::mt_per_a,
-                       {-1e3, 1e3},
-                       "Rows Bx, By, Bz of the actuation matrix, one column a coil.",
-                       true});
-    visit(self.offset, {"offset", Unit::mt, {-100, 100}, "Field without current, [x, y, z]."});
-    visit(self.gradient, {"gradient",
-                          Unit::t_per_m_per_a,
-                          {-1e6, 1e6},
-                          "Rows dBx/dx, dBx/dy, dBx/dz, dBy/dy, dBy/dz, or none."});
+    visit(self.names, plain("names", "Names of the coils.").needed());
+    visit(self.field, mt_per_a("field", -1e3, 1e3,
+                               "Rows Bx, By, Bz of the actuation matrix, one column a coil.")
+                          .needed());
+    visit(self.offset, mt("offset", -100, 100, "Field without current, [x, y, z]."));
+    visit(self.gradient, t_per_m_per_a("gradient", -1e6, 1e6,
+                                       "Rows dBx/dx, dBx/dy, dBx/dz, dBy/dy, dBy/dz, or none."));
     visit(self.offset_gradient,
-          {"offset_gradient", Unit::t_per_m, {-1e6, 1e6}, "The same five without current."});
-    visit(self.centre, {"centre", Unit::um, {-1e8, 1e8}, "Where `field` holds, [x, y, z]."});
+          t_per_m("offset_gradient", -1e6, 1e6, "The same five without current."));
+    visit(self.centre, um("centre", -1e8, 1e8, "Where `field` holds, [x, y, z]."));
   }
 };
 
@@ -128,11 +121,10 @@ struct CoilSystemParams {
   std::vector<DriveParams> drives;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.name, {"name", Unit::none, {}, "Name of the system."});
-    visit(self.coils, {"coils", Unit::none, {}, "The coils, by kind.", true});
-    visit(
-        self.drives,
-        {"drives", Unit::none, {}, "Amplifier and limits: one entry for all coils, or one each."});
+    visit(self.name, plain("name", "Name of the system."));
+    visit(self.coils, plain("coils", "The coils, by kind.").needed());
+    visit(self.drives,
+          plain("drives", "Amplifier and limits: one entry for all coils, or one each."));
   }
 };
 

@@ -49,17 +49,17 @@ struct VfieldYaml {
   std::vector<std::vector<double>> data;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.name, {"name", Unit::none, {}, "Name of the coil."});
-    visit(self.nodes[0], {"dim_x", Unit::none, {2, max_nodes}, "Nodes in x.", true});
-    visit(self.nodes[1], {"dim_y", Unit::none, {2, max_nodes}, "Nodes in y.", true});
-    visit(self.nodes[2], {"dim_z", Unit::none, {2, max_nodes}, "Nodes in z.", true});
-    visit(self.least[0], {"min_x", Unit::none, {-1e6, 1e6}, "Least x in m.", true});
-    visit(self.most[0], {"max_x", Unit::none, {-1e6, 1e6}, "Greatest x in m.", true});
-    visit(self.least[1], {"min_y", Unit::none, {-1e6, 1e6}, "Least y in m.", true});
-    visit(self.most[1], {"max_y", Unit::none, {-1e6, 1e6}, "Greatest y in m.", true});
-    visit(self.least[2], {"min_z", Unit::none, {-1e6, 1e6}, "Least z in m.", true});
-    visit(self.most[2], {"max_z", Unit::none, {-1e6, 1e6}, "Greatest z in m.", true});
-    visit(self.data, {"data", Unit::none, {}, "[Bx, By, Bz] in T of each node.", true});
+    visit(self.name, plain("name", "Name of the coil."));
+    visit(self.nodes[0], plain("dim_x", 2, max_nodes, "Nodes in x.").needed());
+    visit(self.nodes[1], plain("dim_y", 2, max_nodes, "Nodes in y.").needed());
+    visit(self.nodes[2], plain("dim_z", 2, max_nodes, "Nodes in z.").needed());
+    visit(self.least[0], plain("min_x", -1e6, 1e6, "Least x in m.").needed());
+    visit(self.most[0], plain("max_x", -1e6, 1e6, "Greatest x in m.").needed());
+    visit(self.least[1], plain("min_y", -1e6, 1e6, "Least y in m.").needed());
+    visit(self.most[1], plain("max_y", -1e6, 1e6, "Greatest y in m.").needed());
+    visit(self.least[2], plain("min_z", -1e6, 1e6, "Least z in m.").needed());
+    visit(self.most[2], plain("max_z", -1e6, 1e6, "Greatest z in m.").needed());
+    visit(self.data, plain("data", "[Bx, By, Bz] in T of each node.").needed());
   }
 };
 

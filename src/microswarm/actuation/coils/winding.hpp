@@ -21,16 +21,13 @@ struct WindingParams {
   double thickness = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.centre, {"centre", Unit::um, {-1e8, 1e8}, "Middle of the winding, [x, y, z]."});
-    visit(self.axis, {"axis",
-                      Unit::none,
-                      {-1e6, 1e6},
-                      "Direction of the field for a positive current, [x, y, z]."});
-    visit(self.radius, {"radius", Unit::um, {1, 1e8}, "Radius of the middle turn.", true});
-    visit(self.turns, {"turns", Unit::none, {1e-3, 1e6}, "Number of turns."});
-    visit(self.length, {"length", Unit::um, {0, 1e8}, "Length along the axis; 0: a thin loop."});
-    visit(self.thickness,
-          {"thickness", Unit::um, {0, 1e8}, "Outer less inner radius; 0: a thin layer."});
+    visit(self.centre, um("centre", -1e8, 1e8, "Middle of the winding, [x, y, z]."));
+    visit(self.axis,
+          plain("axis", -1e6, 1e6, "Direction of the field for a positive current, [x, y, z]."));
+    visit(self.radius, um("radius", 1, 1e8, "Radius of the middle turn.").needed());
+    visit(self.turns, plain("turns", 1e-3, 1e6, "Number of turns."));
+    visit(self.length, um("length", 0, 1e8, "Length along the axis; 0: a thin loop."));
+    visit(self.thickness, um("thickness", 0, 1e8, "Outer less inner radius; 0: a thin layer."));
   }
 };
 
@@ -40,8 +37,8 @@ struct CoilParams {
   std::vector<WindingParams> windings;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.name, {"name", Unit::none, {}, "Name of the coil.", true});
-    visit(self.windings, {"windings", Unit::none, {}, "Windings in series.", true});
+    visit(self.name, plain("name", "Name of the coil.").needed());
+    visit(self.windings, plain("windings", "Windings in series.").needed());
   }
 };
 

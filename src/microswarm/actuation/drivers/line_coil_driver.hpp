@@ -39,20 +39,16 @@ struct LineDriverParams {
   double connect_timeout = 10;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.send, {"send", Unit::none, {}, "Currents in A, or the field in mT at the swarm."});
-    visit(self.channels, {"channels",
-                          Unit::none,
-                          {1, line_protocol_values},
-                          "Currents of a message; none: one for each coil."});
-    visit(self.full_scale, {"full_scale", Unit::a, {1e-6, 1e6}, "Largest current of a channel."});
+    visit(self.send, plain("send", "Currents in A, or the field in mT at the swarm."));
+    visit(self.channels, plain("channels", 1, line_protocol_values,
+                               "Currents of a message; none: one for each coil."));
+    visit(self.full_scale, a("full_scale", 1e-6, 1e6, "Largest current of a channel."));
     visit(self.tolerance,
-          {"tolerance", Unit::none, {1e-6, 1}, "Allowed error of acknowledged values, A or mT."});
-    visit(self.watchdog,
-          {"watchdog", Unit::s, {0.02, 10}, "Silence after which the driver turns off."});
-    visit(self.reply_timeout,
-          {"reply_timeout", Unit::s, {0.001, 1}, "Longest wait for an answer."});
+          plain("tolerance", 1e-6, 1, "Allowed error of acknowledged values, A or mT."));
+    visit(self.watchdog, s("watchdog", 0.02, 10, "Silence after which the driver turns off."));
+    visit(self.reply_timeout, s("reply_timeout", 0.001, 1, "Longest wait for an answer."));
     visit(self.connect_timeout,
-          {"connect_timeout", Unit::s, {0.1, 300}, "Longest wait for the first answer."});
+          s("connect_timeout", 0.1, 300, "Longest wait for the first answer."));
   }
 };
 
@@ -62,11 +58,8 @@ struct ProgramDriverParams : LineDriverParams {
   std::vector<std::string> command;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.command, {"command",
-                         Unit::none,
-                         {},
-                         "Program and its arguments, started beside the rig's file.",
-                         true});
+    visit(self.command,
+          plain("command", "Program and its arguments, started beside the rig's file.").needed());
     LineDriverParams::fields(self, visit);
   }
 };
@@ -78,8 +71,8 @@ struct SocketDriverParams : LineDriverParams {
   int port = 5025;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.host, {"host", Unit::none, {}, "Host, or path of a Unix socket."});
-    visit(self.port, {"port", Unit::none, {1, 65535}, "TCP port; not for a Unix socket."});
+    visit(self.host, plain("host", "Host, or path of a Unix socket."));
+    visit(self.port, plain("port", 1, 65535, "TCP port; not for a Unix socket."));
     LineDriverParams::fields(self, visit);
   }
 };

@@ -31,18 +31,16 @@ struct SerialCoilParams {
   bool waveforms = false;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.port, {"port", Unit::none, {}, "Serial port of the device."});
-    visit(self.full_scale,
-          {"full_scale", Unit::a, {1e-6, 1000}, "Current of a channel at full output."});
-    visit(self.reply_timeout,
-          {"reply_timeout", Unit::s, {0.001, 1}, "Longest wait for an answer."});
-    visit(self.attempts, {"attempts", Unit::none, {1, 20}, "Number of times a message is sent."});
+    visit(self.port, plain("port", "Serial port of the device."));
+    visit(self.full_scale, a("full_scale", 1e-6, 1000, "Current of a channel at full output."));
+    visit(self.reply_timeout, s("reply_timeout", 0.001, 1, "Longest wait for an answer."));
+    visit(self.attempts, plain("attempts", 1, 20, "Number of times a message is sent."));
     visit(self.boot_time,
-          {"boot_time", Unit::s, {0, 10}, "Silence after opening the port, for a bootloader."});
+          s("boot_time", 0, 10, "Silence after opening the port, for a bootloader."));
     visit(self.connect_timeout,
-          {"connect_timeout", Unit::s, {0.1, 60}, "Longest wait for the first answer."});
+          s("connect_timeout", 0.1, 60, "Longest wait for the first answer."));
     visit(self.waveforms,
-          {"waveforms", Unit::none, {}, "The device turns the field; the host only steers it."});
+          plain("waveforms", "The device turns the field; the host only steers it."));
   }
 };
 

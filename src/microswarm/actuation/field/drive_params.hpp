@@ -24,26 +24,19 @@ struct DriveParams {
   std::optional<double> max_temperature;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.resistance,
-          {"resistance", Unit::ohm, {1e-6, 1e6}, "Resistance of the coil at 20 °C."});
-    visit(self.temperature_coefficient, {"temperature_coefficient",
-                                         Unit::per_k,
-                                         {0, 0.1},
-                                         "Growth of the resistance per kelvin; that of copper."});
-    visit(self.inductance, {"inductance", Unit::mh, {0, 1e6}, "Inductance of the coil."});
-    visit(self.thermal_resistance, {"thermal_resistance",
-                                    Unit::k_per_w,
-                                    {0, 1e6},
-                                    "Temperature rise over the surroundings per watt."});
-    visit(self.thermal_time,
-          {"thermal_time", Unit::s, {1e-3, 1e7}, "Time constant of the temperature."});
-    visit(self.ambient, {"ambient", Unit::degc, {-273, 1e3}, "Temperature around the coil."});
-    visit(self.max_current, {"max_current", Unit::a, {1e-6, 1e6}, "Maximum current."});
-    visit(self.max_voltage, {"max_voltage", Unit::v, {1e-6, 1e6}, "Maximum voltage."});
-    visit(self.max_slew,
-          {"max_slew", Unit::a_per_s, {1e-6, 1e9}, "Maximum rate of change of the current."});
-    visit(self.max_temperature,
-          {"max_temperature", Unit::degc, {-273, 1e4}, "Maximum temperature."});
+    visit(self.resistance, ohm("resistance", 1e-6, 1e6, "Resistance of the coil at 20 °C."));
+    visit(self.temperature_coefficient,
+          per_k("temperature_coefficient", 0, 0.1,
+                "Growth of the resistance per kelvin; that of copper."));
+    visit(self.inductance, mh("inductance", 0, 1e6, "Inductance of the coil."));
+    visit(self.thermal_resistance, k_per_w("thermal_resistance", 0, 1e6,
+                                           "Temperature rise over the surroundings per watt."));
+    visit(self.thermal_time, s("thermal_time", 1e-3, 1e7, "Time constant of the temperature."));
+    visit(self.ambient, degc("ambient", -273, 1e3, "Temperature around the coil."));
+    visit(self.max_current, a("max_current", 1e-6, 1e6, "Maximum current."));
+    visit(self.max_voltage, v("max_voltage", 1e-6, 1e6, "Maximum voltage."));
+    visit(self.max_slew, a_per_s("max_slew", 1e-6, 1e9, "Maximum rate of change of the current."));
+    visit(self.max_temperature, degc("max_temperature", -273, 1e4, "Maximum temperature."));
   }
 };
 

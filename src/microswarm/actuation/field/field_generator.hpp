@@ -39,23 +39,19 @@ struct FieldGeneratorParams {
   }
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.kind, {"kind", Unit::none, {}, "Kind of the field that drives the swarm."});
-    visit(self.amplitude, {"amplitude", Unit::mt, {0, 1e3}, "Flux density."});
-    visit(
-        self.frequency,
-        {"frequency", Unit::hz, {1e-6, 1e4}, "Turns per second; the maximum for rolling fields."});
-    visit(self.speed_per_pitch, {"speed_per_pitch",
-                                 Unit::um_per_s,
-                                 {1e-6, 1e9},
-                                 "Speed for a pitch of 1 rad, c of Eq 2 [radar]."});
-    visit(self.max_pitch, {"max_pitch", Unit::deg, {0, 90}, "Largest stable pitch."});
+    visit(self.kind, plain("kind", "Kind of the field that drives the swarm."));
+    visit(self.amplitude, mt("amplitude", 0, 1e3, "Flux density."));
+    visit(self.frequency,
+          hz("frequency", 1e-6, 1e4, "Turns per second; the maximum for rolling fields."));
+    visit(self.speed_per_pitch,
+          um_per_s("speed_per_pitch", 1e-6, 1e9, "Speed for a pitch of 1 rad, c of Eq 2 [radar]."));
+    visit(self.max_pitch, deg("max_pitch", 0, 90, "Largest stable pitch."));
     visit(self.length_per_turn,
-          {"length_per_turn", Unit::um, {1e-6, 1e6}, "Distance per turn of a rolling field."});
-    visit(
-        self.max_turn_rate,
-        {"max_turn_rate", Unit::deg_per_s, {1e-3, 1e6}, "Maximum rate of change of the heading."});
+          um("length_per_turn", 1e-6, 1e6, "Distance per turn of a rolling field."));
+    visit(self.max_turn_rate,
+          deg_per_s("max_turn_rate", 1e-3, 1e6, "Maximum rate of change of the heading."));
     visit(self.max_pitch_rate,
-          {"max_pitch_rate", Unit::deg_per_s, {1e-3, 1e6}, "Maximum rate of change of the pitch."});
+          deg_per_s("max_pitch_rate", 1e-3, 1e6, "Maximum rate of change of the pitch."));
   }
 };
 

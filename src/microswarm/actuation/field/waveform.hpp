@@ -42,13 +42,12 @@ struct RollingParams {
   double length_per_turn = 1000;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.amplitude, {"amplitude", Unit::mt, {1e-6, 1e4}, "Flux density."});
-    visit(self.frequency, {"frequency", Unit::hz, {1e-6, 1e4}, "Turns per second while rolling."});
-    visit(
-        self.steering_rate,
-        {"steering_rate", Unit::deg_per_s, {1e-3, 1e5}, "Maximum rate of change of the heading."});
+    visit(self.amplitude, mt("amplitude", 1e-6, 1e4, "Flux density."));
+    visit(self.frequency, hz("frequency", 1e-6, 1e4, "Turns per second while rolling."));
+    visit(self.steering_rate,
+          deg_per_s("steering_rate", 1e-3, 1e5, "Maximum rate of change of the heading."));
     visit(self.length_per_turn,
-          {"length_per_turn", Unit::um, {1e-3, 1e7}, "Distance per turn: π times the diameter."});
+          um("length_per_turn", 1e-3, 1e7, "Distance per turn: π times the diameter."));
   }
 };
 

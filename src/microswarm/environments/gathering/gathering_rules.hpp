@@ -70,37 +70,31 @@ struct GatheringRules {
   int max_particles_per_cell = 3;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.physics, {"physics", Unit::none, {}, "How particles follow an input."});
-    visit(self.particle_count,
-          {"particle_count", Unit::none, {}, "How many particles an episode has."});
-    visit(self.n_particles,
-          {"n_particles", Unit::none, {1, 1e6}, "Number of particles, if it is fixed."});
+    visit(self.physics, plain("physics", "How particles follow an input."));
+    visit(self.particle_count, plain("particle_count", "How many particles an episode has."));
+    visit(self.n_particles, plain("n_particles", 1, 1e6, "Number of particles, if it is fixed."));
     visit(self.goal_range,
-          {"goal_range", Unit::none, {0, 1e6}, "Steps to the goal within which all must be."});
+          plain("goal_range", 0, 1e6, "Steps to the goal within which all must be."));
     visit(self.max_episode_steps,
-          {"max_episode_steps", Unit::none, {1, 1e9}, "Steps after which an episode is cut."});
-    visit(self.observation, {"observation", Unit::none, {}, "Channels of the picture."});
-    visit(self.total_cost_reward,
-          {"total_cost_reward", Unit::none, {}, "Reward what all come nearer."});
-    visit(self.max_cost_reward,
-          {"max_cost_reward", Unit::none, {}, "Reward what the farthest comes nearer."});
-    visit(self.time_penalty, {"time_penalty", Unit::none, {}, "Every step costs."});
+          plain("max_episode_steps", 1, 1e9, "Steps after which an episode is cut."));
+    visit(self.observation, plain("observation", "Channels of the picture."));
+    visit(self.total_cost_reward, plain("total_cost_reward", "Reward what all come nearer."));
+    visit(self.max_cost_reward, plain("max_cost_reward", "Reward what the farthest comes nearer."));
+    visit(self.time_penalty, plain("time_penalty", "Every step costs."));
     visit(self.random_move_chance,
-          {"random_move_chance", Unit::none, {0, 1}, "Fuzzy: share of cells with a random move."});
+          plain("random_move_chance", 0, 1, "Fuzzy: share of cells with a random move."));
     visit(self.random_move_distance,
-          {"random_move_distance", Unit::none, {1, 7}, "Fuzzy: longest random move."});
-    visit(self.fuzzy_action_probability, {"fuzzy_action_probability",
-                                          Unit::none,
-                                          {0, 1},
-                                          "Fuzzy: share of cells that do not move."});
-    visit(self.force, {"force", Unit::none, {0, 1e3}, "Physical: force of an input."});
-    visit(self.drag, {"drag", Unit::none, {1, 1e3}, "Physical: loss of speed in a step, divisor."});
+          plain("random_move_distance", 1, 7, "Fuzzy: longest random move."));
+    visit(self.fuzzy_action_probability,
+          plain("fuzzy_action_probability", 0, 1, "Fuzzy: share of cells that do not move."));
+    visit(self.force, plain("force", 0, 1e3, "Physical: force of an input."));
+    visit(self.drag, plain("drag", 1, 1e3, "Physical: loss of speed in a step, divisor."));
     visit(self.max_particle_weight,
-          {"max_particle_weight", Unit::none, {1, 1e3}, "Physical: weights are from 1 to this."});
+          plain("max_particle_weight", 1, 1e3, "Physical: weights are from 1 to this."));
     visit(self.particle_self_collision,
-          {"particle_self_collision", Unit::none, {}, "Physical: particles block each other."});
+          plain("particle_self_collision", "Physical: particles block each other."));
     visit(self.max_particles_per_cell,
-          {"max_particles_per_cell", Unit::none, {1, 60000}, "Physical: so many fit into a cell."});
+          plain("max_particles_per_cell", 1, 60000, "Physical: so many fit into a cell."));
   }
 };
 

@@ -20,19 +20,15 @@ struct NavigationRules {
   double time_penalty = 0.5;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.rays, {"rays", Unit::none, {0, 360}, "Directions in which distances are seen."});
-    visit(self.ray_range, {"ray_range", Unit::um, {1, 1e6}, "Greatest distance that is seen."});
-    visit(self.obstacles, {"obstacles", Unit::none, {0, 1000}, "Nearest obstacles that are seen."});
-    visit(self.random_start,
-          {"random_start", Unit::none, {}, "A random free start for each episode."});
-    visit(self.random_goal,
-          {"random_goal", Unit::none, {}, "A random free goal for each episode."});
-    visit(self.arrival_reward,
-          {"arrival_reward", Unit::none, {0, 1e6}, "Reward for reaching the goal."});
-    visit(self.contact_penalty,
-          {"contact_penalty", Unit::none, {0, 1e6}, "Reward that a contact costs."});
+    visit(self.rays, plain("rays", 0, 360, "Directions in which distances are seen."));
+    visit(self.ray_range, um("ray_range", 1, 1e6, "Greatest distance that is seen."));
+    visit(self.obstacles, plain("obstacles", 0, 1000, "Nearest obstacles that are seen."));
+    visit(self.random_start, plain("random_start", "A random free start for each episode."));
+    visit(self.random_goal, plain("random_goal", "A random free goal for each episode."));
+    visit(self.arrival_reward, plain("arrival_reward", 0, 1e6, "Reward for reaching the goal."));
+    visit(self.contact_penalty, plain("contact_penalty", 0, 1e6, "Reward that a contact costs."));
     visit(self.time_penalty,
-          {"time_penalty", Unit::none, {0, 1e6}, "Reward that the whole time limit costs."});
+          plain("time_penalty", 0, 1e6, "Reward that the whole time limit costs."));
   }
 };
 

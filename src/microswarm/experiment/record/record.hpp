@@ -35,11 +35,11 @@ struct Record {
   /// The tables of the record.
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.frames, {"frames", Unit::none, {}, "Ticks, and the end."});
-    visit(self.paths, {"paths", Unit::none, {}, "Paths that the navigator followed."});
-    visit(self.plans, {"plans", Unit::none, {}, "Planning events."});
-    visit(self.events, {"events", Unit::none, {}, "What happened, between the ticks too."});
-    visit(self.robots, {"robots", Unit::none, {}, "Where individually tracked robots were."});
+    visit(self.frames, plain("frames", "Ticks, and the end."));
+    visit(self.paths, plain("paths", "Paths that the navigator followed."));
+    visit(self.plans, plain("plans", "Planning events."));
+    visit(self.events, plain("events", "What happened, between the ticks too."));
+    visit(self.robots, plain("robots", "Where individually tracked robots were."));
   }
 
   /// Fingerprint of all physical data: frames, paths, plans, events, status, metrics and any

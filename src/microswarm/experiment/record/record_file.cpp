@@ -86,7 +86,7 @@ struct ExternalPart {
   std::vector<PhasedGoal> phased_goals;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.phased_goals, {"phased_goals", Unit::none, {}, "Phased goals of the navigator."});
+    visit(self.phased_goals, plain("phased_goals", "Phased goals of the navigator."));
   }
 };
 

@@ -25,15 +25,13 @@ struct RigLatency {
   int missed_deadlines = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.median, {"latency_median", Unit::s, {}, "Median from camera to current."});
-    visit(self.p99, {"latency_p99", Unit::s, {}, "99th percentile from camera to current."});
-    visit(self.longest, {"latency_longest", Unit::s, {}, "Longest time from camera to current."});
-    visit(self.pictures, {"pictures", Unit::none, {}, "Pictures that currents answered."});
-    visit(self.late_currents,
-          {"late_currents", Unit::none, {}, "Pictures answered more than a tick later."});
-    visit(self.ticks, {"ticks", Unit::none, {}, "Number of ticks."});
-    visit(self.missed_deadlines,
-          {"missed_deadlines", Unit::none, {}, "Ticks whose command came too late."});
+    visit(self.median, s("latency_median", "Median from camera to current."));
+    visit(self.p99, s("latency_p99", "99th percentile from camera to current."));
+    visit(self.longest, s("latency_longest", "Longest time from camera to current."));
+    visit(self.pictures, plain("pictures", "Pictures that currents answered."));
+    visit(self.late_currents, plain("late_currents", "Pictures answered more than a tick later."));
+    visit(self.ticks, plain("ticks", "Number of ticks."));
+    visit(self.missed_deadlines, plain("missed_deadlines", "Ticks whose command came too late."));
   }
 };
 

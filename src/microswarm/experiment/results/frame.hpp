@@ -33,33 +33,26 @@ struct Frame {
   bool planned = false;                         ///< a planning event
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.t, {"t", Unit::s, {}, "When the tick begins."});
-    visit(self.pose.position.x, {"x", Unit::um, {}, "The swarm's centre at t, to the right."});
-    visit(self.pose.position.y, {"y", Unit::um, {}, "The swarm's centre at t, upwards."});
-    visit(self.pose.heading, {"heading", Unit::rad, {}, "The swarm's heading at t."});
-    visit(self.radius, {"radius", Unit::um, {}, "The swarm's radius at t; of robots 0."});
-    visit(self.speed, {"speed", Unit::um_per_s, {}, "The swarm's speed at t."});
-    visit(self.seen, {"seen", Unit::s, {}, "When the navigator's camera frame was taken."});
-    visit(self.observed, {"observed", Unit::none, {}, "The swarm in that camera frame."});
-    visit(self.command.heading, {"command_heading", Unit::rad, {}, "Commanded heading."});
-    visit(self.command.speed, {"command_speed", Unit::um_per_s, {}, "Commanded speed; 0 is hold."});
-    visit(self.goal_distance, {"goal_distance",
-                               Unit::um,
-                               {},
-                               "Remaining distance to the goal; of robots as in metrics."});
-    visit(self.wall_clearance, {"wall_clearance",
-                                Unit::um,
-                                {},
-                                "Distance from the centre to walls; infinite for robots."});
-    visit(self.obstacle_clearance, {"obstacle_clearance",
-                                    Unit::um,
-                                    {},
-                                    "Distance from the centre to moving bodies, or infinite."});
-    visit(self.avoidance_cost, {"avoidance_cost", Unit::none, {}, "δ at t, Eq 4 [radar]."});
-    visit(self.target, {"target", Unit::um, {}, "The navigator's local target."});
-    visit(self.state,
-          {"state", Unit::none, {}, "State of the navigator; `end` in the last frame."});
-    visit(self.planned, {"planned", Unit::none, {}, "1 for a planning event, else 0."});
+    visit(self.t, s("t", "When the tick begins."));
+    visit(self.pose.position.x, um("x", "The swarm's centre at t, to the right."));
+    visit(self.pose.position.y, um("y", "The swarm's centre at t, upwards."));
+    visit(self.pose.heading, rad("heading", "The swarm's heading at t."));
+    visit(self.radius, um("radius", "The swarm's radius at t; of robots 0."));
+    visit(self.speed, um_per_s("speed", "The swarm's speed at t."));
+    visit(self.seen, s("seen", "When the navigator's camera frame was taken."));
+    visit(self.observed, plain("observed", "The swarm in that camera frame."));
+    visit(self.command.heading, rad("command_heading", "Commanded heading."));
+    visit(self.command.speed, um_per_s("command_speed", "Commanded speed; 0 is hold."));
+    visit(self.goal_distance,
+          um("goal_distance", "Remaining distance to the goal; of robots as in metrics."));
+    visit(self.wall_clearance,
+          um("wall_clearance", "Distance from the centre to walls; infinite for robots."));
+    visit(self.obstacle_clearance,
+          um("obstacle_clearance", "Distance from the centre to moving bodies, or infinite."));
+    visit(self.avoidance_cost, plain("avoidance_cost", "δ at t, Eq 4 [radar]."));
+    visit(self.target, um("target", "The navigator's local target."));
+    visit(self.state, plain("state", "State of the navigator; `end` in the last frame."));
+    visit(self.planned, plain("planned", "1 for a planning event, else 0."));
   }
 };
 
@@ -69,8 +62,8 @@ struct PathChange {
   std::vector<Vec2> path;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.t, {"t", Unit::s, {}, "Time from which the navigator follows it."});
-    visit(self.path, {"points", Unit::um, {}, "The path."});
+    visit(self.t, s("t", "Time from which the navigator follows it."));
+    visit(self.path, um("points", "The path."));
   }
 };
 
@@ -80,8 +73,8 @@ struct PhasedGoal {
   std::optional<Vec2> point;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.t, {"t", Unit::s, {}, "Time from which the navigator has it."});
-    visit(self.point, {"goal", Unit::um, {}, "The phased goal; NaN for the goal of the run."});
+    visit(self.t, s("t", "Time from which the navigator has it."));
+    visit(self.point, um("goal", "The phased goal; NaN for the goal of the run."));
   }
 };
 
@@ -91,8 +84,8 @@ struct RobotMoment {
   std::vector<Vec2> places;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.t, {"t", Unit::s, {}, "Time of the positions."});
-    visit(self.places, {"places", Unit::um, {}, "Position of each robot."});
+    visit(self.t, s("t", "Time of the positions."));
+    visit(self.places, um("places", "Position of each robot."));
   }
 };
 
@@ -102,16 +95,14 @@ struct PlanEvent {
   Plan plan;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.t, {"t", Unit::s, {}, "Time of the planning."});
-    visit(self.plan.status, {"status", Unit::none, {}, "How the planner ended."});
-    visit(self.plan.counts.iterations,
-          {"iterations", Unit::none, {}, "Iterations of the planner."});
-    visit(self.plan.counts.samples, {"samples", Unit::none, {}, "Number of samples drawn."});
-    visit(self.plan.counts.edge_checks,
-          {"edge_checks", Unit::none, {}, "Number of edges checked."});
-    visit(self.plan.path, {"path", Unit::um, {}, "Path found."});
-    visit(self.plan.tree, {"tree", Unit::none, {}, "Search tree."});
-    visit(self.plan.detections, {"detections", Unit::none, {}, "Detection circles."});
+    visit(self.t, s("t", "Time of the planning."));
+    visit(self.plan.status, plain("status", "How the planner ended."));
+    visit(self.plan.counts.iterations, plain("iterations", "Iterations of the planner."));
+    visit(self.plan.counts.samples, plain("samples", "Number of samples drawn."));
+    visit(self.plan.counts.edge_checks, plain("edge_checks", "Number of edges checked."));
+    visit(self.plan.path, um("path", "Path found."));
+    visit(self.plan.tree, plain("tree", "Search tree."));
+    visit(self.plan.detections, plain("detections", "Detection circles."));
   }
 };
 
@@ -152,14 +143,13 @@ struct RunEvent {
   std::uint32_t body = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.t, {"t", Unit::s, {}, "Time of the event, also between ticks."});
-    visit(self.kind, {"kind", Unit::none, {}, "Kind of the event."});
-    visit(self.position.x, {"x", Unit::um, {}, "The swarm's centre at the event, to the right."});
-    visit(self.position.y, {"y", Unit::um, {}, "The swarm's centre at the event, upwards."});
-    visit(self.clearance, {"clearance", Unit::um, {}, "Distance from the centre at a contact."});
-    visit(self.speed, {"speed", Unit::um_per_s, {}, "The swarm's speed at the event."});
-    visit(self.body,
-          {"body", Unit::none, {}, "Obstacle touched, 4294967295: border; or unseen robots."});
+    visit(self.t, s("t", "Time of the event, also between ticks."));
+    visit(self.kind, plain("kind", "Kind of the event."));
+    visit(self.position.x, um("x", "The swarm's centre at the event, to the right."));
+    visit(self.position.y, um("y", "The swarm's centre at the event, upwards."));
+    visit(self.clearance, um("clearance", "Distance from the centre at a contact."));
+    visit(self.speed, um_per_s("speed", "The swarm's speed at the event."));
+    visit(self.body, plain("body", "Obstacle touched, 4294967295: border; or unseen robots."));
   }
 };
 

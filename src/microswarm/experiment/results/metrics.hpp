@@ -16,8 +16,8 @@ struct LeastClearance {
   double t = 0;                                                ///< [s]
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.clearance, {"clearance", Unit::um, {}, "From the swarm's centre."});
-    visit(self.t, {"t", Unit::s, {}, "Time of the least clearance."});
+    visit(self.clearance, um("clearance", "From the swarm's centre."));
+    visit(self.t, s("t", "Time of the least clearance."));
   }
 };
 
@@ -30,12 +30,11 @@ struct Avoidance {
   double min_gap = std::numeric_limits<double>::infinity();
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.mean_cost,
-          {"mean_cost", Unit::none, {}, "Mean avoidance cost δ of the run, Eq 3, 4 [radar]."});
-    visit(self.time, {"time", Unit::s, {}, "Time with an obstacle in the detection circle."});
+    visit(self.mean_cost, plain("mean_cost", "Mean avoidance cost δ of the run, Eq 3, 4 [radar]."));
+    visit(self.time, s("time", "Time with an obstacle in the detection circle."));
     visit(self.mean_gap,
-          {"mean_gap", Unit::um, {}, "Mean edge-to-edge gap to the nearest obstacle meanwhile."});
-    visit(self.min_gap, {"least_gap", Unit::um, {}, "Smallest gap; negative in a contact."});
+          um("mean_gap", "Mean edge-to-edge gap to the nearest obstacle meanwhile."));
+    visit(self.min_gap, um("least_gap", "Smallest gap; negative in a contact."));
   }
 };
 
@@ -60,22 +59,19 @@ struct Metrics {
   int avoidable_contacts = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.time, {"time", Unit::s, {}, "Simulated time at the end."});
-    visit(self.length, {"length", Unit::um, {}, "Length of the swarm's path."});
-    visit(self.turning, {"turning", Unit::deg, {}, "Total change of its heading."});
-    visit(self.goal_distance, {"goal_distance",
-                               Unit::um,
-                               {},
-                               "Remaining distance; of robots the mean path or the worst."});
-    visit(self.hold_time, {"hold_time", Unit::s, {}, "Time spent in hold."});
-    visit(self.walls, {"walls", Unit::none, {}, "Least clearance to walls and border."});
-    visit(self.obstacles, {"obstacles", Unit::none, {}, "Least clearance to moving bodies."});
-    visit(self.avoidance, {"avoidance", Unit::none, {}, "Avoidance of moving obstacles."});
-    visit(self.planning_events,
-          {"planning_events", Unit::none, {}, "Number of calls of a planner."});
-    visit(self.contacts, {"contacts", Unit::none, {}, "Contacts with walls and moving bodies."});
+    visit(self.time, s("time", "Simulated time at the end."));
+    visit(self.length, um("length", "Length of the swarm's path."));
+    visit(self.turning, deg("turning", "Total change of its heading."));
+    visit(self.goal_distance,
+          um("goal_distance", "Remaining distance; of robots the mean path or the worst."));
+    visit(self.hold_time, s("hold_time", "Time spent in hold."));
+    visit(self.walls, plain("walls", "Least clearance to walls and border."));
+    visit(self.obstacles, plain("obstacles", "Least clearance to moving bodies."));
+    visit(self.avoidance, plain("avoidance", "Avoidance of moving obstacles."));
+    visit(self.planning_events, plain("planning_events", "Number of calls of a planner."));
+    visit(self.contacts, plain("contacts", "Contacts with walls and moving bodies."));
     visit(self.avoidable_contacts,
-          {"avoidable_contacts", Unit::none, {}, "Contacts while the swarm was driving."});
+          plain("avoidable_contacts", "Contacts while the swarm was driving."));
   }
 };
 
@@ -89,12 +85,12 @@ struct TimeSummary {
   double max = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.count, {"count", Unit::none, {}, "Number of values."});
-    visit(self.mean, {"mean", Unit::s, {}, "Mean."});
-    visit(self.sd, {"sd", Unit::s, {}, "Standard deviation (n − 1)."});
-    visit(self.p50, {"p50", Unit::s, {}, "Median."});
-    visit(self.p99, {"p99", Unit::s, {}, "99th percentile (nearest rank)."});
-    visit(self.max, {"max", Unit::s, {}, "Maximum."});
+    visit(self.count, plain("count", "Number of values."));
+    visit(self.mean, s("mean", "Mean."));
+    visit(self.sd, s("sd", "Standard deviation (n − 1)."));
+    visit(self.p50, s("p50", "Median."));
+    visit(self.p99, s("p99", "99th percentile (nearest rank)."));
+    visit(self.max, s("max", "Maximum."));
   }
 };
 

@@ -18,11 +18,10 @@ struct JudgeParams {
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.lookback,
-          {"lookback", Unit::s, {0, 60}, "Time before a contact in which decisions are judged."});
-    visit(self.aftermath,
-          {"aftermath", Unit::s, {0, 60}, "Time after the contact that must stay free."});
+          s("lookback", 0, 60, "Time before a contact in which decisions are judged."));
+    visit(self.aftermath, s("aftermath", 0, 60, "Time after the contact that must stay free."));
     visit(self.directions,
-          {"directions", Unit::none, {1, 3600}, "Number of escape headings, evenly spaced."});
+          plain("directions", 1, 3600, "Number of escape headings, evenly spaced."));
   }
 };
 

@@ -32,27 +32,22 @@ struct SensingParams {
   double frame_timeout = 0.5;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(
-        self.observation_delay,
-        {"observation_delay", Unit::s, {0, 10}, "Age of a frame when the navigator receives it."});
+    visit(self.observation_delay,
+          s("observation_delay", 0, 10, "Age of a frame when the navigator receives it."));
     visit(self.position_noise,
-          {"position_noise", Unit::um, {0, 1e4}, "Standard deviation of the swarm's position."});
+          um("position_noise", 0, 1e4, "Standard deviation of the swarm's position."));
     visit(self.heading_noise,
-          {"heading_noise", Unit::deg, {0, 360}, "Standard deviation of the swarm's heading."});
+          deg("heading_noise", 0, 360, "Standard deviation of the swarm's heading."));
     visit(self.missed_share,
-          {"missed_share", Unit::none, {0, 1}, "Share of frames in which no swarm is found."});
+          plain("missed_share", 0, 1, "Share of frames in which no swarm is found."));
     visit(self.obstacle_noise,
-          {"obstacle_noise", Unit::um, {0, 1e4}, "Standard deviation of an obstacle's position."});
-    visit(self.obstacle_missed_share, {"obstacle_missed_share",
-                                       Unit::none,
-                                       {0, 1},
-                                       "Share of frames in which an obstacle is not found."});
-    visit(self.obstacle_memory, {"obstacle_memory",
-                                 Unit::s,
-                                 {0, 60},
-                                 "Time for which an obstacle that is not found is kept."});
+          um("obstacle_noise", 0, 1e4, "Standard deviation of an obstacle's position."));
+    visit(self.obstacle_missed_share, plain("obstacle_missed_share", 0, 1,
+                                            "Share of frames in which an obstacle is not found."));
+    visit(self.obstacle_memory,
+          s("obstacle_memory", 0, 60, "Time for which an obstacle that is not found is kept."));
     visit(self.frame_timeout,
-          {"frame_timeout", Unit::s, {0, 60}, "Age of a frame above which the navigator holds."});
+          s("frame_timeout", 0, 60, "Age of a frame above which the navigator holds."));
   }
 };
 
@@ -87,38 +82,29 @@ struct Scenario {
        {"swarm.field_frequency_hz", ""}}};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.name, {"name", Unit::none, {}, "Name of the run."});
-    visit(self.description, {"description", Unit::none, {}, "Description of the run."});
-    visit(self.map, {"map", Unit::none, {}, "Walls.", true});
-    visit(self.obstacles, {"obstacles", Unit::none, {}, "Moving or changing obstacles."});
-    visit(self.swarm, {"swarm", Unit::none, {}, "Body and motion of a swarm seen as one body."});
-    visit(self.robots,
-          {"robots", Unit::none, {}, "Individually tracked robots, in place of `swarm`."});
-    visit(self.sensing, {"sensing", Unit::none, {}, "Noise and delay of the camera."});
-    visit(self.start, {"start", Unit::none, {}, "Pose of the swarm at t = 0; not for robots."});
-    visit(self.goal, {"goal", Unit::um, {}, "Goal of the swarm, or where robots gather."});
-    visit(self.goal_tolerance, {"goal_tolerance",
-                                Unit::um,
-                                {1e-3, 1e6},
-                                "Distance at which the goal counts as reached; robots: mean."});
-    visit(self.navigator, {"navigator", Unit::none, {}, "Navigator and its parameters."});
-    visit(self.tick, {"tick", Unit::s, {1e-3, 10}, "Time between two commands."});
-    visit(self.time_limit,
-          {"time_limit", Unit::s, {0, 1e5}, "Simulated time after which the run ends."});
+    visit(self.name, plain("name", "Name of the run."));
+    visit(self.description, plain("description", "Description of the run."));
+    visit(self.map, plain("map", "Walls.").needed());
+    visit(self.obstacles, plain("obstacles", "Moving or changing obstacles."));
+    visit(self.swarm, plain("swarm", "Body and motion of a swarm seen as one body."));
+    visit(self.robots, plain("robots", "Individually tracked robots, in place of `swarm`."));
+    visit(self.sensing, plain("sensing", "Noise and delay of the camera."));
+    visit(self.start, plain("start", "Pose of the swarm at t = 0; not for robots."));
+    visit(self.goal, um("goal", "Goal of the swarm, or where robots gather."));
+    visit(self.goal_tolerance, um("goal_tolerance", 1e-3, 1e6,
+                                  "Distance at which the goal counts as reached; robots: mean."));
+    visit(self.navigator, plain("navigator", "Navigator and its parameters."));
+    visit(self.tick, s("tick", 1e-3, 10, "Time between two commands."));
+    visit(self.time_limit, s("time_limit", 0, 1e5, "Simulated time after which the run ends."));
     visit(self.hold_limit,
-          {"hold_limit", Unit::s, {0, 1e5}, "Longest uninterrupted hold before the run ends."});
-    visit(
-        self.hold_at_goal,
-        {"hold_at_goal", Unit::s, {0, 1e6}, "Time to hold the swarm at the goal before the end."});
-    visit(self.stop_at_contact, {"stop_at_contact",
-                                 Unit::none,
-                                 {},
-                                 "End at the first contact, or count contacts and go on."});
-    visit(self.detection_range, {"detection_range",
-                                 Unit::um,
-                                 {0, 1e6},
-                                 "Gap below which an obstacle counts as being avoided."});
-    visit(self.seed, {"seed", Unit::none, {}, "Seed of every random stream."});
+          s("hold_limit", 0, 1e5, "Longest uninterrupted hold before the run ends."));
+    visit(self.hold_at_goal,
+          s("hold_at_goal", 0, 1e6, "Time to hold the swarm at the goal before the end."));
+    visit(self.stop_at_contact,
+          plain("stop_at_contact", "End at the first contact, or count contacts and go on."));
+    visit(self.detection_range,
+          um("detection_range", 0, 1e6, "Gap below which an obstacle counts as being avoided."));
+    visit(self.seed, plain("seed", "Seed of every random stream."));
   }
 };
 

@@ -28,32 +28,22 @@ struct PotentialFieldParams {
   PotentialFieldTuning tuning;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Commanded speed."});
+    visit(self.speed, um_per_s("speed", 1e-3, 1e5, "Commanded speed."));
     visit(self.repulsion,
-          {"repulsion", Unit::none, {0, 1e6}, "Gain of the repulsion; the attraction is 1."});
-    visit(self.influence,
-          {"influence", Unit::um, {1e-3, 1e6}, "Gap above which obstacles do not repel."});
+          plain("repulsion", 0, 1e6, "Gain of the repulsion; the attraction is 1."));
+    visit(self.influence, um("influence", 1e-3, 1e6, "Gap above which obstacles do not repel."));
     visit(self.wall_influence,
-          {"wall_influence", Unit::um, {1e-3, 1e6}, "Gap above which walls do not repel."});
-    visit(self.reaction_time, {"reaction_time",
-                               Unit::s,
-                               {0, 60},
-                               "Time by which the approach of an obstacle is anticipated."});
-    visit(self.min_force, {"min_force",
-                           Unit::none,
-                           {0, 1},
-                           "Force below which the swarm is stuck and holds.",
-                           false,
-                           "least_force"});
-    visit(self.gap, {"gap",
-                     Unit::um,
-                     {0, 1e5},
-                     "Distance from the swarm's edge where gaps begin.",
-                     false,
-                     "margin_um"});
-    visit(self.guide, {"guide", Unit::none, {}, "Direction of the goal: straight or route."});
-    visit(self.tracker, {"tracker", Unit::none, {}, "Estimation of the obstacles' motion."});
-    visit(self.tuning, {"tuning", Unit::none, {}, "Constants that seldom need a change."});
+          um("wall_influence", 1e-3, 1e6, "Gap above which walls do not repel."));
+    visit(self.reaction_time,
+          s("reaction_time", 0, 60, "Time by which the approach of an obstacle is anticipated."));
+    visit(self.min_force,
+          plain("min_force", 0, 1, "Force below which the swarm is stuck and holds.")
+              .formerly("least_force"));
+    visit(self.gap, um("gap", 0, 1e5, "Distance from the swarm's edge where gaps begin.")
+                        .formerly("margin_um"));
+    visit(self.guide, plain("guide", "Direction of the goal: straight or route."));
+    visit(self.tracker, plain("tracker", "Estimation of the obstacles' motion."));
+    visit(self.tuning, plain("tuning", "Constants that seldom need a change."));
   }
 };
 

@@ -14,18 +14,13 @@ struct PotentialFieldTuning {
   double route_reach = 400;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.max_proximity, {"max_proximity",
-                               Unit::none,
-                               {1, 1e6},
-                               "Upper bound of influence / gap in the repulsion."});
-    visit(self.stencil,
-          {"stencil", Unit::um, {1e-3, 1e3}, "Step of the gradient of the walls' repulsion."});
-    visit(self.rest_speed,
-          {"rest_speed", Unit::um_per_s, {0, 1e4}, "Speed below which an obstacle rests."});
+    visit(self.max_proximity,
+          plain("max_proximity", 1, 1e6, "Upper bound of influence / gap in the repulsion."));
+    visit(self.stencil, um("stencil", 1e-3, 1e3, "Step of the gradient of the walls' repulsion."));
+    visit(self.rest_speed, um_per_s("rest_speed", 0, 1e4, "Speed below which an obstacle rests."));
     visit(self.command_time,
-          {"command_time", Unit::s, {1e-3, 10}, "Time for which a command must be free of walls."});
-    visit(self.route_reach,
-          {"route_reach", Unit::um, {1e-2, 1e6}, "Distance looked ahead along the route."});
+          s("command_time", 1e-3, 10, "Time for which a command must be free of walls."));
+    visit(self.route_reach, um("route_reach", 1e-2, 1e6, "Distance looked ahead along the route."));
   }
 };
 

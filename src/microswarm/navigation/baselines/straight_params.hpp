@@ -15,13 +15,11 @@ struct StraightParams {
   double gap = 10;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Commanded speed."});
-    visit(self.stop_distance, {"stop_distance",
-                               Unit::um,
-                               {0, 1e5},
-                               "Gap ahead, to a wall or an obstacle, at which it stops."});
+    visit(self.speed, um_per_s("speed", 1e-3, 1e5, "Commanded speed."));
+    visit(self.stop_distance,
+          um("stop_distance", 0, 1e5, "Gap ahead, to a wall or an obstacle, at which it stops."));
     visit(self.gap,
-          {"gap", Unit::um, {0, 1e5}, "Gap kept on both sides of the swarm.", false, "margin_um"});
+          um("gap", 0, 1e5, "Gap kept on both sides of the swarm.").formerly("margin_um"));
   }
 };
 

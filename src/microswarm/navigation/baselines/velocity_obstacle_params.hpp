@@ -27,23 +27,19 @@ struct VelocityObstacleParams {
   VelocityObstacleTuning tuning;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Commanded speed."});
-    visit(self.directions,
-          {"directions", Unit::none, {3, 3600}, "Number of directions to choose from."});
-    visit(self.speeds,
-          {"speeds", Unit::none, {1, 100}, "Number of speeds to choose from, besides 0."});
+    visit(self.speed, um_per_s("speed", 1e-3, 1e5, "Commanded speed."));
+    visit(self.directions, plain("directions", 3, 3600, "Number of directions to choose from."));
+    visit(self.speeds, plain("speeds", 1, 100, "Number of speeds to choose from, besides 0."));
     visit(self.horizon,
-          {"horizon", Unit::s, {0, 60}, "Time for which a velocity must be free of obstacles."});
+          s("horizon", 0, 60, "Time for which a velocity must be free of obstacles."));
     visit(self.wall_horizon,
-          {"wall_horizon", Unit::s, {0, 60}, "Time for which a velocity must be free of walls."});
-    visit(self.gap, {"gap", Unit::um, {0, 1e5}, "Gap kept around the swarm.", false, "margin_um"});
-    visit(self.urgency, {"urgency",
-                         Unit::um,
-                         {0, 1e6},
-                         "Weight of 1 / time to contact where no velocity is free."});
-    visit(self.guide, {"guide", Unit::none, {}, "Direction of the goal: straight or route."});
-    visit(self.tracker, {"tracker", Unit::none, {}, "Estimation of the obstacles' motion."});
-    visit(self.tuning, {"tuning", Unit::none, {}, "Constants that seldom need a change."});
+          s("wall_horizon", 0, 60, "Time for which a velocity must be free of walls."));
+    visit(self.gap, um("gap", 0, 1e5, "Gap kept around the swarm.").formerly("margin_um"));
+    visit(self.urgency,
+          um("urgency", 0, 1e6, "Weight of 1 / time to contact where no velocity is free."));
+    visit(self.guide, plain("guide", "Direction of the goal: straight or route."));
+    visit(self.tracker, plain("tracker", "Estimation of the obstacles' motion."));
+    visit(self.tuning, plain("tuning", "Constants that seldom need a change."));
   }
 };
 

@@ -12,9 +12,8 @@ struct VelocityObstacleTuning {
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.growth_time,
-          {"growth_time", Unit::s, {0, 60}, "Time for which polygons keep deforming as observed."});
-    visit(self.route_reach,
-          {"route_reach", Unit::um, {1e-2, 1e6}, "Distance looked ahead along the route."});
+          s("growth_time", 0, 60, "Time for which polygons keep deforming as observed."));
+    visit(self.route_reach, um("route_reach", 1e-2, 1e6, "Distance looked ahead along the route."));
   }
 };
 

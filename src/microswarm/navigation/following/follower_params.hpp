@@ -32,11 +32,9 @@ struct FollowerParams {
   std::shared_ptr<const FollowerModel> loaded;  ///< contents of the file `model`
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.kind, {"kind", Unit::none, {}, "Kind of the follower: pure_pursuit or learned."});
-    visit(self.correct_flow,
-          {"correct_flow", Unit::none, {}, "Pure pursuit compensates the observed drift."});
-    visit(self.model,
-          {"model", Unit::none, {}, "File of a learned follower; none: the built-in one."});
+    visit(self.kind, plain("kind", "Kind of the follower: pure_pursuit or learned."));
+    visit(self.correct_flow, plain("correct_flow", "Pure pursuit compensates the observed drift."));
+    visit(self.model, plain("model", "File of a learned follower; none: the built-in one."));
   }
 };
 

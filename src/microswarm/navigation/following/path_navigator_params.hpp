@@ -22,15 +22,12 @@ struct PathNavigatorParams {
   double gap = 10;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.path,
-          {"path", Unit::um, {}, "Points of the path without the goal; none: straight."});
-    visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Commanded speed."});
-    visit(self.lookahead,
-          {"lookahead", Unit::um, {1e-3, 1e5}, "Lookahead distance of pure pursuit."});
-    visit(self.follower, {"follower", Unit::none, {}, "Path follower."});
-    visit(self.horizon,
-          {"horizon", Unit::s, {0.1, 10}, "Hold if the path is blocked within this time."});
-    visit(self.gap, {"gap", Unit::um, {0, 1e5}, "Gap kept around the swarm.", false, "margin_um"});
+    visit(self.path, um("path", "Points of the path without the goal; none: straight."));
+    visit(self.speed, um_per_s("speed", 1e-3, 1e5, "Commanded speed."));
+    visit(self.lookahead, um("lookahead", 1e-3, 1e5, "Lookahead distance of pure pursuit."));
+    visit(self.follower, plain("follower", "Path follower."));
+    visit(self.horizon, s("horizon", 0.1, 10, "Hold if the path is blocked within this time."));
+    visit(self.gap, um("gap", 0, 1e5, "Gap kept around the swarm.").formerly("margin_um"));
   }
 };
 

@@ -25,19 +25,14 @@ struct PlanExecutorParams {
   GlobalSearchParams planner = limited();
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.max_deviation, {"max_deviation",
-                               Unit::um,
-                               {0, 1e6},
-                               "Deviation from the plan above which it is left.",
-                               false,
-                               "stray_um"});
-    visit(self.rejoin_candidates, {"rejoin_candidates",
-                                   Unit::none,
-                                   {0, 1e6},
-                                   "Nearest positions of the plan at which rejoining is tried."});
-    visit(self.retry_time,
-          {"retry_time", Unit::s, {0, 1e5}, "Hold time after a search without a plan."});
-    visit(self.planner, {"planner", Unit::none, {}, "Search for the inputs."});
+    visit(self.max_deviation,
+          um("max_deviation", 0, 1e6, "Deviation from the plan above which it is left.")
+              .formerly("stray_um"));
+    visit(self.rejoin_candidates,
+          plain("rejoin_candidates", 0, 1e6,
+                "Nearest positions of the plan at which rejoining is tried."));
+    visit(self.retry_time, s("retry_time", 0, 1e5, "Hold time after a search without a plan."));
+    visit(self.planner, plain("planner", "Search for the inputs."));
   }
 };
 

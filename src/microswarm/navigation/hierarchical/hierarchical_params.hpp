@@ -29,25 +29,18 @@ struct LocalTargetParams {
   std::optional<double> influence_range;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.base_distance,
-          {"base_distance", Unit::um, {1e-3, 1e6}, "Farthest target (D_base)."});
-    visit(
-        self.detection_diameter,
-        {"detection_diameter", Unit::um, {1e-3, 1e6}, "Diameter of the detection circle (D_dec)."});
-    visit(self.rho_min, {"rho_min", Unit::none, {1e-3, 1}, "Floor of the adjust factor."});
-    visit(self.half_angle, {"half_angle", Unit::deg, {1, 180}, "Half of the fan (alpha_search)."});
-    visit(self.angle_step,
-          {"angle_step", Unit::deg, {0.5, 90}, "Angle between directions (delta alpha)."});
-    visit(self.obstacle_weight,
-          {"obstacle_weight", Unit::none, {0, 1e6}, "Weight alpha_1, Eq 4c."});
-    visit(self.border_weight, {"border_weight", Unit::none, {0, 1e6}, "Weight alpha_2, Eq 4d."});
-    visit(self.goal_weight, {"goal_weight", Unit::none, {0, 1e6}, "Weight alpha_3, Eq 4e."});
-    visit(self.direction_weight,
-          {"direction_weight", Unit::none, {0, 1e6}, "Weight alpha_4, Eq 4f."});
-    visit(self.influence_range, {"influence_range",
-                                 Unit::um,
-                                 {1e-3, 1e9},
-                                 "Range R of Eq 4c and 4d; none: the number r_s²."});
+    visit(self.base_distance, um("base_distance", 1e-3, 1e6, "Farthest target (D_base)."));
+    visit(self.detection_diameter,
+          um("detection_diameter", 1e-3, 1e6, "Diameter of the detection circle (D_dec)."));
+    visit(self.rho_min, plain("rho_min", 1e-3, 1, "Floor of the adjust factor."));
+    visit(self.half_angle, deg("half_angle", 1, 180, "Half of the fan (alpha_search)."));
+    visit(self.angle_step, deg("angle_step", 0.5, 90, "Angle between directions (delta alpha)."));
+    visit(self.obstacle_weight, plain("obstacle_weight", 0, 1e6, "Weight alpha_1, Eq 4c."));
+    visit(self.border_weight, plain("border_weight", 0, 1e6, "Weight alpha_2, Eq 4d."));
+    visit(self.goal_weight, plain("goal_weight", 0, 1e6, "Weight alpha_3, Eq 4e."));
+    visit(self.direction_weight, plain("direction_weight", 0, 1e6, "Weight alpha_4, Eq 4f."));
+    visit(self.influence_range,
+          um("influence_range", 1e-3, 1e9, "Range R of Eq 4c and 4d; none: the number r_s²."));
   }
 };
 
@@ -85,35 +78,25 @@ struct HierarchicalParams {
   HierarchicalParams in_effect() const;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.clearance, {"clearance",
-                           Unit::um,
-                           {0, 1e5},
-                           "Minimum distance from the centre to obstacles (r_s).",
-                           false,
-                           "margin_um"});
-    visit(self.extra_clearance, {"extra_clearance",
-                                 Unit::um,
-                                 {0, 1e5},
-                                 "Clearance added while planning, where it fits.",
-                                 false,
-                                 "extra_margin_um"});
-    visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Commanded speed."});
-    visit(self.lookahead,
-          {"lookahead", Unit::um, {1e-3, 1e5}, "Lookahead distance of the path follower."});
-    visit(self.follower, {"follower", Unit::none, {}, "Path follower."});
-    visit(self.horizon,
-          {"horizon", Unit::s, {0, 60}, "Time for which a command is checked; 0: no check."});
-    visit(
-        self.target_horizon,
-        {"target_horizon", Unit::s, {0, 60}, "Prediction time of obstacles for targets; 0: none."});
-    visit(self.as_published,
-          {"as_published", Unit::none, {}, "Algorithm 4 [drrt] without our additions."});
-    visit(self.guide, {"guide", Unit::none, {}, "Direction of the goal: straight or route."});
-    visit(self.route_cell, {"route_cell", Unit::um, {1e-2, 1e5}, "Grid spacing of the route."});
-    visit(self.tracker, {"tracker", Unit::none, {}, "Estimation of the obstacles' motion."});
-    visit(self.target, {"target", Unit::none, {}, "Local target selection."});
-    visit(self.planner, {"planner", Unit::none, {}, "Local planner."});
-    visit(self.tuning, {"tuning", Unit::none, {}, "Constants that seldom need a change."});
+    visit(self.clearance,
+          um("clearance", 0, 1e5, "Minimum distance from the centre to obstacles (r_s).")
+              .formerly("margin_um"));
+    visit(self.extra_clearance,
+          um("extra_clearance", 0, 1e5, "Clearance added while planning, where it fits.")
+              .formerly("extra_margin_um"));
+    visit(self.speed, um_per_s("speed", 1e-3, 1e5, "Commanded speed."));
+    visit(self.lookahead, um("lookahead", 1e-3, 1e5, "Lookahead distance of the path follower."));
+    visit(self.follower, plain("follower", "Path follower."));
+    visit(self.horizon, s("horizon", 0, 60, "Time for which a command is checked; 0: no check."));
+    visit(self.target_horizon,
+          s("target_horizon", 0, 60, "Prediction time of obstacles for targets; 0: none."));
+    visit(self.as_published, plain("as_published", "Algorithm 4 [drrt] without our additions."));
+    visit(self.guide, plain("guide", "Direction of the goal: straight or route."));
+    visit(self.route_cell, um("route_cell", 1e-2, 1e5, "Grid spacing of the route."));
+    visit(self.tracker, plain("tracker", "Estimation of the obstacles' motion."));
+    visit(self.target, plain("target", "Local target selection."));
+    visit(self.planner, plain("planner", "Local planner."));
+    visit(self.tuning, plain("tuning", "Constants that seldom need a change."));
   }
 };
 

@@ -23,26 +23,21 @@ struct HierarchicalTuning {
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.speed_shares,
-          {"speed_shares", Unit::none, {1e-3, 1}, "Shares of the speed tried along the path."});
-    visit(self.check_step,
-          {"check_step", Unit::s, {1e-3, 10}, "Time step of the check of a command."});
+          plain("speed_shares", 1e-3, 1, "Shares of the speed tried along the path."));
+    visit(self.check_step, s("check_step", 1e-3, 10, "Time step of the check of a command."));
     visit(self.max_sweep,
-          {"max_sweep", Unit::s, {0, 60}, "Time for which obstacles are swept while planning."});
-    visit(self.first_leg,
-          {"first_leg", Unit::s, {0, 60}, "Duration of the first leg of an escape."});
-    visit(
-        self.final_weight,
-        {"final_weight", Unit::none, {0, 100}, "Weight of the clearance at the end of an escape."});
-    visit(self.detour, {"detour", Unit::um, {0, 1e8}, "Extra distance where no route is known."});
+          s("max_sweep", 0, 60, "Time for which obstacles are swept while planning."));
+    visit(self.first_leg, s("first_leg", 0, 60, "Duration of the first leg of an escape."));
+    visit(self.final_weight,
+          plain("final_weight", 0, 100, "Weight of the clearance at the end of an escape."));
+    visit(self.detour, um("detour", 0, 1e8, "Extra distance where no route is known."));
     visit(self.wait_times,
-          {"wait_times", Unit::s, {0, 1e3}, "Waits for an obstacle to pass, ascending from 0."});
+          s("wait_times", 0, 1e3, "Waits for an obstacle to pass, ascending from 0."));
     visit(self.wait_weight,
-          {"wait_weight", Unit::none, {0, 1e3}, "Cost of a wait, per distance not driven."});
-    visit(self.contact_weight, {"contact_weight",
-                                Unit::none,
-                                {0, 1e3},
-                                "Cost of a contact, per distance left in the horizon."});
-    visit(self.prediction, {"prediction", Unit::none, {}, "Prediction of obstacles."});
+          plain("wait_weight", 0, 1e3, "Cost of a wait, per distance not driven."));
+    visit(self.contact_weight,
+          plain("contact_weight", 0, 1e3, "Cost of a contact, per distance left in the horizon."));
+    visit(self.prediction, plain("prediction", "Prediction of obstacles."));
   }
 };
 

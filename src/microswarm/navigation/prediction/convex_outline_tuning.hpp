@@ -12,11 +12,10 @@ struct ConvexOutlineTuning {
   double max_hollow = 0.4;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(
-        self.ignored_hollow,
-        {"ignored_hollow", Unit::none, {0, 1}, "Hollow share up to which the hull always serves."});
+    visit(self.ignored_hollow,
+          plain("ignored_hollow", 0, 1, "Hollow share up to which the hull always serves."));
     visit(self.max_hollow,
-          {"max_hollow", Unit::none, {0, 1}, "Hollow share above which the hull never serves."});
+          plain("max_hollow", 0, 1, "Hollow share above which the hull never serves."));
   }
 };
 

@@ -13,18 +13,14 @@ struct MotionFitTuning {
   double max_residual = 3;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.min_noise,
-          {"min_noise", Unit::um, {1e-6, 1e4}, "Lower bound of the estimated noise."});
+    visit(self.min_noise, um("min_noise", 1e-6, 1e4, "Lower bound of the estimated noise."));
     visit(self.initial_noise,
-          {"initial_noise", Unit::um, {1e-6, 1e4}, "Noise assumed before it can be estimated."});
-    visit(self.min_noise_sightings, {"min_noise_sightings",
-                                     Unit::none,
-                                     {4, 100},
-                                     "Number of sightings from which the noise is estimated."});
-    visit(self.max_residual, {"max_residual",
-                              Unit::none,
-                              {0, 100},
-                              "Root mean square residual that ends a window, in noises."});
+          um("initial_noise", 1e-6, 1e4, "Noise assumed before it can be estimated."));
+    visit(self.min_noise_sightings,
+          plain("min_noise_sightings", 4, 100,
+                "Number of sightings from which the noise is estimated."));
+    visit(self.max_residual, plain("max_residual", 0, 100,
+                                   "Root mean square residual that ends a window, in noises."));
   }
 };
 

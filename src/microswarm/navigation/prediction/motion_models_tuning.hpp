@@ -17,30 +17,22 @@ struct MotionModelsTuning {
   double max_circle_radius = 5000;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.min_curved_frames, {"min_curved_frames",
-                                   Unit::none,
-                                   {1, 100},
-                                   "Number of frames from which acceleration is believed."});
-    visit(self.acceleration_time, {"acceleration_time",
-                                   Unit::s,
-                                   {0, 60},
-                                   "Time for which an acceleration is assumed to last."});
+    visit(self.min_curved_frames, plain("min_curved_frames", 1, 100,
+                                        "Number of frames from which acceleration is believed."));
+    visit(self.acceleration_time,
+          s("acceleration_time", 0, 60, "Time for which an acceleration is assumed to last."));
     visit(self.turning_time,
-          {"turning_time", Unit::s, {0, 60}, "Time for which a rotation is assumed to last."});
-    visit(
-        self.explained_frames,
-        {"explained_frames", Unit::none, {1, 100}, "Number of newest frames a swing must match."});
-    visit(
-        self.max_offset,
-        {"max_offset", Unit::um, {0, 1e4}, "Maximum difference from a swing, besides the noise."});
+          s("turning_time", 0, 60, "Time for which a rotation is assumed to last."));
+    visit(self.explained_frames,
+          plain("explained_frames", 1, 100, "Number of newest frames a swing must match."));
+    visit(self.max_offset,
+          um("max_offset", 0, 1e4, "Maximum difference from a swing, besides the noise."));
     visit(self.noise_gain,
-          {"noise_gain", Unit::none, {0, 100}, "Noises added to the difference from a swing."});
-    visit(self.circle_offset, {"circle_offset",
-                               Unit::um,
-                               {0, 1e4},
-                               "Distance from a circle, besides twice the swing's."});
+          plain("noise_gain", 0, 100, "Noises added to the difference from a swing."));
+    visit(self.circle_offset,
+          um("circle_offset", 0, 1e4, "Distance from a circle, besides twice the swing's."));
     visit(self.max_circle_radius,
-          {"max_circle_radius", Unit::um, {1, 1e7}, "Radius above which a circle is a line."});
+          um("max_circle_radius", 1, 1e7, "Radius above which a circle is a line."));
   }
 };
 

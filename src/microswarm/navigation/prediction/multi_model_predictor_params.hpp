@@ -17,28 +17,18 @@ struct MultiModelPredictorParams {
   MultiModelPredictorTuning tuning;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.memory,
-          {"memory", Unit::s, {0, 1e4}, "Time for which observed motion is remembered."});
-    visit(self.error_time_constant, {"error_time_constant",
-                                     Unit::s,
-                                     {1e-2, 1e3},
-                                     "Time constant with which a model's errors are forgotten.",
-                                     false,
-                                     "proof_time_s"});
-    visit(self.uncertainty, {"uncertainty_gain",
-                             Unit::none,
-                             {0, 10},
-                             "Share of past errors added to an obstacle's size.",
-                             false,
-                             "doubt"});
-    visit(self.max_uncertainty, {"max_uncertainty",
-                                 Unit::um,
-                                 {0, 1e4},
-                                 "Upper bound of the added uncertainty.",
-                                 false,
-                                 "most_doubt_um"});
-    visit(self.tracker, {"tracker", Unit::none, {}, "Estimation of the obstacles' motion."});
-    visit(self.tuning, {"tuning", Unit::none, {}, "Constants that seldom need a change."});
+    visit(self.memory, s("memory", 0, 1e4, "Time for which observed motion is remembered."));
+    visit(self.error_time_constant, s("error_time_constant", 1e-2, 1e3,
+                                      "Time constant with which a model's errors are forgotten.")
+                                        .formerly("proof_time_s"));
+    visit(self.uncertainty,
+          plain("uncertainty_gain", 0, 10, "Share of past errors added to an obstacle's size.")
+              .formerly("doubt"));
+    visit(self.max_uncertainty,
+          um("max_uncertainty", 0, 1e4, "Upper bound of the added uncertainty.")
+              .formerly("most_doubt_um"));
+    visit(self.tracker, plain("tracker", "Estimation of the obstacles' motion."));
+    visit(self.tuning, plain("tuning", "Constants that seldom need a change."));
   }
 };
 

@@ -29,35 +29,28 @@ struct MultiModelPredictorTuning {
   OscillationTuning oscillation;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.max_gap,
-          {"max_gap", Unit::s, {0, 1e3}, "Time without a sighting after which a body is new."});
+    visit(self.max_gap, s("max_gap", 0, 1e3, "Time without a sighting after which a body is new."));
     visit(self.forecast_interval,
-          {"forecast_interval", Unit::s, {0, 10}, "Minimum time between two forecasts."});
+          s("forecast_interval", 0, 10, "Minimum time between two forecasts."));
     visit(self.near_forecast,
-          {"near_forecast", Unit::s, {1e-2, 60}, "Shorter time ahead at which models are judged."});
+          s("near_forecast", 1e-2, 60, "Shorter time ahead at which models are judged."));
     visit(self.far_forecast,
-          {"far_forecast", Unit::s, {1e-2, 60}, "Longer time ahead at which models are judged."});
-    visit(self.max_error,
-          {"max_error", Unit::um, {0, 1e6}, "Upper bound of an error that counts."});
+          s("far_forecast", 1e-2, 60, "Longer time ahead at which models are judged."));
+    visit(self.max_error, um("max_error", 0, 1e6, "Upper bound of an error that counts."));
     visit(self.error_tolerance,
-          {"error_tolerance", Unit::um, {0, 1e4}, "Error that counts as none, besides the noise."});
-    visit(
-        self.growth_time,
-        {"growth_time", Unit::s, {0, 60}, "Time for which an outline keeps growing as observed."});
-    visit(self.prior_weight,
-          {"prior_weight", Unit::none, {0, 1e3}, "Weight of the priors, in forecasts."});
-    visit(self.straight_prior,
-          {"straight_prior", Unit::none, {0, 10}, "Prior of the straight motion."});
-    visit(self.curved_prior,
-          {"curved_prior", Unit::none, {0, 10}, "Prior of the accelerated motion."});
-    visit(self.swing_prior,
-          {"swing_prior", Unit::none, {0, 10}, "Prior of swings on a line or ellipse."});
-    visit(self.arc_prior, {"arc_prior", Unit::none, {0, 10}, "Prior of swings on a circle."});
+          um("error_tolerance", 0, 1e4, "Error that counts as none, besides the noise."));
+    visit(self.growth_time,
+          s("growth_time", 0, 60, "Time for which an outline keeps growing as observed."));
+    visit(self.prior_weight, plain("prior_weight", 0, 1e3, "Weight of the priors, in forecasts."));
+    visit(self.straight_prior, plain("straight_prior", 0, 10, "Prior of the straight motion."));
+    visit(self.curved_prior, plain("curved_prior", 0, 10, "Prior of the accelerated motion."));
+    visit(self.swing_prior, plain("swing_prior", 0, 10, "Prior of swings on a line or ellipse."));
+    visit(self.arc_prior, plain("arc_prior", 0, 10, "Prior of swings on a circle."));
     visit(self.recurrence_prior,
-          {"recurrence_prior", Unit::none, {0, 10}, "Prior of the recurrent motion."});
-    visit(self.models, {"models", Unit::none, {}, "Models of a body's motion."});
-    visit(self.recurrence, {"recurrence", Unit::none, {}, "Search for a recurrence of a motion."});
-    visit(self.oscillation, {"oscillation", Unit::none, {}, "Fit of oscillations."});
+          plain("recurrence_prior", 0, 10, "Prior of the recurrent motion."));
+    visit(self.models, plain("models", "Models of a body's motion."));
+    visit(self.recurrence, plain("recurrence", "Search for a recurrence of a motion."));
+    visit(self.oscillation, plain("oscillation", "Fit of oscillations."));
   }
 };
 

@@ -11,13 +11,10 @@ struct ObstaclePredictorTuning {
   double growth_time = 2;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.min_significance, {"min_significance",
-                                  Unit::none,
-                                  {0, 100},
-                                  "Standard errors up to which a velocity counts as 0."});
-    visit(
-        self.growth_time,
-        {"growth_time", Unit::s, {0, 60}, "Time for which an outline keeps growing as observed."});
+    visit(self.min_significance,
+          plain("min_significance", 0, 100, "Standard errors up to which a velocity counts as 0."));
+    visit(self.growth_time,
+          s("growth_time", 0, 60, "Time for which an outline keeps growing as observed."));
   }
 };
 

@@ -13,12 +13,10 @@ struct ObstacleTrackerParams {
   ObstacleTrackerTuning tuning;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.frames,
-          {"frames", Unit::none, {2, 100}, "Maximum number of frames for a motion estimate."});
-    visit(
-        self.memory,
-        {"memory", Unit::s, {1e-2, 60}, "Time for which frames are kept for the noise estimate."});
-    visit(self.tuning, {"tuning", Unit::none, {}, "Constants that seldom need a change."});
+    visit(self.frames, plain("frames", 2, 100, "Maximum number of frames for a motion estimate."));
+    visit(self.memory,
+          s("memory", 1e-2, 60, "Time for which frames are kept for the noise estimate."));
+    visit(self.tuning, plain("tuning", "Constants that seldom need a change."));
   }
 };
 

@@ -13,13 +13,11 @@ struct ObstacleTrackerTuning {
   MotionFitTuning fit;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(
-        self.noise_windows,
-        {"noise_windows", Unit::none, {1, 20}, "Frames kept for the noise estimate, in `frames`."});
-    visit(
-        self.outline_spacing,
-        {"outline_spacing", Unit::s, {0, 60}, "Minimum time between outlines that are compared."});
-    visit(self.fit, {"fit", Unit::none, {}, "Fit of a motion to sightings."});
+    visit(self.noise_windows,
+          plain("noise_windows", 1, 20, "Frames kept for the noise estimate, in `frames`."));
+    visit(self.outline_spacing,
+          s("outline_spacing", 0, 60, "Minimum time between outlines that are compared."));
+    visit(self.fit, plain("fit", "Fit of a motion to sightings."));
   }
 };
 

@@ -16,18 +16,18 @@ struct OscillationTuning {
   int min_sightings = 6;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.short_window, {"short_window", Unit::s, {0.1, 60}, "Shortest time that is fitted."});
+    visit(self.short_window, s("short_window", 0.1, 60, "Shortest time that is fitted."));
     visit(self.medium_window,
-          {"medium_window", Unit::s, {0.1, 60}, "Time fitted between the shortest and longest."});
-    visit(self.long_window, {"long_window", Unit::s, {0.1, 60}, "Longest time that is fitted."});
+          s("medium_window", 0.1, 60, "Time fitted between the shortest and longest."));
+    visit(self.long_window, s("long_window", 0.1, 60, "Longest time that is fitted."));
     visit(self.min_frequency,
-          {"min_frequency", Unit::per_s, {1e-3, 1e3}, "Lowest angular frequency, in rad/s."});
+          per_s("min_frequency", 1e-3, 1e3, "Lowest angular frequency, in rad/s."));
     visit(self.max_frequency,
-          {"max_frequency", Unit::per_s, {1e-3, 1e3}, "Highest angular frequency, in rad/s."});
+          per_s("max_frequency", 1e-3, 1e3, "Highest angular frequency, in rad/s."));
     visit(self.frame_spacing,
-          {"frame_spacing", Unit::s, {0.01, 10}, "Minimum time between frames that are used."});
+          s("frame_spacing", 0.01, 10, "Minimum time between frames that are used."));
     visit(self.min_sightings,
-          {"min_sightings", Unit::none, {3, 1000}, "Number of sightings that a window needs."});
+          plain("min_sightings", 3, 1000, "Number of sightings that a window needs."));
   }
 };
 

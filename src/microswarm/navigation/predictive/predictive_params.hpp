@@ -20,22 +20,16 @@ struct RiskParams {
   double softness = 6;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.contact, {"contact", Unit::none, {0, 1e6}, "Cost rate in contact."});
-    visit(self.penetration_cost, {"penetration_cost",
-                                  Unit::none,
-                                  {0, 1e6},
-                                  "Extra cost rate when one `reach` inside an obstacle.",
-                                  false,
-                                  "depth"});
-    visit(self.proximity_cost, {"proximity_cost",
-                                Unit::none,
-                                {0, 1e6},
-                                "Extra cost rate at contact; falls to 0 at `reach`.",
-                                false,
-                                "nearness"});
-    visit(self.reach, {"reach", Unit::um, {1, 1e5}, "Gap above which an obstacle has no cost."});
+    visit(self.contact, plain("contact", 0, 1e6, "Cost rate in contact."));
+    visit(self.penetration_cost,
+          plain("penetration_cost", 0, 1e6, "Extra cost rate when one `reach` inside an obstacle.")
+              .formerly("depth"));
+    visit(self.proximity_cost,
+          plain("proximity_cost", 0, 1e6, "Extra cost rate at contact; falls to 0 at `reach`.")
+              .formerly("nearness"));
+    visit(self.reach, um("reach", 1, 1e5, "Gap above which an obstacle has no cost."));
     visit(self.softness,
-          {"softness", Unit::um, {1e-3, 1e4}, "Gap at which the contact cost has fallen to half."});
+          um("softness", 1e-3, 1e4, "Gap at which the contact cost has fallen to half."));
   }
 };
 
@@ -58,25 +52,18 @@ struct PredictiveParams {
   PredictiveTuning tuning;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Commanded speed."});
-    visit(self.gap, {"gap",
-                     Unit::um,
-                     {0, 1e5},
-                     "Gap to obstacles that counts as contact.",
-                     false,
-                     "margin_um"});
-    visit(self.wall_gap,
-          {"wall_gap", Unit::um, {0, 1e5}, "Gap kept to walls.", false, "wall_margin_um"});
-    visit(self.horizon, {"horizon", Unit::s, {0.2, 60}, "Prediction time."});
-    visit(self.step, {"step", Unit::s, {0.05, 10}, "Time step of the cost-to-go."});
-    visit(self.directions,
-          {"directions", Unit::none, {4, 720}, "Number of directions of the first leg."});
-    visit(self.risk, {"risk", Unit::none, {}, "Cost of being near obstacles."});
-    visit(self.prediction,
-          {"prediction", Unit::none, {}, "Prediction of obstacles.", false, "foresight"});
-    visit(self.guide, {"guide", Unit::none, {}, "Direction of the goal: straight or route."});
-    visit(self.route_cell, {"route_cell", Unit::um, {1e-2, 1e5}, "Grid spacing of the route."});
-    visit(self.tuning, {"tuning", Unit::none, {}, "Constants that seldom need a change."});
+    visit(self.speed, um_per_s("speed", 1e-3, 1e5, "Commanded speed."));
+    visit(self.gap,
+          um("gap", 0, 1e5, "Gap to obstacles that counts as contact.").formerly("margin_um"));
+    visit(self.wall_gap, um("wall_gap", 0, 1e5, "Gap kept to walls.").formerly("wall_margin_um"));
+    visit(self.horizon, s("horizon", 0.2, 60, "Prediction time."));
+    visit(self.step, s("step", 0.05, 10, "Time step of the cost-to-go."));
+    visit(self.directions, plain("directions", 4, 720, "Number of directions of the first leg."));
+    visit(self.risk, plain("risk", "Cost of being near obstacles."));
+    visit(self.prediction, plain("prediction", "Prediction of obstacles.").formerly("foresight"));
+    visit(self.guide, plain("guide", "Direction of the goal: straight or route."));
+    visit(self.route_cell, um("route_cell", 1e-2, 1e5, "Grid spacing of the route."));
+    visit(self.tuning, plain("tuning", "Constants that seldom need a change."));
   }
 };
 

@@ -22,28 +22,23 @@ struct PredictiveTuning {
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.wall_contact_cost,
-          {"wall_contact_cost", Unit::none, {0, 1e6}, "Cost rate in contact with a wall."});
-    visit(self.wall_proximity_cost, {"wall_proximity_cost",
-                                     Unit::none,
-                                     {0, 1e6},
-                                     "Cost rate at the wall gap; falls to 0 at `wall_reach`."});
+          plain("wall_contact_cost", 0, 1e6, "Cost rate in contact with a wall."));
+    visit(self.wall_proximity_cost,
+          plain("wall_proximity_cost", 0, 1e6,
+                "Cost rate at the wall gap; falls to 0 at `wall_reach`."));
     visit(self.wall_reach,
-          {"wall_reach", Unit::um, {1e-3, 1e5}, "Distance beyond the wall gap without cost."});
-    visit(
-        self.unreachable_time,
-        {"unreachable_time", Unit::s, {1, 1e6}, "Cost of a position without a path to the goal."});
-    visit(
-        self.goal_share,
-        {"goal_share", Unit::none, {0, 1}, "Share of the tolerance in which the goal is reached."});
+          um("wall_reach", 1e-3, 1e5, "Distance beyond the wall gap without cost."));
+    visit(self.unreachable_time,
+          s("unreachable_time", 1, 1e6, "Cost of a position without a path to the goal."));
+    visit(self.goal_share,
+          plain("goal_share", 0, 1, "Share of the tolerance in which the goal is reached."));
     visit(self.slow_share,
-          {"slow_share", Unit::none, {0, 1}, "Relative speed below which an obstacle is slow."});
+          plain("slow_share", 0, 1, "Relative speed below which an obstacle is slow."));
     visit(self.closing_time,
-          {"closing_time", Unit::s, {0, 60}, "Time for which a non-convex obstacle closes in."});
-    visit(self.speed_shares, {"speed_shares",
-                              Unit::none,
-                              {1e-3, 1},
-                              "Shares of the speed tried; the last to turn in place."});
-    visit(self.outline, {"outline", Unit::none, {}, "Use of convex hulls of obstacles."});
+          s("closing_time", 0, 60, "Time for which a non-convex obstacle closes in."));
+    visit(self.speed_shares,
+          plain("speed_shares", 1e-3, 1, "Shares of the speed tried; the last to turn in place."));
+    visit(self.outline, plain("outline", "Use of convex hulls of obstacles."));
   }
 };
 

@@ -44,68 +44,41 @@ struct RadarParams {
   RadarParams in_effect() const;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Commanded speed."});
-    visit(self.prediction_distance, {"prediction_distance",
-                                     Unit::um,
-                                     {1e-3, 1e5},
-                                     "Distance to a predictive swarm, centre to centre (d_p)."});
+    visit(self.speed, um_per_s("speed", 1e-3, 1e5, "Commanded speed."));
+    visit(self.prediction_distance, um("prediction_distance", 1e-3, 1e5,
+                                       "Distance to a predictive swarm, centre to centre (d_p)."));
     visit(self.safety_distance,
-          {"safety_distance", Unit::um, {0, 1e5}, "Minimum gap of a predictive swarm (d_f)."});
-    visit(
-        self.detection_range,
-        {"detection_range", Unit::um, {1e-3, 1e6}, "Gap below which obstacles are avoided (d_r)."});
+          um("safety_distance", 0, 1e5, "Minimum gap of a predictive swarm (d_f)."));
+    visit(self.detection_range,
+          um("detection_range", 1e-3, 1e6, "Gap below which obstacles are avoided (d_r)."));
     visit(self.angle_step,
-          {"angle_step", Unit::deg, {0.1, 90}, "Angle between directions (beta); divides 360."});
-    visit(self.target_gain, {"target_gain",
-                             Unit::none,
-                             {0, 1e6},
-                             "Growth of q_t with the remaining distance (k_t epsilon)."});
-    visit(self.avoidance_gain, {"avoidance_gain",
-                                Unit::none,
-                                {0, 0.999},
-                                "Growth of q_a with proximity (k_a eta); q_a < q_t."});
+          deg("angle_step", 0.1, 90, "Angle between directions (beta); divides 360."));
+    visit(self.target_gain,
+          plain("target_gain", 0, 1e6, "Growth of q_t with the remaining distance (k_t epsilon)."));
+    visit(self.avoidance_gain,
+          plain("avoidance_gain", 0, 0.999, "Growth of q_a with proximity (k_a eta); q_a < q_t."));
     visit(self.safety_radius,
-          {"safety_radius", Unit::none, {}, "Control of the radius of the safety circle."});
-    visit(self.max_turn, {"max_turn",
-                          Unit::deg,
-                          {30, 180},
-                          "Largest turn while another direction is safe; 180: any.",
-                          false,
-                          "most_turn_deg"});
-    visit(self.retreat,
-          {"retreat", Unit::none, {}, "Retreat where no direction is safe; else hold."});
-    visit(self.safety_filter, {"safety_filter",
-                               Unit::none,
-                               {},
-                               "Safety filter (ours): keeps an escape open.",
-                               false,
-                               "guard"});
-    visit(self.compensate_delay, {"compensate_delay",
-                                  Unit::none,
-                                  {},
-                                  "Decide for the pose at which the command takes effect."});
-    visit(self.obstacle_speed_bound, {"obstacle_speed_bound",
-                                      Unit::um_per_s,
-                                      {0, 1e5},
-                                      "Speed of obstacles assumed during the dead time."});
-    visit(self.wait_zones, {"wait_zones",
-                            Unit::none,
-                            {},
-                            "Zones in which it waits for valves to open (A, D).",
-                            false,
-                            "wait_areas"});
-    visit(self.waypoints, {"waypoints", Unit::um, {}, "Phased goals in order; none: planned."});
-    visit(self.waypoint_tolerance, {"waypoint_tolerance",
-                                    Unit::um,
-                                    {1e-3, 1e6},
-                                    "Distance at which a waypoint counts as reached."});
-    visit(
-        self.global_plan,
-        {"global_plan", Unit::none, {}, "Plan waypoints around walls; else straight to the goal."});
-    visit(self.planner, {"planner", Unit::none, {}, "Planner of the waypoints."});
-    visit(self.as_published,
-          {"as_published", Unit::none, {}, "As in [radar], without our additions."});
-    visit(self.tuning, {"tuning", Unit::none, {}, "Constants that seldom need a change."});
+          plain("safety_radius", "Control of the radius of the safety circle."));
+    visit(self.max_turn,
+          deg("max_turn", 30, 180, "Largest turn while another direction is safe; 180: any.")
+              .formerly("most_turn_deg"));
+    visit(self.retreat, plain("retreat", "Retreat where no direction is safe; else hold."));
+    visit(self.safety_filter,
+          plain("safety_filter", "Safety filter (ours): keeps an escape open.").formerly("guard"));
+    visit(self.compensate_delay,
+          plain("compensate_delay", "Decide for the pose at which the command takes effect."));
+    visit(self.obstacle_speed_bound, um_per_s("obstacle_speed_bound", 0, 1e5,
+                                              "Speed of obstacles assumed during the dead time."));
+    visit(self.wait_zones, plain("wait_zones", "Zones in which it waits for valves to open (A, D).")
+                               .formerly("wait_areas"));
+    visit(self.waypoints, um("waypoints", "Phased goals in order; none: planned."));
+    visit(self.waypoint_tolerance,
+          um("waypoint_tolerance", 1e-3, 1e6, "Distance at which a waypoint counts as reached."));
+    visit(self.global_plan,
+          plain("global_plan", "Plan waypoints around walls; else straight to the goal."));
+    visit(self.planner, plain("planner", "Planner of the waypoints."));
+    visit(self.as_published, plain("as_published", "As in [radar], without our additions."));
+    visit(self.tuning, plain("tuning", "Constants that seldom need a change."));
   }
 };
 

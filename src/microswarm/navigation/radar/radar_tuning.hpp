@@ -13,16 +13,13 @@ struct RadarTuning {
   double min_retreat_gain = 0.1;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.replan_interval,
-          {"replan_interval", Unit::s, {0, 1e4}, "Minimum time between two plans."});
+    visit(self.replan_interval, s("replan_interval", 0, 1e4, "Minimum time between two plans."));
     visit(self.max_replan_interval,
-          {"max_replan_interval", Unit::s, {0, 1e5}, "Longest wait after plans that failed."});
+          s("max_replan_interval", 0, 1e5, "Longest wait after plans that failed."));
     visit(self.retreat_directions,
-          {"retreat_directions", Unit::none, {1, 3600}, "Number of retreat headings tested."});
-    visit(self.min_retreat_gain, {"min_retreat_gain",
-                                  Unit::none,
-                                  {0, 100},
-                                  "Gain of a retreat over a hold, in prediction distances."});
+          plain("retreat_directions", 1, 3600, "Number of retreat headings tested."));
+    visit(self.min_retreat_gain, plain("min_retreat_gain", 0, 100,
+                                       "Gain of a retreat over a hold, in prediction distances."));
   }
 };
 

@@ -23,29 +23,19 @@ struct SafetyFilterParams {
   SafetyFilterTuning tuning;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.active, {"active", Unit::none, {}, "Use the safety filter."});
-    visit(self.horizon, {"horizon", Unit::s, {0.1, 60}, "Time for which an escape must be free."});
-    visit(self.step, {"step", Unit::s, {0.01, 10}, "Time step of the escape check."});
-    visit(self.directions,
-          {"directions", Unit::none, {4, 360}, "Number of escape headings tested."});
-    visit(self.commitment,
-          {"commitment", Unit::s, {0, 10}, "Time after which an escape must still remain."});
-    visit(self.gap, {"gap",
-                     Unit::um,
-                     {0, 1e5},
-                     "Gap to obstacles that counts as contact.",
-                     false,
-                     "margin_um"});
-    visit(self.gap_rate, {"gap_rate",
-                          Unit::um_per_s,
-                          {0, 1e5},
-                          "Growth of the gap per second for moving obstacles.",
-                          false,
-                          "margin_rate_um_per_s"});
-    visit(self.wall_gap,
-          {"wall_gap", Unit::um, {0, 1e5}, "Gap kept to walls.", false, "wall_margin_um"});
-    visit(self.tracker, {"tracker", Unit::none, {}, "Estimation of the obstacles' motion."});
-    visit(self.tuning, {"tuning", Unit::none, {}, "Constants that seldom need a change."});
+    visit(self.active, plain("active", "Use the safety filter."));
+    visit(self.horizon, s("horizon", 0.1, 60, "Time for which an escape must be free."));
+    visit(self.step, s("step", 0.01, 10, "Time step of the escape check."));
+    visit(self.directions, plain("directions", 4, 360, "Number of escape headings tested."));
+    visit(self.commitment, s("commitment", 0, 10, "Time after which an escape must still remain."));
+    visit(self.gap,
+          um("gap", 0, 1e5, "Gap to obstacles that counts as contact.").formerly("margin_um"));
+    visit(self.gap_rate,
+          um_per_s("gap_rate", 0, 1e5, "Growth of the gap per second for moving obstacles.")
+              .formerly("margin_rate_um_per_s"));
+    visit(self.wall_gap, um("wall_gap", 0, 1e5, "Gap kept to walls.").formerly("wall_margin_um"));
+    visit(self.tracker, plain("tracker", "Estimation of the obstacles' motion."));
+    visit(self.tuning, plain("tuning", "Constants that seldom need a change."));
   }
 };
 

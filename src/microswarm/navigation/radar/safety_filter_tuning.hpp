@@ -29,44 +29,31 @@ struct SafetyFilterTuning {
   ConvexOutlineTuning outline;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.recovery_rate, {"recovery_rate",
-                               Unit::um_per_s,
-                               {0, 1e5},
-                               "Rate at which a gap that is too small must grow."});
+    visit(self.recovery_rate,
+          um_per_s("recovery_rate", 0, 1e5, "Rate at which a gap that is too small must grow."));
     visit(self.counted_gap,
-          {"counted_gap", Unit::um, {0, 1e5}, "Gap above which two escapes are equally good."});
-    visit(
-        self.gap_tolerance,
-        {"gap_tolerance", Unit::um, {0, 1e4}, "Difference of gaps below which escapes are equal."});
-    visit(self.contact_gap,
-          {"contact_gap", Unit::um, {0, 1e4}, "Gap of a contact, for the best escape."});
-    visit(self.contact_gap_rate, {"contact_gap_rate",
-                                  Unit::um_per_s,
-                                  {0, 1e4},
-                                  "Growth of the contact gap with prediction time."});
-    visit(
-        self.growth_time,
-        {"growth_time", Unit::s, {0, 60}, "Time for which an outline keeps growing as observed."});
-    visit(self.max_dead_time, {"max_dead_time",
-                               Unit::s,
-                               {0, 60},
-                               "Maximum time from a frame to the effect of a command."});
-    visit(self.hold_times,
-          {"hold_times", Unit::s, {0, 60}, "Durations of a hold before an escape."});
-    visit(self.run_times, {"run_times", Unit::s, {0, 60}, "Durations of a run before a hold."});
-    visit(self.turn_times,
-          {"turn_times", Unit::s, {0, 60}, "Durations of a run before another direction."});
+          um("counted_gap", 0, 1e5, "Gap above which two escapes are equally good."));
+    visit(self.gap_tolerance,
+          um("gap_tolerance", 0, 1e4, "Difference of gaps below which escapes are equal."));
+    visit(self.contact_gap, um("contact_gap", 0, 1e4, "Gap of a contact, for the best escape."));
+    visit(self.contact_gap_rate,
+          um_per_s("contact_gap_rate", 0, 1e4, "Growth of the contact gap with prediction time."));
+    visit(self.growth_time,
+          s("growth_time", 0, 60, "Time for which an outline keeps growing as observed."));
+    visit(self.max_dead_time,
+          s("max_dead_time", 0, 60, "Maximum time from a frame to the effect of a command."));
+    visit(self.hold_times, s("hold_times", 0, 60, "Durations of a hold before an escape."));
+    visit(self.run_times, s("run_times", 0, 60, "Durations of a run before a hold."));
+    visit(self.turn_times, s("turn_times", 0, 60, "Durations of a run before another direction."));
     visit(self.switch_time,
-          {"switch_time", Unit::s, {0, 60}, "Extra free time for which an escape is replaced."});
-    visit(self.switch_gap,
-          {"switch_gap", Unit::um, {0, 1e5}, "Extra gap for which an escape is replaced."});
+          s("switch_time", 0, 60, "Extra free time for which an escape is replaced."));
+    visit(self.switch_gap, um("switch_gap", 0, 1e5, "Extra gap for which an escape is replaced."));
     visit(self.refinement,
-          {"refinement", Unit::none, {1, 20}, "Directions of a replacement per escape heading."});
+          plain("refinement", 1, 20, "Directions of a replacement per escape heading."));
     visit(self.min_escapes,
-          {"min_escapes", Unit::none, {1, 360}, "Number of escapes a replacement must leave."});
-    visit(self.impatience,
-          {"impatience", Unit::deg_per_s, {0, 3600}, "Growth of the cost of a hold."});
-    visit(self.outline, {"outline", Unit::none, {}, "Use of convex hulls of obstacles."});
+          plain("min_escapes", 1, 360, "Number of escapes a replacement must leave."));
+    visit(self.impatience, deg_per_s("impatience", 0, 3600, "Growth of the cost of a hold."));
+    visit(self.outline, plain("outline", "Use of convex hulls of obstacles."));
   }
 };
 

@@ -17,19 +17,14 @@ struct SafetyRadiusParams {
   double speed_weight = 1;         // R
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.adaptive,
-          {"adaptive", Unit::none, {}, "Shrink the safety circle while obstacles are far."});
-    visit(self.horizon, {"horizon", Unit::none, {1, 1e4}, "Number of steps ahead (N)."});
-    visit(self.sample_time, {"sample_time", Unit::s, {1e-4, 1e3}, "Length of a step (T)."});
-    visit(self.max_relative_speed, {"max_relative_speed",
-                                    Unit::um_per_s,
-                                    {0, 1e5},
-                                    "Assumed maximum approach speed (|v_r|max)."});
-    visit(self.assumed_time,
-          {"assumed_time", Unit::s, {0, 1e3}, "Assumed duration of the approach (t_as)."});
-    visit(self.collision_weight,
-          {"collision_weight", Unit::none, {0, 1e9}, "Weight of the distance (Q)."});
-    visit(self.speed_weight, {"speed_weight", Unit::none, {1e-9, 1e9}, "Weight of the speed (R)."});
+    visit(self.adaptive, plain("adaptive", "Shrink the safety circle while obstacles are far."));
+    visit(self.horizon, plain("horizon", 1, 1e4, "Number of steps ahead (N)."));
+    visit(self.sample_time, s("sample_time", 1e-4, 1e3, "Length of a step (T)."));
+    visit(self.max_relative_speed,
+          um_per_s("max_relative_speed", 0, 1e5, "Assumed maximum approach speed (|v_r|max)."));
+    visit(self.assumed_time, s("assumed_time", 0, 1e3, "Assumed duration of the approach (t_as)."));
+    visit(self.collision_weight, plain("collision_weight", 0, 1e9, "Weight of the distance (Q)."));
+    visit(self.speed_weight, plain("speed_weight", 1e-9, 1e9, "Weight of the speed (R)."));
   }
 };
 

@@ -17,16 +17,13 @@ struct WaitZone {
   double min_gap = 500;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.centre, {"centre", Unit::um, coordinates, "Centre of the zone.", true});
-    visit(self.width, {"width", Unit::um, {1e-3, 1e6}, "Extent along its heading.", true});
-    visit(self.height, {"height", Unit::um, {1e-3, 1e6}, "Extent across its heading.", true});
-    visit(self.heading, {"heading", Unit::deg, {-360, 360}, "Orientation of the zone."});
-    visit(self.min_gap, {"min_gap",
-                         Unit::um,
-                         {0, 1e6},
-                         "Gap of the valve below which it waits (D).",
-                         true,
-                         "least_gap_um"});
+    visit(self.centre, um("centre", coordinates, "Centre of the zone.").needed());
+    visit(self.width, um("width", 1e-3, 1e6, "Extent along its heading.").needed());
+    visit(self.height, um("height", 1e-3, 1e6, "Extent across its heading.").needed());
+    visit(self.heading, deg("heading", -360, 360, "Orientation of the zone."));
+    visit(self.min_gap, um("min_gap", 0, 1e6, "Gap of the valve below which it waits (D).")
+                            .needed()
+                            .formerly("least_gap_um"));
   }
 };
 

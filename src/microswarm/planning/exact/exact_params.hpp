@@ -15,9 +15,9 @@ struct ExactParams {
   double goal_tolerance = 50;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.clearance, {"clearance", Unit::um, {0, 1e6}, "Minimum distance to walls."});
+    visit(self.clearance, um("clearance", 0, 1e6, "Minimum distance to walls."));
     visit(self.goal_tolerance,
-          {"goal_tolerance", Unit::um, {0, 1e6}, "Distance at which the goal counts as reached."});
+          um("goal_tolerance", 0, 1e6, "Distance at which the goal counts as reached."));
   }
 };
 

@@ -20,25 +20,16 @@ struct MapSegmentationParams {
   int max_branches = 4;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.eccentricity, {"eccentricity",
-                              Unit::none,
-                              {0, 1},
-                              "Eccentricity below which a node is in a junction (delta_e)."});
-    visit(self.range, {"range", Unit::none, {0.1, 10}, "Reach of a node, in channel widths."});
-    visit(self.arms, {"arms", Unit::none, {0, 10}, "Minimum number of channels in a junction."});
-    visit(self.arm_gap, {"arm_gap", Unit::deg, {0, 120}, "Minimum angle between two channels."});
-    visit(self.merge_distance, {"merge_distance",
-                                Unit::none,
-                                {0, 10},
-                                "Distance below which junction nodes are one junction."});
-    visit(self.fill,
-          {"fill", Unit::none, {0, 1}, "Share of junction nodes in a junction's middle."});
-    visit(self.max_branches, {"max_branches",
-                              Unit::none,
-                              {1, 10},
-                              "Maximum number of branches of a region.",
-                              false,
-                              "most_branches"});
+    visit(self.eccentricity, plain("eccentricity", 0, 1,
+                                   "Eccentricity below which a node is in a junction (delta_e)."));
+    visit(self.range, plain("range", 0.1, 10, "Reach of a node, in channel widths."));
+    visit(self.arms, plain("arms", 0, 10, "Minimum number of channels in a junction."));
+    visit(self.arm_gap, deg("arm_gap", 0, 120, "Minimum angle between two channels."));
+    visit(self.merge_distance,
+          plain("merge_distance", 0, 10, "Distance below which junction nodes are one junction."));
+    visit(self.fill, plain("fill", 0, 1, "Share of junction nodes in a junction's middle."));
+    visit(self.max_branches, plain("max_branches", 1, 10, "Maximum number of branches of a region.")
+                                 .formerly("most_branches"));
   }
 };
 

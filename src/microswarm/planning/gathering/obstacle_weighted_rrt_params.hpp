@@ -25,29 +25,24 @@ struct ObstacleWeightedRrtParams {
   int max_iterations = 10'000'000;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.nodes, {"nodes", Unit::none, {1, 1e7}, "Number of tree nodes."});
-    visit(self.extension, {"extension", Unit::um, {1e-6, 1e6}, "Length of a tree edge."});
+    visit(self.nodes, plain("nodes", 1, 1e7, "Number of tree nodes."));
+    visit(self.extension, um("extension", 1e-6, 1e6, "Length of a tree edge."));
     visit(self.wall_samples,
-          {"wall_samples", Unit::none, {0, 1}, "Share of samples in walls that are used."});
+          plain("wall_samples", 0, 1, "Share of samples in walls that are used."));
     visit(self.weight_decay,
-          {"weight_decay", Unit::none, {0, 1e6}, "Decay a of the weight e^(b - a d), per µm."});
+          plain("weight_decay", 0, 1e6, "Decay a of the weight e^(b - a d), per µm."));
     visit(self.weight_exponent,
-          {"weight_exponent", Unit::none, {-50, 50}, "Exponent b of the weight e^(b - a d)."});
-    visit(self.weight_cutoff,
-          {"weight_cutoff", Unit::um, {0, 1e6}, "Distance from which the weight is 0."});
-    visit(self.zeta,
-          {"zeta", Unit::none, {0, 1e9}, "Weight below which a node is near the middle."});
-    visit(self.narrow_share, {"narrow_share",
-                              Unit::none,
-                              {0, 1},
-                              "Share near the middle in narrow channels; 0: as printed."});
+          plain("weight_exponent", -50, 50, "Exponent b of the weight e^(b - a d)."));
+    visit(self.weight_cutoff, um("weight_cutoff", 0, 1e6, "Distance from which the weight is 0."));
+    visit(self.zeta, plain("zeta", 0, 1e9, "Weight below which a node is near the middle."));
+    visit(self.narrow_share,
+          plain("narrow_share", 0, 1, "Share near the middle in narrow channels; 0: as printed."));
     visit(self.neighbour_radius,
-          {"neighbour_radius", Unit::um, {0, 1e6}, "Distance below which nodes are adjacent."});
+          um("neighbour_radius", 0, 1e6, "Distance below which nodes are adjacent."));
     visit(self.attach_radius,
-          {"attach_radius", Unit::um, {0, 1e6}, "Search radius from other nodes to the middle."});
-    visit(self.complete, {"complete", Unit::none, {}, "Add nodes where the tree missed a branch."});
-    visit(self.max_iterations,
-          {"max_iterations", Unit::none, {1, 1e9}, "Maximum number of samples."});
+          um("attach_radius", 0, 1e6, "Search radius from other nodes to the middle."));
+    visit(self.complete, plain("complete", "Add nodes where the tree missed a branch."));
+    visit(self.max_iterations, plain("max_iterations", 1, 1e9, "Maximum number of samples."));
   }
 };
 

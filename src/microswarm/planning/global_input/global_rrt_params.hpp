@@ -23,23 +23,18 @@ struct GlobalRrtParams {
   bool stop_at_first = true;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.robostep, {"robostep", Unit::um, {1e-3, 1e6}, "Length of one input."});
+    visit(self.robostep, um("robostep", 1e-3, 1e6, "Length of one input."));
     visit(self.directions,
-          {"directions", Unit::none, {3, 256}, "Number of input directions, from the x axis (k)."});
-    visit(self.contact, {"contact", Unit::none, {}, "Behaviour of a robot that meets a wall."});
-    visit(self.goal_tolerance, {"goal_tolerance",
-                                Unit::um,
-                                {1e-3, 1e6},
-                                "Distance from its goal that each robot must reach."});
-    visit(self.goal_bias, {"goal_bias", Unit::none, {0, 1}, "Share of samples at the goals."});
-    visit(self.separation,
-          {"separation", Unit::um, {0, 1e6}, "Minimum distance between robots; 0: none."});
-    visit(self.max_nodes, {"max_nodes", Unit::none, {1, 1e8}, "Maximum number of nodes (K)."});
-    visit(self.max_iterations,
-          {"max_iterations", Unit::none, {1, 1e9}, "Maximum number of iterations."});
-    visit(
-        self.stop_at_first,
-        {"stop_at_first", Unit::none, {}, "Stop at the first solution; else grow to the limits."});
+          plain("directions", 3, 256, "Number of input directions, from the x axis (k)."));
+    visit(self.contact, plain("contact", "Behaviour of a robot that meets a wall."));
+    visit(self.goal_tolerance,
+          um("goal_tolerance", 1e-3, 1e6, "Distance from its goal that each robot must reach."));
+    visit(self.goal_bias, plain("goal_bias", 0, 1, "Share of samples at the goals."));
+    visit(self.separation, um("separation", 0, 1e6, "Minimum distance between robots; 0: none."));
+    visit(self.max_nodes, plain("max_nodes", 1, 1e8, "Maximum number of nodes (K)."));
+    visit(self.max_iterations, plain("max_iterations", 1, 1e9, "Maximum number of iterations."));
+    visit(self.stop_at_first,
+          plain("stop_at_first", "Stop at the first solution; else grow to the limits."));
   }
 };
 

@@ -23,29 +23,20 @@ struct GlobalSearchParams {
   int max_nodes = 100'000'000;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.robostep, {"robostep", Unit::um, {1e-3, 1e6}, "Length of one input."});
+    visit(self.robostep, um("robostep", 1e-3, 1e6, "Length of one input."));
     visit(self.directions,
-          {"directions", Unit::none, {3, 256}, "Number of input directions, from the x axis."});
-    visit(self.contact, {"contact", Unit::none, {}, "Behaviour of a robot that meets a wall."});
-    visit(self.goal_tolerance, {"goal_tolerance",
-                                Unit::um,
-                                {1e-3, 1e6},
-                                "Distance from its goal that each robot must reach."});
-    visit(self.cell,
-          {"cell", Unit::um, {0, 1e6}, "Edge of the hypercubes; 0: 2.25 goal tolerances."});
-    visit(self.noise, {"noise", Unit::none, {0, 10}, "Random share added to the cost of a node."});
-    visit(self.travel_weight, {"travel_weight",
-                               Unit::none,
-                               {0, 1e3},
-                               "Weight of the common travel against the formation error."});
-    visit(self.separation,
-          {"separation", Unit::um, {0, 1e6}, "Minimum distance between robots; 0: none."});
-    visit(self.round_nodes, {"round_nodes",
-                             Unit::none,
-                             {1, 1e8},
-                             "Number of nodes after which the first round restarts."});
-    visit(self.max_nodes,
-          {"max_nodes", Unit::none, {1, 2e9}, "Maximum number of nodes over all rounds."});
+          plain("directions", 3, 256, "Number of input directions, from the x axis."));
+    visit(self.contact, plain("contact", "Behaviour of a robot that meets a wall."));
+    visit(self.goal_tolerance,
+          um("goal_tolerance", 1e-3, 1e6, "Distance from its goal that each robot must reach."));
+    visit(self.cell, um("cell", 0, 1e6, "Edge of the hypercubes; 0: 2.25 goal tolerances."));
+    visit(self.noise, plain("noise", 0, 10, "Random share added to the cost of a node."));
+    visit(self.travel_weight, plain("travel_weight", 0, 1e3,
+                                    "Weight of the common travel against the formation error."));
+    visit(self.separation, um("separation", 0, 1e6, "Minimum distance between robots; 0: none."));
+    visit(self.round_nodes,
+          plain("round_nodes", 1, 1e8, "Number of nodes after which the first round restarts."));
+    visit(self.max_nodes, plain("max_nodes", 1, 2e9, "Maximum number of nodes over all rounds."));
   }
 };
 

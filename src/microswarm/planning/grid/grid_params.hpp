@@ -22,12 +22,12 @@ struct GridParams {
   int max_nodes = 4'000'000;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.clearance, {"clearance", Unit::um, {0, 1e6}, "Minimum distance to walls."});
+    visit(self.clearance, um("clearance", 0, 1e6, "Minimum distance to walls."));
     visit(self.goal_tolerance,
-          {"goal_tolerance", Unit::um, {0, 1e6}, "Distance at which the goal counts as reached."});
-    visit(self.cell, {"cell", Unit::um, {1e-3, 1e6}, "Grid spacing to begin with."});
-    visit(self.origin, {"origin", Unit::um, {-1e6, 1e6}, "A place of the grid; unset: the start."});
-    visit(self.max_nodes, {"max_nodes", Unit::none, {1, 1e8}, "Maximum number of opened cells."});
+          um("goal_tolerance", 0, 1e6, "Distance at which the goal counts as reached."));
+    visit(self.cell, um("cell", 1e-3, 1e6, "Grid spacing to begin with."));
+    visit(self.origin, um("origin", -1e6, 1e6, "A place of the grid; unset: the start."));
+    visit(self.max_nodes, plain("max_nodes", 1, 1e8, "Maximum number of opened cells."));
   }
 };
 

@@ -37,25 +37,22 @@ struct DrrtStarParams : RrtStarParams {
   static void fields(Self& self, V&& visit) {
     RrtStarParams::fields(self, visit);
     visit(self.detection_diameter,
-          {"detection_diameter", Unit::um, {1e-3, 1e6}, "Diameter of the detection circle."});
-    visit(self.rho_min, {"rho_min", Unit::none, {1e-3, 1}, "Floor of the adjust factor."});
-    visit(self.candidates, {"candidates", Unit::none, {1, 1000}, "Candidates per extension (M)."});
+          um("detection_diameter", 1e-3, 1e6, "Diameter of the detection circle."));
+    visit(self.rho_min, plain("rho_min", 1e-3, 1, "Floor of the adjust factor."));
+    visit(self.candidates, plain("candidates", 1, 1000, "Candidates per extension (M)."));
     visit(self.max_attempts,
-          {"max_attempts", Unit::none, {1, 1000}, "Maximum number of samples per extension."});
-    visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e6}, "Forward speed while steering."});
-    visit(self.time_step, {"time_step", Unit::s, {1e-4, 10}, "Step of the unicycle (dt)."});
-    visit(self.heading_gain,
-          {"heading_gain", Unit::per_s, {0, 1e3}, "Heading gain of Eq 7 (k_p)."});
+          plain("max_attempts", 1, 1000, "Maximum number of samples per extension."));
+    visit(self.speed, um_per_s("speed", 1e-3, 1e6, "Forward speed while steering."));
+    visit(self.time_step, s("time_step", 1e-4, 10, "Step of the unicycle (dt)."));
+    visit(self.heading_gain, per_s("heading_gain", 0, 1e3, "Heading gain of Eq 7 (k_p)."));
     visit(self.smoothness_weight,
-          {"smoothness_weight", Unit::none, {0, 1e6}, "Cost of turning, µm per rad (λ_s)."});
-    visit(self.length_weight, {"length_weight", Unit::none, {0, 1e6}, "Cost per µm (λ_l)."});
-    visit(self.straighten,
-          {"straighten", Unit::none, {}, "Straighten the path found (beyond the paper)."});
-    visit(self.arcs, {"arcs", Unit::none, {}, "Edges of bounded curvature (beyond the paper)."});
-    visit(self.turn_radius,
-          {"turn_radius", Unit::um, {1e-3, 1e6}, "Minimum radius of a turn, with arcs."});
+          plain("smoothness_weight", 0, 1e6, "Cost of turning, µm per rad (λ_s)."));
+    visit(self.length_weight, plain("length_weight", 0, 1e6, "Cost per µm (λ_l)."));
+    visit(self.straighten, plain("straighten", "Straighten the path found (beyond the paper)."));
+    visit(self.arcs, plain("arcs", "Edges of bounded curvature (beyond the paper)."));
+    visit(self.turn_radius, um("turn_radius", 1e-3, 1e6, "Minimum radius of a turn, with arcs."));
     visit(self.as_published,
-          {"as_published", Unit::none, {}, "The paper's method: no straightening, no arcs."});
+          plain("as_published", "The paper's method: no straightening, no arcs."));
   }
 };
 

@@ -26,14 +26,11 @@ struct FmtStarParams {
   static void fields(Self& self, V&& visit) {
     visit(self.clearance, tree_fields::clearance);
     visit(self.goal_tolerance, tree_fields::goal_tolerance);
-    visit(self.samples, {"samples", Unit::none, {1, 1e7}, "Initial number of free samples (n)."});
-    visit(
-        self.radius_factor,
-        {"radius_factor", Unit::none, {1, 100}, "Connection radius over the theoretical minimum."});
-    visit(self.max_nodes, {"max_nodes",
-                           Unit::none,
-                           {1, 1e7},
-                           "Maximum number of samples; doubled until a path is found."});
+    visit(self.samples, plain("samples", 1, 1e7, "Initial number of free samples (n)."));
+    visit(self.radius_factor,
+          plain("radius_factor", 1, 100, "Connection radius over the theoretical minimum."));
+    visit(self.max_nodes,
+          plain("max_nodes", 1, 1e7, "Maximum number of samples; doubled until a path is found."));
   }
 };
 

@@ -10,18 +10,17 @@ namespace microswarm {
 
 /// Fields that planners by trees have in common.
 namespace tree_fields {
-inline constexpr FieldInfo clearance{
-    "clearance", Unit::um, {0, 1e6}, "Minimum distance to obstacles."};
-inline constexpr FieldInfo goal_tolerance{
-    "goal_tolerance", Unit::um, {1e-3, 1e6}, "Distance at which the goal counts as reached."};
-inline constexpr FieldInfo step{"step", Unit::um, {1e-3, 1e6}, "Base length of one extension."};
-inline constexpr FieldInfo max_nodes{"max_nodes", Unit::none, {1, 1e7}, "Maximum number of nodes."};
-inline constexpr FieldInfo max_iterations{
-    "max_iterations", Unit::none, {1, 1e8}, "Maximum number of iterations."};
-inline constexpr FieldInfo sample_pitch{
-    "sample_pitch", Unit::um, {0, 1e6}, "Pitch of the lattice of most samples; 0: none."};
-inline constexpr FieldInfo sample_origin{
-    "sample_origin", Unit::um, {-1e6, 1e6}, "A point of that lattice."};
+inline constexpr FieldInfo clearance = um("clearance", 0, 1e6, "Minimum distance to obstacles.");
+inline constexpr FieldInfo goal_tolerance =
+    um("goal_tolerance", 1e-3, 1e6, "Distance at which the goal counts as reached.");
+inline constexpr FieldInfo step = um("step", 1e-3, 1e6, "Base length of one extension.");
+inline constexpr FieldInfo max_nodes = plain("max_nodes", 1, 1e7, "Maximum number of nodes.");
+inline constexpr FieldInfo max_iterations =
+    plain("max_iterations", 1, 1e8, "Maximum number of iterations.");
+inline constexpr FieldInfo sample_pitch =
+    um("sample_pitch", 0, 1e6, "Pitch of the lattice of most samples; 0: none.");
+inline constexpr FieldInfo sample_origin =
+    um("sample_origin", -1e6, 1e6, "A point of that lattice.");
 }  // namespace tree_fields
 
 /// Parameters common to all sampling planners. All stop alike: the first node within
@@ -43,11 +42,11 @@ struct TreeParams {
     visit(self.clearance, tree_fields::clearance);
     visit(self.goal_tolerance, tree_fields::goal_tolerance);
     visit(self.step, tree_fields::step);
-    visit(self.goal_bias, {"goal_bias", Unit::none, {0, 1}, "Share of samples at the goal."});
+    visit(self.goal_bias, plain("goal_bias", 0, 1, "Share of samples at the goal."));
     visit(self.max_nodes, tree_fields::max_nodes);
     visit(self.max_iterations, tree_fields::max_iterations);
     visit(self.stop_at_first,
-          {"stop_at_first", Unit::none, {}, "Stop at the first path; else grow to the limits."});
+          plain("stop_at_first", "Stop at the first path; else grow to the limits."));
     visit(self.sample_pitch, tree_fields::sample_pitch);
     visit(self.sample_origin, tree_fields::sample_origin);
   }
@@ -89,10 +88,9 @@ struct RrtStarParams : TreeParams {
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     TreeParams::fields(self, visit);
-    visit(
-        self.search_radius,
-        {"search_radius", Unit::um, {1e-3, 1e6}, "Neighbour radius of choose-parent and rewire."});
-    visit(self.shrinking, {"shrinking", Unit::none, {}, "Shrink the radius as sqrt(log n / n)."});
+    visit(self.search_radius,
+          um("search_radius", 1e-3, 1e6, "Neighbour radius of choose-parent and rewire."));
+    visit(self.shrinking, plain("shrinking", "Shrink the radius as sqrt(log n / n)."));
   }
 };
 
@@ -105,7 +103,7 @@ struct UniformRrtStarParams : RrtStarParams {
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     RrtStarParams::fields(self, visit);
-    visit(self.spacing, {"spacing", Unit::um, {0, 1e6}, "Minimum distance between nodes."});
+    visit(self.spacing, um("spacing", 0, 1e6, "Minimum distance between nodes."));
   }
 };
 

@@ -39,8 +39,8 @@ struct FollowerRow {
   FollowedPath path;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.follower, {"follower", Unit::none, {}, "Follower."});
-    visit(self.task, {"task", Unit::none, {}, "Number of the task."});
+    visit(self.follower, plain("follower", "Follower."));
+    visit(self.task, plain("task", "Number of the task."));
     FollowedPath::fields(self.path, visit);
   }
 };

@@ -76,11 +76,11 @@ struct Fig10Row {
   std::uint64_t frames = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.method, {"method", Unit::none, {}, "Method."});
-    visit(self.robots, {"robots", Unit::none, {}, "Number of robots."});
-    visit(self.trial, {"trial", Unit::none, {}, "Number of the trial."});
-    visit(self.status, {"status", Unit::none, {}, "How it ended."});
-    visit(self.frames, {"frames", Unit::none, {}, "Frames at 45 a second."});
+    visit(self.method, plain("method", "Method."));
+    visit(self.robots, plain("robots", "Number of robots."));
+    visit(self.trial, plain("trial", "Number of the trial."));
+    visit(self.status, plain("status", "How it ended."));
+    visit(self.frames, plain("frames", "Frames at 45 a second."));
   }
 };
 

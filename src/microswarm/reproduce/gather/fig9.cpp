@@ -280,14 +280,14 @@ struct TrialRow {
   int guard_count = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.map, {"map", Unit::none, {}, "Map."});
-    visit(self.method, {"method", Unit::none, {}, "Method."});
-    visit(self.robots, {"robots", Unit::none, {}, "Number of robots."});
-    visit(self.trial, {"trial", Unit::none, {}, "Number of the trial."});
-    visit(self.status, {"status", Unit::none, {}, "How it ended."});
-    visit(self.steps, {"steps", Unit::none, {}, "Number of steps."});
-    visit(self.mean_way, {"mean_way", Unit::um, {}, "Mean distance to the goal at the end."});
-    visit(self.guard_count, {"guard_count", Unit::none, {}, "1 after a livelock."});
+    visit(self.map, plain("map", "Map."));
+    visit(self.method, plain("method", "Method."));
+    visit(self.robots, plain("robots", "Number of robots."));
+    visit(self.trial, plain("trial", "Number of the trial."));
+    visit(self.status, plain("status", "How it ended."));
+    visit(self.steps, plain("steps", "Number of steps."));
+    visit(self.mean_way, um("mean_way", "Mean distance to the goal at the end."));
+    visit(self.guard_count, plain("guard_count", "1 after a livelock."));
   }
 };
 

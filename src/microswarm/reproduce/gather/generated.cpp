@@ -51,11 +51,11 @@ struct GeneratedRow {
   double hra_steps = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.size, {"size", Unit::none, {}, "Size in pixels."});
-    visit(self.seed, {"seed", Unit::none, {}, "Seed of the map."});
-    visit(self.regions, {"regions", Unit::none, {}, "Number of regions."});
-    visit(self.dca_steps, {"dca_steps", Unit::none, {}, "Mean steps of DCA."});
-    visit(self.hra_steps, {"hra_steps", Unit::none, {}, "Mean steps of HRA."});
+    visit(self.size, plain("size", "Size in pixels."));
+    visit(self.seed, plain("seed", "Seed of the map."));
+    visit(self.regions, plain("regions", "Number of regions."));
+    visit(self.dca_steps, plain("dca_steps", "Mean steps of DCA."));
+    visit(self.hra_steps, plain("hra_steps", "Mean steps of HRA."));
   }
 };
 

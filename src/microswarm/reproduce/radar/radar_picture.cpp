@@ -52,14 +52,14 @@ struct CurveRow {
   NavigatorState state = NavigatorState::hold;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.t, {"t", Unit::s, {}, "Time."});
-    visit(self.at, {"", Unit::um, {}, "Position of the swarm."});
-    visit(self.delta, {"delta", Unit::none, {}, "Avoidance cost."});
-    visit(self.gap, {"gap", Unit::um, {}, "Gap to the nearest obstacle."});
-    visit(self.prediction, {"r_p", Unit::um, {}, "Radius of the prediction circle."});
-    visit(self.safety, {"r_f", Unit::um, {}, "Radius of the safety circle."});
-    visit(self.detection, {"r_d", Unit::um, {}, "Radius of the detection circle."});
-    visit(self.state, {"state", Unit::none, {}, "State of the navigator."});
+    visit(self.t, s("t", "Time."));
+    visit(self.at, um("", "Position of the swarm."));
+    visit(self.delta, plain("delta", "Avoidance cost."));
+    visit(self.gap, um("gap", "Gap to the nearest obstacle."));
+    visit(self.prediction, um("r_p", "Radius of the prediction circle."));
+    visit(self.safety, um("r_f", "Radius of the safety circle."));
+    visit(self.detection, um("r_d", "Radius of the detection circle."));
+    visit(self.state, plain("state", "State of the navigator."));
   }
 };
 

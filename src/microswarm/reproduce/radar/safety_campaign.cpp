@@ -53,9 +53,9 @@ struct SampleRow {
   Vec2 at;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.id, {"id", Unit::none, {}, "Body."});
-    visit(self.t, {"t", Unit::s, {}, "Time."});
-    visit(self.at, {"", Unit::um, {}, "Position."});
+    visit(self.id, plain("id", "Body."));
+    visit(self.t, s("t", "Time."));
+    visit(self.at, um("", "Position."));
   }
 };
 

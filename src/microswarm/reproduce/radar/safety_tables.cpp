@@ -71,20 +71,20 @@ struct RunRow {
   int avoidable = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.course, {"course", Unit::none, {}, "Course."});
-    visit(self.navigator, {"navigator", Unit::none, {}, "Navigator."});
-    visit(self.seed, {"seed", Unit::none, {}, "Seed of the world."});
-    visit(self.status, {"status", Unit::none, {}, "How the run ended."});
-    visit(self.arrived, {"arrived", Unit::none, {}, "1 if the goal was reached."});
-    visit(self.obstacles, {"obstacles", Unit::none, {}, "Number of obstacles."});
-    visit(self.time, {"time", Unit::s, {}, "Time of the run."});
-    visit(self.straight, {"straight", Unit::s, {}, "Time of the straight path."});
-    visit(self.delta, {"delta", Unit::none, {}, "Mean avoidance cost."});
-    visit(self.turning, {"turning", Unit::deg, {}, "Total turning."});
-    visit(self.least_gap, {"least_gap", Unit::um, {}, "Smallest gap."});
-    visit(self.hold, {"hold", Unit::s, {}, "Time in hold."});
-    visit(self.contacts, {"contacts", Unit::none, {}, "Contacts."});
-    visit(self.avoidable, {"avoidable", Unit::none, {}, "Avoidable contacts."});
+    visit(self.course, plain("course", "Course."));
+    visit(self.navigator, plain("navigator", "Navigator."));
+    visit(self.seed, plain("seed", "Seed of the world."));
+    visit(self.status, plain("status", "How the run ended."));
+    visit(self.arrived, plain("arrived", "1 if the goal was reached."));
+    visit(self.obstacles, plain("obstacles", "Number of obstacles."));
+    visit(self.time, s("time", "Time of the run."));
+    visit(self.straight, s("straight", "Time of the straight path."));
+    visit(self.delta, plain("delta", "Mean avoidance cost."));
+    visit(self.turning, deg("turning", "Total turning."));
+    visit(self.least_gap, um("least_gap", "Smallest gap."));
+    visit(self.hold, s("hold", "Time in hold."));
+    visit(self.contacts, plain("contacts", "Contacts."));
+    visit(self.avoidable, plain("avoidable", "Avoidable contacts."));
   }
 };
 
@@ -103,20 +103,18 @@ struct SummaryRow {
   std::string extent;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.course, {"course", Unit::none, {}, "Course."});
-    visit(self.navigator, {"navigator", Unit::none, {}, "Navigator."});
-    visit(self.worlds, {"worlds", Unit::none, {}, "Number of worlds."});
-    visit(self.contacts_a_run, {"contacts_a_run", Unit::none, {}, "Mean contacts."});
-    visit(self.avoidable_a_run, {"avoidable_a_run", Unit::none, {}, "Mean avoidable contacts."});
-    visit(self.worlds_avoidable,
-          {"worlds_avoidable", Unit::none, {}, "Worlds with an avoidable contact."});
-    visit(self.worlds_arrived,
-          {"worlds_arrived", Unit::none, {}, "Worlds in which the goal was reached."});
+    visit(self.course, plain("course", "Course."));
+    visit(self.navigator, plain("navigator", "Navigator."));
+    visit(self.worlds, plain("worlds", "Number of worlds."));
+    visit(self.contacts_a_run, plain("contacts_a_run", "Mean contacts."));
+    visit(self.avoidable_a_run, plain("avoidable_a_run", "Mean avoidable contacts."));
+    visit(self.worlds_avoidable, plain("worlds_avoidable", "Worlds with an avoidable contact."));
+    visit(self.worlds_arrived, plain("worlds_arrived", "Worlds in which the goal was reached."));
     visit(self.slowness_median,
-          {"slowness_median", Unit::none, {}, "Median time over that of the straight path."});
-    visit(self.delta_mean, {"delta_mean", Unit::none, {}, "Mean avoidance cost."});
-    visit(self.turning_median, {"turning_median", Unit::deg, {}, "Median turning."});
-    visit(self.extent, {"extent", Unit::none, {}, "Extent of the campaign."});
+          plain("slowness_median", "Median time over that of the straight path."));
+    visit(self.delta_mean, plain("delta_mean", "Mean avoidance cost."));
+    visit(self.turning_median, deg("turning_median", "Median turning."));
+    visit(self.extent, plain("extent", "Extent of the campaign."));
   }
 };
 
@@ -136,19 +134,19 @@ struct ContactRow {
   std::string way;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.course, {"course", Unit::none, {}, "Course."});
-    visit(self.navigator, {"navigator", Unit::none, {}, "Navigator."});
-    visit(self.seed, {"seed", Unit::none, {}, "Seed of the world."});
-    visit(self.t, {"t", Unit::s, {}, "Time of the contact."});
-    visit(self.kind, {"kind", Unit::none, {}, "wall or obstacle."});
-    visit(self.body, {"body", Unit::none, {}, "Index of the body."});
-    visit(self.x, {"x", Unit::um, {}, "Position of the swarm, to the right."});
-    visit(self.y, {"y", Unit::um, {}, "Position of the swarm, upwards."});
-    visit(self.speed, {"speed", Unit::um_per_s, {}, "Speed of the swarm."});
-    visit(self.avoidable, {"avoidable", Unit::none, {}, "1 if it could have been avoided."});
+    visit(self.course, plain("course", "Course."));
+    visit(self.navigator, plain("navigator", "Navigator."));
+    visit(self.seed, plain("seed", "Seed of the world."));
+    visit(self.t, s("t", "Time of the contact."));
+    visit(self.kind, plain("kind", "wall or obstacle."));
+    visit(self.body, plain("body", "Index of the body."));
+    visit(self.x, um("x", "Position of the swarm, to the right."));
+    visit(self.y, um("y", "Position of the swarm, upwards."));
+    visit(self.speed, um_per_s("speed", "Speed of the swarm."));
+    visit(self.avoidable, plain("avoidable", "1 if it could have been avoided."));
     visit(self.decided,
-          {"decided", Unit::s, {}, "Time before the contact of the last decision that avoids it."});
-    visit(self.way, {"way", Unit::none, {}, "Manoeuvre that avoids it."});
+          s("decided", "Time before the contact of the last decision that avoids it."));
+    visit(self.way, plain("way", "Manoeuvre that avoids it."));
   }
 };
 

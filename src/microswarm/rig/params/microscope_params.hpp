@@ -24,35 +24,26 @@ struct MicroscopeParams {
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.um_per_px,
-          {"um_per_px", Unit::none, {1e-3, 1e6}, "Scale; none: the map's longer side has 800 px."});
-    visit(self.margin, {"margin", Unit::px, {0, 1000}, "Border seen around the map."});
-    visit(self.light, {"light", Unit::none, {0, 255}, "Grey value of the bright background."});
-    visit(self.light_gradient, {"light_gradient",
-                                Unit::none,
-                                {0, 1},
-                                "Relative brightness change from corner to corner."});
+          plain("um_per_px", 1e-3, 1e6, "Scale; none: the map's longer side has 800 px."));
+    visit(self.margin, px("margin", 0, 1000, "Border seen around the map."));
+    visit(self.light, plain("light", 0, 255, "Grey value of the bright background."));
+    visit(self.light_gradient,
+          plain("light_gradient", 0, 1, "Relative brightness change from corner to corner."));
     visit(self.light_drift,
-          {"light_drift", Unit::none, {0, 1}, "Relative amplitude of slow brightness changes."});
-    visit(self.light_period,
-          {"light_period", Unit::s, {1e-2, 1e6}, "Period of slow brightness changes."});
-    visit(self.noise,
-          {"noise", Unit::none, {0, 255}, "Standard deviation of a pixel's grey value."});
-    visit(self.blur, {"blur", Unit::px, {0, 20}, "Standard deviation of the image of a point."});
-    visit(self.wall_depth,
-          {"wall_depth", Unit::none, {0, 1}, "Share of the light absorbed by walls."});
+          plain("light_drift", 0, 1, "Relative amplitude of slow brightness changes."));
+    visit(self.light_period, s("light_period", 1e-2, 1e6, "Period of slow brightness changes."));
+    visit(self.noise, plain("noise", 0, 255, "Standard deviation of a pixel's grey value."));
+    visit(self.blur, px("blur", 0, 20, "Standard deviation of the image of a point."));
+    visit(self.wall_depth, plain("wall_depth", 0, 1, "Share of the light absorbed by walls."));
     visit(self.obstacle_depth,
-          {"obstacle_depth", Unit::none, {0, 1}, "Share of the light absorbed by obstacles."});
-    visit(
-        self.swarm_depth,
-        {"swarm_depth", Unit::none, {0, 1}, "Share of the light absorbed by one swarm particle."});
-    visit(self.swarm_density, {"swarm_density",
-                               Unit::none,
-                               {0.01, 10},
-                               "Area of all particle clumps over that of the swarm."});
-    visit(self.particle_diameter,
-          {"particle_diameter", Unit::px, {1, 100}, "Diameter of a particle clump."});
+          plain("obstacle_depth", 0, 1, "Share of the light absorbed by obstacles."));
+    visit(self.swarm_depth,
+          plain("swarm_depth", 0, 1, "Share of the light absorbed by one swarm particle."));
+    visit(self.swarm_density,
+          plain("swarm_density", 0.01, 10, "Area of all particle clumps over that of the swarm."));
+    visit(self.particle_diameter, px("particle_diameter", 1, 100, "Diameter of a particle clump."));
     visit(self.robot_diameter,
-          {"robot_diameter", Unit::px, {1, 100}, "Diameter of an individually tracked robot."});
+          px("robot_diameter", 1, 100, "Diameter of an individually tracked robot."));
   }
 };
 

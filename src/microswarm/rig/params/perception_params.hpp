@@ -22,33 +22,22 @@ struct PerceptionParams {
   WallParams walls;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.scene, {"scene", Unit::none, {}, "Detection of a one-body swarm and of obstacles."});
-    visit(self.robots, {"robots", Unit::none, {}, "Detection of individually tracked robots."});
-    visit(self.edge,
-          {"edge", Unit::px, {-1000, 1000}, "Width by which the swarm exceeds its outline."});
-    visit(self.heading_distance, {"heading_distance",
-                                  Unit::um,
-                                  {1e-3, 1e5},
-                                  "Distance travelled over which the heading is measured.",
-                                  false,
-                                  "heading_way_um"});
-    visit(self.speed_gain, {"speed_gain",
-                            Unit::none,
-                            {1, 100},
-                            "Speed at which a swarm is searched, in maximum speeds."});
-    visit(self.position_noise, {"position_noise",
-                                Unit::px,
-                                {0, 1e4},
-                                "Distance at which it is searched, besides its motion."});
-    visit(self.radius_tolerance, {"radius_tolerance",
-                                  Unit::none,
-                                  {0.01, 100},
-                                  "Maximum relative deviation from its median radius."});
+    visit(self.scene, plain("scene", "Detection of a one-body swarm and of obstacles."));
+    visit(self.robots, plain("robots", "Detection of individually tracked robots."));
+    visit(self.edge, px("edge", -1000, 1000, "Width by which the swarm exceeds its outline."));
+    visit(self.heading_distance, um("heading_distance", 1e-3, 1e5,
+                                    "Distance travelled over which the heading is measured.")
+                                     .formerly("heading_way_um"));
+    visit(self.speed_gain,
+          plain("speed_gain", 1, 100, "Speed at which a swarm is searched, in maximum speeds."));
+    visit(self.position_noise,
+          px("position_noise", 0, 1e4, "Distance at which it is searched, besides its motion."));
+    visit(self.radius_tolerance, plain("radius_tolerance", 0.01, 100,
+                                       "Maximum relative deviation from its median radius."));
     visit(self.min_seen_robots,
-          {"min_seen_robots", Unit::none, {0, 1}, "Share of the robots that must be seen."});
-    visit(self.moving_walls,
-          {"moving_walls", Unit::none, {}, "Walls move: they are found in every picture."});
-    visit(self.walls, {"walls", Unit::none, {}, "Appearance of walls that move."});
+          plain("min_seen_robots", 0, 1, "Share of the robots that must be seen."));
+    visit(self.moving_walls, plain("moving_walls", "Walls move: they are found in every picture."));
+    visit(self.walls, plain("walls", "Appearance of walls that move."));
   }
 };
 

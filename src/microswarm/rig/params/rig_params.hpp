@@ -32,11 +32,9 @@ struct SimulatedCoils {
   bool waveforms = false;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.channels, {"channels", Unit::none, {1, 64}, "Number of coil channels."});
-    visit(self.full_scale,
-          {"full_scale", Unit::a, {1e-6, 1e6}, "Current of a channel at full output."});
-    visit(self.waveforms,
-          {"waveforms", Unit::none, {}, "The coils turn the field; the host only steers it."});
+    visit(self.channels, plain("channels", 1, 64, "Number of coil channels."));
+    visit(self.full_scale, a("full_scale", 1e-6, 1e6, "Current of a channel at full output."));
+    visit(self.waveforms, plain("waveforms", "The coils turn the field; the host only steers it."));
   }
 };
 
@@ -48,12 +46,10 @@ struct SimulatedCamera {
   double speed_error = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.microscope, {"microscope", Unit::none, {}, "Properties of the simulated images."});
-    visit(self.rate, {"rate", Unit::hz, {0.1, 1000}, "Frame rate of a run in real time."});
-    visit(self.speed_error, {"speed_error",
-                             Unit::none,
-                             {-0.9, 10},
-                             "Relative excess of the swarm's speed over the model."});
+    visit(self.microscope, plain("microscope", "Properties of the simulated images."));
+    visit(self.rate, hz("rate", 0.1, 1000, "Frame rate of a run in real time."));
+    visit(self.speed_error,
+          plain("speed_error", -0.9, 10, "Relative excess of the swarm's speed over the model."));
   }
 };
 
@@ -64,9 +60,8 @@ struct VideoCamera {
   std::optional<double> rate;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.rate, {"rate", Unit::hz, {1e-3, 1e4}, "Frame rate; none: that of the file."});
-    visit(self.file,
-          {"file", Unit::none, {}, "Video, folder or TIFF, beside the rig's file.", true});
+    visit(self.rate, hz("rate", 1e-3, 1e4, "Frame rate; none: that of the file."));
+    visit(self.file, plain("file", "Video, folder or TIFF, beside the rig's file.").needed());
   }
 };
 
@@ -84,33 +79,21 @@ struct SafetyParams {
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.lost_swarm,
-          {"lost_swarm", Unit::s, {0.01, 100}, "Longest time without exactly one visible swarm."});
-    visit(self.max_frame_age, {"max_frame_age",
-                               Unit::s,
-                               {0.01, 100},
-                               "Maximum age of the newest frame.",
-                               false,
-                               "oldest_frame_s"});
-    visit(
-        self.deadman,
-        {"deadman", Unit::s, {0.02, 100}, "Longest time without a new command of the navigator."});
+          s("lost_swarm", 0.01, 100, "Longest time without exactly one visible swarm."));
+    visit(self.max_frame_age, s("max_frame_age", 0.01, 100, "Maximum age of the newest frame.")
+                                  .formerly("oldest_frame_s"));
+    visit(self.deadman,
+          s("deadman", 0.02, 100, "Longest time without a new command of the navigator."));
     visit(self.missed_deadlines,
-          {"missed_deadlines", Unit::none, {1, 1e6}, "Maximum number of consecutive late ticks."});
-    visit(self.max_trips, {"max_trips",
-                           Unit::none,
-                           {0, 1000},
-                           "Times the device may be armed again in `trip_window_s`."});
-    visit(self.trip_window,
-          {"trip_window", Unit::s, {0.1, 1e5}, "Time for which such a trip counts."});
-    visit(self.max_pause,
-          {"max_pause", Unit::s, {0.05, 100}, "Longest standstill of program or computer."});
-    visit(self.follow_distance, {"follow_distance",
-                                 Unit::um,
-                                 {1e-3, 1e6},
-                                 "Commanded way the swarm must follow; none: by its size."});
-    visit(
-        self.min_follow_share,
-        {"min_follow_share", Unit::none, {0, 1}, "Share of it that must be seen; 0: not checked."});
+          plain("missed_deadlines", 1, 1e6, "Maximum number of consecutive late ticks."));
+    visit(self.max_trips,
+          plain("max_trips", 0, 1000, "Times the device may be armed again in `trip_window_s`."));
+    visit(self.trip_window, s("trip_window", 0.1, 1e5, "Time for which such a trip counts."));
+    visit(self.max_pause, s("max_pause", 0.05, 100, "Longest standstill of program or computer."));
+    visit(self.follow_distance, um("follow_distance", 1e-3, 1e6,
+                                   "Commanded way the swarm must follow; none: by its size."));
+    visit(self.min_follow_share,
+          plain("min_follow_share", 0, 1, "Share of it that must be seen; 0: not checked."));
   }
 };
 
@@ -128,25 +111,19 @@ struct RigParams {
   SafetyParams safety;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.name, {"name", Unit::none, {}, "Name of the rig."});
-    visit(self.coils, {"coils", Unit::none, {}, "File of the coil system, beside this one.", true});
-    visit(self.field, {"field", Unit::none, {}, "Conversion of commands to a magnetic field."});
-    visit(self.drive_rate, {"drive_rate",
-                            Unit::hz,
-                            {20, 1e4},
-                            "Rate of current updates; at least 10 per field turn."});
-    visit(self.driver, {"driver", Unit::none, {}, "Device that drives the coils."});
-    visit(self.camera, {"camera", Unit::none, {}, "Camera."});
-    visit(self.scale,
-          {"scale", Unit::none, {}, "Camera position and scale; not for a simulated camera."});
-    visit(
-        self.perception,
-        {"perception", Unit::none, {}, "Detection of swarm, robots and obstacles.", false, "eye"});
-    visit(self.virtual_obstacles, {"virtual_obstacles",
-                                   Unit::none,
-                                   {},
-                                   "Add the scenario's obstacles to those a real camera sees."});
-    visit(self.safety, {"safety", Unit::none, {}, "Limits that end a run."});
+    visit(self.name, plain("name", "Name of the rig."));
+    visit(self.coils, plain("coils", "File of the coil system, beside this one.").needed());
+    visit(self.field, plain("field", "Conversion of commands to a magnetic field."));
+    visit(self.drive_rate,
+          hz("drive_rate", 20, 1e4, "Rate of current updates; at least 10 per field turn."));
+    visit(self.driver, plain("driver", "Device that drives the coils."));
+    visit(self.camera, plain("camera", "Camera."));
+    visit(self.scale, plain("scale", "Camera position and scale; not for a simulated camera."));
+    visit(self.perception,
+          plain("perception", "Detection of swarm, robots and obstacles.").formerly("eye"));
+    visit(self.virtual_obstacles,
+          plain("virtual_obstacles", "Add the scenario's obstacles to those a real camera sees."));
+    visit(self.safety, plain("safety", "Limits that end a run."));
   }
 };
 

@@ -30,11 +30,11 @@ struct KeptTemperatures {
   std::vector<double> temperatures;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.coils, {"coils", Unit::none, {}, "File of the coil system.", true});
-    visit(self.clock, {"clock", Unit::s, {0, 1e12}, "Wall clock, from 1970.", true});
-    visit(self.driven, {"driven", Unit::none, {}, "A program drove the coils.", true});
+    visit(self.coils, plain("coils", "File of the coil system.").needed());
+    visit(self.clock, s("clock", 0, 1e12, "Wall clock, from 1970.").needed());
+    visit(self.driven, plain("driven", "A program drove the coils.").needed());
     visit(self.temperatures,
-          {"temperatures", Unit::degc, {-273, 1e4}, "Temperatures of the coils.", true});
+          degc("temperatures", -273, 1e4, "Temperatures of the coils.").needed());
   }
 };
 

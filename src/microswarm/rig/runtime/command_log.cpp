@@ -26,12 +26,12 @@ struct Commanded {
   double bz = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.t, {"t", Unit::s, {}, "Time on the record's clock."});
-    visit(self.heading, {"heading", Unit::deg, {}, "Commanded heading."});
-    visit(self.speed, {"speed", Unit::um_per_s, {}, "Commanded speed."});
-    visit(self.bx, {"bx", Unit::mt, {}, "Commanded field."});
-    visit(self.by, {"by", Unit::mt, {}, "Commanded field."});
-    visit(self.bz, {"bz", Unit::mt, {}, "Commanded field."});
+    visit(self.t, s("t", "Time on the record's clock."));
+    visit(self.heading, deg("heading", "Commanded heading."));
+    visit(self.speed, um_per_s("speed", "Commanded speed."));
+    visit(self.bx, mt("bx", "Commanded field."));
+    visit(self.by, mt("by", "Commanded field."));
+    visit(self.bz, mt("bz", "Commanded field."));
   }
 };
 
@@ -45,13 +45,13 @@ struct Driven {
   std::optional<double> seen;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.scale, {"scale", Unit::none, {}, "Scale of the command imposed by the limits."});
+    visit(self.scale, plain("scale", "Scale of the command imposed by the limits."));
     visit(self.device_scale,
-          {"device_scale", Unit::none, {}, "By the device's own limits; empty: no answer."});
-    visit(self.status, {"status", Unit::none, {}, "Status of the driver, or dry."});
-    visit(self.late, {"late", Unit::s, {}, "Delay after the due time."});
-    visit(self.round_trip, {"round_trip", Unit::s, {}, "Round trip of the driver."});
-    visit(self.seen, {"seen", Unit::s, {}, "Time of the picture that the command answers."});
+          plain("device_scale", "By the device's own limits; empty: no answer."));
+    visit(self.status, plain("status", "Status of the driver, or dry."));
+    visit(self.late, s("late", "Delay after the due time."));
+    visit(self.round_trip, s("round_trip", "Round trip of the driver."));
+    visit(self.seen, s("seen", "Time of the picture that the command answers."));
   }
 };
 

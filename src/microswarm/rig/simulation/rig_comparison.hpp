@@ -49,14 +49,14 @@ struct ComparisonRow {
   double goal_distance = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.scenario, {"scenario", Unit::none, {}, "Name of the scenario's file."});
-    visit(self.settings, {"settings", Unit::none, {}, "Settings of the scenario."});
-    visit(self.trial, {"trial", Unit::none, {}, "Number of the trial."});
-    visit(self.plant, {"plant", Unit::none, {}, "kinematic or rig."});
-    visit(self.status, {"status", Unit::none, {}, "How it ended."});
-    visit(self.time, {"time", Unit::s, {}, "Time of the run."});
-    visit(self.contacts, {"contacts", Unit::none, {}, "Number of contacts."});
-    visit(self.goal_distance, {"goal_distance", Unit::um, {}, "Remaining distance."});
+    visit(self.scenario, plain("scenario", "Name of the scenario's file."));
+    visit(self.settings, plain("settings", "Settings of the scenario."));
+    visit(self.trial, plain("trial", "Number of the trial."));
+    visit(self.plant, plain("plant", "kinematic or rig."));
+    visit(self.status, plain("status", "How it ended."));
+    visit(self.time, s("time", "Time of the run."));
+    visit(self.contacts, plain("contacts", "Number of contacts."));
+    visit(self.goal_distance, um("goal_distance", "Remaining distance."));
   }
 };
 

@@ -22,24 +22,18 @@ struct RibbonParams {
   double speed_factor = 1;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.radius, {"radius", Unit::um, {1e-3, 1e5}, "Radius of the swarm's body."});
-    visit(self.max_speed, {"max_speed", Unit::um_per_s, {1e-3, 1e5}, "Maximum speed."});
-    visit(self.max_turn_rate,
-          {"max_turn_rate", Unit::deg_per_s, {1e-3, 36000}, "Maximum turn rate."});
-    visit(self.response_lag,
-          {"response_lag", Unit::s, {0, 10}, "Dead time from a command to its effect."});
+    visit(self.radius, um("radius", 1e-3, 1e5, "Radius of the swarm's body."));
+    visit(self.max_speed, um_per_s("max_speed", 1e-3, 1e5, "Maximum speed."));
+    visit(self.max_turn_rate, deg_per_s("max_turn_rate", 1e-3, 36000, "Maximum turn rate."));
+    visit(self.response_lag, s("response_lag", 0, 10, "Dead time from a command to its effect."));
     visit(self.position_noise,
-          {"position_noise", Unit::um, {0, 1e4}, "Random drift, standard deviation after 1 s."});
+          um("position_noise", 0, 1e4, "Random drift, standard deviation after 1 s."));
     visit(self.heading_noise,
-          {"heading_noise", Unit::deg, {0, 360}, "Random turning, standard deviation after 1 s."});
-    visit(self.drift, {"drift",
-                       Unit::um_per_s,
-                       {-1e5, 1e5},
-                       "Flow that carries the swarm; hidden from navigators."});
-    visit(self.speed_factor, {"speed_factor",
-                              Unit::none,
-                              {0, 10},
-                              "Actual over commanded speed; hidden from navigators."});
+          deg("heading_noise", 0, 360, "Random turning, standard deviation after 1 s."));
+    visit(self.drift,
+          um_per_s("drift", -1e5, 1e5, "Flow that carries the swarm; hidden from navigators."));
+    visit(self.speed_factor,
+          plain("speed_factor", 0, 10, "Actual over commanded speed; hidden from navigators."));
   }
 };
 

@@ -24,21 +24,16 @@ struct VortexParams {
   double position_noise = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.radius, {"radius", Unit::um, {1e-3, 1e5}, "Radius of the swarm at rest."});
-    visit(self.moving_radius,
-          {"moving_radius", Unit::um, {1e-3, 1e5}, "Radius at the maximum speed."});
-    visit(self.radius_lag, {"radius_lag", Unit::s, {1e-3, 1e3}, "Time constant of the radius."});
-    visit(self.radius_ripple, {"radius_ripple",
-                               Unit::um,
-                               {0, 1e4},
-                               "Standard deviation of the radius; at most twice that."});
-    visit(self.max_speed,
-          {"max_speed", Unit::um_per_s, {1e-3, 1e5}, "Speed at the maximum pitch."});
-    visit(self.max_pitch, {"max_pitch", Unit::deg, {1e-3, 90}, "Largest stable pitch."});
-    visit(self.response_lag,
-          {"response_lag", Unit::s, {0, 10}, "Dead time from a command to its effect."});
+    visit(self.radius, um("radius", 1e-3, 1e5, "Radius of the swarm at rest."));
+    visit(self.moving_radius, um("moving_radius", 1e-3, 1e5, "Radius at the maximum speed."));
+    visit(self.radius_lag, s("radius_lag", 1e-3, 1e3, "Time constant of the radius."));
+    visit(self.radius_ripple,
+          um("radius_ripple", 0, 1e4, "Standard deviation of the radius; at most twice that."));
+    visit(self.max_speed, um_per_s("max_speed", 1e-3, 1e5, "Speed at the maximum pitch."));
+    visit(self.max_pitch, deg("max_pitch", 1e-3, 90, "Largest stable pitch."));
+    visit(self.response_lag, s("response_lag", 0, 10, "Dead time from a command to its effect."));
     visit(self.position_noise,
-          {"position_noise", Unit::um, {0, 1e4}, "Random drift, standard deviation after 1 s."});
+          um("position_noise", 0, 1e4, "Random drift, standard deviation after 1 s."));
   }
 };
 

@@ -26,33 +26,22 @@ struct RobotSwarmParams {
   double response_lag = 0.1;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.count, {"count",
-                       Unit::none,
-                       {0, 1e6},
-                       "Robots at random starts that reach the goal; 0: `starts_um`."});
-    visit(self.starts, {"starts", Unit::um, {}, "Start of each robot."});
-    visit(self.goals, {"goals", Unit::um, {}, "Goal of each robot, in place of one for all."});
-    visit(self.contact, {"contact", Unit::none, {}, "Behaviour of a robot that meets a wall."});
-    visit(self.max_speed,
-          {"max_speed", Unit::um_per_s, {1e-3, 1e5}, "Maximum speed of an average robot."});
-    visit(
-        self.speed_spread,
-        {"speed_spread", Unit::none, {0, 1}, "Relative standard deviation of the robots' speeds."});
-    visit(self.heading_noise, {"heading_noise",
-                               Unit::deg,
-                               {0, 360},
-                               "Standard deviation of a robot's heading, per command."});
-    visit(self.position_noise, {"position_noise",
-                                Unit::um,
-                                {0, 1e4},
-                                "Random drift of each robot, standard deviation after 1 s."});
-    visit(self.sticking_interval, {"sticking_interval",
-                                   Unit::s,
-                                   {0, 1e6},
-                                   "Mean time between two times a robot sticks; 0: never."});
-    visit(self.sticking_time, {"sticking_time", Unit::s, {0, 1e6}, "Mean time a robot sticks."});
-    visit(self.response_lag,
-          {"response_lag", Unit::s, {0, 10}, "Dead time from a command to its effect."});
+    visit(self.count,
+          plain("count", 0, 1e6, "Robots at random starts that reach the goal; 0: `starts_um`."));
+    visit(self.starts, um("starts", "Start of each robot."));
+    visit(self.goals, um("goals", "Goal of each robot, in place of one for all."));
+    visit(self.contact, plain("contact", "Behaviour of a robot that meets a wall."));
+    visit(self.max_speed, um_per_s("max_speed", 1e-3, 1e5, "Maximum speed of an average robot."));
+    visit(self.speed_spread,
+          plain("speed_spread", 0, 1, "Relative standard deviation of the robots' speeds."));
+    visit(self.heading_noise,
+          deg("heading_noise", 0, 360, "Standard deviation of a robot's heading, per command."));
+    visit(self.position_noise, um("position_noise", 0, 1e4,
+                                  "Random drift of each robot, standard deviation after 1 s."));
+    visit(self.sticking_interval,
+          s("sticking_interval", 0, 1e6, "Mean time between two times a robot sticks; 0: never."));
+    visit(self.sticking_time, s("sticking_time", 0, 1e6, "Mean time a robot sticks."));
+    visit(self.response_lag, s("response_lag", 0, 10, "Dead time from a command to its effect."));
   }
 };
 

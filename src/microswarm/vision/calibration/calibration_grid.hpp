@@ -28,11 +28,10 @@ struct GridParams {
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.pattern,
-          {"pattern", Unit::none, {}, "Pattern: dots, or inner corners of a chessboard."});
-    visit(self.columns, {"columns", Unit::none, {2, 1000}, "Number of points in a row."});
-    visit(self.rows, {"rows", Unit::none, {2, 1000}, "Number of points in a column."});
-    visit(self.pitch, {"pitch", Unit::um, {1e-3, 1e6}, "Distance between neighbouring points."});
+    visit(self.pattern, plain("pattern", "Pattern: dots, or inner corners of a chessboard."));
+    visit(self.columns, plain("columns", 2, 1000, "Number of points in a row."));
+    visit(self.rows, plain("rows", 2, 1000, "Number of points in a column."));
+    visit(self.pitch, um("pitch", 1e-3, 1e6, "Distance between neighbouring points."));
   }
 };
 

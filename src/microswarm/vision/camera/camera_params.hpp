@@ -20,10 +20,10 @@ struct SensorRegion {
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.x, {"x", Unit::px, {0, 1e6}, "Left edge."});
-    visit(self.y, {"y", Unit::px, {0, 1e6}, "Upper edge."});
-    visit(self.width, {"width", Unit::px, {1, 1e6}, "Width of the region."});
-    visit(self.height, {"height", Unit::px, {1, 1e6}, "Height of the region."});
+    visit(self.x, px("x", 0, 1e6, "Left edge."));
+    visit(self.y, px("y", 0, 1e6, "Upper edge."));
+    visit(self.width, px("width", 1, 1e6, "Width of the region."));
+    visit(self.height, px("height", 1, 1e6, "Height of the region."));
   }
 };
 
@@ -44,24 +44,20 @@ struct CameraParams {
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.device, {"device", Unit::none, {}, "Device file."});
-    visit(self.width, {"width", Unit::px, {1, max_image_side}, "Width of a picture."});
-    visit(self.height, {"height", Unit::px, {1, max_image_side}, "Height of a picture."});
-    visit(self.rate, {"rate", Unit::hz, {0.01, 1e4}, "Requested frame rate."});
+    visit(self.device, plain("device", "Device file."));
+    visit(self.width, px("width", 1, max_image_side, "Width of a picture."));
+    visit(self.height, px("height", 1, max_image_side, "Height of a picture."));
+    visit(self.rate, hz("rate", 0.01, 1e4, "Requested frame rate."));
     visit(self.pixel_format,
-          {"pixel_format", Unit::none, {}, "Format of the data; none: as the driver has it."});
-    visit(self.region,
-          {"region", Unit::none, {}, "Part of the sensor that is read; none: as it is."});
-    visit(self.exposure, {"exposure", Unit::ms, {0.1, 1e5}, "Exposure time; none: automatic."});
-    visit(self.gain,
-          {"gain", Unit::none, {-1e6, 1e6}, "Gain in the camera's own unit; none: automatic."});
-    visit(self.white_balance, {"white_balance",
-                               Unit::none,
-                               {1000, 20000},
-                               "Colour temperature of the light in K; none: automatic."});
+          plain("pixel_format", "Format of the data; none: as the driver has it."));
+    visit(self.region, plain("region", "Part of the sensor that is read; none: as it is."));
+    visit(self.exposure, ms("exposure", 0.1, 1e5, "Exposure time; none: automatic."));
+    visit(self.gain, plain("gain", -1e6, 1e6, "Gain in the camera's own unit; none: automatic."));
+    visit(self.white_balance, plain("white_balance", 1000, 20000,
+                                    "Colour temperature of the light in K; none: automatic."));
     visit(self.focus,
-          {"focus", Unit::none, {-1e6, 1e6}, "Focus in the camera's own unit; none: automatic."});
-    visit(self.watch, {"watch", Unit::none, {}, "Detection of a silent, frozen or black camera."});
+          plain("focus", -1e6, 1e6, "Focus in the camera's own unit; none: automatic."));
+    visit(self.watch, plain("watch", "Detection of a silent, frozen or black camera."));
   }
 };
 

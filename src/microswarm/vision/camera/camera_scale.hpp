@@ -20,16 +20,11 @@ struct CameraScale {
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.um_per_px,
-          {"um_per_px", Unit::none, {1e-6, 1e6}, "Scale: side of a pixel in µm.", true});
-    visit(self.rotation, {"rotation",
-                          Unit::deg,
-                          {-360, 360},
-                          "Direction of the image's x axis, counter-clockwise."});
-    visit(self.y_up,
-          {"y_up", Unit::none, {}, "Image y axis points up in the world; false if mirrored."});
-    visit(self.origin_px,
-          {"origin", Unit::px, {-1e6, 1e6}, "World origin in the image, x right, y down."});
+    visit(self.um_per_px, plain("um_per_px", 1e-6, 1e6, "Scale: side of a pixel in µm.").needed());
+    visit(self.rotation,
+          deg("rotation", -360, 360, "Direction of the image's x axis, counter-clockwise."));
+    visit(self.y_up, plain("y_up", "Image y axis points up in the world; false if mirrored."));
+    visit(self.origin_px, px("origin", -1e6, 1e6, "World origin in the image, x right, y down."));
   }
 
   /// World place [µm] of a point in the picture.

@@ -63,24 +63,18 @@ struct GenicamParams {
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.device,
-          {"device", Unit::none, {}, "Id, serial number or address; empty: the first one found."});
-    visit(self.width,
-          {"width", Unit::px, {1, max_image_side}, "Width of a picture; none: as it is."});
-    visit(self.height,
-          {"height", Unit::px, {1, max_image_side}, "Height of a picture; none: as it is."});
-    visit(self.x, {"x", Unit::px, {0, 1e6}, "Left edge on the sensor; none: as it is."});
-    visit(self.y, {"y", Unit::px, {0, 1e6}, "Upper edge on the sensor; none: as it is."});
-    visit(self.rate, {"rate", Unit::hz, {0.01, 1e4}, "Frame rate; none: as it is."});
-    visit(self.pixel_format,
-          {"pixel_format", Unit::none, {}, "Format of the data; none: as it is."});
-    visit(self.exposure, {"exposure", Unit::ms, {1e-3, 1e5}, "Exposure time; none: as it is."});
-    visit(self.gain,
-          {"gain", Unit::none, {-1e6, 1e6}, "Gain in the camera's own unit; none: as it is."});
-    visit(self.packet_size, {"packet_size",
-                             Unit::none,
-                             {576, 65535},
-                             "Bytes of a GigE Vision packet; none: negotiated."});
-    visit(self.watch, {"watch", Unit::none, {}, "Detection of a silent, frozen or black camera."});
+          plain("device", "Id, serial number or address; empty: the first one found."));
+    visit(self.width, px("width", 1, max_image_side, "Width of a picture; none: as it is."));
+    visit(self.height, px("height", 1, max_image_side, "Height of a picture; none: as it is."));
+    visit(self.x, px("x", 0, 1e6, "Left edge on the sensor; none: as it is."));
+    visit(self.y, px("y", 0, 1e6, "Upper edge on the sensor; none: as it is."));
+    visit(self.rate, hz("rate", 0.01, 1e4, "Frame rate; none: as it is."));
+    visit(self.pixel_format, plain("pixel_format", "Format of the data; none: as it is."));
+    visit(self.exposure, ms("exposure", 1e-3, 1e5, "Exposure time; none: as it is."));
+    visit(self.gain, plain("gain", -1e6, 1e6, "Gain in the camera's own unit; none: as it is."));
+    visit(self.packet_size,
+          plain("packet_size", 576, 65535, "Bytes of a GigE Vision packet; none: negotiated."));
+    visit(self.watch, plain("watch", "Detection of a silent, frozen or black camera."));
   }
 };
 

@@ -43,16 +43,12 @@ struct NewestFrameParams {
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.silent_after, {"silent_after",
-                              Unit::s,
-                              {1e-3, 3600},
-                              "Longest time without a frame; none: 1 s, or 3 frames."});
-    visit(self.frozen_after, {"frozen_after",
-                              Unit::none,
-                              {2, 1e6},
-                              "Number of repeated frames after which it is frozen."});
+    visit(self.silent_after,
+          s("silent_after", 1e-3, 3600, "Longest time without a frame; none: 1 s, or 3 frames."));
+    visit(self.frozen_after,
+          plain("frozen_after", 2, 1e6, "Number of repeated frames after which it is frozen."));
     visit(self.black_below,
-          {"black_below", Unit::none, {0, 255}, "Grey value below which an image is black."});
+          plain("black_below", 0, 255, "Grey value below which an image is black."));
   }
 };
 

@@ -24,18 +24,14 @@ struct BlobParams {
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.tone, {"tone", Unit::none, {}, "Dark or bright against the background."});
-    visit(self.min_radius, {"min_radius", Unit::px, {1, 1e4}, "Minimum radius; smaller is dirt."});
-    visit(self.max_radius, {"max_radius", Unit::px, {1, 1e4}, "Maximum radius."});
+    visit(self.tone, plain("tone", "Dark or bright against the background."));
+    visit(self.min_radius, px("min_radius", 1, 1e4, "Minimum radius; smaller is dirt."));
+    visit(self.max_radius, px("max_radius", 1, 1e4, "Maximum radius."));
     visit(self.min_contrast,
-          {"min_contrast", Unit::none, {1, 255}, "Minimum contrast to the background, of 255."});
-    visit(self.gap, {"gap", Unit::px, {1, 1000}, "Maximum gap between clumps of one blob."});
-    visit(self.min_texture, {"min_texture",
-                             Unit::none,
-                             {0, 255},
-                             "Minimum texture above the noise; 0: any.",
-                             false,
-                             "min_grain"});
+          plain("min_contrast", 1, 255, "Minimum contrast to the background, of 255."));
+    visit(self.gap, px("gap", 1, 1000, "Maximum gap between clumps of one blob."));
+    visit(self.min_texture, plain("min_texture", 0, 255, "Minimum texture above the noise; 0: any.")
+                                .formerly("min_grain"));
   }
 };
 

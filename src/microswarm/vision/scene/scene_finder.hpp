@@ -24,14 +24,12 @@ struct SceneParams {
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.swarm, {"swarm", Unit::none, {}, "Detection of the swarm."});
-    visit(self.obstacles, {"obstacles", Unit::none, {}, "Appearance of moving obstacles."});
+    visit(self.swarm, plain("swarm", "Detection of the swarm."));
+    visit(self.obstacles, plain("obstacles", "Appearance of moving obstacles."));
     visit(self.smooth_swarm,
-          {"smooth_swarm", Unit::none, {}, "Without texture, a single smooth blob is the swarm."});
-    visit(self.roundness, {"roundness",
-                           Unit::none,
-                           {0, 1},
-                           "Deviation from a circle, in radii, below which it is a disc."});
+          plain("smooth_swarm", "Without texture, a single smooth blob is the swarm."));
+    visit(self.roundness,
+          plain("roundness", 0, 1, "Deviation from a circle, in radii, below which it is a disc."));
   }
 };
 

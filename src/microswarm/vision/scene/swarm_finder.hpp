@@ -20,10 +20,9 @@ struct SwarmFinderParams {
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.look, {"look", Unit::none, {}, "Appearance of the swarm."});
-    visit(self.jump, {"jump", Unit::px, {0, 1e5}, "Maximum displacement between two frames."});
-    visit(self.rival,
-          {"rival", Unit::none, {0, 1}, "Relative area from which a second blob is a rival."});
+    visit(self.look, plain("look", "Appearance of the swarm."));
+    visit(self.jump, px("jump", 0, 1e5, "Maximum displacement between two frames."));
+    visit(self.rival, plain("rival", 0, 1, "Relative area from which a second blob is a rival."));
   }
 };
 

@@ -22,13 +22,11 @@ struct WallParams {
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.tone, {"tone", Unit::none, {}, "Walls are dark or bright against the channels."});
-    visit(self.min_contrast,
-          {"min_contrast", Unit::none, {1, 255}, "Minimum contrast to the channels."});
-    visit(self.smooth,
-          {"smooth", Unit::px, {0, 100}, "Standard deviation of the smoothing Gaussian."});
+    visit(self.tone, plain("tone", "Walls are dark or bright against the channels."));
+    visit(self.min_contrast, plain("min_contrast", 1, 255, "Minimum contrast to the channels."));
+    visit(self.smooth, px("smooth", 0, 100, "Standard deviation of the smoothing Gaussian."));
     visit(self.min_area,
-          {"min_area", Unit::none, {0, 1e8}, "Minimum area of walls and holes, in square pixels."});
+          plain("min_area", 0, 1e8, "Minimum area of walls and holes, in square pixels."));
   }
 };
 

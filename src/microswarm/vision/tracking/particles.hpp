@@ -48,31 +48,21 @@ struct ParticleParams {
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.diameter, {"diameter",
-                          Unit::px,
-                          {3, 1001},
-                          "Diameter of a particle; even values count as one more."});
-    visit(self.tone,
-          {"tone", Unit::none, {}, "Particles are dark or bright against the background."});
-    visit(self.shape, {"shape", Unit::none, {}, "Measure the centroid, or the ring around it."});
+    visit(self.diameter,
+          px("diameter", 3, 1001, "Diameter of a particle; even values count as one more."));
+    visit(self.tone, plain("tone", "Particles are dark or bright against the background."));
+    visit(self.shape, plain("shape", "Measure the centroid, or the ring around it."));
     visit(self.min_mass,
-          {"min_mass", Unit::none, {0, 1e9}, "Minimum sum of grey values above the background."});
+          plain("min_mass", 0, 1e9, "Minimum sum of grey values above the background."));
     visit(self.separation,
-          {"separation", Unit::px, {0, 2000}, "Minimum distance of particles; 0: diameter + 1."});
-    visit(self.noise,
-          {"noise", Unit::px, {0, 100}, "Standard deviation of the smoothing Gaussian."});
-    visit(self.min_foreground, {"min_foreground",
-                                Unit::none,
-                                {0, 255},
-                                "Grey values above the background that are ignored.",
-                                false,
-                                "least_rise"});
-    visit(self.percentile, {"percentile",
-                            Unit::none,
-                            {0, 100},
-                            "Percentile of the foreground that a peak must exceed."});
-    visit(self.max_moves,
-          {"max_moves", Unit::none, {1, 1000}, "Maximum number of centroid refinements."});
+          px("separation", 0, 2000, "Minimum distance of particles; 0: diameter + 1."));
+    visit(self.noise, px("noise", 0, 100, "Standard deviation of the smoothing Gaussian."));
+    visit(self.min_foreground,
+          plain("min_foreground", 0, 255, "Grey values above the background that are ignored.")
+              .formerly("least_rise"));
+    visit(self.percentile,
+          plain("percentile", 0, 100, "Percentile of the foreground that a peak must exceed."));
+    visit(self.max_moves, plain("max_moves", 1, 1000, "Maximum number of centroid refinements."));
   }
 };
 

@@ -30,34 +30,23 @@ struct TrackerParams {
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.memory,
-          {"memory", Unit::none, {0, 10000}, "Frames for which a lost robot is kept."});
-    visit(self.min_lifetime, {"min_lifetime",
-                              Unit::none,
-                              {1, 10000},
-                              "Frames a robot must exist to merge or split.",
-                              false,
-                              "lasting"});
-    visit(self.gate, {"gate", Unit::none, {0.1, 100}, "Mahalanobis distance of the search gate."});
+    visit(self.memory, plain("memory", 0, 10000, "Frames for which a lost robot is kept."));
+    visit(self.min_lifetime,
+          plain("min_lifetime", 1, 10000, "Frames a robot must exist to merge or split.")
+              .formerly("lasting"));
+    visit(self.gate, plain("gate", 0.1, 100, "Mahalanobis distance of the search gate."));
     visit(self.search_range,
-          {"search_range", Unit::um, {0, 1e6}, "Search radius; none: 5/11 of the diameter."});
-    visit(self.measurement, {"measurement",
-                             Unit::um,
-                             {1e-9, 1e6},
-                             "Measurement noise (sd); none: 1/50 of the diameter."});
-    visit(
-        self.jitter,
-        {"jitter", Unit::um, {0, 1e6}, "Displacement noise per frame (sd); none: diameter / 10."});
-    visit(self.speed_change, {"speed_change",
-                              Unit::um_per_s,
-                              {0, 1e9},
-                              "Velocity noise per frame (sd); none: diameter / 100 a frame."});
-    visit(self.start_speed, {"start_speed",
-                             Unit::um_per_s,
-                             {0, 1e9},
-                             "Initial velocity (sd); none: diameter / 20 a frame."});
-    visit(self.touch,
-          {"touch", Unit::um, {0, 1e6}, "Distance of a merge or split; none: 1.2 diameters."});
+          um("search_range", 0, 1e6, "Search radius; none: 5/11 of the diameter."));
+    visit(self.measurement,
+          um("measurement", 1e-9, 1e6, "Measurement noise (sd); none: 1/50 of the diameter."));
+    visit(self.jitter,
+          um("jitter", 0, 1e6, "Displacement noise per frame (sd); none: diameter / 10."));
+    visit(self.speed_change,
+          um_per_s("speed_change", 0, 1e9,
+                   "Velocity noise per frame (sd); none: diameter / 100 a frame."));
+    visit(self.start_speed,
+          um_per_s("start_speed", 0, 1e9, "Initial velocity (sd); none: diameter / 20 a frame."));
+    visit(self.touch, um("touch", 0, 1e6, "Distance of a merge or split; none: 1.2 diameters."));
   }
 };
 

@@ -22,13 +22,12 @@ struct TrackSettings {
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.um_per_px, {"um_per_px", Unit::none, {1e-6, 1e6}, "Scale: side of a pixel in µm."});
-    visit(self.rate, {"rate", Unit::hz, {1e-6, 1e6}, "Frame rate; none: that of the video."});
-    visit(self.depth,
-          {"depth", Unit::none, {8, 16}, "Bits used of 16-bit samples; none: measured."});
-    visit(self.channel, {"channel", Unit::none, {}, "Colour channel used."});
-    visit(self.find, {"find", Unit::none, {}, "Detection of robots in an image."});
-    visit(self.track, {"track", Unit::none, {}, "Tracking of robots through the images."});
+    visit(self.um_per_px, plain("um_per_px", 1e-6, 1e6, "Scale: side of a pixel in µm."));
+    visit(self.rate, hz("rate", 1e-6, 1e6, "Frame rate; none: that of the video."));
+    visit(self.depth, plain("depth", 8, 16, "Bits used of 16-bit samples; none: measured."));
+    visit(self.channel, plain("channel", "Colour channel used."));
+    visit(self.find, plain("find", "Detection of robots in an image."));
+    visit(self.track, plain("track", "Tracking of robots through the images."));
   }
 };
 
@@ -47,20 +46,20 @@ struct TrackRow {
   Vec2 at_px;  ///< measured position [px]: y down, (0, 0) is the centre of the first pixel
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.frame, {"frame", Unit::none, {}, "Picture, from 0."});
-    visit(self.id, {"id", Unit::none, {}, "Robot, from 0 in the order of birth."});
-    visit(self.t, {"t", Unit::s, {}, "Time since the first picture."});
-    visit(self.place.x, {"x", Unit::um, {}, "Centre, to the right from the picture's left."});
-    visit(self.place.y, {"y", Unit::um, {}, "Centre, up from the picture's lower border."});
-    visit(self.velocity.x, {"vx", Unit::um_per_s, {}, "Velocity by the filter, to the right."});
-    visit(self.velocity.y, {"vy", Unit::um_per_s, {}, "Velocity by the filter, upwards."});
-    visit(self.radius, {"radius", Unit::um, {}, "Radius of the ring, or of the even disc alike."});
-    visit(self.mass, {"mass", Unit::none, {}, "Sum of greys above the background."});
-    visit(self.signal, {"signal", Unit::none, {}, "Highest grey above the background."});
-    visit(self.eccentricity, {"eccentricity", Unit::none, {}, "0 if round, towards 1 for a line."});
-    visit(self.id, {"particle", Unit::none, {}, "The same as id, as trackpy names it."});
-    visit(self.at_px.x, {"x", Unit::none, {}, "Centre in the picture in px, to the right."});
-    visit(self.at_px.y, {"y", Unit::none, {}, "Centre in the picture in px, downwards."});
+    visit(self.frame, plain("frame", "Picture, from 0."));
+    visit(self.id, plain("id", "Robot, from 0 in the order of birth."));
+    visit(self.t, s("t", "Time since the first picture."));
+    visit(self.place.x, um("x", "Centre, to the right from the picture's left."));
+    visit(self.place.y, um("y", "Centre, up from the picture's lower border."));
+    visit(self.velocity.x, um_per_s("vx", "Velocity by the filter, to the right."));
+    visit(self.velocity.y, um_per_s("vy", "Velocity by the filter, upwards."));
+    visit(self.radius, um("radius", "Radius of the ring, or of the even disc alike."));
+    visit(self.mass, plain("mass", "Sum of greys above the background."));
+    visit(self.signal, plain("signal", "Highest grey above the background."));
+    visit(self.eccentricity, plain("eccentricity", "0 if round, towards 1 for a line."));
+    visit(self.id, plain("particle", "The same as id, as trackpy names it."));
+    visit(self.at_px.x, plain("x", "Centre in the picture in px, to the right."));
+    visit(self.at_px.y, plain("y", "Centre in the picture in px, downwards."));
   }
 };
 

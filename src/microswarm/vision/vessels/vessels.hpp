@@ -59,32 +59,22 @@ struct VesselParams {
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.method,
-          {"method", Unit::none, {}, "Method: lines on an uneven background, or regions."});
-    visit(self.polarity, {"polarity", Unit::none, {}, "Vessels are dark or bright, or automatic."});
-    visit(self.wide_width,
-          {"wide_width", Unit::px, {0, 1000}, "Width of the widest vessels; 0: measured."});
-    visit(self.threshold, {"threshold",
-                           Unit::none,
-                           {0, 100},
-                           "Line score, in standard deviations, of a vessel pixel."});
-    visit(
-        self.seed_threshold,
-        {"seed_threshold", Unit::none, {0, 100}, "Line score that a vessel must reach somewhere."});
-    visit(
-        self.wall_level,
-        {"wall_level", Unit::none, {0, 1}, "Wall position between background (0) and vessel (1)."});
-    visit(self.gap, {"gap", Unit::none, {0, 20}, "Maximum gap bridged, in wide widths."});
-    visit(self.min_piece, {"min_piece",
-                           Unit::none,
-                           {0, 1e4},
-                           "Minimum area of a piece, in squares of the wide width.",
-                           false,
-                           "least_piece"});
+    visit(self.method, plain("method", "Method: lines on an uneven background, or regions."));
+    visit(self.polarity, plain("polarity", "Vessels are dark or bright, or automatic."));
+    visit(self.wide_width, px("wide_width", 0, 1000, "Width of the widest vessels; 0: measured."));
+    visit(self.threshold,
+          plain("threshold", 0, 100, "Line score, in standard deviations, of a vessel pixel."));
+    visit(self.seed_threshold,
+          plain("seed_threshold", 0, 100, "Line score that a vessel must reach somewhere."));
+    visit(self.wall_level,
+          plain("wall_level", 0, 1, "Wall position between background (0) and vessel (1)."));
+    visit(self.gap, plain("gap", 0, 20, "Maximum gap bridged, in wide widths."));
+    visit(self.min_piece,
+          plain("min_piece", 0, 1e4, "Minimum area of a piece, in squares of the wide width.")
+              .formerly("least_piece"));
     visit(self.min_width,
-          {"min_width", Unit::px, {0, 1000}, "Width below which vessels are dropped; 0: none."});
-    visit(self.keep,
-          {"keep", Unit::none, {}, "Keep the largest connected network, or all pieces."});
+          px("min_width", 0, 1000, "Width below which vessels are dropped; 0: none."));
+    visit(self.keep, plain("keep", "Keep the largest connected network, or all pieces."));
   }
 };
 

@@ -25,8 +25,8 @@ struct Still {
   double heading = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.position, {"position", Unit::um, coordinates, "Position.", true});
-    visit(self.heading, {"heading", Unit::deg, {-360, 360}, "Orientation."});
+    visit(self.position, um("position", coordinates, "Position.").needed());
+    visit(self.heading, deg("heading", -360, 360, "Orientation."));
   }
 };
 
@@ -37,8 +37,8 @@ struct Straight {
   Vec2 velocity{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.start, {"start", Unit::um, coordinates, "Position at t = 0.", true});
-    visit(self.velocity, {"velocity", Unit::um_per_s, {-1e5, 1e5}, "Velocity.", true});
+    visit(self.start, um("start", coordinates, "Position at t = 0.").needed());
+    visit(self.velocity, um_per_s("velocity", -1e5, 1e5, "Velocity.").needed());
   }
 };
 
@@ -52,11 +52,11 @@ struct HarmonicLine {
   double phase = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.centre, {"centre", Unit::um, coordinates, "Centre of the motion.", true});
+    visit(self.centre, um("centre", coordinates, "Centre of the motion.").needed());
     visit(self.amplitude,
-          {"amplitude", Unit::um, coordinates, "Distance from the centre to an end.", true});
-    visit(self.period, {"period", Unit::s, {1e-2, 1e6}, "Period."});
-    visit(self.phase, {"phase", Unit::none, {-1, 1}, "Share of the period at t = 0."});
+          um("amplitude", coordinates, "Distance from the centre to an end.").needed());
+    visit(self.period, s("period", 1e-2, 1e6, "Period."));
+    visit(self.phase, plain("phase", -1, 1, "Share of the period at t = 0."));
   }
 };
 
@@ -72,12 +72,12 @@ struct HarmonicArc {
   double phase = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.pivot, {"pivot", Unit::um, coordinates, "Centre of the arc.", true});
-    visit(self.radius, {"radius", Unit::um, {0, 1e6}, "Radius of the arc.", true});
-    visit(self.middle, {"middle", Unit::deg, {-360, 360}, "Direction of the arc's middle."});
-    visit(self.half_angle, {"half_angle", Unit::deg, {0, 180}, "Angle from the middle to an end."});
-    visit(self.period, {"period", Unit::s, {1e-2, 1e6}, "Period."});
-    visit(self.phase, {"phase", Unit::none, {-1, 1}, "Share of the period at t = 0."});
+    visit(self.pivot, um("pivot", coordinates, "Centre of the arc.").needed());
+    visit(self.radius, um("radius", 0, 1e6, "Radius of the arc.").needed());
+    visit(self.middle, deg("middle", -360, 360, "Direction of the arc's middle."));
+    visit(self.half_angle, deg("half_angle", 0, 180, "Angle from the middle to an end."));
+    visit(self.period, s("period", 1e-2, 1e6, "Period."));
+    visit(self.phase, plain("phase", -1, 1, "Share of the period at t = 0."));
   }
 };
 
@@ -97,10 +97,9 @@ struct Waypoints {
   AtEnd at_end = AtEnd::back;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.points, {"points", Unit::um, coordinates, "Points passed, in order.", true});
-    visit(self.speed, {"speed", Unit::um_per_s, {0, 1e5}, "Speed."});
-    visit(self.at_end,
-          {"at_end", Unit::none, {}, "Behaviour at the last point: stay, back or loop."});
+    visit(self.points, um("points", coordinates, "Points passed, in order.").needed());
+    visit(self.speed, um_per_s("speed", 0, 1e5, "Speed."));
+    visit(self.at_end, plain("at_end", "Behaviour at the last point: stay, back or loop."));
   }
 };
 
@@ -120,8 +119,8 @@ struct Track {
   std::shared_ptr<const Samples> samples;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.file, {"file", Unit::none, {}, "CSV with columns id, t_s, x_um, y_um.", true});
-    visit(self.id, {"id", Unit::none, {}, "Identifier in the file.", true});
+    visit(self.file, plain("file", "CSV with columns id, t_s, x_um, y_um.").needed());
+    visit(self.id, plain("id", "Identifier in the file.").needed());
   }
 };
 

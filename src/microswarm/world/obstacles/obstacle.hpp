@@ -19,7 +19,7 @@ struct DiscShape {
   double radius = 50;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.radius, {"radius", Unit::um, {1e-3, 1e6}, "Radius.", true});
+    visit(self.radius, um("radius", 1e-3, 1e6, "Radius.").needed());
   }
 };
 
@@ -33,11 +33,11 @@ struct BreathingDisc {
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.min_radius,
-          {"min_radius", Unit::um, {0, 1e6}, "Minimum radius.", true, "least_radius_um"});
+          um("min_radius", 0, 1e6, "Minimum radius.").needed().formerly("least_radius_um"));
     visit(self.max_radius,
-          {"max_radius", Unit::um, {0, 1e6}, "Maximum radius.", true, "greatest_radius_um"});
-    visit(self.period, {"period", Unit::s, {1e-2, 1e6}, "Period."});
-    visit(self.phase, {"phase", Unit::none, {-1, 1}, "Share of the period at t = 0."});
+          um("max_radius", 0, 1e6, "Maximum radius.").needed().formerly("greatest_radius_um"));
+    visit(self.period, s("period", 1e-2, 1e6, "Period."));
+    visit(self.phase, plain("phase", -1, 1, "Share of the period at t = 0."));
   }
 };
 
@@ -48,8 +48,8 @@ struct BoxShape {
   double height = 50;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.width, {"width", Unit::um, {1e-3, 1e6}, "Extent along its heading.", true});
-    visit(self.height, {"height", Unit::um, {1e-3, 1e6}, "Extent across its heading.", true});
+    visit(self.width, um("width", 1e-3, 1e6, "Extent along its heading.").needed());
+    visit(self.height, um("height", 1e-3, 1e6, "Extent across its heading.").needed());
   }
 };
 
@@ -59,7 +59,7 @@ struct PolygonShape {
   std::vector<Vec2> vertices;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.vertices, {"vertices", Unit::um, coordinates, "Outline around its position.", true});
+    visit(self.vertices, um("vertices", coordinates, "Outline around its position.").needed());
   }
 };
 
@@ -77,13 +77,12 @@ struct Valve {
   double phase = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.span, {"span", Unit::um, {1, 1e6}, "Width of the passage.", true});
-    visit(self.thickness, {"thickness", Unit::um, {1e-3, 1e6}, "Thickness of the leaves."});
-    visit(self.min_gap, {"min_gap", Unit::um, {0, 1e6}, "Gap when closed.", false, "least_gap_um"});
-    visit(self.max_gap,
-          {"max_gap", Unit::um, {0, 1e6}, "Gap when open.", false, "greatest_gap_um"});
-    visit(self.period, {"period", Unit::s, {1e-2, 1e6}, "Period of opening and closing."});
-    visit(self.phase, {"phase", Unit::none, {-1, 1}, "Share of the period at t = 0."});
+    visit(self.span, um("span", 1, 1e6, "Width of the passage.").needed());
+    visit(self.thickness, um("thickness", 1e-3, 1e6, "Thickness of the leaves."));
+    visit(self.min_gap, um("min_gap", 0, 1e6, "Gap when closed.").formerly("least_gap_um"));
+    visit(self.max_gap, um("max_gap", 0, 1e6, "Gap when open.").formerly("greatest_gap_um"));
+    visit(self.period, s("period", 1e-2, 1e6, "Period of opening and closing."));
+    visit(self.phase, plain("phase", -1, 1, "Share of the period at t = 0."));
   }
 };
 
@@ -106,17 +105,16 @@ struct DeformingChannel {
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.centre_line,
-          {"centre_line", Unit::um, coordinates, "Centre line of the channel; smoothed.", true});
-    visit(self.half_width, {"half_width", Unit::um, {1, 1e6}, "Half of the width at rest."});
-    visit(self.end_half_width,
-          {"end_half_width", Unit::um, {1, 1e6}, "Half of the width at the ends."});
-    visit(self.end_length, {"end_length", Unit::um, {0, 1e6}, "Length over which an end widens."});
-    visit(self.amplitude, {"amplitude", Unit::um, {0, 1e6}, "Amplitude of the wave."});
-    visit(self.wavelength, {"wavelength", Unit::um, {1, 1e7}, "Wavelength along the channel."});
-    visit(self.period, {"period", Unit::s, {1e-2, 1e6}, "Period of the wave."});
-    visit(self.block_centre, {"block_centre", Unit::um, coordinates, "Centre of the solid block."});
-    visit(self.block_width, {"block_width", Unit::um, {1, 1e6}, "Width of the solid block."});
-    visit(self.block_height, {"block_height", Unit::um, {1, 1e6}, "Height of the solid block."});
+          um("centre_line", coordinates, "Centre line of the channel; smoothed.").needed());
+    visit(self.half_width, um("half_width", 1, 1e6, "Half of the width at rest."));
+    visit(self.end_half_width, um("end_half_width", 1, 1e6, "Half of the width at the ends."));
+    visit(self.end_length, um("end_length", 0, 1e6, "Length over which an end widens."));
+    visit(self.amplitude, um("amplitude", 0, 1e6, "Amplitude of the wave."));
+    visit(self.wavelength, um("wavelength", 1, 1e7, "Wavelength along the channel."));
+    visit(self.period, s("period", 1e-2, 1e6, "Period of the wave."));
+    visit(self.block_centre, um("block_centre", coordinates, "Centre of the solid block."));
+    visit(self.block_width, um("block_width", 1, 1e6, "Width of the solid block."));
+    visit(self.block_height, um("block_height", 1, 1e6, "Height of the solid block."));
   }
 };
 
@@ -129,8 +127,8 @@ struct Obstacle {
   Motion motion;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.shape, {"shape", Unit::none, {}, "Shape.", true});
-    visit(self.motion, {"motion", Unit::none, {}, "Motion.", true});
+    visit(self.shape, plain("shape", "Shape.").needed());
+    visit(self.motion, plain("motion", "Motion.").needed());
   }
 };
 

@@ -69,44 +69,31 @@ struct AggregationParams {
   MapSegmentationParams segmentation;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.method, {"method", Unit::none, {}, "Policy that chooses the moves."});
-    visit(
-        self.reading,
-        {"reading", Unit::none, {}, "Next region of DCA: farthest of the round, or as published."});
-    visit(self.followed_regions, {"followed_regions",
-                                  Unit::none,
-                                  {0, 1000},
-                                  "Number of regions into which DCA follows a team."});
-    visit(self.last_regions, {"last_regions",
-                              Unit::none,
-                              {1, 1000},
-                              "Regions near the goal that lead straight to it (DCA)."});
+    visit(self.method, plain("method", "Policy that chooses the moves."));
+    visit(self.reading,
+          plain("reading", "Next region of DCA: farthest of the round, or as published."));
+    visit(self.followed_regions,
+          plain("followed_regions", 0, 1000, "Number of regions into which DCA follows a team."));
+    visit(self.last_regions,
+          plain("last_regions", 1, 1000, "Regions near the goal that lead straight to it (DCA)."));
     visit(self.team_depth,
-          {"team_depth", Unit::um, {0, 1e6}, "Distance DCA leads a robot into the next region."});
-    visit(self.obstacle_weighted, {"obstacle_weighted",
-                                   Unit::none,
-                                   {},
-                                   "Paths along the channel centre, not along the RRT."});
+          um("team_depth", 0, 1e6, "Distance DCA leads a robot into the next region."));
+    visit(self.obstacle_weighted,
+          plain("obstacle_weighted", "Paths along the channel centre, not along the RRT."));
     visit(self.scale,
-          {"scale", Unit::none, {0, 1e6}, "Factor of all lengths here; 0: channel width / 10 µm."});
-    visit(self.step, {"step", Unit::um, {1e-6, 1e6}, "Length of one move."});
-    visit(self.sigma,
-          {"sigma", Unit::um, {0, 1e6}, "Distance to the goal below which they are gathered."});
-    visit(self.gathered,
-          {"gathered", Unit::none, {}, "Distance that must fall below sigma: mean or all."});
-    visit(self.discount, {"discount", Unit::none, {0, 1}, "Discount of far robots, Eq 6."});
-    visit(self.discount_length, {"discount_length",
-                                 Unit::um,
-                                 {1e-6, 1e6},
-                                 "Path length over which the discount applies once."});
-    visit(self.patience, {"patience",
-                          Unit::none,
-                          {1, 1000},
-                          "Longest paths without progress before the livelock guard."});
-    visit(self.rollout, {"rollout", Unit::none, {}, "Parameters of the rollout policy."});
-    visit(self.tree, {"tree", Unit::none, {}, "Tree and its weights."});
+          plain("scale", 0, 1e6, "Factor of all lengths here; 0: channel width / 10 µm."));
+    visit(self.step, um("step", 1e-6, 1e6, "Length of one move."));
+    visit(self.sigma, um("sigma", 0, 1e6, "Distance to the goal below which they are gathered."));
+    visit(self.gathered, plain("gathered", "Distance that must fall below sigma: mean or all."));
+    visit(self.discount, plain("discount", 0, 1, "Discount of far robots, Eq 6."));
+    visit(self.discount_length,
+          um("discount_length", 1e-6, 1e6, "Path length over which the discount applies once."));
+    visit(self.patience,
+          plain("patience", 1, 1000, "Longest paths without progress before the livelock guard."));
+    visit(self.rollout, plain("rollout", "Parameters of the rollout policy."));
+    visit(self.tree, plain("tree", "Tree and its weights."));
     visit(self.segmentation,
-          {"segmentation", Unit::none, {}, "Division of the map into regions and branches."});
+          plain("segmentation", "Division of the map into regions and branches."));
   }
 };
 

@@ -26,47 +26,30 @@ struct RolloutParams {
   RolloutTuning tuning;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.budget, {"budget", Unit::none, {0, 1e12}, "Simulated robot-steps per decision."});
+    visit(self.budget, plain("budget", 0, 1e12, "Simulated robot-steps per decision."));
     visit(self.first_budget,
-          {"first_budget", Unit::none, {0, 1e12}, "The same before the robots move at all."});
-    visit(self.max_work, {"max_work",
-                          Unit::none,
-                          {0, 1e15},
-                          "Robot-steps spent on better plans; 0: unlimited.",
-                          false,
-                          "most_work"});
-    visit(self.max_steps, {"max_steps",
-                           Unit::none,
-                           {1, 1e8},
-                           "Longest plan; beyond it the base policy is followed.",
-                           false,
-                           "most_steps"});
-    visit(self.representatives, {"representatives",
-                                 Unit::none,
-                                 {1, 1e6},
-                                 "Representative robots for trying a variation.",
-                                 false,
-                                 "places"});
-    visit(self.lookahead_representatives, {"lookahead_representatives",
-                                           Unit::none,
-                                           {1, 1e6},
-                                           "Representative robots for the lookahead.",
-                                           false,
-                                           "lookahead_places"});
+          plain("first_budget", 0, 1e12, "The same before the robots move at all."));
+    visit(self.max_work,
+          plain("max_work", 0, 1e15, "Robot-steps spent on better plans; 0: unlimited.")
+              .formerly("most_work"));
+    visit(self.max_steps,
+          plain("max_steps", 1, 1e8, "Longest plan; beyond it the base policy is followed.")
+              .formerly("most_steps"));
+    visit(self.representatives,
+          plain("representatives", 1, 1e6, "Representative robots for trying a variation.")
+              .formerly("places"));
+    visit(self.lookahead_representatives,
+          plain("lookahead_representatives", 1, 1e6, "Representative robots for the lookahead.")
+              .formerly("lookahead_places"));
     visit(self.candidates,
-          {"candidates", Unit::none, {0, 1e4}, "Trials of a state; 0: no search by layers."});
-    visit(self.horizon, {"horizon", Unit::none, {1, 1e6}, "Most steps of a trial."});
-    visit(self.layer_width,
-          {"layer_width", Unit::none, {1, 1e6}, "States kept after equally many steps."});
-    visit(self.max_deviation, {"max_deviation",
-                               Unit::none,
-                               {0, 1e6},
-                               "Mean deviation in steps above which it plans again.",
-                               false,
-                               "stray"});
-    visit(self.threads,
-          {"threads", Unit::none, {0, 1024}, "Threads of the search; 0: one per core."});
-    visit(self.tuning, {"tuning", Unit::none, {}, "Constants that seldom need a change."});
+          plain("candidates", 0, 1e4, "Trials of a state; 0: no search by layers."));
+    visit(self.horizon, plain("horizon", 1, 1e6, "Most steps of a trial."));
+    visit(self.layer_width, plain("layer_width", 1, 1e6, "States kept after equally many steps."));
+    visit(self.max_deviation,
+          plain("max_deviation", 0, 1e6, "Mean deviation in steps above which it plans again.")
+              .formerly("stray"));
+    visit(self.threads, plain("threads", 0, 1024, "Threads of the search; 0: one per core."));
+    visit(self.tuning, plain("tuning", "Constants that seldom need a change."));
   }
 };
 

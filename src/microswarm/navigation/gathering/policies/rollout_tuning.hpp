@@ -25,34 +25,28 @@ struct RolloutTuning {
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.change_lengths,
-          {"change_lengths", Unit::none, {1, 1e6}, "Lengths of a random change, in steps."});
-    visit(self.replan_representatives, {"replan_representatives",
-                                        Unit::none,
-                                        {1, 1e6},
-                                        "Representative robots when it plans anew."});
+          plain("change_lengths", 1, 1e6, "Lengths of a random change, in steps."));
+    visit(self.replan_representatives,
+          plain("replan_representatives", 1, 1e6, "Representative robots when it plans anew."));
     visit(self.finest_cell,
-          {"finest_cell", Unit::none, {1e-3, 1e3}, "Initial cell of merged robots, in steps."});
+          plain("finest_cell", 1e-3, 1e3, "Initial cell of merged robots, in steps."));
     visit(self.merge_cell,
-          {"merge_cell", Unit::none, {1e-3, 1e3}, "Robots this near are led together, in steps."});
+          plain("merge_cell", 1e-3, 1e3, "Robots this near are led together, in steps."));
     visit(self.robots_exponent,
-          {"robots_exponent", Unit::none, {0, 4}, "Exponent of the robots at a place to lead."});
+          plain("robots_exponent", 0, 4, "Exponent of the robots at a place to lead."));
     visit(self.step_overhead,
-          {"step_overhead", Unit::none, {0, 1e6}, "Cost of a step besides its robots, in robots."});
+          plain("step_overhead", 0, 1e6, "Cost of a step besides its robots, in robots."));
     visit(self.states_per_layer,
-          {"states_per_layer", Unit::none, {1, 1e4}, "States of a layer expanded at once."});
-    visit(self.min_passes, {"min_passes", Unit::none, {0, 1e6}, "Fewest passes over all layers."});
+          plain("states_per_layer", 1, 1e4, "States of a layer expanded at once."));
+    visit(self.min_passes, plain("min_passes", 0, 1e6, "Fewest passes over all layers."));
     visit(self.min_trial,
-          {"min_trial", Unit::none, {1, 1e6}, "Fewest steps of a trial in the search by layers."});
-    visit(self.direction_share, {"direction_share",
-                                 Unit::none,
-                                 {0, 1},
-                                 "Share of trials in which all go in one direction."});
-    visit(self.head_start,
-          {"head_start", Unit::none, {0, 1}, "Share of the plan that layers begin ahead."});
-    visit(self.layers_work,
-          {"layers_work", Unit::none, {0, 1e15}, "Robot-steps of a search by layers."});
+          plain("min_trial", 1, 1e6, "Fewest steps of a trial in the search by layers."));
+    visit(self.direction_share,
+          plain("direction_share", 0, 1, "Share of trials in which all go in one direction."));
+    visit(self.head_start, plain("head_start", 0, 1, "Share of the plan that layers begin ahead."));
+    visit(self.layers_work, plain("layers_work", 0, 1e15, "Robot-steps of a search by layers."));
     visit(self.changes_work,
-          {"changes_work", Unit::none, {0, 1e15}, "Robot-steps of random changes after layers."});
+          plain("changes_work", 0, 1e15, "Robot-steps of random changes after layers."));
   }
 };
 
