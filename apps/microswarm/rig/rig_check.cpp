@@ -54,7 +54,7 @@ void answer(Answers& answers, const std::vector<RigCheck>& checks) {
 }
 
 void ask_camera(const Rig& rig, const CheckOptions& o, const Stop& stop, Answers& answers) {
-  if (std::holds_alternative<SimulatedCamera>(rig.params.camera))
+  if (camera_kind(rig.params) == CameraKind::simulated)
     return answers.say(true, "camera", "simulated");
   try {
     std::unique_ptr<FrameSource> source = open_camera_of(rig);

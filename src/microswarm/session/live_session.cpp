@@ -18,7 +18,7 @@ namespace {
 
 /// A swarm cannot follow if nothing goes to the coils or a video plays.
 RigExperiment without_following(RigExperiment on, bool dry) {
-  if (dry || std::holds_alternative<VideoCamera>(on.rig.params.camera))
+  if (dry || camera_kind(on.rig.params) == CameraKind::video)
     on.rig.params.safety.min_follow_share = 0;
   return on;
 }

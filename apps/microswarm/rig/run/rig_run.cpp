@@ -168,7 +168,7 @@ void tell(const RecordedVideo& video) {
 
 void note_virtual_obstacles(const RigExperiment& on) {
   const std::size_t count = on.scenario().obstacles.size();
-  if (count == 0 || std::holds_alternative<SimulatedCamera>(on.rig.params.camera)) return;
+  if (count == 0 || camera_kind(on.rig.params) == CameraKind::simulated) return;
   if (on.rig.params.virtual_obstacles)
     note("note: {} obstacles of the scenario are virtual: avoided and recorded\n", count);
   else

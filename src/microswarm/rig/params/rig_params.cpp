@@ -4,9 +4,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <type_traits>
 
 #include "microswarm/config/yaml.hpp"
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/maths/angles.hpp"
 
 namespace microswarm {
@@ -18,33 +18,42 @@ namespace {
 constexpr double min_sends = 10;            // per turn of the field
 constexpr double max_waveform_sends = 100;  // [Hz]; one takes 7.7 ms at 115200 baud
 
-template <class Driver>
-constexpr bool is_own_driver = std::is_base_of_v<LineDriverParams, Driver>;
-
 /// Issues of a program or a socket of the rig's owner.
-Issues validate_own(const RigParams& rig) {
+Issues validate_own(const LineDriverParams& driver, double drive_rate) {
   Issues issues;
-  if (const auto* program = std::get_if<ProgramDriverParams>(&rig.driver))
-    if (program->command.empty() || program->command.front().empty())
-      issues.add({"driver.command", "driver"}, "the command of the driver is empty");
-  std::visit(
-      [&](const auto& driver) {
-        if constexpr (is_own_driver<std::decay_t<decltype(driver)>>) {
-          constexpr double periods = 2;
-          const double least = periods / rig.drive_rate;
-          if (driver.watchdog < least)
-            issues.add({"driver.watchdog_s", "drive_rate_hz"},
-                       fmt::format("driver.watchdog_s is {:.6g}, two updates at drive_rate_hz "
-                                   "{:.6g} take {:.6g}",
-                                   driver.watchdog, rig.drive_rate, least));
-          if (driver.send == DriverInput::field && driver.channels)
-            issues.add({"driver.channels", "driver"},
-                       "driver.channels is of currents, the driver is sent the field");
-        }
-      },
-      rig.driver);
+  constexpr double periods = 2;
+  const double least = periods / drive_rate;
+  if (driver.watchdog < least)
+    issues.add({"driver.watchdog_s", "drive_rate_hz"},
+               fmt::format("driver.watchdog_s is {:.6g}, two updates at drive_rate_hz {:.6g} take "
+                           "{:.6g}",
+                           driver.watchdog, drive_rate, least));
+  if (driver.send == DriverInput::field && driver.channels)
+    issues.add({"driver.channels", "driver"},
+               "driver.channels is of currents, the driver is sent the field");
   return issues;
 }
+
+Issues validate_driver(const RigParams& rig) {
+  return std::visit(
+      Overloaded{
+          [](const OneOf<SimulatedCoils, SerialCoilParams> auto&) { return Issues(); },
+          [&](const ProgramDriverParams& program) {
+            Issues issues;
+            if (program.command.empty() || program.command.front().empty())
+              issues.add({"driver.command", "driver"}, "the command of the driver is empty");
+            issues.add(validate_own(program, rig.drive_rate));
+            return issues;
+          },
+          [&](const SocketDriverParams& socket) { return validate_own(socket, rig.drive_rate); }},
+      rig.driver);
+}
+
+/// The field that drives a kind of swarm in the papers.
+struct UsualField {
+  const char* swarm;
+  FieldKind kind;
+};
 
 Issues validate(const RigParams& rig, const CoilSystem& system) {
   Issues issues;
@@ -67,7 +76,7 @@ Issues validate(const RigParams& rig, const CoilSystem& system) {
                            rig.drive_rate, rig.field.frequency, min_rate));
   issues.add_within("perception.scene.swarm.look", validate(rig.perception.scene.swarm.look));
   issues.add_within("perception.scene.obstacles", validate(rig.perception.scene.obstacles));
-  issues.add(validate_own(rig));
+  issues.add(validate_driver(rig));
   const int channels = channels_of(rig, system);
   if (static_cast<int>(system.size()) > channels)
     issues.add(
@@ -94,50 +103,52 @@ double full_scale_of(const RigParams& rig) {
 }
 
 int channels_of(const RigParams& rig, const CoilSystem& system) {
-  return std::visit(
-      [&](const auto& driver) {
-        using Driver = std::decay_t<decltype(driver)>;
-        if constexpr (is_own_driver<Driver>)
-          return driver.channels.value_or(static_cast<int>(system.size()));
-        else if constexpr (std::is_same_v<Driver, SimulatedCoils>)
-          return driver.channels;
-        else
-          return coil_link_channels;
-      },
-      rig.driver);
+  return std::visit(Overloaded{[](const SimulatedCoils& coils) { return coils.channels; },
+                               [](const SerialCoilParams&) { return coil_link_channels; },
+                               [&](const OneOf<ProgramDriverParams, SocketDriverParams> auto& own) {
+                                 return own.channels.value_or(static_cast<int>(system.size()));
+                               }},
+                    rig.driver);
 }
 
 bool takes_field(const RigParams& rig) {
   return std::visit(
-      [](const auto& driver) {
-        if constexpr (is_own_driver<std::decay_t<decltype(driver)>>)
-          return driver.send == DriverInput::field;
-        else
-          return false;
-      },
+      Overloaded{[](const OneOf<SimulatedCoils, SerialCoilParams> auto&) { return false; },
+                 [](const OneOf<ProgramDriverParams, SocketDriverParams> auto& own) {
+                   return own.send == DriverInput::field;
+                 }},
       rig.driver);
 }
 
 bool turns_on_device(const RigParams& rig) {
   return std::visit(
-      [](const auto& driver) {
-        if constexpr (is_own_driver<std::decay_t<decltype(driver)>>)
-          return false;
-        else
-          return driver.waveforms;
-      },
+      Overloaded{
+          [](const OneOf<SimulatedCoils, SerialCoilParams> auto& coils) { return coils.waveforms; },
+          [](const OneOf<ProgramDriverParams, SocketDriverParams> auto&) { return false; }},
       rig.driver);
 }
 
+CameraKind camera_kind(const RigParams& rig) {
+  return std::visit(
+      Overloaded{[](const SimulatedCamera&) { return CameraKind::simulated; },
+                 [](const OneOf<CameraParams, GenicamParams> auto&) { return CameraKind::device; },
+                 [](const VideoCamera&) { return CameraKind::video; }},
+      rig.camera);
+}
+
 std::optional<AnyCameraParams> device_camera(const RigParams& rig) {
-  if (const auto* v4l2 = std::get_if<CameraParams>(&rig.camera)) return *v4l2;
-  if (const auto* genicam = std::get_if<GenicamParams>(&rig.camera)) return *genicam;
-  return std::nullopt;
+  using Device = std::optional<AnyCameraParams>;
+  return std::visit(
+      Overloaded{[](const OneOf<SimulatedCamera, VideoCamera> auto&) { return Device(); },
+                 [](const OneOf<CameraParams, GenicamParams> auto& c) { return Device(c); }},
+      rig.camera);
 }
 
 bool shows_drawn_swarm(const RigParams& rig) {
-  const auto* genicam = std::get_if<GenicamParams>(&rig.camera);
-  return std::holds_alternative<SimulatedCamera>(rig.camera) || (genicam && is_fake(*genicam));
+  return std::visit(Overloaded{[](const SimulatedCamera&) { return true; },
+                               [](const GenicamParams& genicam) { return is_fake(genicam); },
+                               [](const OneOf<CameraParams, VideoCamera> auto&) { return false; }},
+                    rig.camera);
 }
 
 NewestFrameParams camera_watch(const RigParams& rig) {
@@ -151,7 +162,12 @@ std::string name_of(const Rig& rig) {
 }
 
 bool has_coil_device(const Rig& rig) {
-  return !std::holds_alternative<SimulatedCoils>(rig.params.driver);
+  return std::visit(
+      Overloaded{[](const SimulatedCoils&) { return false; },
+                 [](const OneOf<SerialCoilParams, ProgramDriverParams, SocketDriverParams> auto&) {
+                   return true;
+                 }},
+      rig.params.driver);
 }
 
 const SimulatedCamera& simulated_camera(const Rig& rig) {
@@ -175,10 +191,15 @@ Issues validate(const Rig& rig, const Scenario& scenario) {
 }
 
 std::string unusual_field(const Rig& rig, const Scenario& scenario) {
-  const bool ribbon = std::holds_alternative<RibbonParams>(scenario.swarm);
-  const FieldKind usual = scenario.robots ? FieldKind::rolling
-                          : ribbon        ? FieldKind::oscillating
-                                          : FieldKind::rotating;
+  const UsualField of_body =
+      std::visit(Overloaded{[](const RibbonParams&) {
+                              return UsualField{"a ribbon", FieldKind::oscillating};
+                            },
+                            [](const VortexParams&) {
+                              return UsualField{"a vortex", FieldKind::rotating};
+                            }},
+                 scenario.swarm);
+  const auto [swarm, usual] = scenario.robots ? UsualField{"robots", FieldKind::rolling} : of_body;
   const FieldKind kind = rig.params.field.kind;
   const double turn = pi / 2 / rig.params.field.max_turn_rate;
   if (kind == FieldKind::rolling && turn > scenario.tick)
@@ -187,7 +208,6 @@ std::string unusual_field(const Rig& rig, const Scenario& scenario) {
         "robots lag behind at turns, see field.max_turn_rate_deg_per_s",
         turn, scenario.tick);
   if (kind == usual) return {};
-  const char* swarm = scenario.robots ? "robots" : ribbon ? "a ribbon" : "a vortex";
   return fmt::format("{} under a field that is {}: in the papers it is {}", swarm, enum_name(kind),
                      enum_name(usual));
 }

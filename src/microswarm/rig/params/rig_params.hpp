@@ -148,6 +148,11 @@ bool takes_field(const RigParams& rig);
 
 /// Whether the rig's driver turns the field, see CoilDriver::makes_waveforms.
 bool turns_on_device(const RigParams& rig);
+
+/// Origin of a rig's pictures: drawn from the simulated world, a camera, or a recording.
+enum class CameraKind { simulated, device, video };
+CameraKind camera_kind(const RigParams& rig);
+
 /// The rig's camera if it is a device; nothing for a simulated one or a video.
 std::optional<AnyCameraParams> device_camera(const RigParams& rig);
 /// Whether the camera shows a swarm that is not there: a simulated camera, also Aravis's.

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "microswarm/core/execution/clock.hpp"
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/rig/simulation/simulated_rig.hpp"
 
 namespace microswarm {
@@ -30,41 +31,55 @@ class PacedVideo : public FrameSource {
   double began_;
 };
 
+using Coils = std::unique_ptr<CoilDriver>;
+
+Coils open_program(const ProgramDriverParams& program, const Rig& rig) {
+  auto lock = std::make_unique<DeviceLock>(rig.folder / rig.params.coils);
+  return std::make_unique<LineCoilDriver>(
+      [command = program.command, folder = rig.folder, file = lock->descriptor()](double) {
+        return start_program(command, folder, file);
+      },
+      program, rig.system.size(), std::move(lock));
+}
+
 /// A Unix socket's path is relative to the rig's file.
 std::string beside(const Rig& rig, const std::string& host) {
   return host.find('/') == std::string::npos ? host : (rig.folder / host).string();
 }
 
+Coils open_socket(const SocketDriverParams& socket, const Rig& rig) {
+  auto lock = std::make_unique<DeviceLock>(rig.folder / rig.params.coils);
+  return std::make_unique<LineCoilDriver>(
+      [host = beside(rig, socket.host), port = socket.port](double timeout) {
+        return connect_socket(host, port, timeout);
+      },
+      socket, rig.system.size(), std::move(lock));
+}
+
+std::unique_ptr<FrameSource> open_video(const VideoCamera& video, const Rig& rig) {
+  if (video.file.empty()) throw rig.keys.error("camera.file", "which video is missing");
+  return std::make_unique<PacedVideo>(open_frames(rig.folder / video.file, video.rate));
+}
+
 }  // namespace
 
 std::unique_ptr<CoilDriver> open_coils(const Rig& rig) {
-  const RigParams& params = rig.params;
-  if (const auto* serial = std::get_if<SerialCoilParams>(&params.driver))
-    return std::make_unique<SerialCoilDriver>(*serial);
-  if (const auto* program = std::get_if<ProgramDriverParams>(&params.driver)) {
-    auto lock = std::make_unique<DeviceLock>(rig.folder / params.coils);
-    return std::make_unique<LineCoilDriver>(
-        [command = program->command, folder = rig.folder, file = lock->descriptor()](double) {
-          return start_program(command, folder, file);
-        },
-        *program, rig.system.size(), std::move(lock));
-  }
-  if (const auto* socket = std::get_if<SocketDriverParams>(&params.driver)) {
-    auto lock = std::make_unique<DeviceLock>(rig.folder / params.coils);
-    return std::make_unique<LineCoilDriver>(
-        [host = beside(rig, socket->host), port = socket->port](double timeout) {
-          return connect_socket(host, port, timeout);
-        },
-        *socket, rig.system.size(), std::move(lock));
-  }
-  return simulated_coils(rig);
+  return std::visit(
+      Overloaded{[&](const SimulatedCoils&) -> Coils { return simulated_coils(rig); },
+                 [](const SerialCoilParams& serial) -> Coils {
+                   return std::make_unique<SerialCoilDriver>(serial);
+                 },
+                 [&](const ProgramDriverParams& program) { return open_program(program, rig); },
+                 [&](const SocketDriverParams& socket) { return open_socket(socket, rig); }},
+      rig.params.driver);
 }
 
 std::unique_ptr<FrameSource> open_camera_of(const Rig& rig) {
-  if (const auto camera = device_camera(rig.params)) return open_camera(*camera);
-  const auto& video = std::get<VideoCamera>(rig.params.camera);
-  if (video.file.empty()) throw rig.keys.error("camera.file", "which video is missing");
-  return std::make_unique<PacedVideo>(open_frames(rig.folder / video.file, video.rate));
+  return std::visit(
+      Overloaded{[](const SimulatedCamera&) { return std::unique_ptr<FrameSource>(); },
+                 [](const OneOf<CameraParams, GenicamParams> auto& c) { return open_camera(c); },
+                 [&](const VideoCamera& video) { return open_video(video, rig); }},
+      rig.params.camera);
 }
 
 Devices open_devices(const RigExperiment& on, bool dry, bool idle) {

@@ -27,7 +27,7 @@ Devices open_devices(const RigExperiment& on, bool dry, bool idle = false);
 /// Opens the coil driver of a rig. Throws HardwareError if the device fails.
 std::unique_ptr<CoilDriver> open_coils(const Rig& rig);
 
-/// Opens the camera or video of a rig whose camera is not simulated; errors as above.
+/// Opens the camera or video of a rig; nothing if its camera is simulated. Errors as above.
 std::unique_ptr<FrameSource> open_camera_of(const Rig& rig);
 
 }  // namespace microswarm

@@ -69,7 +69,7 @@ LiveRig::LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const
                  std::function<void(const CoilMoment&)> heard, FrameListener pictures)
     : rig_(rig),
       has_virtual_(rig.params.virtual_obstacles &&
-                   !std::holds_alternative<SimulatedCamera>(rig.params.camera)),
+                   camera_kind(rig.params) != CameraKind::simulated),
       world_{std::move(map), has_virtual_ ? scenario.obstacles : std::vector<Obstacle>{}},
       scale_(scale),
       tick_(scenario.tick),

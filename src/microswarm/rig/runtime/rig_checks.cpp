@@ -104,7 +104,7 @@ std::vector<RigCheck> check_camera(NewestFrame& camera, const Rig& rig, std::opt
                                    double seconds, const Stop& stop) {
   const Watched seen = watch(camera, seconds, stop);
   const CameraStatus status = camera.status();
-  const bool is_video = std::holds_alternative<VideoCamera>(rig.params.camera);
+  const bool is_video = camera_kind(rig.params) == CameraKind::video;
   const bool runs =
       status.state == CameraState::live || (is_video && status.state == CameraState::ended);
   const bool timed = seen.gaps.count() > 0;
