@@ -7,6 +7,14 @@
 
 namespace microswarm {
 
+Issues validate(const AggregationParams& params) {
+  Issues issues;
+  if (params.rollout.tuning.change_lengths.empty())
+    issues.add("rollout.tuning.change_lengths",
+               "rollout.tuning.change_lengths is empty, must have a value");
+  return issues;
+}
+
 AggregationNavigator::AggregationNavigator(const AggregationParams& params,
                                            const RobotSwarmParams& robots, Vec2 goal,
                                            double goal_tolerance, double tick, Rng rng,

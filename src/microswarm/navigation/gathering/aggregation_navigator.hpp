@@ -4,11 +4,15 @@
 #include <optional>
 
 #include "microswarm/contracts/navigator.hpp"
+#include "microswarm/core/errors/issue.hpp"
 #include "microswarm/navigation/gathering/policies/aggregation_policy.hpp"
 #include "microswarm/navigation/gathering/rollout/rollout_policy.hpp"
 #include "microswarm/navigation/steering/robot_steering_cycle.hpp"
 
 namespace microswarm {
+
+/// Reports an empty list of the lengths by which a rollout changes a plan.
+Issues validate(const AggregationParams& params);
 
 /// Navigator of HRA and DCA, Alg 3 and 5 [gather], and of the rollout planner. It predicts the
 /// robots' positions when its command takes effect and commands the policy's move, limited to what

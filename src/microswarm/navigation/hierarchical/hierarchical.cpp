@@ -12,6 +12,7 @@
 #include "microswarm/swarm/body/unicycle.hpp"
 
 namespace microswarm {
+
 HierarchicalParams HierarchicalParams::in_effect() const {
   HierarchicalParams p = *this;
   if (!as_published) return p;
@@ -31,6 +32,11 @@ Issues validate(const HierarchicalParams& params, const IsGiven& is_given) {
   issues.add_within("planner", validate(params.planner, given_within(is_given, "planner")));
   if (params.as_published)
     issues.add(validate_published(is_given, params, params.in_effect(), HierarchicalParams{}));
+  if (params.tuning.speed_shares.empty())
+    issues.add("tuning.speed_shares", "tuning.speed_shares is empty, must have a value");
+  const std::vector<double>& waits = params.tuning.wait_times;
+  if (waits.empty() || waits.front() != 0 || !std::ranges::is_sorted(waits))
+    issues.add("tuning.wait_times_s", "tuning.wait_times_s must ascend from 0");
   return issues;
 }
 

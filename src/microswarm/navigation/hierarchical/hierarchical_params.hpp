@@ -100,7 +100,8 @@ struct HierarchicalParams {
   }
 };
 
-/// Reports an issue if `as_published` is combined with given values that are not the paper's.
+/// Reports an issue if `as_published` is combined with given values that are not the paper's, there
+/// is no share of the speed, or waits do not ascend from 0.
 Issues validate(const HierarchicalParams& params, const IsGiven& is_given);
 
 }  // namespace microswarm

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/navigation/predictive/predictive.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -33,7 +35,34 @@ double distance_to(const ConvexOutline& outline, Vec2 a, Vec2 b, double near) {
   return std::min({at(0), at(1), at(0.5 * (first + last))});
 }
 
+/// An issue if the value of the first key is not less than that of the second.
+void require_less(double a, double b, std::string_view first, std::string_view second,
+                  Issues& issues) {
+  constexpr std::string_view group = "prediction.tuning";
+  if (a < b) return;
+  issues.add(fmt::format("{}.{}", group, first),
+             fmt::format("{0}.{1} must be less than {0}.{2}", group, first, second));
+}
+
 }  // namespace
+
+Issues validate(const PredictiveParams& params) {
+  Issues issues;
+  if (params.tuning.speed_shares.empty())
+    issues.add("tuning.speed_shares", "tuning.speed_shares is empty, must have a value");
+  const OscillationTuning& o = params.prediction.tuning.oscillation;
+  require_less(o.short_window, o.medium_window, "oscillation.short_window_s",
+               "oscillation.medium_window_s", issues);
+  require_less(o.medium_window, o.long_window, "oscillation.medium_window_s",
+               "oscillation.long_window_s", issues);
+  require_less(o.min_frequency, o.max_frequency, "oscillation.min_frequency_per_s",
+               "oscillation.max_frequency_per_s", issues);
+  // A recurrence must lie in the past.
+  const RecurrenceTuning& r = params.prediction.tuning.recurrence;
+  require_less(r.max_time_offset, r.min_age, "recurrence.max_time_offset_s", "recurrence.min_age_s",
+               issues);
+  return issues;
+}
 
 PredictiveNavigator::PredictiveNavigator(const PredictiveParams& params, const SwarmLimits& swarm,
                                          Vec2 goal, double goal_tolerance, Rng,

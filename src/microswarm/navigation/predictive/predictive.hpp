@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "microswarm/core/errors/issue.hpp"
 #include "microswarm/core/maths/rng.hpp"
 #include "microswarm/navigation/prediction/convex_outline.hpp"
 #include "microswarm/navigation/prediction/multi_model_predictor.hpp"
@@ -14,6 +15,9 @@
 #include "microswarm/planning/exact/distance_field.hpp"
 
 namespace microswarm {
+
+/// Reports an empty list of speeds, and bounds of the prediction that do not ascend.
+Issues validate(const PredictiveParams& params);
 
 /// Predictive navigator; see PredictiveParams. States: follow (no obstacle predicted near the
 /// path), avoid, escape (contact predicted even on the best path), hold, arrived, blind.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/navigation/radar/radar.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -15,6 +17,17 @@ namespace {
 constexpr double usual_tick = 0.1;  // [s]
 
 }  // namespace
+
+Issues validate(const RadarParams& params, const SwarmLimits& swarm, const Map& map,
+                const IsGiven& is_given) {
+  Issues issues = validate(params, is_given);
+  issues.add(validate_step(params, swarm));
+  const Snapshot walls = Snapshot::of(map);
+  for (std::size_t i = 0; i < params.waypoints.size(); ++i)
+    if (const auto why = walls.blocked_reason(params.waypoints[i], swarm.radius); !why.empty())
+      issues.add(fmt::format("waypoints_um.{}", i), fmt::format("waypoint {} {}", i + 1, why));
+  return issues;
+}
 
 RadarNavigator::RadarNavigator(const RadarParams& params, const SwarmLimits& swarm, Vec2 goal,
                                double goal_tolerance, Rng rng, double frame_timeout)

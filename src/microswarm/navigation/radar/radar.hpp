@@ -16,6 +16,11 @@
 
 namespace microswarm {
 
+/// Reports inconsistent parameters, a step that is too long for the swarm, and waypoints that it
+/// cannot occupy.
+Issues validate(const RadarParams& params, const SwarmLimits& swarm, const Map& map,
+                const IsGiven& is_given);
+
 /// Navigator with a hierarchical radar [radar]; see RadarParams. It knows only the positions and
 /// sizes of obstacles. Made for a swarm that moves in any direction at once. States: direct, avoid,
 /// retreat, guard (the safety filter's command), hold, wait, arrived, blind, and stuck if there is

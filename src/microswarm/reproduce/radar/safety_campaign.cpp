@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "microswarm/core/execution/parallel.hpp"
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/experiment/plant/plant.hpp"
 #include "microswarm/io/columns.hpp"
@@ -20,28 +21,31 @@
 namespace microswarm::reproduce {
 namespace {
 
-/// Sets the parameters that navigators have in common.
-template <class Params>
-Params suited(Params params, const Scenario& scenario, bool walls) {
+/// Sets what a navigator must know of the swarm, and of a world with walls.
+NavigatorParams suited(NavigatorParams params, const Scenario& scenario, bool walls) {
   const SwarmLimits swarm = limits_of(scenario.swarm);
   const double margin = swarm.radius + 0.8 * scenes::avoidance_passage_gap;
-  if constexpr (requires { params.speed; }) params.speed = swarm.max_speed;
-  if constexpr (std::same_as<Params, HierarchicalParams>) params.clearance = margin;
-  if constexpr (std::same_as<Params, RadarParams>)
-    if (walls) params.safety_distance = std::min(params.safety_distance, 40.0);
-  if constexpr (requires {
-                  params.global_plan;
-                  params.planner.clearance;
-                }) {
-    params.global_plan = walls;
-    params.planner.clearance = margin;
-  }
+  std::visit(Overloaded{[&](HierarchicalParams& p) {
+                          p.speed = swarm.max_speed;
+                          p.clearance = margin;
+                        },
+                        [&](RadarParams& p) {
+                          p.speed = swarm.max_speed;
+                          if (walls) p.safety_distance = std::min(p.safety_distance, 40.0);
+                          p.global_plan = walls;
+                          p.planner.clearance = margin;
+                        },
+                        [&](OneOf<StraightParams, PotentialFieldParams, VelocityObstacleParams,
+                                  PredictiveParams, PathNavigatorParams> auto& p) {
+                          p.speed = swarm.max_speed;
+                        },
+                        [](OneOf<PlanExecutorParams, AggregationParams> auto&) {}},
+             params);
   return params;
 }
 
-template <class Params>
-Contestant contestant(std::string name, Params params) {
-  return {std::move(name), [params](const Scenario& scenario, bool walls) -> NavigatorParams {
+Contestant contestant(std::string name, const NavigatorParams& params) {
+  return {std::move(name), [params](const Scenario& scenario, bool walls) {
             return suited(params, scenario, walls);
           }};
 }
@@ -164,7 +168,7 @@ void write_scenario(Scenario scenario, const std::filesystem::path& folder,
   const std::string file = stem + "-tracks.csv";
   std::vector<SampleRow> tracks;
   for (std::size_t i = 0; i < scenario.obstacles.size(); ++i) {
-    auto* track = std::get_if<Track>(&scenario.obstacles[i].motion);
+    Track* track = track_of(scenario.obstacles[i].motion);
     if (!track || !track->samples) continue;
     track->file = file;
     track->id = std::to_string(i + 1);

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is asked of a navigator's parameters, whatever its kind.
+#include "microswarm/navigation/params.hpp"
+
+#include <gtest/gtest.h>
+
+namespace microswarm {
+namespace {
+
+const std::vector<NavigatorParams> all{
+    HierarchicalParams{},     PlanExecutorParams{}, AggregationParams{},
+    RadarParams{},            StraightParams{},     PotentialFieldParams{},
+    VelocityObstacleParams{}, PredictiveParams{},   PathNavigatorParams{}};
+
+TEST(NavigatorParams, ClearanceRangeAndFollowerAreTheNavigators) {
+  ASSERT_EQ(all.size(), std::variant_size_v<NavigatorParams>);
+  for (NavigatorParams params : all) {
+    const auto* drrt = std::get_if<HierarchicalParams>(&params);
+    const auto* radar = std::get_if<RadarParams>(&params);
+    EXPECT_EQ(required_clearance(params), drrt ? drrt->clearance : 0) << params.index();
+    EXPECT_EQ(detection_range_of(params), radar ? radar->detection_range : 50) << params.index();
+    const bool follows = drrt || std::holds_alternative<PathNavigatorParams>(params);
+    EXPECT_EQ(follower_of(params) != nullptr, follows) << params.index();
+  }
+}
+
+TEST(NavigatorParams, WhatIsPublishedSwitchesOurAdditionsOff) {
+  const auto drrt =
+      std::get<HierarchicalParams>(in_effect(HierarchicalParams{.as_published = true}));
+  EXPECT_EQ(drrt.horizon, 0);
+  const auto radar = std::get<RadarParams>(in_effect(RadarParams{.as_published = true}));
+  EXPECT_FALSE(radar.safety_filter.active);
+  for (const NavigatorParams& params : all)
+    EXPECT_EQ(in_effect(params).index(), params.index());
+}
+
+}  // namespace
+}  // namespace microswarm
