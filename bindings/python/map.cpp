@@ -2,9 +2,11 @@
 // Maps, and paths in them.
 #include "calls.hpp"
 #include "drawing.hpp"
+#include "microswarm/config/type.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/formats/pixel_map.hpp"
+#include "microswarm/formats/write_map.hpp"
 #include "microswarm/session/path_query.hpp"
 #include "named_map.hpp"
 
@@ -46,21 +48,19 @@ NamedMap from_pixels(const py::array_t<std::uint8_t, py::array::c_style>& pixels
 
 py::list outlines(const NamedMap& map) {
   py::list all;
-  for (const Body& body : map.map().walls().bodies())
-    if (const auto* polygon = std::get_if<Polygon>(&body.shape)) {
-      py::list rings;
-      rings.append(array_of(polygon->outer));
-      for (const auto& hole : polygon->holes) rings.append(array_of(hole));
-      all.append(rings);
-    }
+  for (const Polygon& wall : parts_of(map.map()).walls) {
+    py::list rings;
+    rings.append(array_of(wall.outer));
+    for (const auto& hole : wall.holes) rings.append(array_of(hole));
+    all.append(rings);
+  }
   return all;
 }
 
 py::array_t<double> discs(const NamedMap& map) {
   std::vector<double> numbers;
-  for (const Body& body : map.map().walls().bodies())
-    if (const auto* disc = std::get_if<Disc>(&body.shape))
-      numbers.insert(numbers.end(), {disc->centre.x, disc->centre.y, disc->radius});
+  for (const Disc& disc : parts_of(map.map()).discs)
+    numbers.insert(numbers.end(), {disc.centre.x, disc.centre.y, disc.radius});
   py::array_t<double> array({static_cast<py::ssize_t>(numbers.size() / 3), py::ssize_t{3}});
   std::ranges::copy(numbers, array.mutable_data());
   return array;
@@ -155,6 +155,9 @@ py::dict plan_of(const NamedMap& map, const std::vector<double>& start,
 }  // namespace
 
 void add_map(py::module_& module) {
+  py::list planners;
+  for (const std::string_view name : type_of<PlannerParams>().words) planners.append(name);
+  module.attr("planners") = py::tuple(planners);
   py::class_<NamedMap>(module, "Map")
       .def_static("load", load)
       .def_static("from_walls", from_walls)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Many runs of a scenario.
 #include "microswarm/sweep/sweep.hpp"
+#include "microswarm/core/fields/overloaded.hpp"
 
 #include <algorithm>
 
@@ -36,12 +37,12 @@ py::array_t<Number> numbers_in(const Rows& rows, std::size_t column) {
   Number* out = array.mutable_data();
   for (const auto& row : rows)
     *out++ = std::visit(
-        [](const auto& value) -> Number {
-          if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(value)>>)
-            return static_cast<Number>(value);
-          else
-            return static_cast<Number>(std::numeric_limits<double>::quiet_NaN());
-        },
+        Overloaded{[](const OneOf<std::int64_t, double> auto& number) {
+                     return static_cast<Number>(number);
+                   },
+                   [](const OneOf<std::monostate, std::string> auto&) {
+                     return static_cast<Number>(std::numeric_limits<double>::quiet_NaN());
+                   }},
         row[column]);
   return array;
 }

@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "inputs.hpp"
+#include "microswarm/config/type.hpp"
+#include "microswarm/planning/path/planner_params.hpp"
 #include "program.hpp"
 
 namespace microswarm::test {
@@ -96,8 +98,9 @@ TEST_F(Maps, PlanInPictures) {
 }
 
 TEST_F(Maps, EveryPlanner) {
-  for (const std::string planner : {"drrt_star", "rrt_star", "uniform_rrt_star", "rrt",
-                                    "rrt_connect", "a_star", "theta_star", "fmt_star"}) {
+  std::vector<std::string> planners;
+  for (const std::string_view word : type_of<PlannerParams>().words) planners.emplace_back(word);
+  for (const std::string& planner : planners) {
     const Json plan = Json::parse(
         good({"plan", "room.pgm", "--um-per-px", "10", "--start", "100,300", "--goal", "500,300",
               "--set", "planner.type=" + planner, "--set", "planner.clearance_um=30", "--json"}));
@@ -105,10 +108,11 @@ TEST_F(Maps, EveryPlanner) {
     EXPECT_GT(plan.at("length_um"), 400) << planner;
     EXPECT_EQ(plan.at("path_um").front(), Json({100.0, 300.0})) << planner;
   }
+  std::vector<std::string> named = planners;
+  named.emplace_back("rrt**");
   refused({"plan", "room.pgm", "--um-per-px", "10", "--start", "100,300", "--goal", "500,300",
            "--set", "planner.type=rrt**"},
-          naming("--set planner.type", {"rrt**", "drrt_star", "rrt_star", "uniform_rrt_star", "rrt",
-                                        "rrt_connect", "a_star", "theta_star", "fmt_star"}));
+          naming("--set planner.type", named));
 }
 
 /// A vessel of 8 px that forks.

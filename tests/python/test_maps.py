@@ -112,7 +112,7 @@ def test_bad_places(room):
     assert room.clearance([[np.nan, 1]]).tolist() == [0]
 
 
-@pytest.mark.parametrize("planner", ["exact", "drrt_star", "rrt_star", "rrt_connect", "a_star", "theta_star", "fmt_star"])
+@pytest.mark.parametrize("planner", ms.planners)
 def test_every_planner_finds_the_way_around(room, planner):
     path = ms.plan(room, (50, 50), (350, 50), planner, clearance_um=15)
     assert path.solved and path.status == "solved" and path.why_none == ""

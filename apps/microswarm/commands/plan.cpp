@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "microswarm/config/type.hpp"
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/formats/map_file.hpp"
+#include "microswarm/planning/path/planner_params.hpp"
 #include "microswarm/report/run_picture.hpp"
 #include "microswarm/session/path_query.hpp"
 #include "support/options.hpp"
@@ -85,13 +89,13 @@ void add_plan(Command app, Action& action) {
   auto o = std::make_shared<PlanOptions>();
   Command cmd = app.add_command(
       "plan",
-      "Plan a path on a map: the shortest one, or with drrt_star, rrt_star, uniform_rrt_star, rrt, "
-      "rrt_connect, a_star, theta_star or fmt_star. What is not set follows from the map",
+      fmt::format("Plan a path on a map, the shortest one by default. Planners: {}. What is not "
+                  "set follows from the map",
+                  fmt::join(type_of<PlannerParams>().words, ", "))
+          .c_str(),
       "plan map.png --um-per-px 5 --start 200,700,-90 --goal 1750,300 \\\n"
       "      --set planner.type=a_star --set planner.clearance_um=40 --picture path.svg");
-  cmd.add_option("map", o->map, "Picture, ROS .yaml, MovingAI .map, GeoJSON or CSV of rectangles")
-      .required()
-      .type_name("FILE");
+  add_map_file(cmd, o->map);
   add_um_per_px(cmd, o->um_per_px, "µm per pixel or cell of the map, 1e-6..1e6");
   cmd.add_option("--start", o->start,
                  "Start position in µm and optional heading in degrees; y points up")

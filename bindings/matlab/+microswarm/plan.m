@@ -11,8 +11,8 @@ function path = plan(map, start, goal, varargin)
 % goal       [x_um y_um]
 %
 % um_per_px  side of a pixel or cell [um], where the map does not tell it
-% planner    'exact', the shortest path, which is the default, or 'drrt_star', 'rrt_star', 'rrt',
-%            'rrt_connect', 'a_star', 'theta_star', 'fmt_star', ...
+% planner    'exact', the shortest path, which is the default, or another: one that is not known
+%            is an error that lists them
 % seed       a whole number; 1 without
 % others     values of the planner, units in the names: 'clearance_um', 'step_um', ...; what is not
 %            given follows from the map

@@ -15,7 +15,7 @@ from ._core import HardwareError, InputError, version as __version__
 from .coils import Coils
 from .gathering import Gathering, gather
 from .global_input import GlobalPlan, global_plan
-from .maps import Map, Path, plan
+from .maps import Map, Path, plan, planners
 from .navigator import Command, Navigator
 from .record import Record, Table, read_record
 from .runs import Session, run
@@ -42,6 +42,7 @@ __all__ = [
     "gather",
     "global_plan",
     "plan",
+    "planners",
     "read_record",
     "run",
     "segment",

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 version: str
+planners: tuple[str, ...]
 
 class InputError(ValueError): ...
 class HardwareError(RuntimeError): ...

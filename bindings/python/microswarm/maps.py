@@ -14,6 +14,7 @@ from .pictures import Drawable
 from .values import InputError, grid_of, number, numbers, path_text, rows, setting, told, whole
 
 MAX_SIDE_PX = 65_535
+planners = _core.planners  # names that plan() takes
 
 
 class Map(Drawable):
@@ -154,8 +155,7 @@ def plan(
     """Plans a path in a map; what is not given follows from the map.
 
     start     (x_um, y_um) or (x_um, y_um, heading_rad)
-    planner   "exact", the shortest path, or "drrt_star", "rrt_star", "rrt", "rrt_connect", "a_star",
-              "theta_star", "fmt_star", …
+    planner   "exact", the shortest path, or another of microswarm.planners
     values    of the planner, with their units in their names: step_um=60, max_nodes=5000
     """
     settings = [setting("planner.type", planner)]

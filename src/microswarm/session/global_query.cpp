@@ -9,6 +9,7 @@
 #include "microswarm/config/key_locations.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/experiment/scenario/validate_robots.hpp"
 #include "microswarm/world/snapshot.hpp"
 
@@ -95,15 +96,14 @@ GlobalAnswer answer(const Map& map, const GlobalQuery& query, const std::string&
   check_finite(query.starts, "start", name);
   check_finite(query.goals, "goal", name);
   check_ends(map, query.starts, query.goals, play, name);
-  const auto* rrt = std::get_if<GlobalRrtParams>(&made.planner);
-  if (!rrt && query.keep_tree)
+  if (query.keep_tree && !std::holds_alternative<GlobalRrtParams>(made.planner))
     throw InputError("global: --save-tree keeps trees of planner.type=global_rrt only");
   Rng rng(query.seed, Purpose::planner);
   const auto began = Stop::Clock::now();
-  if (rrt)
-    grow(map, query, *rrt, rng, stop, made);
-  else
-    search(map, query, std::get<GlobalSearchParams>(made.planner), rng, stop, made);
+  std::visit(
+      Overloaded{[&](const GlobalRrtParams& p) { grow(map, query, p, rng, stop, made); },
+                 [&](const GlobalSearchParams& p) { search(map, query, p, rng, stop, made); }},
+      made.planner);
   made.seconds = seconds_since(began);
   explain(map, query, play, made.plan.status, name);
   made.inputs_found = made.plan.inputs.size();

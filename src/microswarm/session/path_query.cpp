@@ -10,6 +10,7 @@
 #include "microswarm/config/write.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/experiment/scenario/validate.hpp"
 #include "microswarm/planning/common/free_goal.hpp"
 #include "microswarm/planning/path/fit_to_map.hpp"
@@ -23,10 +24,15 @@ using PathChoice = PlannerChoice<PlannerParams>;
 
 /// Throws InputError if the planner's parameters are inconsistent.
 void check_planner(const PlannerParams& planner, const KeyLocations& keys) {
-  Issues issues;
-  if (const auto* fmt_star = std::get_if<FmtStarParams>(&planner)) issues = validate(*fmt_star);
-  if (const auto* drrt_star = std::get_if<DrrtStarParams>(&planner))
-    issues = validate(*drrt_star, given_within(keys.is_given(), "planner"));
+  const Issues issues = std::visit(
+      Overloaded{
+          [](const FmtStarParams& p) { return validate(p); },
+          [&](const DrrtStarParams& p) {
+            return validate(p, given_within(keys.is_given(), "planner"));
+          },
+          [](const OneOf<ExactParams, AStarParams, ThetaStarParams, RrtParams, RrtConnectParams,
+                         RrtStarParams, UniformRrtStarParams> auto&) { return Issues(); }},
+      planner);
   Issues of_planner;
   of_planner.add_within("planner", issues, "planner");
   keys.require_none(of_planner);

@@ -4,8 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <concepts>
 
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/world/connectivity/channel_width.hpp"
 #include "microswarm/world/connectivity/corner_lattice.hpp"
 
@@ -17,21 +18,11 @@ constexpr double usual_width = 280;
 constexpr double largest_limit = 10'000'000;  // of nodes or iterations
 constexpr double iterations_per_node = 20;    // as the defaults
 
-constexpr std::array<std::string_view, 6> lengths{
-    "step", "search_radius", "spacing", "detection_diameter", "speed", "smoothness_weight"};
-
 /// Nodes of a tree that fills the map with steps of this length.
 double nodes_for(const Map& map, double step) {
   constexpr double nodes_per_square = 64;
   const Vec2 size = map.bounds().hi - map.bounds().lo;
   return nodes_per_square * (size.x / step) * (size.y / step);
-}
-
-template <class Params>
-double step_of(const Params& params, double scale, const IsGiven& is_given) {
-  if constexpr (requires { params.step; })
-    return is_given("step_um") ? params.step : scale * params.step;
-  return scale * TreeParams{}.step;
 }
 
 /// The lattice through the middle of the passages, if the corners of the map lie on one and the map
@@ -61,50 +52,68 @@ void follow(const CornerLattice& lattice, const Map& map, double clearance, doub
   sample_origin = lattice.origin;
 }
 
-/// Fits what follows from the lattice of the map's corners, unless a part of it is given.
-template <class Params>
-void fit_to_lattice(Params& params, const Map& map, const IsGiven& is_given) {
-  constexpr bool is_grid = std::is_base_of_v<GridParams, Params>;
-  if constexpr (is_grid || requires { params.sample_pitch; }) {
-    const std::array<std::string_view, 2> keys{is_grid ? "cell_um" : "sample_pitch_um",
-                                               is_grid ? "origin_um" : "sample_origin_um"};
-    if (std::ranges::any_of(keys, is_given)) return;
-    const auto lattice = passage_lattice(map, params.clearance);
-    if (!lattice) return;
-    if constexpr (is_grid)
-      follow(*lattice, map, params);
-    else
-      follow(*lattice, map, params.clearance, params.sample_pitch, params.sample_origin);
-  }
-}
+/// Fits the fields of a planner to the map, within their ranges and unless they are given.
+class Fit {
+ public:
+  Fit(const Map& map, double width, const IsGiven& is_given)
+      : map_(map), width_(width), scale_(width / usual_width), is_given_(is_given) {}
 
-template <class Params>
-void fit(Params& params, const Map& map, double width, const IsGiven& is_given) {
-  const double scale = width / usual_width;
-  const double nodes = nodes_for(map, step_of(params, scale, is_given));
-  // Some cells across what the swarm may use of a channel.
-  constexpr double cells_across = 4;
-  const double cell = std::max(width - 2 * params.clearance, width / 4) / cells_across;
-  Params::fields(params, [&](auto& value, const FieldInfo& info) {
-    if (is_given(key_of(info))) return;
-    const auto in_range = [&](double fitted) {
-      return std::clamp(fitted, info.range.min, info.range.max);
-    };
-    if constexpr (std::is_same_v<decltype(value), double&>) {
-      if (std::ranges::count(lengths, info.name) > 0) value = in_range(scale * value);
-      if (info.name == "goal_tolerance") value = in_range(std::min(1.0, scale) * value);
-      if (info.name == "cell") value = in_range(cell);
-    }
-    if constexpr (std::is_same_v<decltype(value), int&>) {
-      const auto at_least = [&](double fitted) {
-        value = std::max(value, static_cast<int>(std::min(fitted, largest_limit)));
-      };
-      if (info.name == "max_nodes") at_least(nodes);
-      if (info.name == "max_iterations") at_least(iterations_per_node * nodes);
-    }
-  });
-  fit_to_lattice(params, map, is_given);
-}
+  void tolerance(auto& p) const {
+    set(p, p.goal_tolerance, std::min(1.0, scale_) * p.goal_tolerance);
+  }
+  void length(auto& p, double& length) const { set(p, length, scale_ * length); }
+
+  /// Limits of a search whose nodes are this far apart.
+  void nodes(auto& p, double step) const { raise(p, p.max_nodes, nodes_for(map_, step)); }
+  void nodes(auto& p) const { nodes(p, scale_ * TreeParams{}.step); }
+
+  /// The fields that planners by trees have in common.
+  void tree(auto& p) const {
+    tolerance(p);
+    const double step = is_given_("step_um") ? p.step : scale_ * p.step;
+    length(p, p.step);
+    nodes(p, step);
+    raise(p, p.max_iterations, iterations_per_node * nodes_for(map_, step));
+    if (is_given_("sample_pitch_um") || is_given_("sample_origin_um")) return;
+    if (const auto lattice = passage_lattice(map_, p.clearance))
+      follow(*lattice, map_, p.clearance, p.sample_pitch, p.sample_origin);
+  }
+
+  void grid(GridParams& p) const {
+    tolerance(p);
+    // Some cells across what the swarm may use of a channel.
+    constexpr double cells_across = 4;
+    set(p, p.cell, std::max(width_ - 2 * p.clearance, width_ / 4) / cells_across);
+    nodes(p);
+    if (is_given_("cell_um") || is_given_("origin_um")) return;
+    if (const auto lattice = passage_lattice(map_, p.clearance)) follow(*lattice, map_, p);
+  }
+
+ private:
+  /// Calls `change` with the description of a field that is not given.
+  template <class Params, class Value, class Change>
+  void describe(Params& p, const Value& field, Change&& change) const {
+    Params::fields(p, [&]<class Other>(Other& other, const FieldInfo& info) {
+      if constexpr (std::same_as<Other, Value>)
+        if (&other == &field && !is_given_(key_of(info))) change(info);
+    });
+  }
+  void set(auto& p, double& field, double fitted) const {
+    describe(p, field, [&](const FieldInfo& info) {
+      field = std::clamp(fitted, info.range.min, info.range.max);
+    });
+  }
+  void raise(auto& p, int& limit, double fitted) const {
+    describe(p, limit, [&](const FieldInfo&) {
+      limit = std::max(limit, static_cast<int>(std::min(fitted, largest_limit)));
+    });
+  }
+
+  const Map& map_;
+  double width_;
+  double scale_;
+  const IsGiven& is_given_;
+};
 
 }  // namespace
 
@@ -116,29 +125,57 @@ PlannerParams fit_to_map(PlannerParams params, const Map& map, const IsGiven& is
   } catch (const InputError&) {
     return params;
   }
-  std::visit([&](auto& chosen) { fit(chosen, map, width, is_given); }, params);
+  const Fit fit(map, width, is_given);
+  std::visit(Overloaded{[&](ExactParams& p) { fit.tolerance(p); },
+                        [&](OneOf<AStarParams, ThetaStarParams> auto& p) { fit.grid(p); },
+                        [&](FmtStarParams& p) {
+                          fit.tolerance(p);
+                          fit.nodes(p);
+                        },
+                        [&](OneOf<RrtParams, RrtConnectParams> auto& p) { fit.tree(p); },
+                        [&](RrtStarParams& p) {
+                          fit.tree(p);
+                          fit.length(p, p.search_radius);
+                        },
+                        [&](UniformRrtStarParams& p) {
+                          fit.tree(p);
+                          fit.length(p, p.search_radius);
+                          fit.length(p, p.spacing);
+                        },
+                        [&](DrrtStarParams& p) {
+                          fit.tree(p);
+                          for (double* length : {&p.search_radius, &p.detection_diameter, &p.speed,
+                                                 &p.smoothness_weight})
+                            fit.length(p, *length);
+                        }},
+             params);
   return params;
 }
 
 std::string limit_text(const PlannerParams& params, const PlanCounts& counts) {
-  std::string text;
   const auto reached = [&](int limit) {
     return counts.iterations >= static_cast<std::uint64_t>(limit);
   };
-  std::visit(
-      [&]<class Params>(const Params& chosen) {
-        Params::fields(chosen, [&](const auto& value, const FieldInfo& info) {
-          if constexpr (std::is_same_v<decltype(value), const int&>)
-            if (info.name == "max_nodes" || (info.name == "max_iterations" && reached(value)))
-              text = fmt::format("planner.{} is {}", key_of(info), value);
-        });
-        // A grid that is too large is not begun.
-        if constexpr (std::is_base_of_v<GridParams, Params>)
-          if (!reached(chosen.max_nodes))
-            text = fmt::format("planner.cell_um is {:.4g}, too small for this map", chosen.cell);
-      },
+  const auto nodes = [](const auto& p) {
+    return fmt::format("planner.max_nodes is {}", p.max_nodes);
+  };
+  return std::visit(
+      Overloaded{[](const ExactParams&) { return std::string(); },
+                 // A grid that is too large is not begun.
+                 [&](const OneOf<AStarParams, ThetaStarParams> auto& p) {
+                   return reached(p.max_nodes)
+                              ? nodes(p)
+                              : fmt::format("planner.cell_um is {:.4g}, too small for this map",
+                                            p.cell);
+                 },
+                 [&](const FmtStarParams& p) { return nodes(p); },
+                 [&](const OneOf<RrtParams, RrtConnectParams, RrtStarParams, UniformRrtStarParams,
+                                 DrrtStarParams> auto& p) {
+                   return reached(p.max_iterations)
+                              ? fmt::format("planner.max_iterations is {}", p.max_iterations)
+                              : nodes(p);
+                 }},
       params);
-  return text;
 }
 
 }  // namespace microswarm
