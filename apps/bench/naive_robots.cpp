@@ -28,8 +28,7 @@ NaiveRobots::NaiveRobots(const Map& map, std::vector<Vec2> places) : places_(std
   const Vec2 corners[] = {b.lo, {b.hi.x, b.lo.y}, b.hi, {b.lo.x, b.hi.y}};
   for (int i = 0; i < 4; ++i) edges_.push_back({corners[i], corners[(i + 1) % 4]});
   for (const Body& body : map.walls().bodies())
-    if (const auto* polygon = std::get_if<Polygon>(&body.shape))
-      for_each_edge(*polygon, [&](Vec2 a, Vec2 c) { edges_.push_back({a, c}); });
+    for_each_edge(std::get<Polygon>(body.shape), [&](Vec2 a, Vec2 c) { edges_.push_back({a, c}); });
 }
 
 void NaiveRobots::step(Vec2 move) {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "microswarm/config/write.hpp"
+#include "microswarm/core/fields/overloaded.hpp"
 
 namespace microswarm::lab {
 namespace {
@@ -59,17 +60,18 @@ Json polygon(const Polygon& shape) {
 Json bodies(std::span<const Body> list) {
   Floats discs;
   Json polygons = Json::array();
-  for (const Body& body : list) {
-    if (const auto* disc = std::get_if<Disc>(&body.shape)) {
-      discs.add(disc->centre);
-      discs.add(static_cast<float>(disc->radius));
-      discs.add(static_cast<float>(body.obstacle));
-    } else {
-      Json one = polygon(std::get<Polygon>(body.shape));
-      one["number"] = body.obstacle;
-      polygons.push_back(std::move(one));
-    }
-  }
+  for (const Body& body : list)
+    std::visit(Overloaded{[&](const Disc& disc) {
+                            discs.add(disc.centre);
+                            discs.add(static_cast<float>(disc.radius));
+                            discs.add(static_cast<float>(body.obstacle));
+                          },
+                          [&](const Polygon& shape) {
+                            Json one = polygon(shape);
+                            one["number"] = body.obstacle;
+                            polygons.push_back(std::move(one));
+                          }},
+               body.shape);
   return {{"discs", discs.take()}, {"polygons", std::move(polygons)}};
 }
 

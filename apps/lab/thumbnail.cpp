@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/report/picture.hpp"
 
@@ -85,10 +86,11 @@ class Drawing {
 };
 
 void draw(Drawing& drawing, const Body& body, const Colour& colour) {
-  if (const auto* disc = std::get_if<Disc>(&body.shape))
-    drawing.disc(disc->centre, drawing.px(disc->radius), colour);
-  else
-    drawing.polygon(std::get<Polygon>(body.shape), colour);
+  std::visit(Overloaded{[&](const Disc& disc) {
+                          drawing.disc(disc.centre, drawing.px(disc.radius), colour);
+                        },
+                        [&](const Polygon& polygon) { drawing.polygon(polygon, colour); }},
+             body.shape);
 }
 
 std::string drawn(const Scene& scene, double tolerance) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/navigation/radar/radar_circles.hpp"
 #include "microswarm/navigation/radar/safety_radius.hpp"
 #include "microswarm/report/radar_view.hpp"
@@ -30,11 +31,13 @@ const Frame& tightest(const Record& record) {
 }
 
 void draw_outline(Picture& picture, const Body& body) {
-  if (const auto* disc = std::get_if<Disc>(&body.shape))
-    return picture.circle(*disc, then_there, 2, false);
-  std::vector<Vec2> outline = std::get<Polygon>(body.shape).outer;
-  outline.push_back(outline.front());
-  picture.line(outline, then_there, 2, false);
+  std::visit(Overloaded{[&](const Disc& disc) { picture.circle(disc, then_there, 2, false); },
+                        [&](const Polygon& polygon) {
+                          std::vector<Vec2> outline = polygon.outer;
+                          outline.push_back(outline.front());
+                          picture.line(outline, then_there, 2, false);
+                        }},
+             body.shape);
 }
 
 void draw_circles(Picture& picture, const Frame& frame, const RadarParams& params) {

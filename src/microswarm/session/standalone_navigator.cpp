@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/navigation/make.hpp"
 #include "microswarm/swarm/robots/robot_swarm.hpp"
 
@@ -76,18 +77,19 @@ void StandaloneNavigator::check(const ExternalObservation& given) const {
     throw InputError(
         fmt::format("{} obstacles, at most {} are taken", given.obstacles.size(), max_bodies));
   std::size_t corners = 0;
-  for (const Body& body : given.obstacles) {
-    if (const auto* disc = std::get_if<Disc>(&body.shape)) {
-      require_place("place of an obstacle", disc->centre);
-      require(disc->radius > 0 && disc->radius <= max_radius, "radius of an obstacle", disc->radius,
-              "must be above 0 and at most 1e6 µm");
-      continue;
-    }
-    const std::vector<Vec2>& outline = *outline_of(body);
+  const auto check_disc = [](const Disc& disc) {
+    require_place("place of an obstacle", disc.centre);
+    require(disc.radius > 0 && disc.radius <= max_radius, "radius of an obstacle", disc.radius,
+            "must be above 0 and at most 1e6 µm");
+  };
+  const auto check_polygon = [&](const Polygon& polygon) {
+    const std::vector<Vec2>& outline = polygon.outer;
     if (outline.size() < 3) throw InputError("the outline of an obstacle has fewer than 3 points");
     for (const Vec2& p : outline) require_place("outline of an obstacle", p);
     corners += outline.size();
-  }
+  };
+  for (const Body& body : given.obstacles)
+    std::visit(Overloaded{check_disc, check_polygon}, body.shape);
   if (corners > max_corners)
     throw InputError(fmt::format("outlines of obstacles have {} points, at most {} are taken",
                                  corners, max_corners));

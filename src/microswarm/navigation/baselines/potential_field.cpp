@@ -10,22 +10,25 @@
 namespace microswarm {
 namespace {
 
-/// Nearest point of the body's outline to `p`.
-Vec2 nearest_of(const Body& body, Vec2 p) {
-  if (const auto* disc = std::get_if<Disc>(&body.shape)) {
-    const Vec2 away = p - disc->centre;
-    const double d = norm(away);
-    return d > 0 ? disc->centre + (disc->radius / d) * away : disc->centre;
-  }
+/// Nearest point of an outline to `p`.
+Vec2 nearest_of(const Disc& disc, Vec2 p) {
+  const Vec2 away = p - disc.centre;
+  const double d = norm(away);
+  return d > 0 ? disc.centre + (disc.radius / d) * away : disc.centre;
+}
+Vec2 nearest_of(const Polygon& polygon, Vec2 p) {
   Vec2 nearest;
   double least = std::numeric_limits<double>::infinity();
-  for_each_edge(std::get<Polygon>(body.shape), [&](Vec2 a, Vec2 b) {
+  for_each_edge(polygon, [&](Vec2 a, Vec2 b) {
     const Vec2 q = nearest_point(p, Segment{a, b});
     if (squared_norm(q - p) >= least) return;
     least = squared_norm(q - p);
     nearest = q;
   });
   return nearest;
+}
+Vec2 nearest_of(const Body& body, Vec2 p) {
+  return std::visit([&](const auto& shape) { return nearest_of(shape, p); }, body.shape);
 }
 
 }  // namespace

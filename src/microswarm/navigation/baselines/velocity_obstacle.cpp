@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/geometry/distance.hpp"
 
@@ -115,7 +116,7 @@ void VelocityObstacleNavigator::find_threats(const Snapshot& world, Vec2 p) {
   const auto bodies = world.moving().bodies();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const TrackedBody motion = tracker_.body(i);
-    const bool round = std::holds_alternative<Disc>(bodies[i].shape);
+    const bool round = is_disc(bodies[i]);
     const double speed = outward_speed(bodies[i], motion);
     const Vec2 at = p - steering_.delay() * motion.velocity;
     const double away = distance(at, bodies[i]);
@@ -159,15 +160,17 @@ double VelocityObstacleNavigator::time_to_contact(const Threat& threat, Segment 
                                                   double t1) const {
   const Segment own_frame{way.a - (steering_.delay() + t0) * threat.velocity,
                           way.b - (steering_.delay() + t1) * threat.velocity};
-  if (const auto* disc = std::get_if<Disc>(&threat.body->shape)) {
+  const auto with_disc = [&](const Disc& disc) {
     if (t1 <= t0) return never;
     const Vec2 velocity = (1 / (t1 - t0)) * (own_frame.b - own_frame.a);
-    const double reach = disc->radius + threat.reach + threat.growth * t0;
-    return t0 + rim_contact(own_frame.a - disc->centre, velocity, reach, threat.growth, t1 - t0);
-  }
-  const double share =
-      first_contact(own_frame, threat.reach, std::get<Polygon>(threat.body->shape));
-  return share <= 1 ? t0 + share * (t1 - t0) : never;
+    const double reach = disc.radius + threat.reach + threat.growth * t0;
+    return t0 + rim_contact(own_frame.a - disc.centre, velocity, reach, threat.growth, t1 - t0);
+  };
+  const auto with_polygon = [&](const Polygon& polygon) {
+    const double share = first_contact(own_frame, threat.reach, polygon);
+    return share <= 1 ? t0 + share * (t1 - t0) : never;
+  };
+  return std::visit(Overloaded{with_disc, with_polygon}, threat.body->shape);
 }
 
 }  // namespace microswarm

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "microswarm/core/execution/each_cpu.hpp"
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/navigation/prediction/obstacle_tracker.hpp"
 
@@ -84,9 +85,11 @@ void ConvexOutliner::take(const Body& body, ConvexOutline& out) {
   out.radius = extent.radius;
   out.edges.clear();
   hollow_share_ = 0;
-  const auto* polygon = std::get_if<Polygon>(&body.shape);
-  if (!polygon) return;
-  find_hull(polygon->outer);
+  std::visit(Overloaded{[](const Disc&) {}, [&](const Polygon& p) { take(p, out); }}, body.shape);
+}
+
+void ConvexOutliner::take(const Polygon& polygon, ConvexOutline& out) {
+  find_hull(polygon.outer);
   for (std::size_t i = 0; i < hull_.size(); ++i) {
     const Vec2 a = hull_[i] - out.centre;
     const Vec2 along = hull_[(i + 1) % hull_.size()] - hull_[i];
@@ -95,7 +98,7 @@ void ConvexOutliner::take(const Body& body, ConvexOutline& out) {
     out.edges.push_back({normal, dot(normal, a), begin, begin + norm(along)});
   }
   const double whole = signed_area(hull_);
-  if (whole > 0) hollow_share_ = 1 - area(*polygon) / whole;
+  if (whole > 0) hollow_share_ = 1 - area(polygon) / whole;
 }
 
 bool ConvexOutliner::misleads(const ConvexOutline& out, std::span<const Vec2> places) const {

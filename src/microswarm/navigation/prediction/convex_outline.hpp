@@ -42,6 +42,7 @@ class ConvexOutliner {
   bool misleads(const ConvexOutline& out, std::span<const Vec2> places) const;
 
  private:
+  void take(const Polygon& polygon, ConvexOutline& out);
   void find_hull(const std::vector<Vec2>& outline);
 
   ConvexOutlineTuning tuning_;

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/geometry/distance.hpp"
 
 namespace microswarm {
@@ -13,9 +14,17 @@ namespace {
 constexpr double rest_speed = 1e-6;  // smaller values are rounding [µm/s]
 
 double inradius_bound(const Body& body) {
-  if (const auto* disc = std::get_if<Disc>(&body.shape)) return disc->radius;
-  const Box box = bounding_box(std::get<Polygon>(body.shape));
-  return 0.5 * std::min(box.width(), box.height());
+  return std::visit(Overloaded{[](const Disc& disc) { return disc.radius; },
+                               [](const Polygon& polygon) {
+                                 const Box box = bounding_box(polygon);
+                                 return 0.5 * std::min(box.width(), box.height());
+                               }},
+                    body.shape);
+}
+
+/// Grows a disc; a polygon keeps its size.
+void grow(Body& body, double by) {
+  std::visit(Overloaded{[&](Disc& disc) { disc.radius += by; }, [](const Polygon&) {}}, body.shape);
 }
 
 }  // namespace
@@ -75,7 +84,7 @@ Snapshot ObstaclePredictor::swept_obstacles(const Snapshot& frame, double horizo
       if (copies == 0) continue;
       const double t = horizon * k / copies;
       shift(swept.back(), t * motion.velocity);
-      if (auto* disc = std::get_if<Disc>(&swept.back().shape)) disc->radius += t * motion.growth;
+      grow(swept.back(), t * motion.growth);
     }
   }
   return Snapshot(frame.shared_map(), frame.time(), std::move(swept));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/geometry/distance.hpp"
 
@@ -74,8 +75,9 @@ double ObstacleTracker::outward_distance(const Polygon& polygon, Vec2 centre, co
 }
 
 double outward_speed(const Body& body, const TrackedBody& motion) {
-  return std::holds_alternative<Disc>(body.shape) ? std::max(0.0, motion.radius_rate)
-                                                  : motion.outline_speed;
+  return std::visit(Overloaded{[&](const Disc&) { return std::max(0.0, motion.radius_rate); },
+                               [&](const Polygon&) { return motion.outline_speed; }},
+                    body.shape);
 }
 
 void ObstacleTracker::update(const Observation& observation, double range) {
@@ -135,8 +137,10 @@ void ObstacleTracker::extend(Trail& trail, const Body& body, Disc within) const 
   const auto outdated = [&](const Sighting& s) { return s.t < seen_ - params_.memory; };
   std::erase_if(trail.places, outdated);
   std::erase_if(trail.radii, outdated);
-  if (const auto* polygon = std::get_if<Polygon>(&body.shape))
-    compare_outline(trail, *polygon, extent.centre);
+  std::visit(
+      Overloaded{[](const Disc&) {},
+                 [&](const Polygon& polygon) { compare_outline(trail, polygon, extent.centre); }},
+      body.shape);
   const std::size_t most = max_sightings(params_);
   remember(trail.places, {seen_, extent.centre}, most);
   remember(trail.radii, {seen_, {extent.radius, 0}}, most);
@@ -176,8 +180,7 @@ double ObstacleTracker::outline_speed_within(std::size_t body, const Body& shape
                                              Disc within) const {
   const Trail& trail = trails_[trail_of_[body]];
   const Outline& before = trail.past[0];
-  const auto* polygon = std::get_if<Polygon>(&shape.shape);
-  if (!polygon || trail.places.empty() || before.shape.outer.empty() || before.t >= seen_) return 0;
+  if (trail.places.empty() || before.shape.outer.empty() || before.t >= seen_) return 0;
   const auto edge_reaches = [&](Vec2 a, Vec2 b) {
     return distance(within.centre, Segment{a, b}) <= within.radius;
   };
@@ -185,7 +188,13 @@ double ObstacleTracker::outline_speed_within(std::size_t body, const Body& shape
     const std::size_t n = ring.size();
     return edge_reaches(ring[i], ring[(i + 1) % n]) || edge_reaches(ring[i], ring[(i + n - 1) % n]);
   };
-  return outward_distance(*polygon, extent_of(shape).centre, before, near) / (seen_ - before.t);
+  return std::visit(Overloaded{[](const Disc&) { return 0.0; },
+                               [&](const Polygon& polygon) {
+                                 return outward_distance(polygon, extent_of(shape).centre, before,
+                                                         near) /
+                                        (seen_ - before.t);
+                               }},
+                    shape.shape);
 }
 
 TrackedBody ObstacleTracker::estimate(const Trail& trail) const {

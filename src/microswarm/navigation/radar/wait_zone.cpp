@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "microswarm/core/fields/overloaded.hpp"
+#include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/geometry/distance.hpp"
 
 namespace microswarm {
@@ -38,22 +40,27 @@ double gap(const Polygon& a, const Polygon& b) {
 }
 
 Vec2 middle_of(const Body& body) {
-  if (const auto* disc = std::get_if<Disc>(&body.shape)) return disc->centre;
-  return bounding_box(std::get<Polygon>(body.shape)).centre();
+  return std::visit(
+      Overloaded{[](const Disc& disc) { return disc.centre; },
+                 [](const Polygon& polygon) { return bounding_box(polygon).centre(); }},
+      body.shape);
 }
 
 /// Extent of the body along a unit vector.
 Range extent(const Body& body, Vec2 along) {
-  if (const auto* disc = std::get_if<Disc>(&body.shape)) {
-    const double at = dot(disc->centre, along);
-    return {at - disc->radius, at + disc->radius};
-  }
-  Range range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-  for (const Vec2 v : std::get<Polygon>(body.shape).outer) {
-    range.min = std::min(range.min, dot(v, along));
-    range.max = std::max(range.max, dot(v, along));
-  }
-  return range;
+  return std::visit(Overloaded{[&](const Disc& disc) {
+                                 const double at = dot(disc.centre, along);
+                                 return Range{at - disc.radius, at + disc.radius};
+                               },
+                               [&](const Polygon& polygon) {
+                                 Range range{infinity, -infinity};
+                                 for (const Vec2 v : polygon.outer) {
+                                   range.min = std::min(range.min, dot(v, along));
+                                   range.max = std::max(range.max, dot(v, along));
+                                 }
+                                 return range;
+                               }},
+                    body.shape);
 }
 
 Range united(Range a, Range b) { return {std::min(a.min, b.min), std::max(a.max, b.max)}; }

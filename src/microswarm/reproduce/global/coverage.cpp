@@ -96,9 +96,7 @@ void write_plot(Plot plot, const ReproduceOptions& options, const char* name) {
 /// The walls shifted to the right.
 std::vector<Body> moved_right(std::span<const Body> walls, double by) {
   std::vector<Body> moved(walls.begin(), walls.end());
-  for (Body& body : moved)
-    if (auto* polygon = std::get_if<Polygon>(&body.shape))
-      for (Vec2& corner : polygon->outer) corner.x += by;
+  for (Body& body : moved) shift(body, {by, 0});
   return moved;
 }
 

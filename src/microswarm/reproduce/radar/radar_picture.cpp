@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/io/columns.hpp"
 #include "microswarm/report/picture.hpp"
@@ -105,9 +106,12 @@ Box part_that_matters(const RadarRun& run, const World& world, std::span<const d
   const Box way = box;
   for (const double t : moments)
     for (const Body& body : world.at(t).moving().bodies())
-      if (const Disc* disc = std::get_if<Disc>(&body.shape))
-        if (disc->centre.x > way.lo.x && disc->centre.x < way.hi.x)
-          include(disc->centre, edge * disc->radius);
+      std::visit(Overloaded{[&](const Disc& disc) {
+                              if (disc.centre.x > way.lo.x && disc.centre.x < way.hi.x)
+                                include(disc.centre, edge * disc.radius);
+                            },
+                            [](const Polygon&) {}},
+                 body.shape);
   const Box& all = world.map->bounds();
   return {{std::max(box.lo.x, all.lo.x), std::max(box.lo.y, all.lo.y)},
           {std::min(box.hi.x, all.hi.x), std::min(box.hi.y, all.hi.y)}};

@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/geometry/point_grid.hpp"
 #include "microswarm/navigation/prediction/obstacle_tracker.hpp"
 
@@ -86,8 +87,9 @@ void BodyNumbers::number(std::vector<Body>& bodies, double t, const Stop& stop) 
                         reach_ * reach_, stop);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const Vec2 centre = extent_of(bodies[b]).centre;
-    const auto* disc = std::get_if<Disc>(&bodies[b].shape);
-    const double radius = disc ? disc->radius : 0;
+    const double radius = std::visit(Overloaded{[](const Disc& disc) { return disc.radius; },
+                                                [](const Polygon&) { return 0.0; }},
+                                     bodies[b].shape);
     if (!known_of[b]) {
       bodies[b].obstacle = next_++;
       known_.push_back({.number = bodies[b].obstacle,

@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <variant>
 
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/vision/image/mat.hpp"
 #include "microswarm/vision/image/strokes.hpp"
 
@@ -73,12 +74,15 @@ void draw_walls(Canvas& canvas, const Map& map) {
   const Box& b = map.bounds();
   canvas.ring({b.lo, {b.hi.x, b.lo.y}, b.hi, {b.lo.x, b.hi.y}}, wall_vermilion);
   for (const Body& body : map.walls().bodies()) {
-    if (const auto* disc = std::get_if<Disc>(&body.shape)) {
-      canvas.circle(disc->centre, disc->radius, wall_vermilion);
-    } else if (const auto* polygon = std::get_if<Polygon>(&body.shape)) {
-      canvas.ring(polygon->outer, wall_vermilion);
-      for (const auto& hole : polygon->holes) canvas.ring(hole, wall_vermilion);
-    }
+    std::visit(Overloaded{[&](const Disc& disc) {
+                            canvas.circle(disc.centre, disc.radius, wall_vermilion);
+                          },
+                          [&](const Polygon& polygon) {
+                            canvas.ring(polygon.outer, wall_vermilion);
+                            for (const auto& hole : polygon.holes)
+                              canvas.ring(hole, wall_vermilion);
+                          }},
+               body.shape);
   }
 }
 

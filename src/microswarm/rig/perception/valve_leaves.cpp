@@ -6,6 +6,7 @@
 #include <utility>
 #include <variant>
 
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/maths/infinity.hpp"
 
 namespace microswarm {
@@ -24,9 +25,11 @@ Extents extents_from(Vec2 at, Vec2 along, const Body& body) {
     e.along = {std::min(e.along.min, q.x - radius), std::max(e.along.max, q.x + radius)};
     e.across = {std::min(e.across.min, q.y - radius), std::max(e.across.max, q.y + radius)};
   };
-  if (const auto* disc = std::get_if<Disc>(&body.shape)) include(disc->centre, disc->radius);
-  if (const auto* outline = outline_of(body))
-    for (const Vec2 v : *outline) include(v, 0);
+  std::visit(Overloaded{[&](const Disc& disc) { include(disc.centre, disc.radius); },
+                        [&](const Polygon& polygon) {
+                          for (const Vec2 v : polygon.outer) include(v, 0);
+                        }},
+             body.shape);
   return e;
 }
 

@@ -9,6 +9,7 @@
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/execution/each_cpu.hpp"
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/maths.hpp"
 #include "microswarm/rig/perception/walls_in_picture.hpp"
@@ -96,10 +97,15 @@ const Image& Microscope::look(const Snapshot& world, const std::optional<SwarmPo
 }
 
 void Microscope::draw_body(const Body& body) {
-  if (const auto* disc = std::get_if<Disc>(&body.shape))
-    return draw_disc(scale_.to_picture(disc->centre), disc->radius / scale_.um_per_px,
-                     params_.obstacle_depth);
-  const auto& polygon = std::get<Polygon>(body.shape);
+  std::visit(Overloaded{[&](const Disc& disc) {
+                          draw_disc(scale_.to_picture(disc.centre), disc.radius / scale_.um_per_px,
+                                    params_.obstacle_depth);
+                        },
+                        [&](const Polygon& polygon) { draw_polygon(polygon); }},
+             body.shape);
+}
+
+void Microscope::draw_polygon(const Polygon& polygon) {
   std::vector<std::vector<cv::Point>> rings;
   const auto add = [&](const std::vector<Vec2>& ring) {
     std::vector<cv::Point>& corners = rings.emplace_back();

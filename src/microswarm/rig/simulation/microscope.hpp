@@ -32,6 +32,7 @@ class Microscope {
 
  private:
   void draw_body(const Body& body);
+  void draw_polygon(const Polygon& polygon);
   void draw_swarm(const SwarmPose& swarm);
   void draw_disc(Vec2 at_px, double radius_px, double depth);
   void expose(double t);

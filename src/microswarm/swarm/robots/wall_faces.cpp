@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/maths.hpp"
 
@@ -36,13 +37,14 @@ WallFaces::WallFaces(const Map& map, double reach) : origin_(map.bounds().centre
   guard_ = static_cast<float>(guard_of_extent * std::max(bounds.width(), bounds.height()));
   reach_ = std::max(static_cast<float>(reach), 8 * guard_);
   for (const Body& body : map.walls().bodies()) {
-    if (const auto* disc = std::get_if<Disc>(&body.shape)) {
-      if (disc->radius > 0) add_ring(ring_around(*disc));
-      continue;
-    }
-    const auto& polygon = std::get<Polygon>(body.shape);
-    add_ring(polygon.outer);
-    for (const auto& hole : polygon.holes) add_ring(hole);
+    std::visit(Overloaded{[&](const Disc& disc) {
+                            if (disc.radius > 0) add_ring(ring_around(disc));
+                          },
+                          [&](const Polygon& polygon) {
+                            add_ring(polygon.outer);
+                            for (const auto& hole : polygon.holes) add_ring(hole);
+                          }},
+               body.shape);
   }
   add_border(bounds);
   grid_ = FaceGrid({bounds.lo - origin_, bounds.hi - origin_}, faces_, reach_, guard_);

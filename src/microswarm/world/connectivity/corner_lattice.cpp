@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/world/connectivity/corner_lattice.hpp"
+#include "microswarm/core/fields/overloaded.hpp"
 
 #include <algorithm>
 #include <array>
@@ -31,12 +32,14 @@ void find_anchor(Axis& axis) {
 std::array<Axis, 2> axes_of(const Map& map) {
   std::array<Axis, 2> axes;
   for (const Body& body : map.walls().bodies()) {
-    const auto* polygon = std::get_if<Polygon>(&body.shape);
-    if (!polygon) continue;
-    for_each_edge(*polygon, [&](Vec2, Vec2 corner) {
-      ++axes[0].corners[corner.x];
-      ++axes[1].corners[corner.y];
-    });
+    std::visit(Overloaded{[](const Disc&) {},
+                          [&](const Polygon& polygon) {
+                            for_each_edge(polygon, [&](Vec2, Vec2 corner) {
+                              ++axes[0].corners[corner.x];
+                              ++axes[1].corners[corner.y];
+                            });
+                          }},
+               body.shape);
   }
   for (Axis& axis : axes) find_anchor(axis);
   return axes;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/geometry/distance.hpp"
 
 namespace microswarm {
@@ -29,11 +30,13 @@ std::vector<Feature> features_near(const Map& map, Vec2 place, double reach) {
     if (distance(place, nearest_point(place, f)) <= reach) out.push_back(f);
   };
   for (const Body& body : map.walls().bodies()) {
-    if (const auto* disc = std::get_if<Disc>(&body.shape)) {
-      add({{disc->centre, disc->centre}, disc->radius});
-    } else {
-      for_each_edge(std::get<Polygon>(body.shape), [&](Vec2 a, Vec2 b) { add({{a, b}, 0}); });
-    }
+    std::visit(Overloaded{[&](const Disc& disc) {
+                            add({{disc.centre, disc.centre}, disc.radius});
+                          },
+                          [&](const Polygon& polygon) {
+                            for_each_edge(polygon, [&](Vec2 a, Vec2 b) { add({{a, b}, 0}); });
+                          }},
+               body.shape);
   }
   const Box& b = map.bounds();
   const Vec2 corners[] = {b.lo, {b.hi.x, b.lo.y}, b.hi, {b.lo.x, b.hi.y}};

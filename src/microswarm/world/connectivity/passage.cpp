@@ -6,6 +6,7 @@
 #include <numeric>
 #include <queue>
 
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/maths.hpp"
 #include "microswarm/geometry/predicates.hpp"
@@ -35,10 +36,10 @@ Polygon as_polygon(const Disc& d) {
 /// Connected components of the free space, largest first.
 std::vector<Polygon> free_regions(const Map& map) {
   std::vector<Polygon> walls;
-  for (const Body& body : map.walls().bodies()) {
-    const auto* disc = std::get_if<Disc>(&body.shape);
-    walls.push_back(disc ? as_polygon(*disc) : std::get<Polygon>(body.shape));
-  }
+  for (const Body& body : map.walls().bodies())
+    walls.push_back(std::visit(Overloaded{[](const Disc& disc) { return as_polygon(disc); },
+                                          [](const Polygon& polygon) { return polygon; }},
+                               body.shape));
   std::vector<Polygon> regions = difference(map.bounds(), walls);
   std::stable_sort(regions.begin(), regions.end(),
                    [](const Polygon& a, const Polygon& b) { return area(a) > area(b); });

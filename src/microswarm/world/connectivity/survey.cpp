@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/geometry/area.hpp"
 #include "microswarm/geometry/predicates.hpp"
 #include "microswarm/geometry/union_area.hpp"
@@ -28,8 +29,6 @@ struct Scratch {
   std::array<std::byte, 8192> bytes;
   std::pmr::monotonic_buffer_resource memory{bytes.data(), bytes.size()};
 };
-
-const Disc* as_disc(const Body& body) { return std::get_if<Disc>(&body.shape); }
 
 void note(std::uint32_t body, double distance, MetBodies& met) {
   for (Met& m : met) {
@@ -56,8 +55,7 @@ void find_met(const BodySet& set, Disc circle, MetBodies& met) {
   });
   if (!polygons.holds(circle.centre)) return;
   for (std::uint32_t i = 0; i < set.bodies().size(); ++i) {
-    const auto* polygon = std::get_if<Polygon>(&set.bodies()[i].shape);
-    if (polygon && locate(*polygon, circle.centre) != Side::outside) note(i, 0, met);
+    if (is_in_polygon(circle.centre, set.bodies()[i])) note(i, 0, met);
   }
 }
 
@@ -86,25 +84,15 @@ class Collection {
   void add(const BodySet& set, const MetBodies& met) {
     const bool as_one = set.polygons_apart();
     bool is_added = false;
-    for (const Met& m : met) {
-      const Body& body = set.bodies()[m.body];
-      if (const Disc* disc = as_disc(body)) {
-        obstacles_.push_back({true, {disc->centre - circle_.centre, disc->radius}, {}, 0});
-        ends_.push_back(edges_.size());
-      } else if (!as_one) {
-        int winding = 0;
-        for_each_edge(std::get<Polygon>(body.shape), [&](Vec2 a, Vec2 b) {
-          winding += winding_of_edge(a, b, circle_.centre);
-          add_edge({a, b});
-        });
-        add_polygon(winding);
-      } else if (!is_added) {
-        is_added = true;
-        set.polygons().for_each_edge_in(
-            bounding_box(circle_), [&](std::uint32_t, const Segment& edge) { add_edge(edge); });
-        add_polygon(set.polygons().winding(circle_.centre));
-      }
-    }
+    const auto add_disc = [&](const Disc& disc) {
+      obstacles_.push_back({true, {disc.centre - circle_.centre, disc.radius}, {}, 0});
+      ends_.push_back(edges_.size());
+    };
+    const auto add_one = [&](const Polygon& polygon) {
+      if (!as_one) return add(polygon);
+      if (!std::exchange(is_added, true)) add(set.polygons());
+    };
+    for (const Met& m : met) std::visit(Overloaded{add_disc, add_one}, set.bodies()[m.body].shape);
   }
 
   double area_of_union(const Stop& stop) {
@@ -116,6 +104,19 @@ class Collection {
   }
 
  private:
+  void add(const Polygon& polygon) {
+    int winding = 0;
+    for_each_edge(polygon, [&](Vec2 a, Vec2 b) {
+      winding += winding_of_edge(a, b, circle_.centre);
+      add_edge({a, b});
+    });
+    add_polygon(winding);
+  }
+  void add(const PolygonSet& polygons) {
+    polygons.for_each_edge_in(bounding_box(circle_),
+                              [&](std::uint32_t, const Segment& edge) { add_edge(edge); });
+    add_polygon(polygons.winding(circle_.centre));
+  }
   void add_edge(const Segment& edge) {
     const Segment e{edge.a - circle_.centre, edge.b - circle_.centre};
     const double r = circle_.radius;
@@ -143,38 +144,40 @@ double area_covered(Disc circle, const BodySet& set, const MetBodies& met,
   if (!set.polygons_apart() || grid.empty()) {
     std::pmr::vector<const Polygon*> polygons(&memory);
     std::pmr::vector<Disc> discs(&memory);
-    for (const Met& m : met) {
-      const Body& body = set.bodies()[m.body];
-      if (const Disc* disc = as_disc(body)) {
-        discs.push_back(*disc);
-      } else {
-        polygons.push_back(&std::get<Polygon>(body.shape));
-      }
-    }
+    for (const Met& m : met)
+      std::visit(Overloaded{[&](const Disc& disc) { discs.push_back(disc); },
+                            [&](const Polygon& polygon) { polygons.push_back(&polygon); }},
+                 set.bodies()[m.body].shape);
     return covered_area(circle, polygons, discs, stop);
   }
   const bool meets_disc = std::any_of(met.begin(), met.end(),
-                                      [&](const Met& m) { return as_disc(set.bodies()[m.body]); });
+                                      [&](const Met& m) { return is_disc(set.bodies()[m.body]); });
   if (!meets_disc) return covered_area(circle, grid);
   Collection all(circle, memory);
   all.add(set, met);
   return all.area_of_union(stop);
 }
 
+/// A point of the body.
+Vec2 point_in(const Body& body) {
+  return std::visit(Overloaded{[](const Disc& disc) { return disc.centre; },
+                               [](const Polygon& polygon) { return polygon.outer[0]; }},
+                    body.shape);
+}
+
 /// Whether a moving body in the circle may overlap a wall in it. Exact for discs.
 bool may_overlap(const BodySet& walls, const MetBodies& met_walls, const Body& moving) {
-  if (const Disc* disc = as_disc(moving)) {
-    return walls.clearance(disc->centre, disc->radius) < disc->radius;
-  }
-  const auto& polygon = std::get<Polygon>(moving.shape);
-  bool free = true;
-  for_each_edge(polygon, [&](Vec2 a, Vec2 b) { free = free && walls.is_free(Segment{a, b}, 0); });
-  return !free || std::any_of(met_walls.begin(), met_walls.end(), [&](const Met& m) {
-    const Body& wall = walls.bodies()[m.body];
-    const Disc* disc = as_disc(wall);
-    const Vec2 p = disc ? disc->centre : std::get<Polygon>(wall.shape).outer[0];
-    return locate(polygon, p) != Side::outside;
-  });
+  const auto disc_overlaps = [&](const Disc& disc) {
+    return walls.clearance(disc.centre, disc.radius) < disc.radius;
+  };
+  const auto polygon_overlaps = [&](const Polygon& polygon) {
+    bool free = true;
+    for_each_edge(polygon, [&](Vec2 a, Vec2 b) { free = free && walls.is_free(Segment{a, b}, 0); });
+    return !free || std::any_of(met_walls.begin(), met_walls.end(), [&](const Met& m) {
+      return locate(polygon, point_in(walls.bodies()[m.body])) != Side::outside;
+    });
+  };
+  return std::visit(Overloaded{disc_overlaps, polygon_overlaps}, moving.shape);
 }
 
 }  // namespace

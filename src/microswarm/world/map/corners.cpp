@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/maths/angles.hpp"
 
 namespace microswarm {
@@ -54,14 +55,17 @@ void add_ring(std::span<const Vec2> ring, const Box& bounds, std::vector<Corner>
 }  // namespace
 
 void add_corners(const Body& body, const Box& bounds, std::vector<Corner>& corners) {
-  if (const auto* disc = std::get_if<Disc>(&body.shape)) {
-    corners.push_back(
-        {.centre = disc->centre, .radius = disc->radius, .width = 2 * pi, .is_disc = true});
-    return;
-  }
-  const auto& polygon = std::get<Polygon>(body.shape);
-  add_ring(polygon.outer, bounds, corners);
-  for (const auto& hole : polygon.holes) add_ring(hole, bounds, corners);
+  std::visit(Overloaded{[&](const Disc& disc) {
+                          corners.push_back({.centre = disc.centre,
+                                             .radius = disc.radius,
+                                             .width = 2 * pi,
+                                             .is_disc = true});
+                        },
+                        [&](const Polygon& polygon) {
+                          add_ring(polygon.outer, bounds, corners);
+                          for (const auto& hole : polygon.holes) add_ring(hole, bounds, corners);
+                        }},
+             body.shape);
 }
 
 Corners::Lists Corners::Lists::made(std::size_t lists, const Pairs& pairs) {
@@ -79,19 +83,20 @@ Corners::Corners(const BodySet& walls, const Box& bounds) {
   std::vector<Segment> segments;
   std::vector<std::uint32_t> standing, overlapping;  // corners that are discs
   std::size_t discs = 0;
-  for (const Body& body : walls.bodies()) {
-    add_corners(body, bounds, corners_);
-    if (const auto* polygon = std::get_if<Polygon>(&body.shape)) {
-      for_each_edge(*polygon, [&](Vec2 a, Vec2 b) { segments.push_back({a, b}); });
-      continue;
-    }
+  const auto add_disc = [&](const Disc& disc) {
     const auto number = static_cast<std::uint32_t>(corners_.size() - 1);
-    const Disc& disc = std::get<Disc>(body.shape);
     const double radius = apart_radius(walls, discs++);
     (radius == disc.radius && radius > 0 ? standing : overlapping).push_back(number);
-    if (radius <= 0.1 * disc.radius) continue;  // hides too little
+    if (radius <= 0.1 * disc.radius) return;  // hides too little
     const auto [left, low, high, right] = diameters({disc.centre, radius});
     segments.insert(segments.end(), {{left, low}, {left, high}, {low, right}, {high, right}});
+  };
+  const auto add_polygon = [&](const Polygon& polygon) {
+    for_each_edge(polygon, [&](Vec2 a, Vec2 b) { segments.push_back({a, b}); });
+  };
+  for (const Body& body : walls.bodies()) {
+    add_corners(body, bounds, corners_);
+    std::visit(Overloaded{add_disc, add_polygon}, body.shape);
   }
   cells_ = Trapezoids(std::move(segments));
   index_polygons();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/world/map/field_painter.hpp"
+#include "microswarm/core/fields/overloaded.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -31,11 +32,13 @@ FieldPainter::FieldPainter(const Box& bounds, const BodySet& bodies, ClearanceFi
     field.walls_.push_back({core, radius});
   };
   for (const Body& body : bodies.bodies()) {
-    if (const auto* disc = std::get_if<Disc>(&body.shape)) {
-      add(discs_, {disc->centre, disc->centre}, disc->radius);
-    } else {
-      for_each_edge(std::get<Polygon>(body.shape), [&](Vec2 a, Vec2 b) { add(edges_, {a, b}, 0); });
-    }
+    std::visit(Overloaded{[&](const Disc& disc) {
+                            add(discs_, {disc.centre, disc.centre}, disc.radius);
+                          },
+                          [&](const Polygon& polygon) {
+                            for_each_edge(polygon, [&](Vec2 a, Vec2 b) { add(edges_, {a, b}, 0); });
+                          }},
+               body.shape);
   }
   rounding_ = 1e-14 * largest;
 }

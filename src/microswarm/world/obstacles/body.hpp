@@ -17,11 +17,9 @@ struct Body {
       0;  ///< number of the wall piece or obstacle; both leaves of a valve share it
 };
 
+bool is_disc(const Body& body);
 /// The outer ring of a polygon; null for a disc.
-inline const std::vector<Vec2>* outline_of(const Body& body) {
-  const auto* polygon = std::get_if<Polygon>(&body.shape);
-  return polygon ? &polygon->outer : nullptr;
-}
+const std::vector<Vec2>* outline_of(const Body& body);
 
 /// Distances [µm] between closed sets; 0 when they share a point.
 double distance(Vec2 p, const Body& body);
@@ -31,15 +29,6 @@ double distance(Segment s, const Body& body);
 Disc extent_of(const Body& body);
 
 /// Moves the body by `by` [µm].
-inline void shift(Body& body, Vec2 by) {
-  if (auto* disc = std::get_if<Disc>(&body.shape)) {
-    disc->centre += by;
-    return;
-  }
-  auto& polygon = std::get<Polygon>(body.shape);
-  for (Vec2& v : polygon.outer) v += by;
-  for (auto& hole : polygon.holes)
-    for (Vec2& v : hole) v += by;
-}
+void shift(Body& body, Vec2 by);
 
 }  // namespace microswarm

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/geometry/predicates.hpp"
 
 namespace microswarm {
@@ -61,10 +62,8 @@ std::size_t BodySet::nearest(Vec2 p, double limit) const {
   if (some_disc && distance(p, discs_.disc(disc)) == 0) return discs_.body_of(disc);
   if (!polygons_.empty() && polygons_.holds(p)) {
     if (some_edge && depth_in(bodies_[edge], p) >= 0) return edge;
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      const auto* polygon = std::get_if<Polygon>(&bodies_[i].shape);
-      if (polygon && locate(*polygon, p) != Side::outside) return i;
-    }
+    for (std::size_t i = 0; i < bodies_.size(); ++i)
+      if (is_in_polygon(p, bodies_[i])) return i;
   }
   if (some_disc && some_edge) {
     return distance(p, discs_.disc(disc)) <= polygons_.edge_distance(p, limit)
@@ -75,11 +74,18 @@ std::size_t BodySet::nearest(Vec2 p, double limit) const {
   return some_edge ? edge : bodies_.size();
 }
 
+bool is_in_polygon(Vec2 p, const Body& body) {
+  return std::visit(
+      Overloaded{[](const Disc&) { return false; },
+                 [&](const Polygon& polygon) { return locate(polygon, p) != Side::outside; }},
+      body.shape);
+}
+
 double depth_in(const Body& body, Vec2 p) {
-  if (const auto* disc = std::get_if<Disc>(&body.shape)) {
-    return disc->radius - distance(p, disc->centre);
-  }
-  return -signed_distance(p, std::get<Polygon>(body.shape));
+  return std::visit(
+      Overloaded{[&](const Disc& disc) { return disc.radius - distance(p, disc.centre); },
+                 [&](const Polygon& polygon) { return -signed_distance(p, polygon); }},
+      body.shape);
 }
 
 }  // namespace microswarm

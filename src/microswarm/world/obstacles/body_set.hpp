@@ -63,6 +63,9 @@ class BodySet {
   bool apart_ = false;
 };
 
+/// Whether the body is a polygon and `p` in it or on its border.
+bool is_in_polygon(Vec2 p, const Body& body);
+
 /// Depth [µm] of `p` in the body, negative outside: distance to its boundary.
 double depth_in(const Body& body, Vec2 p);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/maths/infinity.hpp"
 
 namespace microswarm {
@@ -32,10 +33,12 @@ void DiscSet::assign(std::span<const Body> bodies) {
   bodies_.clear();
   first_.clear();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (const auto* disc = std::get_if<Disc>(&bodies[i].shape)) {
-      discs_.push_back(*disc);
-      bodies_.push_back(static_cast<std::uint32_t>(i));
-    }
+    std::visit(Overloaded{[&](const Disc& disc) {
+                            discs_.push_back(disc);
+                            bodies_.push_back(static_cast<std::uint32_t>(i));
+                          },
+                          [](const Polygon&) {}},
+               bodies[i].shape);
   }
   if (size() > few_discs) fill_buckets();
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/geometry/predicates.hpp"
 
 namespace microswarm {
@@ -38,13 +39,15 @@ void PolygonSet::assign(std::span<const Body> bodies) {
   edges_.clear();
   bodies_.clear();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const auto* polygon = std::get_if<Polygon>(&bodies[i].shape);
-    if (!polygon || polygon->outer.size() < 3) continue;
-    const auto body = static_cast<std::uint32_t>(i);
-    rounds_.push_back(
-        {bounding_circle(polygon->outer), static_cast<std::uint32_t>(edges_.size()), body});
-    for_each_edge(*polygon, [&](Vec2 a, Vec2 b) { edges_.push_back({a, b}); });
-    bodies_.resize(edges_.size(), body);
+    const auto add = [&](const Polygon& polygon) {
+      if (polygon.outer.size() < 3) return;
+      const auto body = static_cast<std::uint32_t>(i);
+      rounds_.push_back(
+          {bounding_circle(polygon.outer), static_cast<std::uint32_t>(edges_.size()), body});
+      for_each_edge(polygon, [&](Vec2 a, Vec2 b) { edges_.push_back({a, b}); });
+      bodies_.resize(edges_.size(), body);
+    };
+    std::visit(Overloaded{[](const Disc&) {}, add}, bodies[i].shape);
   }
   if (edges_.size() > few_edges) {
     grid_.assign(edges_, bodies_);
