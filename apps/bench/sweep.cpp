@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "bench/temporary_folder.hpp"
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/sweep/export.hpp"
 #include "microswarm/sweep/message.hpp"
@@ -136,14 +137,11 @@ double plain_rate(const fs::path& file, const SweepPlan& plan, const SweepRow& l
       std::vector<SqlValue> values = task_values(plan, columns, row.task);
       values.insert(values.end(), row.values.begin(), row.values.end());
       for (std::size_t i = 0; i < values.size(); ++i)
-        std::visit(
-            [&, place = static_cast<int>(i + 1)](const auto& v) {
-              if constexpr (std::is_same_v<std::decay_t<decltype(v)>, std::monostate>)
-                insert.bind(place);
-              else
-                insert.bind(place, v);
-            },
-            values[i]);
+        std::visit(Overloaded{[&](std::monostate) { insert.bind(static_cast<int>(i + 1)); },
+                              [&](const OneOf<std::int64_t, double, std::string> auto& v) {
+                                insert.bind(static_cast<int>(i + 1), v);
+                              }},
+                   values[i]);
       insert.exec();
       insert.reset();
       ++count;

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/sweep/export.hpp"
@@ -63,14 +64,11 @@ SweepOrigin origin() {
 }
 
 Json json_of(const SqlValue& value) {
-  return std::visit(
-      [](const auto& held) -> Json {
-        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(held)>, std::monostate>)
-          return nullptr;
-        else
-          return held;
-      },
-      value);
+  return std::visit(Overloaded{[](std::monostate) { return Json(nullptr); },
+                               [](const OneOf<std::int64_t, double, std::string> auto& held) {
+                                 return Json(held);
+                               }},
+                    value);
 }
 
 Json json_of(const SweepReader& sweep, const CellSummary& cell) {

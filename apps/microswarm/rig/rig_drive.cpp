@@ -13,6 +13,7 @@
 #include "microswarm/actuation/coils/currents.hpp"
 #include "microswarm/actuation/drivers/coil_drive.hpp"
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/rig/runtime/manual_drive.hpp"
@@ -46,10 +47,15 @@ std::string field_text(const Eigen::Vector3d& field) {
 
 /// Says what the device's own limits left; with the field, unless that turns.
 void note_device_limits(const Rig& rig, const ManualCommand& command, const ManualResult& result) {
-  std::string left;
-  if (!std::holds_alternative<microswarm::Command>(command.wanted))
-    left = fmt::format(": at most {:.3g} A, {} more at the centre", fmt::join(result.most, ", "),
-                       field_text(rig.system.at(rig.system.centre()).field * result.most));
+  const std::string left =
+      std::visit(Overloaded{[](const microswarm::Command&) { return std::string(); },
+                            [&](const OneOf<Eigen::VectorXd, Eigen::Vector3d> auto&) {
+                              const Eigen::Vector3d field =
+                                  rig.system.at(rig.system.centre()).field * result.most;
+                              return fmt::format(": at most {:.3g} A, {} more at the centre",
+                                                 fmt::join(result.most, ", "), field_text(field));
+                            }},
+                 command.wanted);
   note("note: the device weakened the currents to {:.3g} %{}\n", 100 * result.min_device_scale,
        left);
 }
@@ -73,17 +79,22 @@ void require_possible(const Eigen::VectorXd& currents, const CoilSystem& system,
 /// Throws InputError for what the rig cannot do; the wanted field or currents are made otherwise.
 void require_possible(const ManualCommand& command, const RigParams& rig,
                       const CoilSystem& system) {
-  const auto* const steering = std::get_if<microswarm::Command>(&command.wanted);
-  const auto* const field = std::get_if<Eigen::Vector3d>(&command.wanted);
-  if (const auto* currents = std::get_if<Eigen::VectorXd>(&command.wanted))
-    require_possible(*currents, system, "--currents");
-  if (field && !currents_for(system.at(system.centre()), *field).reached)
-    throw InputError("--field: the coils cannot make this field, see `microswarm rig field`");
-  if (const double most = rig.field.max_speed(); steering && steering->speed > most * (1 + 1e-9))
-    throw InputError(
-        fmt::format("--speed: the rig's field moves a swarm at {:.4g} µm/s at most, "
-                    "not {:.6g} µm/s",
-                    most, steering->speed));
+  const auto check_currents = [&](const Eigen::VectorXd& currents) {
+    require_possible(currents, system, "--currents");
+  };
+  const auto check_field = [&](const Eigen::Vector3d& field) {
+    if (!currents_for(system.at(system.centre()), field).reached)
+      throw InputError("--field: the coils cannot make this field, see `microswarm rig field`");
+  };
+  const auto check_steering = [&](const microswarm::Command& steering) {
+    const double most = rig.field.max_speed();
+    if (steering.speed > most * (1 + 1e-9))
+      throw InputError(
+          fmt::format("--speed: the rig's field moves a swarm at {:.4g} µm/s at most, "
+                      "not {:.6g} µm/s",
+                      most, steering.speed));
+  };
+  std::visit(Overloaded{check_currents, check_field, check_steering}, command.wanted);
 }
 
 /// Drives and says how it ended. Returns the exit code.

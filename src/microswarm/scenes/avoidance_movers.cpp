@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/maths.hpp"
 
@@ -117,17 +118,15 @@ Track random_walk(const Ground& ground, double speed, double time_limit, Rng& rn
   return track;
 }
 
-/// Speeds up everything that has a `period` by `factor`.
+/// Speeds up a shape or a motion by `factor`, if it has a pace of its own.
 struct Quicken {
   double factor;
-  template <class Periodic>
-  void operator()(Periodic& p) const requires requires {
-    p.period;
+  void operator()(OneOf<BreathingDisc, Valve, DeformingChannel, HarmonicLine, HarmonicArc> auto&
+                      periodic) const {
+    periodic.period /= factor;
   }
-  { p.period /= factor; }
   void operator()(Waypoints& m) const { m.speed *= factor; }
-  template <class Other>
-  void operator()(Other&) const requires(!requires(Other o) { o.period; }) {}
+  void operator()(OneOf<DiscShape, BoxShape, PolygonShape, Still, Straight, Track> auto&) const {}
 };
 
 /// Sets the top speed of the shape's own points and that added by the motion.

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/text/text.hpp"
 
 namespace microswarm {
@@ -29,14 +30,12 @@ constexpr int max_steps_a_row = 200;        // times the above: a second or more
 std::string reason(int error) { return std::generic_category().message(error); }
 
 void bind(SQLite::Statement& statement, int place, const SqlValue& value) {
-  if (const auto* whole = std::get_if<std::int64_t>(&value))
-    statement.bind(place, *whole);
-  else if (const auto* real = std::get_if<double>(&value))
-    statement.bind(place, *real);
-  else if (const auto* text = std::get_if<std::string>(&value))
-    statement.bindNoCopy(place, *text);
-  else
-    statement.bind(place);
+  std::visit(Overloaded{[&](std::monostate) { statement.bind(place); },
+                        [&](const OneOf<std::int64_t, double> auto& number) {
+                          statement.bind(place, number);
+                        },
+                        [&](const std::string& text) { statement.bindNoCopy(place, text); }},
+             value);
 }
 
 SqlValue value_of(const SQLite::Column& column) {

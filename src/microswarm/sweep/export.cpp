@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/io/columns.hpp"
 #include "microswarm/io/hdf5_image.hpp"
@@ -17,10 +18,11 @@ namespace microswarm {
 namespace {
 
 std::string csv_value(const SqlValue& value) {
-  if (const auto* whole = std::get_if<std::int64_t>(&value)) return std::to_string(*whole);
-  if (const auto* real = std::get_if<double>(&value)) return number_text(*real);
-  if (const auto* text = std::get_if<std::string>(&value)) return csv_text(*text);
-  return "";
+  return std::visit(Overloaded{[](std::monostate) { return std::string(); },
+                               [](std::int64_t whole) { return std::to_string(whole); },
+                               [](double real) { return number_text(real); },
+                               [](const std::string& text) { return csv_text(text); }},
+                    value);
 }
 
 /// Collects a column; whole numbers stay whole as long as none is missing.

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/fields/overloaded.hpp"
 
 namespace microswarm {
 namespace {
@@ -17,11 +18,11 @@ using Json = nlohmann::json;
 
 // Numbers are their bits in an array of one: CBOR would make every NaN the same.
 Json json_of(const SqlValue& value) {
-  if (const auto* whole = std::get_if<std::int64_t>(&value)) return *whole;
-  if (const auto* real = std::get_if<double>(&value))
-    return Json::array({std::bit_cast<std::uint64_t>(*real)});
-  if (const auto* text = std::get_if<std::string>(&value)) return *text;
-  return nullptr;
+  return std::visit(
+      Overloaded{[](std::monostate) { return Json(nullptr); },
+                 [](const OneOf<std::int64_t, std::string> auto& held) { return Json(held); },
+                 [](double real) { return Json::array({std::bit_cast<std::uint64_t>(real)}); }},
+      value);
 }
 
 // What follows throws std::exception for a document of other types or ranges.

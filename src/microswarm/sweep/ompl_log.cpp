@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "microswarm/config/yaml.hpp"
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/sweep/export.hpp"
 
@@ -68,9 +69,12 @@ std::string_view property_type(const SweepParameter& parameter, SweepColumnKind 
 std::string plain_line(std::string_view text) { return one_line(text, 10'000); }
 
 std::string log_number(const SqlValue& value) {
-  if (const auto* whole = std::get_if<std::int64_t>(&value)) return std::to_string(*whole);
-  const auto* real = std::get_if<double>(&value);
-  return real && std::isfinite(*real) ? number_text(*real) : "";
+  return std::visit(
+      Overloaded{
+          [](std::int64_t whole) { return std::to_string(whole); },
+          [](double real) { return std::isfinite(real) ? number_text(real) : std::string(); },
+          [](const OneOf<std::monostate, std::string> auto&) { return std::string(); }},
+      value);
 }
 
 std::string log_text(const SqlValue& value) {

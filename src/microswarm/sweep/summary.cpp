@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/sweep/summary.hpp"
+#include "microswarm/core/fields/overloaded.hpp"
 
 #include "microswarm/core/maths/statistics.hpp"
 
@@ -9,9 +10,13 @@ namespace {
 using Role = SweepColumn::Role;
 
 std::optional<double> number_of(const SqlValue& value) {
-  if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
-  if (const auto* real = std::get_if<double>(&value)) return *real;
-  return std::nullopt;
+  using Number = std::optional<double>;
+  return std::visit(
+      Overloaded{[](const OneOf<std::int64_t, double> auto& number) {
+                   return Number(static_cast<double>(number));
+                 },
+                 [](const OneOf<std::monostate, std::string> auto&) { return Number(); }},
+      value);
 }
 
 bool is_measured(const SweepColumn& column) {

@@ -7,6 +7,7 @@
 
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/text/text.hpp"
 
 namespace microswarm {
@@ -208,11 +209,14 @@ void CoilSystem::add(const MatrixCoils& params, Issues& issues) {
 }
 
 bool CoilSystem::in_workspace(const Eigen::Vector3d& place) const {
-  if (const auto* mpem = std::get_if<MpemSystem>(&model_)) return mpem->in_workspace(place);
-  if (const auto* grids = std::get_if<std::vector<FieldGrid>>(&model_))
-    return std::all_of(grids->begin(), grids->end(),
-                       [&](const FieldGrid& grid) { return grid.contains(place); });
-  return true;
+  return std::visit(
+      Overloaded{[&](const MpemSystem& mpem) { return mpem.in_workspace(place); },
+                 [&](const std::vector<FieldGrid>& grids) {
+                   return std::ranges::all_of(
+                       grids, [&](const FieldGrid& grid) { return grid.contains(place); });
+                 },
+                 [](const OneOf<std::vector<LoopCoil>, LinearField> auto&) { return true; }},
+      model_);
 }
 
 Actuation CoilSystem::at(const Eigen::Vector3d& place) const {
@@ -223,23 +227,25 @@ Actuation CoilSystem::at(const Eigen::Vector3d& place) const {
     result.field.col(static_cast<Eigen::Index>(i)) = one.field;
     result.gradients.col(static_cast<Eigen::Index>(i)) = five_gradients(one.gradient);
   };
-  if (const auto* coils = std::get_if<std::vector<LoopCoil>>(&model_)) {
-    for (std::size_t i = 0; i < size(); ++i) put(i, field_of((*coils)[i].loops, place));
-  } else if (const auto* mpem = std::get_if<MpemSystem>(&model_)) {
+  const auto of_loops = [&](const std::vector<LoopCoil>& coils) {
+    for (std::size_t i = 0; i < size(); ++i) put(i, field_of(coils[i].loops, place));
+  };
+  const auto of_sources = [&](const MpemSystem& mpem) {
     for (std::size_t i = 0; i < size(); ++i)
-      put(i, microswarm::field_of(mpem->coils[i].sources, place));
-    result.offset += microswarm::field_of(mpem->offset, place);
-  } else if (const auto* grids = std::get_if<std::vector<FieldGrid>>(&model_)) {
+      put(i, microswarm::field_of(mpem.coils[i].sources, place));
+    result.offset += microswarm::field_of(mpem.offset, place);
+  };
+  const auto of_grids = [&](const std::vector<FieldGrid>& grids) {
     for (std::size_t i = 0; i < size(); ++i) {
-      const FieldGrid& grid = (*grids)[i];
+      const FieldGrid& grid = grids[i];
       if (!grid.contains(place))
         throw InputError(fmt::format("place {} is outside of the grid of {}, {} to {}",
                                      place_text(place), names_[i], place_text(grid.lo()),
                                      place_text(grid.hi())));
       put(i, grid.at(place));
     }
-  } else {
-    const auto& linear = std::get<LinearField>(model_);
+  };
+  const auto of_line = [&](const LinearField& linear) {
     const Eigen::Vector3d off = place - centre_;
     for (std::size_t i = 0; i < size(); ++i) {
       const auto k = static_cast<Eigen::Index>(i);
@@ -247,7 +253,8 @@ Actuation CoilSystem::at(const Eigen::Vector3d& place) const {
       put(i, {linear.field.col(k) + gradient * off, gradient});
     }
     result.offset.field += offset_.gradient * off;
-  }
+  };
+  std::visit(Overloaded{of_loops, of_sources, of_grids, of_line}, model_);
   return result;
 }
 

@@ -86,7 +86,7 @@ std::vector<Polygon> read_walls(const Hdf5Reader& in) {
 std::vector<Track*> tracks_of(std::vector<Obstacle>& obstacles) {
   std::vector<Track*> tracks;
   for (Obstacle& obstacle : obstacles)
-    if (auto* track = std::get_if<Track>(&obstacle.motion)) tracks.push_back(track);
+    if (auto* track = track_of(obstacle.motion)) tracks.push_back(track);
   return tracks;
 }
 
@@ -95,7 +95,7 @@ void write_tracks(Hdf5Writer& out, const std::vector<Obstacle>& obstacles) {
   std::vector<Vec2> points;
   Offsets ends{0};
   for (const Obstacle& obstacle : obstacles) {
-    const auto* track = std::get_if<Track>(&obstacle.motion);
+    const auto* track = track_of(obstacle.motion);
     if (!track) continue;
     if (track->samples) {
       times.insert(times.end(), track->samples->times.begin(), track->samples->times.end());

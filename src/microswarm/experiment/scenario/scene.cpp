@@ -53,7 +53,7 @@ Issues load_obstacles(std::vector<Obstacle>& obstacles, const std::filesystem::p
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
     Issues of_obstacle;
     const std::size_t before = issues.size();
-    if (auto* track = std::get_if<Track>(&obstacles[i].motion))
+    if (auto* track = track_of(obstacles[i].motion))
       attempt(issues, fmt::format("obstacles.{}.motion.file", i),
               [&] { of_obstacle.add_within("motion", files.load(*track)); });
     if (of_obstacle.empty() && issues.size() == before) of_obstacle = validate(obstacles[i]);
@@ -98,7 +98,7 @@ std::string Scene::hash() const {
   hash.text(scenario_text(scenario));
   hash_map(hash, map);
   for (const Obstacle& obstacle : scenario.obstacles) {
-    const auto* track = std::get_if<Track>(&obstacle.motion);
+    const auto* track = track_of(obstacle.motion);
     if (!track || !track->samples) continue;
     for (const double t : track->samples->times) hash.value(t);
     hash_points(hash, track->samples->points);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/planning/exact/shortest_paths.hpp"
 #include "microswarm/reproduce/figures.hpp"
@@ -35,8 +36,9 @@ void vary_phases(Scenario& scenario, std::uint32_t trial) {
   Rng rng(scenario.seed, Purpose::scene, trial);
   for (Obstacle& o : scenario.obstacles) {
     const double phase = rng.uniform();
-    if (auto* line = std::get_if<HarmonicLine>(&o.motion)) line->phase = phase;
-    if (auto* arc = std::get_if<HarmonicArc>(&o.motion)) arc->phase = phase;
+    std::visit(Overloaded{[&](OneOf<HarmonicLine, HarmonicArc> auto& m) { m.phase = phase; },
+                          [](OneOf<Still, Straight, Waypoints, Track> auto&) {}},
+               o.motion);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/rig/perception/robot_perception.hpp"
 #include "microswarm/rig/perception/swarm_perception.hpp"
 
@@ -10,9 +11,15 @@ namespace microswarm {
 
 namespace {
 
+/// Whether walls around the swarm move.
 bool shows_channel(const std::vector<Obstacle>& obstacles) {
-  return std::any_of(obstacles.begin(), obstacles.end(), [](const Obstacle& obstacle) {
-    return std::holds_alternative<DeformingChannel>(obstacle.shape);
+  return std::ranges::any_of(obstacles, [](const Obstacle& obstacle) {
+    return std::visit(
+        Overloaded{[](const DeformingChannel&) { return true; },
+                   [](const OneOf<DiscShape, BreathingDisc, BoxShape, PolygonShape, Valve> auto&) {
+                     return false;
+                   }},
+        obstacle.shape);
   });
 }
 

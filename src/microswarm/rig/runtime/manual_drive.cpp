@@ -14,6 +14,7 @@
 #include "microswarm/actuation/coils/currents.hpp"
 #include "microswarm/actuation/coils/turning_currents.hpp"
 #include "microswarm/core/execution/clock.hpp"
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/rig/runtime/device_limits.hpp"
 #include "microswarm/rig/runtime/standstill.hpp"
 
@@ -25,24 +26,23 @@ class Wanted {
  public:
   Wanted(const Rig& rig, const ManualCommand& command)
       : command_(command), actuation_(rig.system.at(rig.system.centre())) {
-    if (const auto* steering = std::get_if<Command>(&command.wanted)) {
-      generator_.emplace(rig.params.field, steering->heading);
-      generator_->command(*steering);
-    }
+    std::visit(Overloaded{[&](const Command& steering) {
+                            generator_.emplace(rig.params.field, steering.heading);
+                            generator_->command(steering);
+                          },
+                          [](const OneOf<Eigen::VectorXd, Eigen::Vector3d> auto&) {}},
+               command.wanted);
   }
 
   /// After `dt` more seconds, in `output`.
   void advance(double dt, CoilOutput& output) {
-    if (const auto* currents = std::get_if<Eigen::VectorXd>(&command_.wanted)) {
-      output.wanted = actuation_.field_of(*currents);
-      output.currents = *currents;
-      return;
-    }
-    output.wanted =
-        generator_ ? generator_->advance(dt) : std::get<Eigen::Vector3d>(command_.wanted);
-    const CurrentsForField found = currents_for(actuation_, output.wanted);
-    output.currents = found.currents;
-    output.reached = found.reached;
+    std::visit(Overloaded{[&](const Eigen::VectorXd& currents) {
+                            output.wanted = actuation_.field_of(currents);
+                            output.currents = currents;
+                          },
+                          [&](const Eigen::Vector3d& field) { make(field, output); },
+                          [&](const Command&) { make(generator_->advance(dt), output); }},
+               command_.wanted);
   }
 
   const Actuation& actuation() const { return actuation_; }
@@ -57,6 +57,13 @@ class Wanted {
   void follow_phase(double phase) { generator_->follow_phase(phase); }
 
  private:
+  void make(const Eigen::Vector3d& field, CoilOutput& output) const {
+    const CurrentsForField found = currents_for(actuation_, field);
+    output.wanted = field;
+    output.currents = found.currents;
+    output.reached = found.reached;
+  }
+
   const ManualCommand& command_;
   Actuation actuation_;
   std::optional<FieldGenerator> generator_;

@@ -5,6 +5,7 @@
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/execution/clock.hpp"
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/vision/camera/genicam_device.hpp"
 #include "microswarm/vision/camera/v4l2_controls.hpp"
@@ -77,8 +78,10 @@ class Camera : public FrameSource {
 }  // namespace
 
 std::string device_name(const AnyCameraParams& params) {
-  if (const auto* v4l2 = std::get_if<CameraParams>(&params)) return v4l2->device;
-  return "genicam:" + std::get<GenicamParams>(params).device;
+  return std::visit(
+      Overloaded{[](const CameraParams& v4l2) { return v4l2.device; },
+                 [](const GenicamParams& genicam) { return "genicam:" + genicam.device; }},
+      params);
 }
 
 std::unique_ptr<FrameSource> open_camera(const AnyCameraParams& params) {

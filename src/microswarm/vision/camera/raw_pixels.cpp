@@ -31,9 +31,17 @@ std::size_t bytes_of_pixel(PixelFormat format) {
     case PixelFormat::rgb3:
     case PixelFormat::bgr3:
       return 3;
-    default:
+    case PixelFormat::mjpg:
+    case PixelFormat::jpeg:
+    case PixelFormat::nv12:
+    case PixelFormat::grey:
+    case PixelFormat::rggb:
+    case PixelFormat::grbg:
+    case PixelFormat::gbrg:
+    case PixelFormat::bggr:
       return 1;
   }
+  return 0;
 }
 
 /// Conversion of OpenCV to red, green, blue; -1 where it is a copy.
@@ -53,9 +61,17 @@ int conversion_of(PixelFormat format) {
       return cv::COLOR_BayerGBRG2RGB;
     case PixelFormat::bggr:
       return cv::COLOR_BayerBGGR2RGB;
-    default:
+    case PixelFormat::mjpg:
+    case PixelFormat::jpeg:
+    case PixelFormat::nv12:
+    case PixelFormat::grey:
+    case PixelFormat::y10:
+    case PixelFormat::y12:
+    case PixelFormat::y16:
+    case PixelFormat::rgb3:
       return -1;
   }
+  return -1;
 }
 
 int bits_of(PixelFormat format) {

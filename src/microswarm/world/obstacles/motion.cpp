@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/maths.hpp"
 
@@ -138,8 +139,22 @@ double top_speed(const Motion& motion) {
 }
 
 double top_turning(const Motion& motion) {
-  const auto* arc = std::get_if<HarmonicArc>(&motion);
-  return arc ? arc->half_angle * 2 * pi / arc->period : 0;
+  return std::visit(
+      Overloaded{
+          [](const HarmonicArc& arc) { return arc.half_angle * 2 * pi / arc.period; },
+          [](const OneOf<Still, Straight, HarmonicLine, Waypoints, Track> auto&) { return 0.0; }},
+      motion);
 }
+
+Track* track_of(Motion& motion) {
+  return std::visit(
+      Overloaded{[](Track& track) { return &track; },
+                 [](OneOf<Still, Straight, HarmonicLine, HarmonicArc, Waypoints> auto&) -> Track* {
+                   return nullptr;
+                 }},
+      motion);
+}
+
+const Track* track_of(const Motion& motion) { return track_of(const_cast<Motion&>(motion)); }
 
 }  // namespace microswarm

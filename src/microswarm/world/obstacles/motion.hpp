@@ -140,4 +140,8 @@ double top_speed(const Motion& motion);
 /// Upper bound of the turning rate [rad/s].
 double top_turning(const Motion& motion);
 
+/// The track of a motion that is read from a file; null for others.
+Track* track_of(Motion& motion);
+const Track* track_of(const Motion& motion);
+
 }  // namespace microswarm

@@ -6,6 +6,7 @@
 #include <functional>
 #include <utility>
 
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/maths.hpp"
 #include "microswarm/core/text/text.hpp"
@@ -102,10 +103,7 @@ struct OwnSpeed {
   }
   double operator()(const Valve& s) const { return 0.5 * top_rate(s.min_gap, s.max_gap, s.period); }
   double operator()(const DeformingChannel& s) const { return s.amplitude * 2 * pi / s.period; }
-  template <class Rigid>
-  double operator()(const Rigid&) const {
-    return 0;
-  }
+  double operator()(const OneOf<DiscShape, BoxShape, PolygonShape> auto&) const { return 0; }
 };
 
 Issues validate_order(double least, double greatest, const std::string& what) {
@@ -157,8 +155,8 @@ struct Validator {
                            number_text(bad[1]) + " s");
     return issues;
   }
-  template <class Other>
-  Issues operator()(const Other&) const {
+  Issues operator()(
+      const OneOf<DiscShape, BoxShape, Still, Straight, HarmonicLine, HarmonicArc> auto&) const {
     return {};
   }
 };
