@@ -10,6 +10,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/text.hpp"
+#include "microswarm/formats/map_file.hpp"
 
 namespace microswarm::lab {
 namespace {
@@ -49,13 +50,9 @@ bool is_within(const fs::path& file, const fs::path& folder) {
 
 std::vector<std::string*> files_of(Scenario& scenario) {
   std::vector<std::string*> files;
-  std::visit(
-      [&](auto& map) {
-        if constexpr (requires { map.file; }) files.push_back(&map.file);
-      },
-      scenario.map);
+  if (std::string* file = file_of(scenario.map)) files.push_back(file);
   for (Obstacle& obstacle : scenario.obstacles)
-    if (auto* track = std::get_if<Track>(&obstacle.motion)) files.push_back(&track->file);
+    if (Track* track = track_of(obstacle.motion)) files.push_back(&track->file);
   if (FollowerParams* follower = follower_of(scenario.navigator)) files.push_back(&follower->model);
   return files;
 }

@@ -3,10 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <cctype>
-
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/text.hpp"
@@ -21,8 +17,6 @@ namespace fs = std::filesystem;
 
 constexpr int max_files = 200;
 constexpr std::size_t max_total = 512 * 1024 * 1024;
-constexpr std::array<std::string_view, 8> pictures{".png", ".jpg",  ".jpeg", ".bmp",
-                                                   ".tif", ".tiff", ".pgm",  ".ppm"};
 
 /// Removes the file unless it is kept.
 class Trial {
@@ -50,10 +44,9 @@ fs::path Uploads::new_file(std::string_view extension) {
 
 Upload Uploads::keep(std::string_view name, const std::string& bytes, const Library& library) {
   const std::string shown = one_line(name.substr(0, 200));
-  std::string extension = fs::path(name).extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  std::string extension = lower_extension(name);
   if (extension == ".yml") extension = ".yaml";
-  const bool is_picture = std::ranges::find(pictures, extension) != pictures.end();
+  const bool is_picture = has_image_extension(name);
   if (!is_picture && extension != ".yaml" && extension != ".h5")
     throw InputError(shown + ": neither a photograph, a scenario (.yaml) nor a record (.h5)");
   if (size_ + bytes.size() > max_total)

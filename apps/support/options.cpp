@@ -1,13 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/options.hpp"
 
+#include <fmt/format.h>
+
 #include "microswarm/config/setting_keys.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/lines.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/formats/images/image.hpp"
+#include "microswarm/formats/map_file.hpp"
 
 namespace microswarm::cli {
+
+void add_map_file(Command command, std::string& file) {
+  command.add_option("map", file, fmt::format("Map: {}", map_formats()).c_str())
+      .required()
+      .type_name("FILE");
+}
 
 void add_um_per_px(Command command, std::optional<double>& value, const char* doc) {
   command.add_option("--um-per-px", value, doc).type_name("NUMBER").check(number(1e-6, 1e6));

@@ -15,6 +15,7 @@
 namespace microswarm::cli {
 
 /// Options shared by several commands.
+void add_map_file(Command command, std::string& file);
 void add_um_per_px(Command command, std::optional<double>& value, const char* doc);
 /// Option `--set KEY=VALUE`; the keys are those of `keys()`, which is called for completion only.
 void add_settings(Command command, std::vector<std::string>& values, const char* doc,

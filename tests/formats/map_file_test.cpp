@@ -181,6 +181,25 @@ TEST(GuessMapSpec, ByExtension) {
   EXPECT_EQ(std::get<RosMap>(guess_map_spec(yaml, 5)).um_per_m, 10);
 }
 
+TEST(GuessMapSpec, EveryPictureIsAMap) {
+  const Folder folder;
+  for (const std::string_view extension : image_extensions) {
+    const auto file = folder.with("a" + std::string(extension), encode_pnm(corner_picture()));
+    EXPECT_TRUE(has_image_extension(file));
+    EXPECT_EQ(load_map(guess_map_spec(file, 10)).map->bounds().hi, (Vec2{40, 30})) << extension;
+  }
+  EXPECT_FALSE(has_image_extension("a.gif"));
+}
+
+TEST(GuessMapSpec, EveryFormatIsNamedAndRead) {
+  const Folder folder;
+  const std::string named = map_formats();
+  EXPECT_NE(error_of([&] { guess_map_spec(folder.with("x.doc", "")); }).find(named),
+            std::string::npos);
+  for (const char* name : {"picture", "ROS", "MovingAI", "GeoJSON", "CSV"})
+    EXPECT_NE(named.find(name), std::string::npos) << named;
+}
+
 TEST(GuessMapSpec, SaysWhatIsMissing) {
   const Folder folder;
   const auto complaint = [&](std::string_view name, std::optional<double> um_per_px = {}) {

@@ -12,6 +12,7 @@
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/file.hpp"
+#include "microswarm/formats/images/image.hpp"
 #include "microswarm/vision/camera/video_file_writer.hpp"
 #include "microswarm/vision/tracking/track_overlay.hpp"
 #include "microswarm/vision/tracking/video_tracker.hpp"
@@ -63,6 +64,19 @@ TEST_F(Videos, PicturesComeInTheOrderOfTheirNumbers) {
   }
   EXPECT_EQ(frame.index, 4);
   EXPECT_FALSE(frames->next(frame));
+}
+
+TEST_F(Videos, AFolderMayHoldEveryKindOfPicture) {
+  for (const std::string_view extension : image_extensions) {
+    if (extension.starts_with(".tif")) continue;  // read page by page
+    const fs::path file = folder / ("1" + std::string(extension));
+    write_file_atomically(file, "P5 2 1 255\n\x05\x06");
+    const auto frames = open_frames(folder);
+    VideoFrame frame;
+    EXPECT_TRUE(frames->next(frame)) << extension;
+    EXPECT_EQ(frame.picture.width, 2) << extension;
+    fs::remove(file);
+  }
 }
 
 TEST_F(Videos, BadSourcesAreRefused) {

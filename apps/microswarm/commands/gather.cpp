@@ -75,9 +75,7 @@ void add_gather(Command app, Action& action) {
   Command cmd =
       app.add_command("gather", "Simulate gathering many robots at a goal with one common input",
                       "gather vessels.geojson --goal 11103,2397 --robots 512 --out out/gather");
-  cmd.add_option("map", o->map, "Picture, ROS .yaml, MovingAI .map, GeoJSON or CSV of rectangles")
-      .required()
-      .type_name("FILE");
+  add_map_file(cmd, o->map);
   cmd.add_option("--map-um-per-px", o->um_per_px, "µm per pixel or cell of the map, 1e-6..1e6")
       .type_name("NUMBER")
       .check(number(1e-6, 1e6));

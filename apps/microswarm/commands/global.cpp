@@ -210,9 +210,7 @@ void add_global(Command app, Action& action) {
       "  microswarm global map.csv --robots \"60,300;60,250\" --save-tree tree.h5 \\\n"
       "      --set planner.max_nodes=300000\n"
       "  microswarm global map.csv --tree tree.h5 --goals \"330,100;280,200\"");
-  cmd.add_option("map", o->map, "Picture, ROS .yaml, MovingAI .map, GeoJSON or CSV of rectangles")
-      .required()
-      .type_name("FILE");
+  add_map_file(cmd, o->map);
   add_um_per_px(cmd, o->um_per_px, "µm per pixel or cell of the map, 1e-6..1e6");
   cmd.add_option("--robots", o->robots, "Start positions of the robots in µm; y points up")
       .type_name("X,Y;X,Y…")

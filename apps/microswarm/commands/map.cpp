@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/formats/write_map.hpp"
 #include "microswarm/vision/image/overlay.hpp"
@@ -26,9 +29,7 @@ struct MapOptions {
 };
 
 void add_input(Command cmd, const std::shared_ptr<MapOptions>& o) {
-  cmd.add_option("map", o->map, "Picture, ROS YAML, MovingAI .map, GeoJSON or CSV of rectangles")
-      .required()
-      .type_name("FILE");
+  add_map_file(cmd, o->map);
   add_um_per_px(cmd, o->um_per_px, "µm per pixel or cell of the map, 1e-6..1e6");
 }
 
@@ -42,14 +43,13 @@ int info(const MapOptions& o) {
   const auto bodies = loaded.map->walls().bodies();
   std::size_t vertices = 0;
   std::size_t discs = 0;
-  for (const Body& body : bodies) {
-    if (const auto* polygon = std::get_if<Polygon>(&body.shape)) {
-      vertices += polygon->outer.size();
-      for (const auto& hole : polygon->holes) vertices += hole.size();
-    } else {
-      ++discs;
-    }
-  }
+  for (const Body& body : bodies)
+    std::visit(Overloaded{[&](const Disc&) { ++discs; },
+                          [&](const Polygon& polygon) {
+                            vertices += polygon.outer.size();
+                            for (const auto& hole : polygon.holes) vertices += hole.size();
+                          }},
+               body.shape);
   if (o.json)
     print("{}\n", Json{{"lo_um", {b.lo.x, b.lo.y}},
                        {"hi_um", {b.hi.x, b.hi.y}},
@@ -238,8 +238,7 @@ void add_map(Command app, Action& action) {
   Command convert_cmd = map.add_command("convert", "Convert a map to another format",
                                         "map convert vessels.geojson vessels.png --cell 5");
   add_input(convert_cmd, o);
-  convert_cmd
-      .add_option("out", *out, "File to write: .geojson, .png, .map (MovingAI) or .yaml (ROS)")
+  convert_cmd.add_option("out", *out, fmt::format("File to write: {}", written_map_formats).c_str())
       .required()
       .type_name("FILE");
   convert_cmd

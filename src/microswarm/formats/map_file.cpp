@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/formats/map_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cctype>
+#include <array>
+#include <span>
+#include <utility>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/formats/geojson.hpp"
@@ -98,41 +103,79 @@ MapParts read(const ChannelMap& spec, const fs::path&, Issues& issues) {
   std::vector<Body> bodies;
   append_bodies(block, 0, 0, bodies);
   MapParts parts{{{0, 0}, {spec.width, spec.height}}, {}, {}};
-  for (Body& body : bodies)
-    if (auto* polygon = std::get_if<Polygon>(&body.shape))
-      parts.walls.push_back(std::move(*polygon));
+  for (Body& body : bodies) parts.walls.push_back(std::get<Polygon>(std::move(body.shape)));
   return parts;
 }
 
-/// File of the map, or null if it has none.
-const std::string* file_of(const MapSpec& spec) {
-  return std::visit(
-      [](const auto& s) -> const std::string* {
-        if constexpr (requires { s.file; })
-          return &s.file;
-        else
-          return nullptr;
-      },
-      spec);
+/// What files of a kind of map are called, and the extensions of their names.
+struct FileFormat {
+  std::string_view name;
+  std::span<const std::string_view> extensions;
+};
+
+/// The format of a kind of map; nothing for one without a file.
+std::optional<FileFormat> format_of(const MapSpec& spec) {
+  static constexpr std::array<std::string_view, 2> csv{".csv", ".txt"}, ros{".yaml", ".yml"},
+      geojson{".geojson", ".json"};
+  static constexpr std::array<std::string_view, 1> moving_ai{".map"};
+  using Format = std::optional<FileFormat>;
+  return std::visit(Overloaded{[](const OneOf<PolygonsMap, ChannelMap> auto&) { return Format(); },
+                               [](const ImageMap&) {
+                                 return Format({"picture", image_extensions});
+                               },
+                               [](const RosMap&) {
+                                 return Format({"ROS .yaml", ros});
+                               },
+                               [](const MovingAiMap&) {
+                                 return Format({"MovingAI .map", moving_ai});
+                               },
+                               [](const GeoJsonMap&) {
+                                 return Format({"GeoJSON", geojson});
+                               },
+                               [](const RectanglesMap&) {
+                                 return Format({"CSV of rectangles", csv});
+                               }},
+                    spec);
 }
 
-std::string lower_case(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
+/// A map of each kind.
+std::vector<MapSpec> every_kind() {
+  return []<std::size_t... I>(std::index_sequence<I...>) {
+    return std::vector<MapSpec>{std::variant_alternative_t<I, MapSpec>{}...};
+  }
+  (std::make_index_sequence<std::variant_size_v<MapSpec>>());
 }
 
-bool is_one_of(const std::string& word, std::initializer_list<std::string_view> words) {
-  return std::find(words.begin(), words.end(), word) != words.end();
-}
-
-RosMap guess_ros(const fs::path& path, std::optional<double> um_per_px) {
-  const RosHeader header = read_ros_header(path);
-  RosMap spec{.file = path.string()};
-  if (um_per_px) spec.um_per_m = *um_per_px / header.resolution;
-  return spec;
+/// Sets the scale of a map whose file is set; `fail` throws.
+template <class Fail>
+void set_scale(MapSpec& spec, std::optional<double> um_per_px, Fail&& fail) {
+  std::visit(Overloaded{[&](ImageMap& s) {
+                          if (!um_per_px) fail("µm per px is missing: give --um-per-px");
+                          s.um_per_px = *um_per_px;
+                        },
+                        [&](RosMap& s) {
+                          const RosHeader header = read_ros_header(s.file);
+                          if (um_per_px) s.um_per_m = *um_per_px / header.resolution;
+                        },
+                        [&](MovingAiMap& s) { s.um_per_cell = um_per_px.value_or(1); },
+                        [&](OneOf<GeoJsonMap, RectanglesMap, PolygonsMap, ChannelMap> auto&) {
+                          if (um_per_px) fail("has no pixels: leave out --um-per-px");
+                        }},
+             spec);
 }
 
 }  // namespace
+
+std::string* file_of(MapSpec& spec) {
+  return std::visit(
+      Overloaded{[](OneOf<ImageMap, RosMap, MovingAiMap, GeoJsonMap, RectanglesMap> auto& s) {
+                   return &s.file;
+                 },
+                 [](OneOf<PolygonsMap, ChannelMap> auto&) -> std::string* { return nullptr; }},
+      spec);
+}
+
+const std::string* file_of(const MapSpec& spec) { return file_of(const_cast<MapSpec&>(spec)); }
 
 MapParts read_map_parts(const MapSpec& spec, const fs::path& base, Issues& issues) {
   const std::string* file = file_of(spec);
@@ -165,6 +208,15 @@ LoadedMap load_map(const MapSpec& spec, const fs::path& base) {
           hash};
 }
 
+std::string map_formats() {
+  std::vector<std::string_view> names;
+  for (const MapSpec& spec : every_kind())
+    if (const auto format = format_of(spec)) names.push_back(format->name);
+  const std::string_view last = names.back();
+  names.pop_back();
+  return fmt::format("{} or {}", fmt::join(names, ", "), last);
+}
+
 MapSpec guess_map_spec(const fs::path& path, std::optional<double> um_per_px) {
   const std::string file = path.string();
   const auto fail = [&](const std::string& why) { throw InputError(file + ": " + why); };
@@ -173,20 +225,16 @@ MapSpec guess_map_spec(const fs::path& path, std::optional<double> um_per_px) {
   if (um_per_px && !(*um_per_px >= 1e-6 && *um_per_px <= 1e6))
     fail("µm per px is " + number_text(*um_per_px) + ", must be within 1e-6..1e6");
 
-  const std::string extension = lower_case(path.extension().string());
-  if (is_one_of(extension, {".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".pgm", ".ppm",
-                            ".pbm", ".pnm"})) {
-    if (!um_per_px) fail("µm per px is missing: give --um-per-px");
-    return ImageMap{.file = file, .um_per_px = *um_per_px};
+  for (MapSpec& spec : every_kind()) {
+    const auto format = format_of(spec);
+    if (!format ||
+        std::ranges::find(format->extensions, lower_extension(path)) == format->extensions.end())
+      continue;
+    *file_of(spec) = file;
+    set_scale(spec, um_per_px, fail);
+    return std::move(spec);
   }
-  if (is_one_of(extension, {".yaml", ".yml"})) return guess_ros(path, um_per_px);
-  if (extension == ".map") return MovingAiMap{.file = file, .um_per_cell = um_per_px.value_or(1)};
-  const bool is_geojson = is_one_of(extension, {".geojson", ".json"});
-  if (!is_geojson && !is_one_of(extension, {".csv", ".txt"}))
-    fail("no map that is known: a picture, ROS .yaml, MovingAI .map, GeoJSON or a .csv expected");
-  if (um_per_px) fail("has no pixels: leave out --um-per-px");
-  if (is_geojson) return GeoJsonMap{.file = file};
-  return RectanglesMap{.file = file};
+  throw InputError(fmt::format("{}: no map that is known, expected: {}", file, map_formats()));
 }
 
 }  // namespace microswarm

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "microswarm/config/key_locations.hpp"
 #include "microswarm/core/fields/fields.hpp"
@@ -31,10 +32,16 @@ struct LoadedMap {
 /// Reads and builds a map. Throws InputError.
 LoadedMap load_map(const MapSpec& spec, const std::filesystem::path& base = {});
 
-/// Spec of a map file from the command line, from its extension and content: an image, a ROS YAML,
-/// a MovingAI .map, GeoJSON (.geojson, .json) or rectangles (.csv, .txt). `um_per_px` is the side
-/// of a pixel or cell; an image needs it: "x.png: µm per px is missing: give --um-per-px". Throws
-/// InputError for other files.
+/// File of the map; null if its kind has none.
+std::string* file_of(MapSpec& spec);
+const std::string* file_of(const MapSpec& spec);
+
+/// Formats of the files that guess_map_spec takes, in words: "picture, …".
+std::string map_formats();
+
+/// Spec of a map file from the command line, from its extension and content. `um_per_px` is the
+/// side of a pixel or cell; an image needs it: "x.png: µm per px is missing: give --um-per-px".
+/// Throws InputError for other files.
 MapSpec guess_map_spec(const std::filesystem::path& path,
                        std::optional<double> um_per_px = std::nullopt);
 

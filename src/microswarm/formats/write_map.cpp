@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/formats/write_map.hpp"
 
+#include <fmt/format.h>
+
 #include <variant>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/formats/geojson.hpp"
 #include "microswarm/formats/images/image.hpp"
@@ -39,12 +42,10 @@ void write_ros(const std::filesystem::path& yaml, const Mask& walls, double cell
 
 MapParts parts_of(const Map& map) {
   MapParts parts{map.bounds(), {}, {}};
-  for (const Body& body : map.walls().bodies()) {
-    if (const auto* polygon = std::get_if<Polygon>(&body.shape))
-      parts.walls.push_back(*polygon);
-    else
-      parts.discs.push_back(std::get<Disc>(body.shape));
-  }
+  for (const Body& body : map.walls().bodies())
+    std::visit(Overloaded{[&](const Disc& disc) { parts.discs.push_back(disc); },
+                          [&](const Polygon& polygon) { parts.walls.push_back(polygon); }},
+               body.shape);
   return parts;
 }
 
@@ -53,8 +54,7 @@ void write_map(const std::filesystem::path& path, const Map& map, double cell) {
   if (extension == ".geojson" || extension == ".json")
     return write_file_atomically(path, geojson_text(parts_of(map)));
   if (extension != ".png" && extension != ".map" && extension != ".yaml")
-    throw InputError(path.string() +
-                     ": maps are written as .geojson, .png, .map (MovingAI) or .yaml (ROS)");
+    throw InputError(fmt::format("{}: maps are written as {}", path.string(), written_map_formats));
   if (cell == 0) throw InputError(path.string() + ": the size of a cell is missing: give --cell");
   const Mask walls = rasterise(map, cell);
   if (extension == ".png")

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include "microswarm/formats/map_parts.hpp"
 #include "microswarm/world/map/map.hpp"
@@ -10,6 +11,10 @@ namespace microswarm {
 
 /// The map's bounds and wall pieces, after overlapping walls were united.
 MapParts parts_of(const Map& map);
+
+/// Formats of write_map, in words.
+inline constexpr std::string_view written_map_formats =
+    ".geojson, .png, .map (MovingAI) or .yaml (ROS)";
 
 /// Writes a map in the format given by the extension, through temporary files. .geojson and .json
 /// hold exact polygons and discs. The others hold square cells of `cell` [µm], with walls where a

@@ -87,6 +87,13 @@ pid_t maker_of(const fs::path& file) {
 
 }  // namespace
 
+std::string lower_extension(const fs::path& path) {
+  std::string text = path.extension().string();
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
 std::string read_file(const fs::path& path, std::uint64_t max_bytes, LinkAtFile link) {
   const int no_link = link == LinkAtFile::refused ? O_NOFOLLOW : 0;
   // Opening a pipe must not wait for a writer.

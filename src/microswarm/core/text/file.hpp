@@ -21,6 +21,9 @@ enum class LinkAtFile {
 std::string read_file(const std::filesystem::path& path, std::uint64_t max_bytes = 1ULL << 30,
                       LinkAtFile link = LinkAtFile::followed);
 
+/// Extension of a file's name in small letters: ".png".
+std::string lower_extension(const std::filesystem::path& path);
+
 /// A file written under a temporary name and renamed when complete. Write to `path()`, which is in
 /// the target's folder and keeps its extension, then call `commit()`. A reader sees the old file or
 /// the whole new one, never a part; without commit() nothing is left behind. Throws InputError

@@ -49,6 +49,10 @@ Image read_image(const std::filesystem::path& path, int depth) {
   return decode_image(std::as_bytes(std::span(bytes.data(), bytes.size())), path.string(), depth);
 }
 
+bool has_image_extension(const std::filesystem::path& path) {
+  return std::ranges::find(image_extensions, lower_extension(path)) != image_extensions.end();
+}
+
 std::vector<std::uint8_t> read_transparency(const std::filesystem::path& path) {
   const std::string bytes = read_file(path, max_file_bytes);
   return transparency_of(std::as_bytes(std::span(bytes.data(), bytes.size())), path.string());

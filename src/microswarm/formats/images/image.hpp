@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -43,6 +44,11 @@ Image read_image(const std::filesystem::path& path, int depth = 16);
 
 /// The same from memory; `name` stands for the file in messages.
 Image decode_image(std::span<const std::byte> bytes, std::string_view name, int depth = 16);
+
+/// Extensions of the files that read_image takes, in small letters.
+inline constexpr std::array<std::string_view, 10> image_extensions{
+    ".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".pgm", ".ppm", ".pbm", ".pnm"};
+bool has_image_extension(const std::filesystem::path& path);
 
 /// 1 for each pixel of a PNG that is not opaque, else 0; empty for a picture without transparency.
 /// Throws as `read_image`.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/file.hpp"
 #include "microswarm/formats/images/codecs.hpp"
 #include "microswarm/formats/images/tiff.hpp"
 #include "microswarm/formats/media/media.hpp"
@@ -23,18 +24,6 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const fs::path& source, const std::string& why) {
   throw InputError(source.string() + ": " + why);
-}
-
-std::string lower_extension(const fs::path& file) {
-  std::string text = file.extension().string();
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
-bool is_picture(const fs::path& file) {
-  constexpr std::array<std::string_view, 9> known{".png", ".jpg", ".jpeg", ".bmp", ".pgm",
-                                                  ".ppm", ".pbm", ".tif",  ".tiff"};
-  return std::find(known.begin(), known.end(), lower_extension(file)) != known.end();
 }
 
 /// What all sources do alike: indices, times, one size.
@@ -148,7 +137,7 @@ class Pictures : public Source {
 std::vector<fs::path> pictures_in(const fs::path& folder) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder))
-    if (is_picture(entry.path()) && entry.path().filename().string()[0] != '.')
+    if (has_image_extension(entry.path()) && entry.path().filename().string()[0] != '.')
       files.push_back(entry.path());
   if (files.empty()) fail(folder, "no pictures in this folder (PNG, JPEG, BMP, TIFF, PGM or PPM)");
   std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
@@ -230,7 +219,7 @@ std::unique_ptr<FrameSource> open_frames(const fs::path& source, std::optional<d
   if (!fs::is_regular_file(status)) fail(source, "is neither a file nor a folder");
   if (fs::file_size(source) == 0) fail(source, "is empty");
   if (is_tiff(source)) return std::make_unique<TiffStack>(source, rate, depth);
-  if (is_picture(source))
+  if (has_image_extension(source))
     return std::make_unique<Pictures>(source, std::vector<fs::path>{source}, rate, depth);
   return std::make_unique<VideoFile>(source, rate);
 }
