@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "microswarm/core/text/text.hpp"
+#include "microswarm/core/text/utf8.hpp"
 #include "support/cli.hpp"
 
 namespace microswarm::cli {
@@ -37,14 +38,11 @@ void write_raw(std::string_view text) noexcept {
   std::fflush(stderr);
 }
 
-/// Begin of the next character, and the columns of the one at `i`.
+/// Begin of the next character, and the columns of the one at `i`. wcwidth would need a locale.
 std::size_t next_character(std::string_view text, std::size_t& i) {
-  const auto byte = static_cast<unsigned char>(text[i]);
-  const std::size_t length = byte < 0x80 ? 1 : byte < 0xE0 ? 2 : byte < 0xF0 ? 3 : 4;
-  unsigned code = byte & (0xFFU >> (length == 1 ? 0 : length + 1));
-  for (std::size_t k = 1; k < length && i + k < text.size(); ++k)
-    code = code << 6 | (static_cast<unsigned char>(text[i + k]) & 0x3FU);
-  i = std::min(i + length, text.size());
+  const Utf8Character next = first_character(text.substr(i));
+  const std::uint32_t code = next.code.value_or('?');
+  i += next.bytes;
   if (code >= 0x300 && code < 0x370) return 0;  // combining
   const bool is_wide = (code >= 0x1100 && code < 0x1160) || (code >= 0x2E80 && code < 0xA4D0) ||
                        (code >= 0xAC00 && code < 0xD7A4) || (code >= 0xF900 && code < 0xFB00) ||

@@ -12,6 +12,7 @@
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/text.hpp"
+#include "microswarm/core/text/utf8.hpp"
 
 namespace microswarm {
 namespace {
@@ -116,18 +117,8 @@ class TreeBuilder : public YAML::EventHandler {
 /// Length of the UTF-8 character at the start of `text`; 0 if there is none, or for a control
 /// character not allowed in a text file.
 std::size_t character_length(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned lead = byte(0);
-  if (lead < 0x80) return lead == '\t' || lead == '\n' || lead == '\r' || lead >= 0x20 ? 1 : 0;
-  const std::size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
-  if (lead < 0xc2 || lead > 0xf4 || text.size() < length) return 0;
-  for (std::size_t i = 1; i < length; ++i)
-    if ((byte(i) & 0xc0) != 0x80) return 0;
-  const unsigned second = byte(1);
-  const bool overlong = (lead == 0xe0 && second < 0xa0) || (lead == 0xf0 && second < 0x90);
-  const bool surrogate = lead == 0xed && second > 0x9f;
-  const bool beyond = lead == 0xf4 && second > 0x8f;
-  return overlong || surrogate || beyond ? 0 : length;
+  const auto [code, bytes] = first_character(text);
+  return code && (*code >= 0x20 || *code == '\t' || *code == '\n' || *code == '\r') ? bytes : 0;
 }
 
 }  // namespace

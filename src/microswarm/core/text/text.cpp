@@ -11,6 +11,8 @@
 #include <optional>
 #include <vector>
 
+#include "microswarm/core/text/utf8.hpp"
+
 namespace microswarm {
 
 std::string number_text(double value) {
@@ -30,28 +32,6 @@ std::string tidy_exponent(std::string text) {
 
 namespace {
 
-/// A character of UTF-8 text, and its bytes; no value if they are not UTF-8.
-struct Utf8 {
-  std::optional<std::uint32_t> value;
-  std::size_t bytes = 1;
-};
-
-Utf8 first_character(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  if (byte(0) < 0x80) return {byte(0), 1};
-  const std::size_t length = byte(0) >= 0xf0 ? 4 : byte(0) >= 0xe0 ? 3 : 2;
-  if (byte(0) < 0xc2 || byte(0) > 0xf4 || length > text.size()) return {};
-  std::uint32_t value = byte(0) & (0x7fu >> length);
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xc0) != 0x80) return {};
-    value = value << 6 | (byte(i) & 0x3fu);
-  }
-  constexpr std::array<std::uint32_t, 5> least{0, 0, 0x80, 0x800, 0x10000};
-  const bool surrogate = value >= 0xd800 && value < 0xe000;
-  if (value < least[length] || value > 0x10ffff || surrogate) return {};
-  return {value, length};
-}
-
 /// Control characters, also those of the second set, and those that turn the direction of writing.
 bool is_control(std::uint32_t c) {
   if (c == '\n' || c == '\t') return false;
@@ -65,8 +45,8 @@ std::string printable(std::string_view text) {
   std::string result;
   result.reserve(text.size());
   while (!text.empty()) {
-    const Utf8 next = first_character(text);
-    if (next.value && !is_control(*next.value))
+    const Utf8Character next = first_character(text);
+    if (next.code && !is_control(*next.code))
       result += text.substr(0, next.bytes);
     else
       result += '?';
