@@ -20,15 +20,13 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view folder_prefix = "microswarm-";
 
-/// The folder, open and locked; −1 if it is not one of this user or somebody has it locked.
-int locked(const fs::path& folder) {
-  const int open = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+/// The folder, open and locked; nothing if it is not one of this user or somebody has it locked.
+Descriptor locked(const fs::path& folder) {
+  Descriptor open = open_descriptor(folder, O_RDONLY | O_DIRECTORY | O_NOFOLLOW);
   struct stat about {};
-  if (open >= 0 && ::fstat(open, &about) == 0 && about.st_uid == ::geteuid() &&
-      ::flock(open, LOCK_EX | LOCK_NB) == 0)
-    return open;
-  if (open >= 0) ::close(open);
-  return -1;
+  const bool is_locked = open && ::fstat(open.get(), &about) == 0 && about.st_uid == ::geteuid() &&
+                         ::flock(open.get(), LOCK_EX | LOCK_NB) == 0;
+  return is_locked ? std::move(open) : Descriptor();
 }
 
 Download recorded(const Session& session) {
@@ -61,7 +59,6 @@ TemporaryFile::TemporaryFile(std::string_view name) {
 TemporaryFile::~TemporaryFile() {
   std::error_code ignored;
   fs::remove_all(path_.parent_path(), ignored);
-  if (lock_ >= 0) ::close(lock_);
 }
 
 void remove_left_folders() {
@@ -73,10 +70,7 @@ void remove_left_folders() {
     if (!name.starts_with(folder_prefix) || name.size() != length) continue;
     const auto age = fs::file_time_type::clock::now() - entry.last_write_time(error);
     if (error || age < young) continue;
-    const int lock = locked(entry.path());
-    if (lock < 0) continue;
-    fs::remove_all(entry.path(), error);
-    ::close(lock);
+    if (const Descriptor lock = locked(entry.path())) fs::remove_all(entry.path(), error);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/execution/descriptor.hpp"
 #include "microswarm/session/session.hpp"
 
 namespace microswarm::lab {
@@ -25,7 +26,7 @@ class TemporaryFile {
 
  private:
   std::filesystem::path path_;
-  int lock_ = -1;  ///< open folder
+  Descriptor lock_;  ///< the open folder
 };
 
 /// Removes the folders of temporary files that killed programs of this user left.

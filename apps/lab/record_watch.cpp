@@ -8,6 +8,7 @@
 
 #include <system_error>
 
+#include "microswarm/core/execution/descriptor.hpp"
 #include "microswarm/session/growing_record.hpp"
 
 namespace microswarm::lab {
@@ -23,11 +24,8 @@ bool is_there(const fs::path& file) {
 /// Whether a command writes to the folder: it holds a lock on it.
 bool is_written_to(const fs::path& folder) {
   const std::string name = folder.empty() ? "." : folder.string();
-  const int open = ::open(name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (open < 0) return false;
-  const bool is_locked = ::flock(open, LOCK_SH | LOCK_NB) != 0;
-  ::close(open);
-  return is_locked;
+  const Descriptor open = open_descriptor(name, O_RDONLY | O_DIRECTORY);
+  return open && ::flock(open.get(), LOCK_SH | LOCK_NB) != 0;
 }
 
 }  // namespace

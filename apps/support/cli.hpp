@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "microswarm/core/execution/descriptor.hpp"
 #include "microswarm/core/execution/progress.hpp"
 #include "microswarm/core/execution/stop.hpp"
 #include "support/status_line.hpp"
@@ -104,7 +105,7 @@ class OutFolder {
   OutFolder& operator=(const OutFolder&) = delete;
 
  private:
-  int folder_ = -1;
+  Descriptor folder_;
   std::vector<std::filesystem::path> made_;  // innermost first
 };
 

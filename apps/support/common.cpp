@@ -61,21 +61,18 @@ OutFolder::OutFolder(const std::string& folder) {
        at.has_relative_path() && !std::filesystem::exists(at, none); at = at.parent_path())
     made_.push_back(at);
   make_folder(folder);
-  folder_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (folder_ < 0) return;
-  if (::flock(folder_, LOCK_EX | LOCK_NB) == 0) {
+  folder_ = open_descriptor(folder, O_RDONLY | O_DIRECTORY);
+  if (!folder_) return;
+  if (::flock(folder_.get(), LOCK_EX | LOCK_NB) == 0)
     clear_staged(folder);
-  } else if (errno == EWOULDBLOCK) {
-    ::close(folder_);
+  else if (errno == EWOULDBLOCK)
     throw InputError(folder + ": another command is writing to it");
-  }
 }
 
 OutFolder::~OutFolder() {
-  if (folder_ < 0) return;
+  if (!folder_) return;
   for (const std::filesystem::path& folder : made_)
     if (::rmdir(folder.c_str()) != 0 && errno != ENOENT) break;
-  ::close(folder_);
 }
 
 BeginProgress progress_bars() {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/report/plot.hpp"
+#include "microswarm/core/execution/descriptor.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -201,9 +202,11 @@ std::string terminal(const std::string& kind, std::size_t panels) {
 std::optional<std::string> drawn_by_gnuplot(const std::filesystem::path& script) {
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) return std::nullopt;
+  const Descriptor out(ends[0]);
+  Descriptor in(ends[1]);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, in.get(), STDOUT_FILENO);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawnattr_t attributes;  // own process group, so Ctrl-C does not reach it
   posix_spawnattr_init(&attributes);
@@ -215,16 +218,15 @@ std::optional<std::string> drawn_by_gnuplot(const std::filesystem::path& script)
   const int error = posix_spawnp(&child, "gnuplot", &actions, &attributes, arguments, environ);
   posix_spawn_file_actions_destroy(&actions);
   posix_spawnattr_destroy(&attributes);
-  ::close(ends[1]);
+  in.close();
   std::string bytes;
   std::array<char, 1 << 16> buffer;
   for (;;) {  // ends when gnuplot does
-    const ssize_t n = ::read(ends[0], buffer.data(), buffer.size());
+    const ssize_t n = ::read(out.get(), buffer.data(), buffer.size());
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) break;
     bytes.append(buffer.data(), static_cast<std::size_t>(n));
   }
-  ::close(ends[0]);
   int status = 0;
   if (error != 0) return std::nullopt;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {

@@ -69,23 +69,19 @@ std::string sql_name(std::string_view name) {
 }
 
 WriterLock::WriterLock(const std::filesystem::path& file)
-    : file_(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
-  if (file_ < 0)
-    throw InputError(fmt::format("{}: cannot write: {}", file.string(), reason(errno)));
+    : file_(open_descriptor(file, O_RDWR | O_CREAT)) {
+  if (!file_) throw InputError(fmt::format("{}: cannot write: {}", file.string(), reason(errno)));
   struct flock lock {};
   lock.l_type = F_WRLCK;
   lock.l_whence = SEEK_SET;
   lock.l_start = lock_byte;
   lock.l_len = 1;
-  if (::fcntl(file_, F_OFD_SETLK, &lock) == 0) return;
+  if (::fcntl(file_.get(), F_OFD_SETLK, &lock) == 0) return;
   const int error = errno;
-  ::close(file_);
   if (error == EAGAIN || error == EACCES)
     throw InputError(file.string() + ": another sweep is writing to it");
   throw InputError(fmt::format("{}: cannot lock: {}", file.string(), reason(error)));
 }
-
-WriterLock::~WriterLock() { ::close(file_); }
 
 // Opened for writing even to read, which rolls back what a killed writer left half done; where the
 // file may not be written SQLite is content with reading.

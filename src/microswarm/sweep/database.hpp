@@ -10,6 +10,8 @@
 #include <string_view>
 #include <variant>
 
+#include "microswarm/core/execution/descriptor.hpp"
+
 namespace SQLite {  // NOLINT(readability-identifier-naming): the name is theirs
 class Database;
 class Exception;
@@ -30,12 +32,9 @@ class WriterLock {
   /// Creates the file if necessary. Throws InputError "FILE: another sweep is writing to it",
   /// or "FILE: cannot write: REASON".
   explicit WriterLock(const std::filesystem::path& file);
-  ~WriterLock();
-  WriterLock(const WriterLock&) = delete;
-  WriterLock& operator=(const WriterLock&) = delete;
 
  private:
-  int file_;
+  Descriptor file_;
 };
 
 /// An SQLite database in a file that exists; an empty file is a database without tables. The file

@@ -97,34 +97,29 @@ void ProbeRows::take_row(std::string_view row, std::vector<Eigen::Vector3d>& fie
   fields.push_back(field);
 }
 
-ProbeFile::ProbeFile(std::filesystem::path path) : path_(std::move(path)), name_(path_.string()) {
-  file_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (file_ < 0)
+ProbeFile::ProbeFile(std::filesystem::path path)
+    : path_(std::move(path)),
+      name_(path_.string()),
+      file_(open_descriptor(path_, O_RDONLY | O_NONBLOCK)) {
+  if (!file_)
     throw InputError(
         fmt::format("{}: cannot read: {}", name_, std::generic_category().message(errno)));
-  try {
-    struct stat info {};
-    if (::fstat(file_, &info) != 0 || !S_ISREG(info.st_mode))
-      throw InputError(name_ + ": cannot read: is no regular file");
-    std::string start(max_row, '\0');
-    start.resize(read_at(file_, 0, start, name_));
-    const std::size_t end = start.find('\n');
-    if (end == std::string::npos)
-      throw InputError(name_ + ": a header with the columns bx_mt, by_mt, bz_mt is missing");
-    rows_.emplace(trimmed(std::string_view(start).substr(0, end)), name_);
-    at_ = end + 1;
-  } catch (...) {
-    ::close(file_);
-    throw;
-  }
+  struct stat info {};
+  if (::fstat(file_.get(), &info) != 0 || !S_ISREG(info.st_mode))
+    throw InputError(name_ + ": cannot read: is no regular file");
+  std::string start(max_row, '\0');
+  start.resize(read_at(file_.get(), 0, start, name_));
+  const std::size_t end = start.find('\n');
+  if (end == std::string::npos)
+    throw InputError(name_ + ": a header with the columns bx_mt, by_mt, bz_mt is missing");
+  rows_.emplace(trimmed(std::string_view(start).substr(0, end)), name_);
+  at_ = end + 1;
 }
-
-ProbeFile::~ProbeFile() { ::close(file_); }
 
 std::uint64_t ProbeFile::size() const {
   struct stat here {
   }, there{};
-  if (::fstat(file_, &here) != 0 || ::stat(path_.c_str(), &there) != 0 ||
+  if (::fstat(file_.get(), &here) != 0 || ::stat(path_.c_str(), &there) != 0 ||
       here.st_ino != there.st_ino || here.st_dev != there.st_dev ||
       static_cast<std::uint64_t>(here.st_size) < at_)
     throw InputError(name_ + ": was cut short or replaced while it was read");
@@ -135,7 +130,7 @@ void ProbeFile::skip_to_end() {
   const std::uint64_t end = size();
   const std::uint64_t size_of_last = std::min<std::uint64_t>(end, max_row);
   std::string last(size_of_last, '\0');
-  last.resize(read_at(file_, end - size_of_last, last, name_));
+  last.resize(read_at(file_.get(), end - size_of_last, last, name_));
   at_ = end;
   rows_->skip(!last.empty() && last.back() != '\n');
   last.resize(last.find_last_not_of("\r\n") + 1);
@@ -146,7 +141,7 @@ void ProbeFile::read(std::vector<Eigen::Vector3d>& fields) {
   const std::uint64_t end = size();
   if (end == at_) return;
   std::string bytes(std::min<std::uint64_t>(end - at_, max_piece), '\0');
-  bytes.resize(read_at(file_, at_, bytes, name_));
+  bytes.resize(read_at(file_.get(), at_, bytes, name_));
   at_ += bytes.size();
   rows_->take(bytes, fields);
 }

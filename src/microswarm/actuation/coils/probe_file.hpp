@@ -10,6 +10,8 @@
 
 #include <Eigen/Core>
 
+#include "microswarm/core/execution/descriptor.hpp"
+
 namespace microswarm {
 
 /// Rows of a probe's logger: CSV with a header that names bx_mt, by_mt, bz_mt and optionally t_s.
@@ -42,9 +44,6 @@ class ProbeFile {
  public:
   /// Throws InputError if the file cannot be read or has no such header.
   explicit ProbeFile(std::filesystem::path path);
-  ~ProbeFile();
-  ProbeFile(const ProbeFile&) = delete;
-  ProbeFile& operator=(const ProbeFile&) = delete;
 
   const std::string& name() const { return name_; }
   /// The line that was the last one at the last skip_to_end(), whether or not it is a row.
@@ -60,7 +59,7 @@ class ProbeFile {
 
   std::filesystem::path path_;
   std::string name_;
-  int file_ = -1;
+  Descriptor file_;
   std::uint64_t at_ = 0;
   std::string last_row_;
   std::optional<ProbeRows> rows_;

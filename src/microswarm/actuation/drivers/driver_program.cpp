@@ -26,27 +26,6 @@ namespace {
 constexpr double patience = 0.5;   // [s] before each stronger request to end
 constexpr double a_moment = 0.05;  // [s]
 
-/// A file descriptor.
-class Descriptor {
- public:
-  explicit Descriptor(int file = -1) : file_(file) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  Descriptor(Descriptor&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
-  Descriptor& operator=(Descriptor&& other) noexcept {
-    std::swap(file_, other.file_);
-    return *this;
-  }
-  ~Descriptor() { close(); }
-  int get() const { return file_; }
-  void close() {
-    if (file_ >= 0) ::close(std::exchange(file_, -1));
-  }
-
- private:
-  int file_;
-};
-
 struct Pipe {
   Pipe() {
     std::array<int, 2> ends{};

@@ -28,43 +28,36 @@ class Socket {
  public:
   explicit Socket(int family)
       : file_(::socket(family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)) {}
-  ~Socket() {
-    if (file_ >= 0) ::close(file_);
-  }
-  Socket(const Socket&) = delete;
-  Socket& operator=(const Socket&) = delete;
-  int get() const { return file_; }
+  int get() const { return file_.get(); }
 
   /// Errno; 0 if it is connected.
   int connect(const sockaddr* address, socklen_t size, double timeout) const {
-    if (file_ < 0) return errno;
-    if (::connect(file_, address, size) == 0) return 0;
+    if (!file_) return errno;
+    if (::connect(get(), address, size) == 0) return 0;
     if (errno != EINPROGRESS) return errno;
-    pollfd line{file_, POLLOUT, 0};
+    pollfd line{get(), POLLOUT, 0};
     if (::poll(&line, 1, static_cast<int>(std::ceil(1e3 * timeout))) <= 0) return ETIMEDOUT;
     int error = 0;
     socklen_t length = sizeof error;
-    ::getsockopt(file_, SOL_SOCKET, SO_ERROR, &error, &length);
+    ::getsockopt(get(), SOL_SOCKET, SO_ERROR, &error, &length);
     return error;
   }
 
  private:
-  int file_;
+  Descriptor file_;
 };
 
 class DriverSocket final : public LineConnection {
  public:
-  DriverSocket(std::string name, std::unique_ptr<Socket> socket)
-      : name_(std::move(name)),
-        socket_(std::move(socket)),
-        stream_(socket_->get(), socket_->get()) {}
+  DriverSocket(std::string name, Socket socket)
+      : name_(std::move(name)), socket_(std::move(socket)), stream_(socket_.get(), socket_.get()) {}
   const std::string& name() const override { return name_; }
   ByteStream& stream() override { return stream_; }
   std::string ended() override { return stream_.ended() ? "has closed the connection" : ""; }
 
  private:
   std::string name_;
-  std::unique_ptr<Socket> socket_;
+  Socket socket_;
   ByteStream stream_;
 };
 
@@ -78,10 +71,10 @@ std::unique_ptr<LineConnection> connect_path(const std::string& path, double tim
   address.sun_family = AF_UNIX;
   if (path.size() >= sizeof address.sun_path) fail(name, "the path is too long");
   std::ranges::copy(path, address.sun_path);
-  auto socket = std::make_unique<Socket>(AF_UNIX);
+  Socket socket(AF_UNIX);
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast)
   const auto* const at = reinterpret_cast<const sockaddr*>(&address);
-  if (const int error = socket->connect(at, sizeof address, timeout))
+  if (const int error = socket.connect(at, sizeof address, timeout))
     fail(name, std::strerror(error));
   return std::make_unique<DriverSocket>(name, std::move(socket));
 }
@@ -104,26 +97,19 @@ std::unique_ptr<LineConnection> connect_socket(const std::string& host, int port
   for (const addrinfo* at = found; at != nullptr; at = at->ai_next) {
     const double left = timeout - seconds_since(began);
     if (left <= 0) break;
-    auto socket = std::make_unique<Socket>(at->ai_family);
-    error = socket->connect(at->ai_addr, at->ai_addrlen, left);
+    Socket socket(at->ai_family);
+    error = socket.connect(at->ai_addr, at->ai_addrlen, left);
     if (error != 0) continue;
     const int at_once = 1;
-    ::setsockopt(socket->get(), IPPROTO_TCP, TCP_NODELAY, &at_once, sizeof at_once);
+    ::setsockopt(socket.get(), IPPROTO_TCP, TCP_NODELAY, &at_once, sizeof at_once);
     return std::make_unique<DriverSocket>(name, std::move(socket));
   }
   fail(name, std::strerror(error));
 }
 
-DeviceLock::DeviceLock(const std::filesystem::path& file)
-    : file_(::open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
-  const bool taken = file_ >= 0 && ::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-  if (!taken) return;
-  ::close(file_);
-  throw HardwareError(one_line(file.string()) + ": another program drives these coils");
-}
-
-DeviceLock::~DeviceLock() {
-  if (file_ >= 0) ::close(file_);
+DeviceLock::DeviceLock(const std::filesystem::path& file) : file_(open_descriptor(file, O_RDONLY)) {
+  if (file_ && ::flock(file_.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    throw HardwareError(one_line(file.string()) + ": another program drives these coils");
 }
 
 }  // namespace microswarm

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "microswarm/actuation/drivers/byte_stream.hpp"
+#include "microswarm/core/execution/descriptor.hpp"
 
 namespace microswarm {
 
@@ -51,13 +52,10 @@ std::unique_ptr<LineConnection> connect_socket(const std::string& host, int port
 class DeviceLock {
  public:
   explicit DeviceLock(const std::filesystem::path& file);
-  ~DeviceLock();
-  DeviceLock(const DeviceLock&) = delete;
-  DeviceLock& operator=(const DeviceLock&) = delete;
-  int descriptor() const { return file_; }
+  int descriptor() const { return file_.get(); }
 
  private:
-  int file_;
+  Descriptor file_;
 };
 
 }  // namespace microswarm

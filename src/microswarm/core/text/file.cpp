@@ -10,10 +10,10 @@
 #include <csignal>
 #include <cstdio>
 #include <system_error>
-#include <utility>
 #include <vector>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/execution/descriptor.hpp"
 
 namespace microswarm {
 namespace {
@@ -28,28 +28,7 @@ namespace fs = std::filesystem;
   fail(path, doing, std::generic_category().message(error));
 }
 
-/// An open file, closed at the end of its scope.
-class Descriptor {
- public:
-  Descriptor(const fs::path& path, int flags)
-      : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0666)), error_(fd_ < 0 ? errno : 0) {}
-  ~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-
-  int get() const { return fd_; }
-  int error() const { return error_; }
-  /// Closes now; false (and errno) when a delayed write failed.
-  bool close() { return ::close(std::exchange(fd_, -1)) == 0; }
-
- private:
-  int fd_;
-  int error_;
-};
-
-void write_all(Descriptor& file, std::string_view bytes, const fs::path& named) {
+void write_all(const Descriptor& file, std::string_view bytes, const fs::path& named) {
   while (!bytes.empty()) {
     const ssize_t n = ::write(file.get(), bytes.data(), bytes.size());
     if (n < 0 && errno == EINTR) continue;
@@ -97,9 +76,9 @@ std::string lower_extension(const fs::path& path) {
 std::string read_file(const fs::path& path, std::uint64_t max_bytes, LinkAtFile link) {
   const int no_link = link == LinkAtFile::refused ? O_NOFOLLOW : 0;
   // Opening a pipe must not wait for a writer.
-  Descriptor file(path, O_RDONLY | O_NONBLOCK | no_link);
-  if (no_link != 0 && file.error() == ELOOP) fail(path, "read", "it is a symbolic link");
-  if (file.error()) fail_errno(path, "read", file.error());
+  const Descriptor file = open_descriptor(path, O_RDONLY | O_NONBLOCK | no_link);
+  if (!file && no_link != 0 && errno == ELOOP) fail(path, "read", "it is a symbolic link");
+  if (!file) fail_errno(path, "read", errno);
   struct stat status {};
   if (::fstat(file.get(), &status) != 0) fail_errno(path, "read", errno);
   if (S_ISDIR(status.st_mode)) fail_errno(path, "read", EISDIR);
@@ -130,9 +109,8 @@ StagedFile::StagedFile(fs::path target, LinkAtFile link)
   }
   for (int i = 0; i < 1000; ++i) {
     staged_ = staged_for(target_, i);
-    const Descriptor file(staged_, O_WRONLY | O_CREAT | O_EXCL);
-    if (!file.error()) return;
-    if (file.error() != EEXIST) fail_errno(target_, "write", file.error());
+    if (open_descriptor(staged_, O_WRONLY | O_CREAT | O_EXCL)) return;
+    if (errno != EEXIST) fail_errno(target_, "write", errno);
   }
   fail_errno(target_, "write", EEXIST);
 }
@@ -143,8 +121,8 @@ StagedFile::~StagedFile() {
 
 void StagedFile::commit() {
   if (direct_) return;
-  Descriptor file(staged_, O_WRONLY);
-  if (file.error()) fail_errno(target_, "write", file.error());
+  Descriptor file = open_descriptor(staged_, O_WRONLY);
+  if (!file) fail_errno(target_, "write", errno);
   if (::fsync(file.get()) != 0 || !file.close()) fail_errno(target_, "write", errno);
   if (::rename(staged_.c_str(), target_.c_str()) != 0) fail_errno(target_, "write", errno);
   committed_ = true;
@@ -166,9 +144,9 @@ void clear_staged(const fs::path& folder) {
 void write_file_atomically(const fs::path& path, std::string_view bytes, LinkAtFile link) {
   StagedFile staged(path, link);
   // Opening a pipe must not wait for a reader, writing may.
-  Descriptor file(staged.path(), O_WRONLY | O_NONBLOCK);
-  if (file.error() == ENXIO) fail(path, "write", "it is a pipe that nobody reads");
-  if (file.error()) fail_errno(path, "write", file.error());
+  Descriptor file = open_descriptor(staged.path(), O_WRONLY | O_NONBLOCK);
+  if (!file && errno == ENXIO) fail(path, "write", "it is a pipe that nobody reads");
+  if (!file) fail_errno(path, "write", errno);
   ::fcntl(file.get(), F_SETFL, ::fcntl(file.get(), F_GETFL) & ~O_NONBLOCK);
   write_all(file, bytes, path);
   if (!file.close()) fail_errno(path, "write", errno);
@@ -180,10 +158,8 @@ void make_folder(const std::string& folder) {
   std::filesystem::create_directories(folder, error);
   if (error)
     throw InputError(fmt::format("{}: cannot make the folder: {}", folder, error.message()));
-  const int nameless = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
-  if (nameless >= 0)
-    ::close(nameless);
-  else if (errno != EOPNOTSUPP && errno != EISDIR)  // O_TMPFILE unsupported: not tested
+  const Descriptor nameless = open_descriptor(folder, O_TMPFILE | O_WRONLY);
+  if (!nameless && errno != EOPNOTSUPP && errno != EISDIR)  // O_TMPFILE unsupported: not tested
     throw InputError(folder + ": cannot write: " + std::generic_category().message(errno));
 }
 

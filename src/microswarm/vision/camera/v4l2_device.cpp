@@ -41,34 +41,28 @@ std::string region_text(const v4l2_rect& r) {
 
 }  // namespace
 
-V4l2Device::V4l2Device(std::string name) : CameraDevice(std::move(name)) {
-  file_ = ::open(this->name().c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
-  if (file_ < 0) fail("cannot open: " + reason(errno));
-  try {
-    struct stat about {};
-    if (::fstat(file_, &about) != 0 || !S_ISCHR(about.st_mode)) fail("is no camera");
-    v4l2_capability can{};
-    if (ask(VIDIOC_QUERYCAP, &can) != 0) fail("is no camera that can be opened");
-    const std::uint32_t kinds =
-        (can.capabilities & V4L2_CAP_DEVICE_CAPS) != 0 ? can.device_caps : can.capabilities;
-    if ((kinds & V4L2_CAP_VIDEO_CAPTURE) == 0) fail("is no camera that gives pictures");
-    if ((kinds & V4L2_CAP_STREAMING) == 0) fail("gives no stream of pictures");
-  } catch (...) {
-    ::close(file_);
-    throw;
-  }
+V4l2Device::V4l2Device(std::string name)
+    : CameraDevice(std::move(name)), file_(open_descriptor(this->name(), O_RDWR | O_NONBLOCK)) {
+  if (!file_) fail("cannot open: " + reason(errno));
+  struct stat about {};
+  if (::fstat(file_.get(), &about) != 0 || !S_ISCHR(about.st_mode)) fail("is no camera");
+  v4l2_capability can{};
+  if (ask(VIDIOC_QUERYCAP, &can) != 0) fail("is no camera that can be opened");
+  const std::uint32_t kinds =
+      (can.capabilities & V4L2_CAP_DEVICE_CAPS) != 0 ? can.device_caps : can.capabilities;
+  if ((kinds & V4L2_CAP_VIDEO_CAPTURE) == 0) fail("is no camera that gives pictures");
+  if ((kinds & V4L2_CAP_STREAMING) == 0) fail("gives no stream of pictures");
 }
 
 V4l2Device::~V4l2Device() {
   int type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   if (!buffers_.empty()) ask(VIDIOC_STREAMOFF, &type);
   for (const auto& buffer : buffers_) ::munmap(buffer.data(), buffer.size());
-  ::close(file_);
 }
 
 int V4l2Device::ask(unsigned long request, void* argument) const {
   int result = 0;
-  do result = ::ioctl(file_, request, argument);
+  do result = ::ioctl(file_.get(), request, argument);
   while (result < 0 && errno == EINTR);
   return result < 0 ? errno : 0;
 }
@@ -168,8 +162,8 @@ void V4l2Device::start() {
     buffer.index = i;
     if (const int error = ask(VIDIOC_QUERYBUF, &buffer); error != 0)
       fail("gives no memory for pictures: " + reason(error));
-    void* const memory = ::mmap(nullptr, buffer.length, PROT_READ | PROT_WRITE, MAP_SHARED, file_,
-                                static_cast<off_t>(buffer.m.offset));
+    void* const memory = ::mmap(nullptr, buffer.length, PROT_READ | PROT_WRITE, MAP_SHARED,
+                                file_.get(), static_cast<off_t>(buffer.m.offset));
     if (memory == MAP_FAILED) fail("gives no memory for pictures: " + reason(errno));
     buffers_.emplace_back(static_cast<std::byte*>(memory), buffer.length);
     enqueue(i);
@@ -195,7 +189,7 @@ void V4l2Device::enqueue(std::uint32_t index) const {
 bool V4l2Device::wait(double seconds) const {
   const double end = steady_seconds() + seconds;
   for (;;) {
-    pollfd ready{.fd = file_, .events = POLLIN, .revents = 0};
+    pollfd ready{.fd = file_.get(), .events = POLLIN, .revents = 0};
     const double left = std::clamp(end - steady_seconds(), 0.0, 1e6);
     const int count = ::poll(&ready, 1, static_cast<int>(std::ceil(1e3 * left)));
     if (count > 0) return true;

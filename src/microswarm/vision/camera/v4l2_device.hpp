@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "microswarm/core/execution/descriptor.hpp"
 #include "microswarm/vision/camera/camera_device.hpp"
 #include "microswarm/vision/camera/camera_params.hpp"
 
@@ -45,7 +46,7 @@ class V4l2Device : public CameraDevice {
   [[noreturn]] void fail_format(std::uint32_t wanted) const;
   std::string offered_formats() const;
 
-  int file_ = -1;
+  Descriptor file_;
   std::optional<double> rate_;
   std::vector<std::span<std::byte>> buffers_;
   std::optional<std::uint32_t> taken_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/vision/camera/v4l2_list.hpp"
+#include "microswarm/core/execution/descriptor.hpp"
 
 #include <fcntl.h>
 #include <linux/videodev2.h>
@@ -21,10 +22,7 @@ constexpr std::uint32_t max_entries = 64;  // of a driver that never ends its li
 
 /// 0 or the number of the error.
 int error_of_opening(const std::string& name) {
-  const int file = ::open(name.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
-  if (file < 0) return errno;
-  ::close(file);
-  return 0;
+  return open_descriptor(name, O_RDWR | O_NONBLOCK) ? 0 : errno;
 }
 
 bool is_absent(int error) { return error == ENOENT || error == ENXIO || error == ENODEV; }
