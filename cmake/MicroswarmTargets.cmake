@@ -26,6 +26,12 @@ if(MICROSWARM_SANITIZE)
   target_compile_options(microswarm_options INTERFACE -fsanitize=${MICROSWARM_SANITIZE}
                          -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(microswarm_options INTERFACE -fsanitize=${MICROSWARM_SANITIZE})
+  if(CMAKE_CXX_COMPILER_ID STREQUAL Clang)
+    # What gcc says of itself. Warnings are for the release build to give.
+    string(REGEX REPLACE ",.*" "" sanitizer "${MICROSWARM_SANITIZE}")
+    string(TOUPPER ${sanitizer} sanitizer)
+    target_compile_options(microswarm_options INTERFACE -w -D__SANITIZE_${sanitizer}__=1)
+  endif()
 endif()
 if(MICROSWARM_SANITIZE_NOT)
   target_compile_options(microswarm_options INTERFACE -fno-sanitize=${MICROSWARM_SANITIZE_NOT})

@@ -20,9 +20,9 @@ namespace microswarm {
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr std::size_t every = 200;  // sanitizers are slow; the release build asks every tenth
+constexpr std::size_t every = 400;  // sanitizers are slow
 #else
-constexpr std::size_t every = 10;
+constexpr std::size_t every = 40;
 #endif
 
 /// A map of the benchmark, in cells, and every so many-th of its queries.
