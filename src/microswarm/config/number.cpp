@@ -10,6 +10,7 @@
 
 #include "microswarm/config/type.hpp"
 #include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/text/read_float.hpp"
 #include "microswarm/core/text/text.hpp"
 
 namespace microswarm {
@@ -50,7 +51,7 @@ std::optional<long double> exact_number(std::string_view text) {
   if (!parse_number(text)) return std::nullopt;
   if (text.starts_with('+')) text.remove_prefix(1);
   long double number = 0;
-  std::from_chars(text.data(), text.data() + text.size(), number);
+  read_float(text, number);
   return number;
 }
 

@@ -8,12 +8,10 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
-#include <locale>
 #include <optional>
-#include <sstream>
 #include <vector>
 
+#include "microswarm/core/text/read_float.hpp"
 #include "microswarm/core/text/utf8.hpp"
 
 namespace microswarm {
@@ -77,15 +75,7 @@ std::optional<double> parse_number(std::string_view text) {
     return std::nullopt;  // from_chars would accept "nan" and "inf" but not '+'
   if (text.front() == '+') text.remove_prefix(1);
   double value = 0;
-#ifdef __cpp_lib_to_chars
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool is_number = error == std::errc{} && end == text.data() + text.size();
-#else  // libc++ has it for integers only
-  std::istringstream in{std::string(text)};
-  in.imbue(std::locale::classic());
-  const bool is_number = text.find_first_of("xX") == text.npos && in >> value && in.peek() == EOF;
-#endif
-  if (!is_number || !std::isfinite(value)) return std::nullopt;
+  if (!read_float(text, value) || !std::isfinite(value)) return std::nullopt;
   return value;
 }
 

@@ -11,7 +11,7 @@
 
 namespace microswarm {
 
-class FollowerModel;
+struct FollowerModel;
 
 /// Path-following method.
 enum class FollowerKind {
