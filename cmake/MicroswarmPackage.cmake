@@ -45,7 +45,7 @@ set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_PACKAGE_DIRECTORY ${PROJECT_SOURCE_DIR}/build/packages)
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each package has its own
-set(CPACK_PACKAGE_CONTACT "microswarm developers <microswarm@localhost>")
+set(CPACK_PACKAGE_CONTACT "microswarm contributors <microswarm@localhost>")
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
@@ -60,6 +60,7 @@ function(debian_package component name summary text depends)
   set(CPACK_DEBIAN_${key}_DESCRIPTION "${summary}\n${text}" PARENT_SCOPE)
   set(CPACK_DEBIAN_${key}_PACKAGE_DEPENDS "${depends}" PARENT_SCOPE)
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE RENAME copyright DESTINATION ${document_dir}/${name} COMPONENT ${component})
+  install(FILES ${PROJECT_SOURCE_DIR}/NOTICE DESTINATION ${document_dir}/${name} COMPONENT ${component})
 endfunction()
 
 debian_package(program microswarm

@@ -12,6 +12,7 @@ import check_includes
 import check_links
 import check_maths
 import check_rows
+import check_version
 import figures_page
 import reference
 import safety_page
@@ -196,6 +197,35 @@ class Maths(unittest.TestCase):
             "std::string LogWriter::log(int a) const;\n"
             "session.log().add(x);\n"
             "std::log_wrapper::f(x); is_log(x); Eigen::exp_of(x);\n"))
+
+
+class Version(unittest.TestCase):
+    TEXTS = {
+        "cmake": "cmake_minimum_required(VERSION 3.25)\nproject(microswarm VERSION 1.2.3 LANGUAGES C)\n",
+        "citation": "cff-version: 1.2.0\nauthors:\n  - name: the authors\nversion: 1.2.3\ndate-released: 2026-01-02\n",
+        "changelog": "# Changelog\n\n## [Unreleased]\n\n## [1.2.3] - 2026-01-02\n\n## [1.2.2] - 2025-01-02\n",
+        "notice": "a\nCopyright 2026 the authors\n",
+        "package": '{"name": "a", "author": "the authors"}',
+        "doxyfile": "PROJECT_NUMBER = $(MICROSWARM_VERSION)\n",
+    }
+
+    def complaints(self, **texts):
+        return check_version.complaints_of(**{**self.TEXTS, **texts})
+
+    def test_one_version_and_one_owner(self):
+        self.assertEqual([], self.complaints())
+
+    def test_every_place_is_looked_at(self):
+        for name, now, then in (("cmake", "1.2.3", "1.2.4"), ("cmake", "project", "# project"),
+                                ("citation", "version: 1.2.3", "version: 1.2.2"),
+                                ("citation", "2026-01-02", "2026-01-03"),
+                                ("citation", "the authors", "others"),
+                                ("changelog", "[1.2.3]", "[1.2.4]"),
+                                ("changelog", "## [Unreleased]\n", ""), ("notice", "the authors", "others"),
+                                ("package", "the authors", "others"),
+                                ("package", '"a"', '"a", "version": "1.2.2"'),
+                                ("doxyfile", "$(MICROSWARM_VERSION)", "1.2.3")):
+            self.assertTrue(self.complaints(**{name: self.TEXTS[name].replace(now, then)}), (name, then))
 
 
 class Rows(unittest.TestCase):

@@ -38,7 +38,7 @@ typedef enum ms_code {
   MS_FAULT = 6 /* a bug of the library */
 } ms_code;
 
-/* "0.1.0" */
+/* Version of the library, three numbers with points. */
 const char* ms_version(void);
 int32_t ms_interface(void);
 /* Why the last call of this thread that failed did; empty before. */

@@ -1,5 +1,5 @@
 function text = version()
-% microswarm.version  Version of the library, for example '0.1.0'.
+% microswarm.version  Version of the library, three numbers with points.
 
   % SPDX-License-Identifier: Apache-2.0
   text = microswarm_mex('version');
