@@ -31,7 +31,7 @@ std::size_t count(double length, double cell) {
   return static_cast<std::size_t>(std::max(1.0, std::ceil(length / cell)));
 }
 
-/// Visits the nodes at most `r` from a node of the grid, row by row.
+/// Visits the nodes at most `r` columns and rows from a node, row by row.
 template <class Visit>
 void visit_square(std::size_t node, std::size_t r, std::size_t columns, std::size_t rows,
                   Visit&& visit) {
@@ -138,7 +138,7 @@ double DistanceField::from(Vec2 p) {
   if (lengths_.empty()) return infinity;
   const std::size_t node = nearest(p);
   double least = at(node);
-  if (least == infinity)  // beside a wall the node next to it may be in the wall
+  if (least == infinity)  // the nearest node of a point beside a wall may be in the wall
     visit_square(node, 2, columns_, rows_, [&](std::size_t n) { least = std::min(least, at(n)); });
   return least;
 }

@@ -10,36 +10,36 @@
 
 namespace microswarm {
 
-/// Lengths of the shortest paths to a goal from the nodes of a square grid, for many questions:
-/// that of a node is found when it is first asked for. Not for several threads at once.
+/// Lengths of the shortest paths to a goal from the nodes of a square grid. The length of a node is
+/// computed at the first query and kept. Not thread-safe.
 class DistanceField {
  public:
   static constexpr std::size_t max_exact_corners = 5'000;
 
   DistanceField() = default;
-  /// Nodes `spacing` [µm] apart, one of them at the goal, for paths that keep `clearance` [µm]. A
-  /// coarser grid where there would be more than `max_nodes`.
+  /// Nodes `spacing` [µm] apart, one of them at the goal, for paths that keep `clearance` [µm]. The
+  /// grid is coarsened to at most `max_nodes` nodes.
   static DistanceField to_goal(std::shared_ptr<const Map> map, Vec2 goal, double clearance,
                                double spacing, std::size_t max_nodes = 1'000'000);
-  /// About `cells` × `cells` nodes over the map, for points. In maps of more than
-  /// `max_exact_corners`, where the shortest paths from everywhere can take seconds, lengths along
-  /// the edges of the grid: up to 8 % and a cell longer. `map` must outlive it.
+  /// About `cells` × `cells` nodes over the map, without clearance. In maps of more than
+  /// `max_exact_corners`, where exact lengths can take seconds, lengths along the edges of the
+  /// grid: up to 8 % and one cell longer. `map` must outlive the field.
   static DistanceField over(const Map& map, Vec2 goal, int cells = 128);
 
-  /// What tells that a search for paths is to end; a length that it leaves open is asked for anew.
+  /// Sets the stop that ends a search. A length that an ended search did not find is not kept.
   void stop_with(const Stop& stop) { route_.stop_with(stop); }
 
-  /// Length from the node next to `p` [µm], or the least of those around it where that one is in a
-  /// wall; infinity without a path.
+  /// Path length from the node nearest to `p` [µm], or the minimum of the nodes around it if that
+  /// node is in a wall; infinity without a path.
   double from(Vec2 p);
-  /// Is there a path from the node next to `p`?
+  /// Whether there is a path from the node nearest to `p`.
   bool reaches(Vec2 p) { return at(nearest(p)) < infinity; }
-  /// Length from the node next to `p` [µm]; without a path the straight one and a detour around the
-  /// map.
+  /// Path length from the node nearest to `p` [µm]; without a path, the straight distance plus a
+  /// detour around the map.
   double estimate(Vec2 p);
-  /// The same by a node that `p` sees, also for points beside a wall.
+  /// The same [µm] over a node that is visible from `p`, which also serves points beside a wall.
   double visible_estimate(Vec2 p);
-  /// See Route.
+  /// Point of the path at most `reach` µm ahead, see Route::ahead.
   Vec2 ahead(Vec2 p, double reach) { return route_.ahead(p, reach); }
 
  private:
@@ -56,11 +56,11 @@ class DistanceField {
   Vec2 goal_;
   Vec2 low_;
   double cell_ = 1;
-  double offset_ = 0;  ///< of the first node from `low_`, in cells
+  double offset_ = 0;  ///< of the first node from `low_` [cells]
   double detour_ = 0;
   std::size_t columns_ = 0;
   std::size_t rows_ = 0;
-  std::vector<float> lengths_;  ///< by node; negative until it is asked for
+  std::vector<float> lengths_;  ///< of each node [µm]; negative until computed
 };
 
 }  // namespace microswarm

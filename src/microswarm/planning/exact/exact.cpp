@@ -11,7 +11,7 @@
 namespace microswarm {
 namespace {
 
-/// The shortest path, with the tangents of former queries.
+/// Finds the shortest path with the tangents kept from earlier queries.
 ShortestPath find_kept(const Snapshot& world, double clearance, Vec2 start, Vec2 goal,
                        const Stop& stop) {
   constexpr std::size_t most_bytes = 256u << 20;
@@ -41,7 +41,7 @@ Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const ExactParams& para
   made.path = std::move(found.points);
   made.counts.iterations = found.expanded;
   made.counts.edge_checks = found.lines;
-  // A free place next to a blocked goal can be behind its wall.
+  // A free point next to a blocked goal can lie behind the wall.
   if (made.status == Status::no_path && distance(made.path.back(), goal) <= params.goal_tolerance)
     made.status = Status::solved;
   return made;

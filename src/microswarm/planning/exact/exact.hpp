@@ -6,10 +6,10 @@
 
 namespace microswarm {
 
-/// Plans the shortest path to the goal itself or, if that is blocked, to a free place next to it;
-/// see planners.hpp for the common interface. The corners of the map are found by the first plan in
-/// it and kept with the map. Arcs are drawn by lines that touch them, 0.1 % longer at most. The
-/// status no_path means that there is none to that place.
+/// Plans the shortest path to the goal or, if the goal is blocked, to a free point next to it;
+/// see planners.hpp for the common interface. The first plan in a map finds its corners, which are
+/// kept with the map. Arcs are replaced by tangent lines, at most 0.1 % longer. The status no_path
+/// is a proof: there is no path to that point.
 Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const ExactParams& params, Rng& rng,
           const Stop& stop = {});
 

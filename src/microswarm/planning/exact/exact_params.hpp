@@ -7,8 +7,8 @@
 
 namespace microswarm {
 
-/// The shortest path there is, or the proof that there is none: tangents between circles of the
-/// clearance around the corners of walls and around discs, joined by arcs. It needs no tuning.
+/// Parameters of the exact planner: the shortest path, or the proof that there is none. The path
+/// consists of tangents between circles of the clearance around corners and discs, and of arcs.
 struct ExactParams {
   static constexpr std::string_view type_name = "exact";
   double clearance = 40;

@@ -7,7 +7,7 @@
 
 namespace microswarm {
 
-/// Where the path from `p` keeps the clearance; nothing without one.
+/// First point of the path from `p` that keeps the clearance; nothing without a path.
 std::optional<Vec2> Route::entry(Vec2 p) const {
   if (!tree_ || !is_finite(p)) return std::nullopt;
   return map_->is_free(p, clearance_) ? p : pushed_free(*map_, p, clearance_);
@@ -26,7 +26,7 @@ Vec2 Route::ahead(Vec2 p, double reach) {
   const double sight = 0.9 * clearance_;
   Vec2 seen = path.front();
   double along = distance(p, seen);
-  constexpr int pieces = 8;  // of what is left of `reach`
+  constexpr int pieces = 8;  // of the remaining reach
   for (std::size_t i = 1; i < path.size() && along < reach; ++i) {
     const Vec2 from = path[i - 1];
     const double length = distance(from, path[i]);

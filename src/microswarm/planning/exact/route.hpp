@@ -8,11 +8,11 @@
 
 namespace microswarm {
 
-/// The shortest paths that lead a swarm to its goal from wherever it is, also from places that have
-/// a little less than the clearance. Not for several threads at once.
+/// Shortest paths of a swarm to its goal from any position, also from positions with slightly less
+/// than the clearance. Not thread-safe.
 class Route {
  public:
-  /// No path from anywhere.
+  /// Without a path from any position.
   Route() = default;
   /// `clearance` [µm] from the walls of the map.
   Route(std::shared_ptr<const Map> map, Vec2 goal, double clearance,
@@ -21,7 +21,7 @@ class Route {
         clearance_(clearance),
         tree_(ShortestPathTree(*map_, goal, clearance, growth)) {}
 
-  /// See ShortestPathTree.
+  /// Sets the stop that ends a search, see ShortestPathTree.
   void stop_with(const Stop& stop) {
     if (tree_) tree_->stop_with(stop);
   }
@@ -29,8 +29,8 @@ class Route {
 
   /// Length of the shortest path from `p` [µm], infinity without one.
   double length_from(Vec2 p);
-  /// The farthest point of that path, at most `reach` µm ahead, that is in sight of `p` past nine
-  /// tenths of the clearance, so around a corner it is ahead too; `p` without a path.
+  /// Farthest point of that path, at most `reach` µm ahead, that is visible from `p` with nine
+  /// tenths of the clearance, so that it moves on at a corner; `p` without a path.
   Vec2 ahead(Vec2 p, double reach);
 
  private:

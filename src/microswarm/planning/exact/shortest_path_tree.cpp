@@ -26,8 +26,8 @@ std::vector<Vec2> ShortestPathTree::path_from(Vec2 p) {
   return path;
 }
 
-/// Looks around the place as far as paths of the length found may lead over what is seen, then
-/// grows the tree until nothing shorter can come.
+/// Looks around `p` as far as a path of the length found so far may bend, then grows the tree
+/// until no shorter path can follow.
 ShortestPathTree::Best ShortestPathTree::best_from(Vec2 p) {
   was_stopped_ = false;
   if (!has_root_ || !is_finite(p) || !map_->is_free(p, clearance_)) return {};
@@ -79,7 +79,7 @@ bool ShortestPathTree::is_free(const TangentSearch::Leaving& leaving, Vec2 p) co
   return map_->is_free(Segment{p - leaving.line.length * leaving.line.along, p}, clearance_);
 }
 
-/// Sees the wheels over which ways of this length may lead, as the tree goes around them.
+/// Marks the wheels that a path of at most this length may touch as seen.
 void ShortestPathTree::look_on(double length) {
   const auto see = [this](std::uint32_t wheel) {
     if (std::exchange(seen_in_[wheel], query_) != query_) seen_.push_back(wheel);
@@ -91,8 +91,8 @@ void ShortestPathTree::look_on(double length) {
   });
 }
 
-/// The shortest path over what is seen and grown so far. A line is computed when its lower bound
-/// comes first, and tested when its length does.
+/// Shortest path over the wheels seen and the tree grown so far. A line is computed when its lower
+/// bound is the minimum, and tested when its length is.
 ShortestPathTree::Best ShortestPathTree::best_over_seen(Vec2 p) {
   constexpr double rounding = 1e-9;
   lines_.clear();

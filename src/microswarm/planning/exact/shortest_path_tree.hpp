@@ -11,47 +11,47 @@
 
 namespace microswarm {
 
-/// Shortest paths of a disc from everywhere to one goal, for one clearance: a tree over the
-/// tangents of the map's corners with its root at the goal. A query looks around its place and
-/// takes the best line to a circle of the tree, which is grown by A* as far as that needs. Not for
-/// several threads at once.
+/// Shortest paths of a disc from any position to one goal, for one clearance: a tree over the
+/// tangents of the map's corners, rooted at the goal. A query looks around its position and takes
+/// the best line to a circle of the tree, which A* grows as far as the query needs. Not
+/// thread-safe.
 class ShortestPathTree {
  public:
-  /// Where the tree is grown first.
+  /// Order in which the tree grows.
   enum class Growth {
-    towards_queries,  ///< for places near each other
-    evenly,           ///< around the root, for places all over the map
+    towards_queries,  ///< for queries near each other
+    evenly,           ///< around the root, for queries all over the map
   };
 
-  /// `map` must outlive it. `clearance` [µm].
+  /// `map` must outlive the tree. `clearance` [µm].
   ShortestPathTree(const Map& map, Vec2 goal, double clearance,
                    Growth growth = Growth::towards_queries);
 
-  /// What tells that growth is to end. The paths of a query that it ends may not be the shortest,
-  /// or there may be none; the tree goes on from there with the next query.
+  /// Sets the stop that ends growth. A query that was stopped may return a longer path or none;
+  /// the next query continues to grow the tree.
   void stop_with(const Stop& stop) { stop_ = stop; }
-  /// Whether it has ended the last query.
+  /// Whether the last query was stopped.
   bool was_stopped() const { return was_stopped_; }
 
-  /// A tree larger than this begins anew with a query that needs it to grow [B]; 256 MB by default.
+  /// Size [B] above which a query that needs growth starts a new tree; 256 MB by default.
   void limit_bytes(std::size_t most) { most_bytes_ = most; }
 
-  /// Length of the shortest path from `p` to the goal [µm]; infinity without one, and where `p` or
-  /// the goal has not the clearance.
+  /// Length of the shortest path from `p` to the goal [µm]; infinity without one, and if `p` or
+  /// the goal lacks the clearance.
   double length_from(Vec2 p);
-  /// That path, in which arcs are replaced by lines around them; empty without one.
+  /// That path [µm], arcs replaced by tangent lines; empty without one.
   std::vector<Vec2> path_from(Vec2 p);
 
  private:
-  /// How a path to the goal begins.
+  /// First line of a path to the goal.
   struct Best {
     double length = infinity;
-    std::uint32_t label = TangentSearch::none;  ///< of the circle it goes to; none: the goal
-    TangentSearch::Leaving line;                ///< from there
+    std::uint32_t label = TangentSearch::none;  ///< of the circle it leads to; none: the goal
+    TangentSearch::Leaving line;                ///< from that circle to the query
   };
-  /// A line from a label's circle to the place that is asked for.
+  /// A line from a label's circle to the position of the query.
   struct Line {
-    double length = 0;  ///< of the path over it, or a lower bound [µm]
+    double length = 0;  ///< of the path over the line, or a lower bound [µm]
     std::uint32_t label = TangentSearch::none;
     bool is_known = false;
     TangentSearch::Leaving line;
@@ -70,13 +70,13 @@ class ShortestPathTree {
   bool has_root_;
   Stop stop_;
   bool was_stopped_ = false;
-  std::optional<TangentSearch> search_;  ///< once a path that bends is asked for
-  Vec2 headed_for_;                      ///< as the tree is grown
+  std::optional<TangentSearch> search_;  ///< from the first query whose path bends
+  Vec2 headed_for_;                      ///< position towards which the tree grows
 
-  std::vector<std::uint32_t> seen_in_;  ///< of each wheel: the query in which it was seen
+  std::vector<std::uint32_t> seen_in_;  ///< by wheel: the query that saw it last
   std::uint32_t query_ = 0;
 
-  // Of the present query.
+  // State of the current query.
   Trapezoids::Look look_;
   std::vector<std::uint32_t> seen_;  ///< wheels
   std::vector<Line> lines_;          ///< from seen wheels, a heap

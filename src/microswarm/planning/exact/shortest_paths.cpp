@@ -42,9 +42,9 @@ ShortestPath ShortestPaths::find(Vec2 start, Vec2 goal, const BodySet& moving, c
   return path;
 }
 
-/// A path to where the search came near the goal.
+/// A path to the point nearest to the goal that the search reached.
 std::vector<Vec2> ShortestPaths::near(Vec2 goal) const {
-  constexpr std::size_t tried = 16;  // of the nearest places
+  constexpr std::size_t tried = 16;  // nearest labels
   const auto labels = search_.labels();
   std::vector<std::uint32_t> near(labels.size());
   std::iota(near.begin(), near.end(), 0);
@@ -62,7 +62,7 @@ std::vector<Vec2> ShortestPaths::near(Vec2 goal) const {
   return best;
 }
 
-/// How far one gets on the straight line to the goal.
+/// End of the free part of the straight line to the goal.
 Vec2 ShortestPaths::walk(Vec2 from, Vec2 goal) const {
   double free = 0, blocked = 1;
   for (int i = 0; i < 20; ++i) {

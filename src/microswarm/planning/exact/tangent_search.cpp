@@ -11,9 +11,9 @@
 namespace microswarm {
 namespace {
 
-constexpr std::uint8_t often = 8;  // visits of a circle by queries
+constexpr std::uint8_t often = 8;  // queries that visit a circle before its hops are settled
 
-/// Takes the wheels of a corner that may be led to and were not seen in this look.
+/// Calls `take` with the wheels of a corner that a line may reach and this look has not seen yet.
 template <class SidesOf, class Take>
 void see(std::uint32_t corner, SidesOf&& sides_of, std::vector<std::uint32_t>& seen,
          std::uint32_t look, Take&& take) {
@@ -49,7 +49,7 @@ TangentSearch::Circle TangentSearch::circle_of(const Corner& corner) const {
            .is_disc = corner.is_disc}};
 }
 
-/// Finds the tangents of a wheel.
+/// Computes the tangents of a wheel.
 void TangentSearch::know(std::uint32_t wheel) {
   const Circle& circle = circles_[wheel / 2];
   Wheel& at = wheels_[wheel];
@@ -68,7 +68,7 @@ void TangentSearch::know(std::uint32_t wheel) {
   if (circle.visits >= often) settle(wheel);
 }
 
-/// Adds the tangent of two wheels if there is one that leaves from a free place.
+/// Adds the tangent of two wheels if it leaves from a free arc.
 void TangentSearch::add_hop(std::uint32_t from, std::uint32_t to) {
   Circle& a = circles_[from / 2];
   const auto line = join(a, sense(from), circles_[to / 2], sense(to));
@@ -99,7 +99,7 @@ void TangentSearch::settle(std::uint32_t wheel) {
   std::erase_if(wheels_[wheel].hops, [&](Hop& hop) { return !test(wheel, hop); });
 }
 
-/// Number of the arc free of walls that holds this place; −1 if none does.
+/// Index of the arc free of walls that contains this angle; −1 if none does.
 int TangentSearch::still_arc_at(Circle& circle, double at) {
   if (!circle.is_cut) {
     circle.is_cut = true;
@@ -108,7 +108,7 @@ int TangentSearch::still_arc_at(Circle& circle, double at) {
   return microswarm::arc_at(circle, at, circle.arcs.of(arcs_));
 }
 
-/// The same for an arc that is free also of moving bodies.
+/// The same for arcs that are free of moving bodies too.
 int TangentSearch::arc_at(Circle& circle, double at) {
   return is_near_moving(circle) ? microswarm::arc_at(circle, at, circle.arcs_now.of(arcs_now_))
                                 : still_arc_at(circle, at);
@@ -121,7 +121,7 @@ TangentSearch::ArcRange TangentSearch::cut(const Circle& circle, const BodySet* 
   return {static_cast<std::uint32_t>(first), static_cast<std::uint16_t>(arcs.size() - first)};
 }
 
-/// Whether a moving body may cut the circle; if so, its present arcs are known afterwards.
+/// Whether a moving body may cut the circle; if so, computes its current arcs.
 bool TangentSearch::is_near_moving(Circle& circle) {
   if (!moving_) return false;
   if (circle.query != query_) {
@@ -187,7 +187,7 @@ void TangentSearch::head_for(Vec2 place) {
   std::make_heap(open_.begin(), open_.end());
 }
 
-/// Opens those over which ways of this length and a little more may lead.
+/// Opens the lines from the start that a path of slightly more than this length may use.
 void TangentSearch::look_from_start(double length) {
   constexpr double more = 1.05;
   corners_->look_on(from_start_, more * length, [&](std::uint32_t corner, auto&& sides) {
@@ -204,7 +204,7 @@ void TangentSearch::open_from_start(std::uint32_t to) {
   push({line->length + left, line->length, none, to, number, true});
 }
 
-/// Whether an earlier label at the wheel comes by at no greater length.
+/// Whether an earlier label at the wheel reaches this one's arrival with no greater length.
 bool TangentSearch::is_dominated(const Label& label) {
   const Circle& circle = circles_[label.wheel / 2];
   const double to = sense(label.wheel);
@@ -219,7 +219,7 @@ bool TangentSearch::is_dominated(const Label& label) {
   return false;
 }
 
-/// Opens what leaves the wheel ahead of where the label arrives.
+/// Opens the lines that leave the wheel ahead of the label's arrival.
 void TangentSearch::expand(std::uint32_t number) {
   const Label label = labels_[number];
   const std::uint32_t corner = label.wheel / 2;
@@ -237,7 +237,7 @@ void TangentSearch::expand(std::uint32_t number) {
 void TangentSearch::expand_hops(const Label& label, std::uint32_t number) {
   Circle& circle = circles_[label.wheel / 2];
   if (!wheels_[label.wheel].is_known) know(label.wheel);
-  const bool is_first =  // of this query at this circle: none of its hops is open
+  const bool is_first =  // visit of this circle in this query: none of its hops is open
       label.next == none && wheel(label.wheel ^ 1).first_label == none;
   if (is_first && circle.visits < often && ++circle.visits == often)
     for (const std::uint32_t either : {label.wheel, label.wheel ^ 1}) settle(either);
@@ -261,7 +261,7 @@ void TangentSearch::expand_hops(const Label& label, std::uint32_t number) {
       hops, [&](const Hop& hop) { return turn * hop.leave < turn * label.arrive - angle_slack; });
   const auto first = static_cast<std::size_t>(ahead - hops.begin());
   for (std::size_t i = first; i < hops.size(); ++i) consider(i);
-  if (circle.is_disc)  // once around
+  if (circle.is_disc)  // a full turn
     for (std::size_t i = 0; i < first; ++i) consider(i);
 }
 
@@ -322,7 +322,7 @@ std::optional<std::uint32_t> TangentSearch::next(double most) {
   return std::nullopt;
 }
 
-/// The label of an open line; false if the line is not free or a better one was found.
+/// Makes the label of an open line; false if the line is not free or a better one was found.
 bool TangentSearch::take(const Open& open, Label& label) {
   const std::uint32_t leaves = open.parent == none ? none : labels_[open.parent].wheel;
   if (!open.is_guess) {
@@ -388,7 +388,7 @@ void TangentSearch::add(Vec2 p, std::vector<Vec2>& path) const {
   if (distance(p, path.back()) > 0.01 * margin_) path.push_back(p);
 }
 
-/// Adds lines around the arc, each of which touches it.
+/// Adds tangent lines around the arc.
 void TangentSearch::draw_arc(const Circle& circle, double sense, double from, double to,
                              std::vector<Vec2>& points) const {
   const double angle = circle.way_around(sense, from, to);

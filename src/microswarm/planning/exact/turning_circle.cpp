@@ -9,7 +9,7 @@
 namespace microswarm {
 namespace {
 
-/// [0, 2π).
+/// The angle in [0, 2π).
 double positive(double angle) {
   while (angle < 0) angle += 2 * pi;
   while (angle >= 2 * pi) angle -= 2 * pi;
@@ -45,7 +45,7 @@ std::optional<TangentLine> tangent(const TurningCircle& a, double sense_a, const
   const double offset = sense_b * b.radius - sense_a * a.radius;
   const double inner = apart2 - offset * offset;
   const double apart = std::sqrt(apart2);
-  // A place on a circle may lie in it by a rounding error.
+  // Rounding may put a point on a circle inside it.
   if (apart == 0 || (inner < 0 && std::abs(offset) > apart + margin)) return std::nullopt;
   TangentLine line;
   line.length = std::sqrt(std::max(0.0, inner));
@@ -58,8 +58,8 @@ std::optional<TangentLine> tangent(const TurningCircle& a, double sense_a, const
   return line;
 }
 
-// Cuts the circle where its distance to a wall, a body or the border is the clearance, and keeps
-// the pieces that are free in the middle.
+// Cuts the circle where its distance to a wall, a body or the border equals the clearance, and
+// keeps the pieces whose middle is free.
 void add_free_arcs(const TurningCircle& circle, const Map& map, const BodySet* moving,
                    double clearance, double margin, std::vector<Arc>& arcs) {
   std::vector<double> cuts{0, circle.width};
@@ -70,7 +70,7 @@ void add_free_arcs(const TurningCircle& circle, const Map& map, const BodySet* m
     const double angle = positive(heading_of(n) - circle.from);
     if (angle < circle.width) cuts.push_back(angle);
   };
-  const auto cut_by_line = [&](Vec2 a, Vec2 u, double shift) {  // a + t u, moved to the left
+  const auto cut_by_line = [&](Vec2 a, Vec2 u, double shift) {  // a + t u, shifted to the left
     const Vec2 o = a + shift * perpendicular(u) - c;
     const double b = dot(o, u);
     const double root = b * b - squared_norm(o) + r * r;
@@ -121,7 +121,7 @@ void add_free_arcs(const TurningCircle& circle, const Map& map, const BodySet* m
     else
       arcs.push_back({cuts[i], cuts[i + 1]});
   }
-  // The arc over 0 of a disc begins before it.
+  // The arc of a disc that spans angle 0 begins before it.
   const bool is_cut = circle.is_disc && arcs.size() > first + 1 && arcs[first].from == 0 &&
                       arcs.back().to == circle.width;
   if (is_cut) {
