@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Aravis for genicam_*.cpp alone: its headers and GLib's macros go no further.
+// Aravis for genicam_*.cpp only, so that its headers and GLib's macros stay in these files.
 
 #include <arv.h>
 
@@ -18,13 +18,13 @@
 
 namespace microswarm {
 
-/// Gives an object of GLib back.
+/// Deleter that releases a reference to a GLib object.
 struct Release {
   void operator()(gpointer object) const { g_object_unref(object); }
 };
 template <class T>
 using Owned = std::unique_ptr<T, Release>;
-/// Keeps GLib's log of Aravis, which has no domain, away from the terminal.
+/// Suppresses Aravis's messages in GLib's log, which have no domain.
 class QuietLog {
  public:
   QuietLog()
@@ -39,7 +39,7 @@ class QuietLog {
   guint handler_;
 };
 
-/// What Aravis complains of in one call.
+/// The error of one call of Aravis.
 class Complaint {
  public:
   Complaint() = default;
@@ -54,10 +54,10 @@ class Complaint {
   GError* error_ = nullptr;
 };
 
-/// A text of Aravis as one line; empty for none.
+/// A text of Aravis as one line; empty for null.
 inline std::string text_of(const char* text) { return text ? one_line(text) : ""; }
 
-/// An open camera, which is asked by functions of Aravis.
+/// An open camera and the calls of Aravis on it.
 class Features {
  public:
   Features(std::string name, Owned<ArvCamera> camera)
@@ -66,7 +66,7 @@ class Features {
   ArvCamera* camera() const { return camera_.get(); }
   [[noreturn]] void fail(const std::string& why) const { throw HardwareError(name_ + ": " + why); }
 
-  /// Calls a function of Aravis, whose last argument is the place for a complaint.
+  /// Calls a function of Aravis, whose last argument is the error.
   template <class F, class... Arguments>
   auto ask(const char* what, F function, Arguments... arguments) const {
     Complaint complaint;
@@ -92,16 +92,16 @@ class Features {
   Owned<ArvCamera> camera_;
 };
 
-/// Data of an Aravis format; nothing for one that is not read.
+/// Our format of an Aravis format; nothing if it is not supported.
 std::optional<PixelFormat> data_of(ArvPixelFormat code);
-/// Codes of the formats that the camera offers.
+/// Codes of the formats that the camera supports.
 std::vector<ArvPixelFormat> offered_codes(const Features& camera);
-/// Their names, in the same order.
+/// Names of these formats, in the same order.
 std::vector<std::string> offered_names(const Features& camera);
-/// "1x1..2048x2048": the sizes that it offers.
+/// Sizes that the camera supports: "1x1..2048x2048".
 std::string offered_sizes(const Features& camera);
 
-/// Part of the sensor that is read: the size of the pictures.
+/// Part of the sensor that is read; its size is that of the pictures [px].
 struct Region {
   gint x = 0;
   gint y = 0;
@@ -109,15 +109,15 @@ struct Region {
   gint height = 0;
   bool operator==(const Region&) const = default;
 };
-/// "320x240 at 0,0".
+/// The region as text: "320x240 at 0,0".
 std::string text_of(const Region& region);
-/// The region that the camera has.
+/// The camera's current region.
 Region region_of(const Features& camera);
 
-/// Sets what is given and lets pictures come at the camera's own pace. Throws HardwareError for
-/// what it does not take.
+/// Applies the given settings and selects free-running acquisition. Throws HardwareError for a
+/// setting that the camera refuses.
 void apply(const GenicamParams& params, const Features& camera);
-/// The rate at which pictures come [Hz], where the camera tells.
+/// Frame rate [Hz], if the camera reports it.
 std::optional<double> rate_of(const Features& camera, bool was_set);
 
 }  // namespace microswarm

@@ -14,7 +14,7 @@
 namespace microswarm {
 namespace {
 
-constexpr double longest_pause = 5;     // [s] between pictures, beyond their exposure
+constexpr double longest_pause = 5;     // [s] between pictures, in addition to the exposure
 constexpr int max_damaged_frames = 10;  // in a row
 
 std::unique_ptr<CameraDevice> open_device(const CameraParams& p) {
@@ -58,7 +58,7 @@ class Camera : public FrameSource {
   std::optional<double> rate() const override { return device_->rate(); }
 
  private:
-  /// What is wrong with the data; empty when they became a picture.
+  /// Decodes the data; returns why it failed, empty on success.
   static std::string take(const RawPicture& raw, Image& picture) {
     if (!raw.damage.empty()) return "the last: " + std::string(raw.damage);
     try {

@@ -11,20 +11,20 @@
 
 namespace microswarm {
 
-/// Settings of a camera, whatever its kind.
+/// Settings of a camera of any kind.
 using AnyCameraParams = std::variant<CameraParams, GenicamParams>;
 
-/// Name of the camera in messages, as commands take it: "/dev/video0", "genicam:ID".
+/// Name of the camera in messages and commands: "/dev/video0", "genicam:ID".
 std::string device_name(const AnyCameraParams& params);
 
-/// Opens a camera whose pictures come one by one, each waited for. The rate that the camera really
-/// has is `rate()` of the source. Throws HardwareError "DEVICE: WHY" when there is no such device,
-/// it is no camera or in use, or it does not take a setting; next() does so when it is unplugged,
-/// gives no picture for 5 s beyond its exposure, or ten damaged ones in a row. Throws InputError
-/// for a GenICam camera in a build without Aravis.
+/// Opens a camera as a source whose next() waits for a picture; rate() returns the actual rate.
+/// Throws HardwareError "DEVICE: WHY" if the device does not exist, is no camera, is in use or
+/// refuses a setting; next() throws it if the camera is unplugged, delivers no picture for 5 s
+/// beyond its exposure, or ten damaged ones in a row. Throws InputError for a GenICam camera in a
+/// build without Aravis.
 std::unique_ptr<FrameSource> open_camera(const AnyCameraParams& params);
 
-/// A camera whose newest frame is at hand; errors as above.
+/// Opens a camera that keeps its newest frame available; errors as above.
 NewestFrame live_camera(const AnyCameraParams& params);
 
 }  // namespace microswarm

@@ -10,7 +10,7 @@
 
 namespace microswarm {
 
-/// An open camera whose stream has started, of whatever kind.
+/// An open camera whose stream has started.
 class CameraDevice {
  public:
   explicit CameraDevice(std::string name) : name_(std::move(name)) {}
@@ -22,11 +22,10 @@ class CameraDevice {
   /// Throws HardwareError "NAME: WHY".
   [[noreturn]] void fail(const std::string& why) const { throw HardwareError(name_ + ": " + why); }
 
-  /// Rate that the camera really has [Hz], if it tells.
+  /// Actual frame rate [Hz], if the camera reports it.
   virtual std::optional<double> rate() const = 0;
-  /// The next picture's data, or what is wrong with them, after waiting for up to `seconds`;
-  /// nothing when none came. They are valid until the next call. Throws HardwareError when the
-  /// camera is gone.
+  /// Waits up to `seconds` for the next picture's data, which may be marked as damaged; nothing on
+  /// timeout. The data is valid until the next call. Throws HardwareError if the camera is gone.
   virtual std::optional<RawPicture> take(double seconds) = 0;
 
  private:

@@ -11,7 +11,7 @@
 
 namespace microswarm {
 
-/// Part of a camera's sensor, in its pixels.
+/// Part of a camera's sensor [px].
 struct SensorRegion {
   int x = 0;
   int y = 0;
@@ -27,7 +27,7 @@ struct SensorRegion {
   }
 };
 
-/// Settings of a camera on V4L2.
+/// Settings of a V4L2 camera.
 struct CameraParams {
   static constexpr std::string_view type_name = "v4l2";
   std::string device = "/dev/video0";

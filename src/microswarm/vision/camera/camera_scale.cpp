@@ -11,7 +11,7 @@
 
 namespace microswarm {
 
-/// Least squares of place = c · at + d in complex numbers, where `at` has its y turned up.
+/// Least squares of position = c · at + d in complex numbers, with the y axis of `at` pointing up.
 FittedScale fit_scale(std::span<const ScalePoint> points, bool y_up) {
   const auto turned = [&](Vec2 p) { return Vec2{p.x, y_up ? -p.y : p.y}; };
   const auto n = static_cast<double>(points.size());
@@ -35,7 +35,7 @@ FittedScale fit_scale(std::span<const ScalePoint> points, bool y_up) {
     throw InputError("scale: two different points are needed");
   FittedScale fit{
       .scale = {.um_per_px = um_per_px, .rotation = heading_of({along, across}), .y_up = y_up}};
-  // The origin is where to_picture(middle) falls on middle_px.
+  // The origin follows from to_picture(middle) = middle_px.
   fit.scale.origin_px = middle_px - fit.scale.to_picture(middle);
   double squares = 0;
   fit.residuals.reserve(points.size());
@@ -59,7 +59,7 @@ CameraScale scale_of_distance(Vec2 a_px, Vec2 b_px, double distance_um, int heig
   if (!(scale.um_per_px >= 1e-6 && scale.um_per_px <= 1e6))
     throw InputError("scale: " + number_text(scale.um_per_px) + " µm a pixel, allowed 1e-6..1e6");
   scale.y_up = y_up;
-  if (!y_up) scale.origin_px.y = -0.5;  // y goes down from the upper edge
+  if (!y_up) scale.origin_px.y = -0.5;  // y points down from the upper edge
   if (origin_px) scale.origin_px = *origin_px;
   return scale;
 }

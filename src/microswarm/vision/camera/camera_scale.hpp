@@ -10,13 +10,13 @@
 
 namespace microswarm {
 
-/// Where a camera sees the world: a similarity between pixels (x right, y down, (0, 0) is the
-/// middle of the first pixel) and world [µm].
+/// Pose and scale of a camera: a similarity between pixels (x right, y down, (0, 0) is the middle
+/// of the first pixel) and world [µm].
 struct CameraScale {
   double um_per_px = 1;
-  double rotation = 0;  ///< of the picture's x axis, seen in the world [rad]
-  bool y_up = true;     ///< up in the picture is up in the world; false for a mirrored picture
-  Vec2 origin_px;       ///< where the world's origin is
+  double rotation = 0;  ///< angle of the picture's x axis in the world [rad]
+  bool y_up = true;     ///< the picture's up is the world's up; false for a mirrored picture
+  Vec2 origin_px;       ///< pixel of the world's origin
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
@@ -27,32 +27,32 @@ struct CameraScale {
     visit(self.origin_px, px("origin", -1e6, 1e6, "World origin in the image, x right, y down."));
   }
 
-  /// World place [µm] of a point in the picture.
+  /// World position [µm] of a pixel position.
   Vec2 to_world(Vec2 at_px) const { return direction_to_world(at_px - origin_px); }
-  /// The point in the picture of a world place.
+  /// Pixel position of a world position [µm].
   Vec2 to_picture(Vec2 place) const {
     const Vec2 way = rotated(place, -rotation) / um_per_px;
     return origin_px + Vec2{way.x, y_up ? -way.y : way.y};
   }
-  /// A way in the picture as one in the world [µm].
+  /// World displacement [µm] of a displacement in pixels.
   Vec2 direction_to_world(Vec2 distance_px) const {
     return um_per_px * rotated({distance_px.x, y_up ? -distance_px.y : distance_px.y}, rotation);
   }
 };
 
-/// A picture of `height` pixels whose lower left corner is the world's origin, as maps lie
-/// (formats/mask.hpp).
+/// Scale of a picture of `height` pixels whose lower left corner is the world's origin, as that of
+/// maps (formats/mask.hpp).
 inline CameraScale upright_scale(int height, double um_per_px) {
   return {.um_per_px = um_per_px, .origin_px = {-0.5, height - 0.5}};
 }
 
-/// A point in the picture and its world place [µm].
+/// A pixel position and its world position [µm].
 struct ScalePoint {
   Vec2 at_px;
   Vec2 place;
 };
 
-/// A fitted scale and how far the points are from it.
+/// A fitted scale and the residuals of its points.
 struct FittedScale {
   CameraScale scale;
   std::vector<double> residuals;  ///< of each point [µm]
@@ -60,17 +60,17 @@ struct FittedScale {
   double worst = 0;               ///< [µm]
 };
 
-/// The similarity that fits two points or more by least squares. Throws InputError when all points
-/// are at one place.
+/// Fits a similarity to two or more points by least squares. Throws InputError if all points
+/// coincide.
 FittedScale fit_scale(std::span<const ScalePoint> points, bool y_up = true);
 
-/// The scale from two points whose distance [µm] is known; the axes of world and picture are
-/// parallel. The origin is at `origin_px`, or at the lower left corner of a picture of `height`
-/// pixels. Throws InputError when the points are one, or the distance is not above 0.
+/// Scale from two points of known distance [µm]; the axes of world and picture are parallel. The
+/// origin is at `origin_px`, or at the lower left corner of a picture of `height` pixels. Throws
+/// InputError if the points coincide or the distance is not positive.
 CameraScale scale_of_distance(Vec2 a_px, Vec2 b_px, double distance, int height,
                               std::optional<Vec2> origin_px = std::nullopt, bool y_up = true);
 
-/// A polygon in the picture as one in the world [µm], turned as Polygon asks for.
+/// Converts a polygon from pixels to the world [µm], with the orientation that Polygon requires.
 Polygon polygon_in_world(const Polygon& in_picture, const CameraScale& scale);
 
 }  // namespace microswarm

@@ -94,14 +94,14 @@ bool is_tiff(const fs::path& file) {
   return extension == ".tif" || extension == ".tiff";
 }
 
-/// The next page; the first one that needs a depth sets it.
+/// Reads the next page; the first page that needs a depth sets it.
 void take_page(TiffPages& pages, std::optional<int>& depth, Image& picture) {
   const cv::Mat page = pages.next();
   if (!depth && page.depth() == CV_16U) depth = depth_of(page);
   take_pixels(page, depth.value_or(16), picture);
 }
 
-/// The only picture of a TIFF; a folder has one picture a file.
+/// Reads the only picture of a TIFF; in a folder a file holds one picture.
 void read_only_page(const fs::path& file, std::optional<int>& depth, Image& picture) {
   TiffPages pages(file);
   if (pages.count() > 1)

@@ -17,34 +17,33 @@ namespace microswarm {
 /// A picture of a video.
 struct VideoFrame {
   int index = 0;  ///< from 0
-  double t = 0;   ///< [s] since the first
-  Image picture;  ///< grey or in colours
+  double t = 0;   ///< time since the first [s]
+  Image picture;  ///< grey or colour
 };
 
-/// Where pictures come from, one after the other. All have the same size. What shall see by another
-/// eye, as a camera, derives from this.
+/// A sequence of pictures of one size: a video, a folder, a camera. Derive from it to add a source.
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
 
-  /// The next picture into `frame`, whose memory is used again; false at the end, and from one on
-  /// that cannot be read or has another size than the first. Throws InputError "SOURCE: WHY" if
-  /// that is the first one.
+  /// Reads the next picture into `frame`, reusing its memory; false at the end, and from the first
+  /// picture on that cannot be read or differs in size. Throws InputError "SOURCE: WHY" if already
+  /// the first one cannot be read.
   virtual bool next(VideoFrame& frame) = 0;
-  /// Why it ended before its last picture, "SOURCE: WHY"; empty if it did not.
+  /// Why the source ended before its last picture, "SOURCE: WHY"; empty if it did not.
   virtual std::string why_ended() const { return {}; }
-  /// Pictures in all, where that is known beforehand; a video file may hold fewer.
+  /// Number of pictures, if known in advance; a video file may hold fewer.
   virtual std::optional<int> count() const = 0;
-  /// Pictures a second, where the source tells.
+  /// Frame rate [Hz], if the source reports it.
   virtual std::optional<double> rate() const = 0;
 };
 
 /// Opens a video file, a folder of pictures (PNG, JPEG, BMP, TIFF, PGM, PPM; in the order of the
-/// last number in their names) or a TIFF of many pictures. `rate` [1/s] is taken in place of the
-/// source's; one that tells none, as a folder, has one picture a second. 16-bit samples of PNG and
-/// TIFF are numbers of `depth` bits, 8 to 16, by default as many as the first picture needs; all
-/// pictures are scaled to 8 bits alike, and what is larger becomes white. Throws InputError
-/// "SOURCE: WHY" when there is no picture or nothing that can be read.
+/// last number in their names) or a TIFF of many pictures. `rate` [1/s] overrides the source's; the
+/// default of a source without a rate, such as a folder, is 1/s. 16-bit samples of PNG and TIFF are
+/// numbers of `depth` bits, 8 to 16, by default as many as the first picture needs; all pictures
+/// are scaled to 8 bits by the same factor, and larger values become white. Throws InputError
+/// "SOURCE: WHY" if there is no readable picture.
 std::unique_ptr<FrameSource> open_frames(const std::filesystem::path& source,
                                          std::optional<double> rate = std::nullopt,
                                          std::optional<int> depth = std::nullopt);
@@ -58,8 +57,8 @@ constexpr auto enum_names(VideoChannel) {
                                                                    {VideoChannel::blue, "blue"}}};
 }
 
-/// One channel of a picture into `grey`, whose memory is used again; a grey picture is all its
-/// channels.
+/// Copies one channel of a picture into `grey`, reusing its memory; a grey picture serves as each
+/// channel.
 void take_channel(const Image& picture, VideoChannel channel, Image& grey);
 
 }  // namespace microswarm

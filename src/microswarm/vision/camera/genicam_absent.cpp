@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In place of genicam_device.cpp in a build without Aravis.
+// Replaces genicam_device.cpp in a build without Aravis.
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/vision/camera/genicam_device.hpp"
 

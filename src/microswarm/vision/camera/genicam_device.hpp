@@ -11,22 +11,22 @@
 namespace microswarm {
 
 /// Opens a GenICam camera through Aravis and starts its stream. Finding it takes about a second.
-/// Throws HardwareError "genicam:ID: WHY" when there is no such camera, it is in use, or it does
-/// not take a setting; InputError when this build is without Aravis. While it is open, what Aravis
-/// says by GLib's log is not printed.
+/// Throws HardwareError "genicam:ID: WHY" if there is no such camera, it is in use or it refuses a
+/// setting; InputError in a build without Aravis. While a camera is open, Aravis's messages in
+/// GLib's log are suppressed.
 std::unique_ptr<CameraDevice> open_genicam(const GenicamParams& params);
 
-/// The GenICam cameras that are found on the networks and at USB, without simulated ones; none when
-/// this build is without Aravis.
+/// Lists the GenICam cameras on the networks and at USB, without simulated ones; none in a build
+/// without Aravis.
 std::vector<ListedCamera> list_genicam_cameras();
 
-/// What the module of Aravis does.
+/// Interface of the module that is linked with Aravis.
 class GenicamCameras {
  public:
   virtual ~GenicamCameras() = default;
-  /// As open_genicam.
+  /// See open_genicam.
   virtual std::unique_ptr<CameraDevice> open(const GenicamParams& params) const = 0;
-  /// As list_genicam_cameras.
+  /// See list_genicam_cameras.
   virtual std::vector<ListedCamera> list() const = 0;
 };
 

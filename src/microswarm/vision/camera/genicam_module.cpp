@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// libmicroswarm_genicam.so: all that is linked with Aravis.
+// libmicroswarm_genicam.so, the only part that is linked with Aravis.
 #include "microswarm/vision/camera/genicam_device.hpp"
 
 #include <algorithm>
@@ -13,9 +13,9 @@ namespace microswarm {
 namespace {
 
 constexpr int buffers = 8;
-constexpr double slice = 0.05;  // [s] of a wait, between looks at whether the camera is lost
+constexpr double slice = 0.05;  // [s] between two checks for a lost camera during a wait
 
-/// A device of Aravis's list.
+/// A device in Aravis's list.
 struct FoundDevice {
   std::string id;
   std::string model;
@@ -38,7 +38,7 @@ std::string list_of(const std::vector<FoundDevice>& devices) {
   for (const FoundDevice& device : devices) list += (list.empty() ? "" : ", ") + device.id;
   return list.empty() ? "none" : list;
 }
-/// The id of the first camera that is found.
+/// Id of the first camera found.
 std::string first_id() {
   const std::vector<FoundDevice> found = found_devices();
   if (found.empty()) throw HardwareError("genicam: no GenICam camera was found");
@@ -111,7 +111,7 @@ class GenicamDevice : public CameraDevice {
     ArvDevice* const device = arv_camera_get_device(device_.camera());
     if (ARV_IS_GV_DEVICE(device) && arv_gv_device_is_controller(ARV_GV_DEVICE(device)) == 0)
       fail("is in use by another program");
-    // The signal comes in a thread of Aravis, maybe while this object ends.
+    // The signal arrives in a thread of Aravis, possibly during this object's destruction.
     g_signal_connect_data(
         device, "control-lost", reinterpret_cast<GCallback>(+[](ArvDevice*, gpointer lost) {
           **static_cast<Flag*>(lost) = true;
@@ -135,7 +135,7 @@ class GenicamDevice : public CameraDevice {
     device_.ask("start", arv_camera_start_acquisition);
   }
 
-  /// The data in the buffer that was taken.
+  /// The data of the current buffer.
   RawPicture picture() const {
     RawPicture raw{.format = *data_of(code_),
                    .width = form_.width,
@@ -219,7 +219,7 @@ class AravisCameras : public GenicamCameras {
 }  // namespace
 }  // namespace microswarm
 
-/// What open_genicam looks up.
+/// Symbol that open_genicam looks up.
 extern "C" const microswarm::GenicamCameras* microswarm_genicam() {
   static const microswarm::AravisCameras only;
   return &only;

@@ -13,7 +13,7 @@
 
 namespace microswarm {
 
-/// Formats of a GenICam camera's data that can be read, by their names in GenICam's standard.
+/// Supported pixel formats of GenICam cameras, named as in GenICam's standard.
 enum class GenicamFormat {
   mono8,
   mono10,
@@ -44,8 +44,8 @@ constexpr auto enum_names(GenicamFormat) {
        {GenicamFormat::yuv422_8_uyvy, "YUV422_8_UYVY"}}};
 }
 
-/// Settings of a GenICam camera (GigE Vision, USB3 Vision). What is not given stays as the camera
-/// has it. Pictures come at the camera's own pace: triggers are switched off.
+/// Settings of a GenICam camera (GigE Vision, USB3 Vision). Settings that are not given stay
+/// unchanged in the camera. It runs freely: triggers are switched off.
 struct GenicamParams {
   static constexpr std::string_view type_name = "genicam";
   std::string device;
@@ -78,7 +78,7 @@ struct GenicamParams {
   }
 };
 
-/// Whether it is the camera of tests that Aravis simulates: "Fake_1". It is only found by this id.
+/// Whether these are settings of Aravis's simulated test camera "Fake_1", found by this id only.
 inline bool is_fake(const GenicamParams& params) { return params.device.starts_with("Fake_"); }
 
 }  // namespace microswarm

@@ -7,9 +7,9 @@
 namespace microswarm {
 namespace {
 
-constexpr double tolerance = 0.05;  // relative, of a value that the camera rounds
+constexpr double tolerance = 0.05;  // relative, for values that the camera rounds
 
-/// A format of ours, of Aravis, and of the data.
+/// A format: our name, Aravis's code, layout of the data.
 struct KnownFormat {
   GenicamFormat format;
   ArvPixelFormat code;
@@ -65,7 +65,7 @@ void set_format(const Features& device, std::optional<GenicamFormat> wanted) {
         ", which is not read, see pixel_format; its formats are: " + offered_formats(device));
 }
 
-/// A whole number of the camera and what it takes.
+/// An integer setting of the camera and its admissible values.
 struct Measure {
   const char* key;
   void (*bounds)(ArvCamera*, gint*, gint*, GError**);
@@ -99,7 +99,7 @@ void set_region(const Features& device, const GenicamParams& p) {
   const Region before = region_of(device);
   const Region wanted{p.x.value_or(before.x), p.y.value_or(before.y),
                       p.width.value_or(before.width), p.height.value_or(before.height)};
-  // The largest size depends on the place, and the other way round.
+  // The maximum size depends on the offset, and vice versa.
   if (moves && before != wanted)
     device.ask("region", arv_camera_set_region, 0, 0, before.width, before.height);
   check(device, width_limits, p.width);
@@ -115,11 +115,11 @@ void set_region(const Features& device, const GenicamParams& p) {
     device.fail("reads the region " + text_of(has) + ", asked for was " + text_of(wanted));
 }
 
-/// A setting with a number that the camera takes, or chooses by itself.
+/// A numerical setting that can be given or automatic.
 struct Adjustable {
   const char* key;
   const char* noun;
-  double steps;  ///< of the camera in a unit of the key
+  double steps;  ///< camera's steps in one unit of the key
   gboolean (*is_there)(ArvCamera*, GError**);
   void (*bounds)(ArvCamera*, double*, double*, GError**);
   void (*set)(ArvCamera*, double, GError**);
@@ -164,7 +164,7 @@ void adjust(const Features& device, const Adjustable& what, std::optional<double
   double least = 0;
   double most = 0;
   device.ask(what.key, what.bounds, &least, &most);
-  // Aravis would hand on what is out of range.
+  // Aravis does not check the range.
   if (value < least || value > most)
     device.fail(key + ": is " + text(value) + ", it takes " + text(least) + ".." + text(most));
   device.ask(what.key, what.set, value);
@@ -173,7 +173,7 @@ void adjust(const Features& device, const Adjustable& what, std::optional<double
     device.fail(key + ": it takes " + text(has) + " in place of " + text(value));
 }
 
-/// Lets pictures come one after the other at the camera's own pace.
+/// Selects continuous, free-running acquisition.
 void run_freely(const Features& device) {
   if (device.has("AcquisitionMode"))
     device.ask("acquisition mode", arv_camera_set_acquisition_mode,

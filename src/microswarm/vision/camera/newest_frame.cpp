@@ -25,7 +25,7 @@ bool is_black(const Pixels& pixels, int below) {
   return std::all_of(pixels.begin(), pixels.end(), [&](std::uint8_t g) { return g < below; });
 }
 
-/// Fingerprint of a picture, eight bytes at a time.
+/// Hash of a picture, computed in steps of eight bytes.
 std::uint64_t fingerprint(const Pixels& pixels) {
   std::uint64_t digest = pixels.size();
   const auto mix = [&](std::uint64_t word) {
@@ -41,11 +41,11 @@ std::uint64_t fingerprint(const Pixels& pixels) {
   return digest;
 }
 
-/// The last pictures, to notice one that comes again: a ring of buffers that got stuck shows a few
-/// in turn. No camera gives the same picture twice.
+/// Hashes of the last pictures, to detect repetition: a ring of buffers that is stuck shows a few
+/// pictures in turn. A working camera never delivers the same picture twice.
 class PastPictures {
  public:
-  /// Whether the picture is one of the last; it is one of them from now on.
+  /// Whether the picture equals one of the last; then adds it to them.
   bool has(const Pixels& pixels) {
     const std::uint64_t digest = fingerprint(pixels);
     const auto end = past_.begin() + std::min<std::ptrdiff_t>(count_, std::ssize(past_));
@@ -61,26 +61,26 @@ class PastPictures {
 
 }  // namespace
 
-/// What the thread and its owner share; it lives as long as either.
+/// State shared by the thread and its owner; it lives as long as either.
 struct NewestFrame::Shared {
   mutable std::mutex mutex;
   std::condition_variable changed;
   bool closing = false;
-  bool done = false;   ///< the thread is about to end
-  bool ended = false;  ///< the source has no more
+  bool done = false;   ///< whether the thread is about to end
+  bool ended = false;  ///< whether the source has no more pictures
   std::string error;   ///< why it failed
   std::string why_ended;
   double began = steady_seconds();
   LiveFrame newest;
-  bool fresh = false;  ///< nobody took the newest yet
+  bool fresh = false;  ///< whether the newest was not taken yet
   int frames = 0;
   int dropped = 0;
   double silent_after = 1;  ///< [s]
-  int same = 0;             ///< pictures in a row that had come before
+  int same = 0;             ///< consecutive pictures that are repetitions
   bool black = false;
   FrameListener heard;
 
-  /// The mutex is held.
+  /// To be called with the mutex held.
   CameraStatus status(const std::string& name, const NewestFrameParams& p) const {
     CameraStatus s{.frames = frames,
                    .dropped = dropped,
@@ -152,7 +152,7 @@ struct NewestFrame::Shared {
       error = why;
       changed.notify_all();
     }
-    source.reset();  // may take long, as a camera's close
+    source.reset();  // closing a camera may take long
     const std::lock_guard lock(mutex);
     done = true;
     changed.notify_all();
@@ -165,7 +165,7 @@ NewestFrame::NewestFrame(std::unique_ptr<FrameSource> source, std::string name,
   shared_->heard = std::move(heard);
   const double three_frames = 3 / source->rate().value_or(infinity);
   shared_->silent_after = params.silent_after.value_or(std::max(1.0, three_frames));
-  // Detached, because a device that hangs must not hang its owner: the thread keeps what it needs.
+  // Detached, because a device that hangs must not block its owner; the thread owns its state.
   std::thread([shared = shared_, source = std::move(source), below = params.black_below]() mutable {
     shared->run(std::move(source), below);
   }).detach();

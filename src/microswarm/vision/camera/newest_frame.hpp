@@ -15,15 +15,15 @@
 
 namespace microswarm {
 
-/// What comes from a camera by now.
+/// State of a camera's stream.
 enum class CameraState {
   opening,  ///< no picture yet
   live,
   black,   ///< pictures without light
-  frozen,  ///< the same pictures again and again
+  frozen,  ///< the same pictures repeatedly
   silent,  ///< no picture for too long
-  ended,   ///< the source has no more, as a file at its end
-  failed,  ///< unplugged, or it cannot be read any more
+  ended,   ///< the source has no more pictures, as at the end of a file
+  failed,  ///< unplugged or unreadable
 };
 constexpr auto enum_names(CameraState) {
   return std::array<std::pair<CameraState, std::string_view>, 7>{{{CameraState::opening, "opening"},
@@ -52,44 +52,43 @@ struct NewestFrameParams {
   }
 };
 
-/// A frame and when it came.
+/// A frame and its time of arrival.
 struct LiveFrame {
   VideoFrame frame;
-  double taken = 0;  ///< when it reached the program [s], by steady_seconds()
+  double taken = 0;  ///< time of arrival in the program [s], by steady_seconds()
 };
 
-/// Hears of every frame with the time at which it reached the program [s], by steady_seconds().
+/// Called for every frame with its time of arrival [s], by steady_seconds().
 using FrameListener = std::function<void(const VideoFrame& frame, double taken)>;
 
-/// How a camera does.
+/// State and statistics of a camera's stream.
 struct CameraStatus {
   CameraState state = CameraState::opening;
-  int frames = 0;   ///< that came so far
-  int dropped = 0;  ///< of these, that nobody took before the next one came
-  double age = 0;   ///< of the newest [s], before the first since the start
-  std::string why;  ///< one line for people, when silent, failed, or ended before its end
+  int frames = 0;   ///< received so far
+  int dropped = 0;  ///< of these, replaced before they were taken
+  double age = 0;   ///< of the newest frame [s]; before the first one, time since the start
+  std::string why;  ///< reason in one line if silent, failed or ended early
 };
 
-/// Fetches frames in a thread of its own, so that whoever needs one gets the newest at once: older
-/// ones are dropped and counted. Safe to use from several threads.
+/// Fetches frames in a thread of its own and keeps the newest; older ones are dropped and counted.
+/// Thread-safe.
 class NewestFrame {
  public:
-  /// `name` stands before the complaint that it is silent; what the source throws names it itself.
-  /// `heard` is called in the camera's thread, also after this object's end until the source comes
-  /// back.
+  /// `name` prefixes the message that the camera is silent; the source's own errors name it
+  /// already. `heard` is called in the camera's thread, after this object's destruction too if the
+  /// source is still busy then.
   NewestFrame(std::unique_ptr<FrameSource> source, std::string name,
               const NewestFrameParams& params = {}, FrameListener heard = {});
-  /// Returns within a second, even when the source never does; it is then given up when it does.
+  /// Returns within a second. A source that still blocks is abandoned and closed when it returns.
   ~NewestFrame();
   NewestFrame(const NewestFrame&) = delete;
   NewestFrame& operator=(const NewestFrame&) = delete;
 
-  /// The newest frame into `frame`, whose memory is used again; false when it was taken already, or
-  /// none has come. Throws HardwareError "NAME: WHY" when the source failed, and while it is
-  /// silent.
+  /// Moves the newest frame into `frame`, reusing its memory; false if it was taken already or none
+  /// has arrived. Throws HardwareError "NAME: WHY" if the source failed, and while it is silent.
   bool take(LiveFrame& frame) { return wait(frame, 0); }
-  /// The same, after waiting for up to `seconds` for a frame that came at `since` or later [s], by
-  /// steady_seconds(); without one, the newest is taken as it is.
+  /// The same after waiting up to `seconds` for a frame that arrived at `since` or later [s], by
+  /// steady_seconds(); on timeout it takes the newest.
   bool wait(LiveFrame& frame, double seconds, double since = -infinity);
 
   CameraStatus status() const;

@@ -44,7 +44,7 @@ std::size_t bytes_of_pixel(PixelFormat format) {
   return 0;
 }
 
-/// Conversion of OpenCV to red, green, blue; -1 where it is a copy.
+/// OpenCV's code of the conversion to red, green, blue; -1 for a copy.
 int conversion_of(PixelFormat format) {
   switch (format) {
     case PixelFormat::yuyv:

@@ -14,7 +14,7 @@
 
 namespace microswarm {
 
-/// Formats of a camera's data that can be read, by their V4L2 names.
+/// Supported formats of camera data, by their V4L2 names.
 enum class PixelFormat {
   mjpg,
   jpeg,
@@ -27,7 +27,7 @@ enum class PixelFormat {
   y16,
   rgb3,
   bgr3,
-  rggb,  ///< Bayer, 8 bits, by its first four pixels
+  rggb,  ///< Bayer, 8 bits, named by its first four pixels
   grbg,
   gbrg,
   bggr
@@ -50,27 +50,27 @@ constexpr auto enum_names(PixelFormat) {
                                                                    {PixelFormat::bggr, "BA81"}}};
 }
 
-/// Four letters in a number, as V4L2 names formats; shorter names end in spaces.
+/// V4L2 code of a format: four letters in a number, padded with spaces.
 std::uint32_t fourcc_of(PixelFormat format);
-/// The format of these letters, if it can be read.
+/// Format of a V4L2 code, if supported.
 std::optional<PixelFormat> format_of(std::uint32_t fourcc);
-/// The letters without spaces at the end; what cannot be printed is "?".
+/// Letters of a V4L2 code without trailing spaces; unprintable ones become "?".
 std::string fourcc_text(std::uint32_t fourcc);
 
-/// Data of a picture as they came from a camera.
+/// Data of a picture as received from a camera.
 struct RawPicture {
   PixelFormat format = PixelFormat::grey;
   int width = 0;
   int height = 0;
   std::size_t bytes_per_line = 0;  ///< 0: rows without gaps
   std::span<const std::byte> bytes;
-  std::string_view damage;  ///< what is wrong with them, where the device tells
+  std::string_view damage;  ///< error reported by the device; empty without one
 };
 
-/// Turns the data into grey (GREY, Y10, Y12, Y16, a grey JPEG) or colours, in `image`, whose memory
-/// is used again. Colours of Bayer are interpolated between neighbours. Samples of 10, 12 and 16
-/// bits keep their upper 8. Throws InputError "NAME: WHY" when data are missing, or a JPEG is
-/// damaged or of another size.
+/// Converts the data into a grey (GREY, Y10, Y12, Y16, a grey JPEG) or colour `image`, reusing its
+/// memory. Bayer colours are interpolated from neighbours. Samples of 10, 12 and 16 bits keep their
+/// upper 8. Throws InputError "NAME: WHY" if data is missing or a JPEG is damaged or has another
+/// size.
 void take_raw(const RawPicture& raw, std::string_view name, Image& image);
 
 }  // namespace microswarm

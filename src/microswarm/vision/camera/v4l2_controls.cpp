@@ -12,14 +12,14 @@
 namespace microswarm {
 namespace {
 
-/// A setting that the camera chooses by itself, or takes.
+/// A setting that can be automatic or given.
 struct Adjustable {
   std::string_view key;
   std::string_view noun;
   std::uint32_t id = 0;         ///< of its value
   std::uint32_t automatic = 0;  ///< of the switch to automatic
-  bool is_menu = false;         ///< that switch is a menu, as of the exposure
-  double steps = 1;             ///< of the camera in a unit of the key
+  bool is_menu = false;         ///< whether that switch is a menu, as for the exposure
+  double steps = 1;             ///< camera's steps in one unit of the key
 };
 
 constexpr Adjustable exposure{.key = "exposure_ms",
@@ -50,14 +50,15 @@ bool set(const V4l2Device& device, std::uint32_t id, int value) {
   return device.ask(VIDIOC_S_CTRL, &control) == 0;
 }
 
-/// Lets the camera choose, where it can.
+/// Makes the setting automatic, if the camera can.
 void make_automatic(const V4l2Device& device, const Adjustable& what) {
   v4l2_queryctrl about;
   if (!has(device, what.automatic, about)) return;
   if (!what.is_menu)
     set(device, what.automatic, 1);
   else if (!set(device, what.automatic, V4L2_EXPOSURE_AUTO))
-    set(device, what.automatic, V4L2_EXPOSURE_APERTURE_PRIORITY);  // as UVC cameras call it
+    set(device, what.automatic,
+        V4L2_EXPOSURE_APERTURE_PRIORITY);  // UVC cameras' name for automatic
 }
 
 void make_manual(const V4l2Device& device, const Adjustable& what) {
@@ -80,8 +81,8 @@ void adjust(const V4l2Device& device, const Adjustable& what, std::optional<doub
   make_manual(device, what);
   if (!set(device, what.id, value)) device.fail(key + ": it does not take " + text(value));
   v4l2_control control{.id = what.id, .value = 0};
-  if (device.ask(VIDIOC_G_CTRL, &control) != 0) return;  // it can be written only
-  // It may round to its next step.
+  if (device.ask(VIDIOC_G_CTRL, &control) != 0) return;  // write-only
+  // The camera may round to its next step.
   if (std::abs(control.value - value) >= std::max(about.step, 1))
     device.fail(key + ": it takes " + text(control.value) + " in place of " + text(value));
 }

@@ -6,9 +6,9 @@
 
 namespace microswarm {
 
-/// Sets exposure, gain, white balance and focus, and asks the camera whether it has them. What is
-/// not given becomes automatic, where the camera can. Throws HardwareError "DEVICE: WHY" when it
-/// does not take a value that is given.
+/// Sets exposure, gain, white balance and focus and reads them back. Settings that are not given
+/// become automatic if the camera can. Throws HardwareError "DEVICE: WHY" if it refuses a given
+/// value.
 void set_controls(const V4l2Device& device, const CameraParams& params);
 
 }  // namespace microswarm

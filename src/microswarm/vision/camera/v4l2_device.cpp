@@ -21,7 +21,7 @@ namespace microswarm {
 namespace {
 
 constexpr std::uint32_t wanted_buffers = 4;
-constexpr std::uint32_t max_formats = 64;  // a driver that never ends its list
+constexpr std::uint32_t max_formats = 64;  // against drivers whose list never ends
 
 std::string reason(int error) {
   if (error == EBUSY) return "it is in use by another program";
@@ -185,7 +185,7 @@ void V4l2Device::enqueue(std::uint32_t index) const {
   if (error != 0) fail("takes no memory for pictures: " + reason(error));
 }
 
-/// Whether the device has something to say.
+/// Whether the device becomes readable within `seconds`.
 bool V4l2Device::wait(double seconds) const {
   const double end = steady_seconds() + seconds;
   for (;;) {
@@ -206,7 +206,7 @@ std::optional<RawPicture> V4l2Device::take(double seconds) {
   buffer.memory = V4L2_MEMORY_MMAP;
   const int error = ask(VIDIOC_DQBUF, &buffer);
   if (is_gone(error)) fail("was unplugged");
-  if (error == EAGAIN) fail("gives no more pictures");  // ready, but not with a picture
+  if (error == EAGAIN) fail("gives no more pictures");  // readable, but without a picture
   if (error != 0) fail("gives no more pictures: " + reason(error));
   if (buffer.index >= buffers_.size()) fail("gives pictures where it has no memory for them");
   taken_ = buffer.index;

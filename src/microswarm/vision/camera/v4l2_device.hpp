@@ -14,24 +14,24 @@
 
 namespace microswarm {
 
-/// An open camera of V4L2 and its buffers. No call waits for long. All throw HardwareError
+/// An open V4L2 camera and its buffers. No call blocks for long. All throw HardwareError
 /// "DEVICE: WHY".
 class V4l2Device : public CameraDevice {
  public:
-  /// Opens the device. Throws if it is no camera that gives pictures.
+  /// Opens the device. Throws if it cannot capture pictures.
   explicit V4l2Device(std::string name);
   ~V4l2Device() override;
   V4l2Device(const V4l2Device&) = delete;
   V4l2Device& operator=(const V4l2Device&) = delete;
 
-  /// Asks the driver; the result is 0 or the number of the error.
+  /// Sends a request to the driver; returns 0 or the error number.
   int ask(unsigned long request, void* argument) const;
 
-  /// Reads this part of the sensor only; the region that the camera really takes must be this one.
+  /// Sets the part of the sensor that is read; throws unless the camera accepts it exactly.
   void set_region(const SensorRegion& region);
-  /// Sets format and size of the pictures; what the camera really has must be the same.
+  /// Sets format and size of the pictures; throws unless the camera accepts them exactly.
   void set_format(std::optional<PixelFormat> format, int width, int height);
-  /// Asks for a rate [Hz]; rate() is then the one that the camera really has, if it tells.
+  /// Requests a rate [Hz]; rate() returns the actual one if the camera reports it.
   void set_rate(double rate);
 
   /// Starts the stream.

@@ -17,10 +17,10 @@
 namespace microswarm {
 namespace {
 
-constexpr int max_devices = 256;           // of the kernel
-constexpr std::uint32_t max_entries = 64;  // of a driver that never ends its list
+constexpr int max_devices = 256;           // kernel's limit
+constexpr std::uint32_t max_entries = 64;  // against drivers whose list never ends
 
-/// 0 or the number of the error.
+/// Error number of opening a device; 0 on success.
 int error_of_opening(const std::string& name) {
   return open_descriptor(name, O_RDWR | O_NONBLOCK) ? 0 : errno;
 }
@@ -80,7 +80,7 @@ std::vector<ListedCamera> list_v4l2_cameras() {
         camera.model = model_of(device);
         camera.formats = formats_of(device);
       } catch (const HardwareError&) {
-        continue;  // its other nodes, as for metadata
+        continue;  // a node without pictures, such as metadata
       }
     }
     list.push_back(std::move(camera));

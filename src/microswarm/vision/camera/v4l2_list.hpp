@@ -7,7 +7,7 @@
 
 namespace microswarm {
 
-/// The cameras of V4L2 that are there.
+/// Lists the connected V4L2 cameras.
 std::vector<ListedCamera> list_v4l2_cameras();
 
 }  // namespace microswarm

@@ -21,7 +21,7 @@ struct VideoFileWriter::Parts {
 
   bool is_gif() const { return file.extension() == ".gif"; }
 
-  /// False if there is neither codec.
+  /// False if neither codec is available.
   bool open(cv::Size size) {
     if (is_gif()) {
       gif.emplace(staged->path(), rate);
@@ -38,7 +38,7 @@ struct VideoFileWriter::Parts {
 
   std::filesystem::path file;
   double rate;
-  std::optional<StagedFile> staged;  ///< empty if there is no codec
+  std::optional<StagedFile> staged;  ///< empty without a codec
   std::unique_ptr<VideoOutput> video;
   std::optional<GifWriter> gif;
   cv::Mat bgr;

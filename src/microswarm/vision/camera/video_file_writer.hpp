@@ -9,9 +9,9 @@
 
 namespace microswarm {
 
-/// Writes pictures to a video file: .gif, or as H.264, which browsers play, or else as MPEG-4;
-/// without a codec, to PNG files in a folder next to it, named like the file without extension. The
-/// file appears under its name on commit(). Sides should be even.
+/// Writes pictures to a video file: an animated GIF (.gif), else H.264, which browsers play, else
+/// MPEG-4; without a codec, PNG files in a folder beside it, named as the file without extension.
+/// The file appears under its name on commit(). Sides should be even.
 class VideoFileWriter {
  public:
   /// `rate` is in 1/s, at most max_gif_rate for a GIF. Throws InputError "PATH: cannot write:
@@ -21,9 +21,9 @@ class VideoFileWriter {
   VideoFileWriter(const VideoFileWriter&) = delete;
   VideoFileWriter& operator=(const VideoFileWriter&) = delete;
 
-  /// Appends a colour picture; all have one size.
+  /// Appends a colour picture; all must have one size.
   void add(const Image& picture);
-  /// Ends the video; the path of the file or folder, or empty if there was no picture.
+  /// Ends the video and returns the path of the file or folder; nothing without pictures.
   std::optional<std::filesystem::path> commit();
 
  private:

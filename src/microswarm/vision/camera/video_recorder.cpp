@@ -35,7 +35,7 @@ fs::path part_of(const fs::path& file) {
   return part.replace_extension(".part" + file.extension().string());
 }
 
-/// Opens a new file in place of what has this name. A link is not followed.
+/// Creates a new file, replacing one of this name. A link is not followed.
 std::FILE* create_new(const fs::path& file, const fs::path& called) {
   std::error_code none;
   fs::remove(file, none);
@@ -56,7 +56,7 @@ std::unique_ptr<VideoOutput> open_video(const fs::path& file, double rate, cv::S
 
 }  // namespace
 
-/// What the camera's thread and the writer share; it lives as long as either.
+/// State shared by the camera's thread and the writer; it lives as long as either.
 struct VideoRecorder::Shared {
   struct QueuedFrame {
     Image picture;
@@ -70,7 +70,7 @@ struct VideoRecorder::Shared {
   std::optional<double> zero;
   std::deque<QueuedFrame> queue;
   std::size_t bytes = 0;       ///< in the queue
-  std::vector<Image> buffers;  ///< to be used again
+  std::vector<Image> buffers;  ///< for reuse
   int dropped = 0;
 
   void add(const VideoFrame& frame, double taken) {
@@ -89,13 +89,13 @@ struct VideoRecorder::Shared {
         buffers.pop_back();
       }
     }
-    next.picture = frame.picture;  // outside of the lock: the writer need not wait
+    next.picture = frame.picture;  // outside of the lock, so that the writer does not wait
     const std::lock_guard lock(mutex);
     queue.push_back(std::move(next));
     changed.notify_one();
   }
 
-  /// The next frame, waited for; nothing after the end.
+  /// Waits for the next frame; nothing after the end.
   std::optional<QueuedFrame> take() {
     std::unique_lock lock(mutex);
     changed.wait(lock, [&] { return (zero && !queue.empty()) || !open; });
@@ -118,7 +118,7 @@ struct VideoRecorder::Shared {
   }
 };
 
-/// Writes in its own thread.
+/// Writes the queue in a thread of its own.
 class VideoRecorder::Writer {
  public:
   Writer(std::shared_ptr<Shared> shared, const fs::path& file, double rate)
