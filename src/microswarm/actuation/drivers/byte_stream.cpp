@@ -19,7 +19,7 @@ bool ready(int descriptor, short what, double timeout) {
   return ::poll(&line, 1, ms) > 0;
 }
 
-/// As ::write, but a reader that is gone is an error and no signal.
+/// Like ::write, but a closed reader is an error instead of SIGPIPE.
 ssize_t write_without_signal(int descriptor, std::span<const std::uint8_t> bytes) {
   sigset_t broken, before, pending;
   sigemptyset(&broken);

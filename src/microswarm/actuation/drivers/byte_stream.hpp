@@ -11,23 +11,23 @@
 
 namespace microswarm {
 
-/// Time between looks for an interruption while a device is waited for [s].
+/// Time between two checks for an interruption while waiting for a device [s].
 inline constexpr double stream_slice = 0.01;
 
-/// Bytes to and from a device through open file descriptors, which must not block. Neither call
-/// waits on a device that neither accepts nor sends bytes for longer than it may.
+/// Byte stream to and from a device over non-blocking file descriptors. No call waits longer than
+/// its timeout for a device that neither accepts nor sends bytes.
 class ByteStream {
  public:
   /// Does not own the descriptors.
   ByteStream(int in, int out) : in_(in), out_(out) {}
 
-  /// False if not all bytes were written in `timeout` seconds, or it was given up.
+  /// Writes all bytes; false after `timeout` seconds or when `gives_up` asks to stop.
   bool put(std::span<const std::uint8_t> bytes, double timeout, const Stop& gives_up);
-  /// Next byte; empty if none arrives in `timeout` seconds.
+  /// Next byte; nothing if none arrives within `timeout` seconds.
   std::optional<std::uint8_t> get(double timeout);
-  /// Discards what comes within so many seconds.
+  /// Discards all input for `timeout` seconds.
   void discard(double timeout);
-  /// Nothing can come any more: the other side has closed.
+  /// Whether the other side has closed the stream.
   bool ended() const { return ended_; }
 
  private:

@@ -16,7 +16,7 @@ namespace {
 constexpr double bound_rounding = 1e-12;
 constexpr double h_per_mh = 1e-3;
 
-/// The largest s in [0, 1] for which from + s · way is within the bounds; empty if there is none.
+/// Largest s in [0, 1] for which from + s · way is within the bounds; nothing if there is none.
 std::optional<double> farthest(const Eigen::VectorXd& from, const Eigen::VectorXd& way,
                                const Eigen::VectorXd& lo, const Eigen::VectorXd& hi) {
   double least = 0;
@@ -43,13 +43,13 @@ double resistance_at(const DriveParams& d, double temperature) {
   return d.resistance * std::max(0.0, 1 + d.temperature_coefficient * (temperature - reference));
 }
 
-/// Resistance for a voltage limit: that of the hottest coil allowed [Ω].
+/// Resistance for the voltage limit: that at the maximum temperature [Ω].
 double hot_resistance(const DriveParams& d) {
   return d.max_temperature ? resistance_at(d, *d.max_temperature) : d.resistance;
 }
 
-/// Growth of the power's heat with the temperature at this mean square current: at 1 the coil gains
-/// as much as it gives off, and there is no final temperature.
+/// Relative growth of the heating with temperature at this mean square current [A²]: from 1 on the
+/// coil heats faster than it cools, and there is no final temperature.
 double feedback(const DriveParams& d, double mean_square) {
   return d.temperature_coefficient * d.thermal_resistance * d.resistance * mean_square;
 }
@@ -71,15 +71,15 @@ double temperature_later(const DriveParams& d, double temperature, double mean_s
   return temperature + rate * dt * (std::abs(x) < small ? 1 - 0.5 * x : (1 - maths::exp(-x)) / x);
 }
 
-/// The current at which the final temperature is the maximum temperature.
+/// Current at which the final temperature is the maximum temperature [A].
 double warmest_current(const DriveParams& d) {
   const double warmer = std::max(0.0, *d.max_temperature - d.ambient);
   const double per_square = d.thermal_resistance * hot_resistance(d);
   return per_square > 0 ? std::sqrt(warmer / per_square) : infinity;
 }
 
-/// The mean square current [A²] of the hottest coil allowed that takes it from `temperature` to
-/// `margin` below its maximum temperature in `seconds`; negative if it is too hot already.
+/// Mean square current [A²] that heats the coil from `temperature` to `margin` below its maximum in
+/// `seconds`, at the resistance of the hottest coil allowed; negative if it is too hot already.
 double mean_square_to_limit(const DriveParams& d, double temperature, double seconds,
                             double margin = 0) {
   const double keeps = maths::exp(-seconds / d.thermal_time);
@@ -87,13 +87,13 @@ double mean_square_to_limit(const DriveParams& d, double temperature, double sec
   return (end - d.ambient) / (d.thermal_resistance * hot_resistance(d));
 }
 
-/// sin x / x
+/// sin x / x, 1 at 0.
 double sinc(double x) {
   constexpr double small = 1e-4;
   return std::abs(x) < small ? 1 - x * x / 6 : maths::sin(x) / x;
 }
 
-/// What turns in one coil: constant + cosine cos φ + sine sin φ [A].
+/// Current of one coil: constant + cosine cos φ + sine sin φ [A].
 struct Turning {
   double constant = 0, cosine = 0, sine = 0;
 
@@ -108,7 +108,7 @@ struct Turning {
            0.5 * (cosine * cosine * (1 + two * c2) + sine * sine * (1 - two * c2)) +
            cosine * sine * two * s2;
   }
-  /// The largest mean square [A²] over any phases of this extent.
+  /// Largest mean square [A²] over any interval of phases of this length.
   double max_mean_square(double way) const {
     const double A = amplitude();
     return constant * constant + 2 * std::abs(constant) * A * std::abs(sinc(way / 2)) +
@@ -116,7 +116,7 @@ struct Turning {
   }
 };
 
-/// Bound of how far [K] a coil gets above its mean temperature within a turn, or within `seconds`.
+/// Upper bound [K] of a coil's temperature above its mean within a turn, or within `seconds`.
 double ripple_of(const DriveParams& d, const Turning& coil, double omega, double seconds) {
   const double A = coil.amplitude(), c = std::abs(coil.constant);
   const double per_square = d.thermal_resistance * hot_resistance(d) / d.thermal_time;
@@ -127,7 +127,7 @@ Turning coil_of(const TurningCurrents& currents, Eigen::Index i) {
   return {currents.constant[i], currents.cosine[i], currents.sine[i]};
 }
 
-// Share of the slew and voltage limits that a turn may take; the rest is for changes.
+// Share of the slew and voltage limits available to the turning itself; the rest is for changes.
 constexpr double share_of_turn = 0.9;
 
 void narrow(double& lo, double& hi, double least, double most) {
@@ -223,8 +223,8 @@ DrivenCurrents CoilDrive::steady(const Eigen::VectorXd& wanted) const {
   return result;
 }
 
-/// Temperature [°C] after a ramp of the current, or after the final current for the whole time,
-/// whichever is higher. With the ramp alone the current would oscillate about the value that can be
+/// Temperature [°C] after a ramp of the current, or after the final current for the whole time if
+/// that is higher. With the ramp alone the current would oscillate about the value that can be
 /// held.
 double CoilDrive::temperature_after(std::size_t coil, double to, double dt) const {
   const auto i = static_cast<Eigen::Index>(coil);
@@ -331,7 +331,7 @@ double CoilDrive::turn(const TurningCurrents& wanted, double dt) {
   return most;
 }
 
-/// The largest scale at which a turn is within the limits, and keeps the coils below their maximum
+/// Largest scale at which a turn keeps all limits and the coils stay below their maximum
 /// temperature for some steps.
 double CoilDrive::most_of_turn(const TurningCurrents& wanted, double dt) const {
   constexpr double steps_ahead = 10;
@@ -362,7 +362,7 @@ double CoilDrive::most_of_turn(const TurningCurrents& wanted, double dt) const {
   return most;
 }
 
-/// The share of a change of the turning currents that `dt` seconds allow.
+/// Share of a change of the turning currents that is possible in `dt` seconds.
 double CoilDrive::share_of_change(const TurningCurrents& to, double dt) const {
   const double omega = 2 * pi * std::max(std::abs(to.frequency), to.max_frequency);
   double share = 1;

@@ -37,22 +37,23 @@ struct LimitHit {
 struct DrivenCurrents {
   Eigen::VectorXd currents;     ///< [A]
   double scale = 1;             ///< scale applied to the command, in [0, 1]
-  bool keeps_direction = true;  ///< the currents are `scale` times the requested ones
+  bool keeps_direction = true;  ///< whether the currents are `scale` times the requested ones
   std::vector<LimitHit> hits;   ///< limits that the unscaled command would exceed
 };
 
 /// Currents that turn: constant + cosine cos φ + sine sin φ [A], one of each per coil.
 struct TurningCurrents {
-  double frequency = 0;      ///< of the phase φ [Hz]
-  double max_frequency = 0;  ///< that may follow; the limits are those of a turn at it [Hz]
-  double phase = 0;          ///< φ now [rad]
+  double frequency = 0;  ///< of the phase φ [Hz]
+  double max_frequency =
+      0;             ///< highest frequency that may follow; limits apply to a turn at it [Hz]
+  double phase = 0;  ///< current φ [rad]
   Eigen::VectorXd constant, cosine, sine;
 
-  /// The currents at their phase [A].
+  /// The currents at `phase` [A].
   Eigen::VectorXd now() const;
 };
 
-/// Amplifiers and coils of a system with their present currents and temperatures. All currents of a
+/// Amplifiers and coils of a system with their current state. All currents of a
 /// command are scaled by one factor, so the field keeps its direction.
 class CoilDrive {
  public:
@@ -62,7 +63,7 @@ class CoilDrive {
   const Eigen::VectorXd& currents() const { return currents_; }          ///< [A]
   const Eigen::VectorXd& temperatures() const { return temperatures_; }  ///< [°C]
 
-  /// Sets the present temperatures [°C], one for each coil.
+  /// Sets the temperatures [°C], one per coil.
   void warm(const Eigen::VectorXd& temperatures);
 
   /// Sets all currents to zero at once, as when the amplifiers are switched off.
@@ -102,15 +103,15 @@ class CoilDrive {
   TurningCurrents turning_;
 };
 
-/// Temperatures [°C] of coils at their maximum temperature, ambient for those without one.
+/// Maximum temperatures [°C]; the ambient one for coils without a maximum.
 Eigen::VectorXd hottest(const std::vector<DriveParams>& drives);
 
 /// Temperatures [°C] after `seconds` of maximum current, at most the maximum temperatures.
 Eigen::VectorXd heated(const std::vector<DriveParams>& drives, const Eigen::VectorXd& temperatures,
                        double seconds);
 
-/// Temperatures [°C] of coils without current, `seconds` after they had `temperatures`. A negative
-/// time cools nothing.
+/// Temperatures [°C] of coils without current, `seconds` after they had `temperatures`; unchanged
+/// for a negative time.
 Eigen::VectorXd cooled(const std::vector<DriveParams>& drives, const Eigen::VectorXd& temperatures,
                        double seconds);
 

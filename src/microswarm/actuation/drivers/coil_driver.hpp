@@ -14,40 +14,40 @@ namespace microswarm {
 /// Relative tolerance for currents above the full scale, for rounding.
 inline constexpr double full_scale_slack = 1e-9;
 
-/// Commands in a row without an answer at which a driver counts as gone.
+/// Consecutive commands without an answer after which a driver counts as gone.
 inline constexpr int max_missed_answers = 3;
 
 /// Result of a command to the coils.
 enum class DriveStatus : std::uint8_t {
   driven,
   scaled,      ///< the device's own limits scaled all currents by the same factor
-  resumed,     ///< driven, but the coils had been off: the device restarted or its watchdog fired
+  resumed,     ///< driven after the coils were off: the device restarted or its watchdog fired
   refused,     ///< more current than the driver can request; the coils keep their currents
-  not_armed,   ///< the device is off and refuses to be armed, or may only be armed by a person
+  not_armed,   ///< the device is off and refuses to be armed, or only a person may arm it
   emergency,   ///< the emergency stop of the device is or was open
-  mismatched,  ///< the device acknowledges or reports something else than it was told
+  mismatched,  ///< the device acknowledges or reports other values than those sent
   no_answer,   ///< the coils switch off within the device's watchdog time, or the device is gone
   gone,        ///< the driver's program or connection has ended
 };
 std::string_view to_string(DriveStatus status);
 /// Whether the device acknowledged the command.
 bool is_acknowledged(DriveStatus status);
-/// Why such a status ends a run, in words; empty if it does not by itself.
+/// Why this status ends a run, as text; empty if it does not by itself.
 std::string_view trouble_of(DriveStatus status);
 
-/// Currents that turn without the host: constant + cosine cos φ + sine sin φ [A], one of each per
-/// channel, with a phase φ that turns at `frequency` [Hz].
+/// Currents that the device turns by itself: constant + cosine cos φ + sine sin φ [A], one of each
+/// per channel, with a phase φ that turns at `frequency` [Hz].
 struct CurrentWaveform {
   double frequency = 0;  ///< [Hz], negative backwards
-  double phase = 0;      ///< of a waveform that begins [rad]; one that runs goes on at its own
+  double phase = 0;      ///< of a starting waveform [rad]; a running one keeps its own
   std::span<const double> constant, cosine, sine;
 
-  /// The largest current of a channel within a turn [A].
+  /// Peak current of a channel within a turn [A].
   double largest(std::size_t channel) const;
 };
 
 class CoilDriver;
-/// The same with what the driver knows of it, CoilDriver::reason; also for no_answer.
+/// The same with the driver's own reason, CoilDriver::reason; also for no_answer.
 std::string trouble_of(const CoilDriver& driver, DriveStatus status);
 
 /// Interface that sends currents to coils. The destructor sets all currents to zero.
@@ -61,40 +61,39 @@ class CoilDriver {
   virtual int channels() const = 0;
   /// Currents of the coils as last reported by the device [A].
   virtual std::span<const double> currents() const = 0;
-  /// By which the device's own limits scaled the last command that it acknowledged, in [0, 1].
+  /// Factor by which the device's own limits scaled the last acknowledged command, in [0, 1].
   virtual double device_scale() const { return 1; }
   /// Sends signed currents [A], one per channel. Must be repeated within the watchdog time, even if
   /// unchanged.
   virtual DriveStatus drive(std::span<const double> currents) = 0;
-  /// Whether the device takes a field and finds currents of its own: then `drive` takes nothing but
-  /// zeros.
+  /// Whether the device computes currents from a commanded field; drive() then accepts only zeros.
   virtual bool takes_field() const { return false; }
-  /// As `drive`, with the field [mT] that these currents add where the swarm is.
+  /// Like drive(), with the field [mT] that these currents make at the swarm.
   virtual DriveStatus drive_field(std::span<const double, 3> field,
                                   std::span<const double> currents);
   /// Whether the device makes waveforms.
   virtual bool makes_waveforms() const { return false; }
-  /// Begins a waveform or changes the one that runs; repeated as `drive`, which ends it.
+  /// Starts a waveform or changes the running one. To be repeated like drive(), which ends it.
   virtual DriveStatus drive_waveform(const CurrentWaveform&) { return DriveStatus::refused; }
-  /// Phase of the waveform when the device last answered [rad]; empty if it is not known.
+  /// Phase of the waveform at the device's last answer [rad]; nothing if unknown.
   virtual std::optional<double> phase() const { return std::nullopt; }
   /// Sets all currents to zero; false if the device did not confirm it.
   virtual bool stop() noexcept = 0;
-  /// Why the last stop was confirmed by another than the driver that drove, in words that follow
-  /// its name; empty if it was not.
+  /// Why a fallback driver confirmed the last stop, as text that follows the driver's name; empty
+  /// if the active one confirmed it.
   virtual std::string stop_trouble() const { return {}; }
-  /// Lets a `drive` that another thread is in return without its answer, so that `stop` can follow.
-  /// Callable from any thread; lasts until the next `stop`.
+  /// Aborts a drive() in another thread, so that stop() can run. Callable from any thread; lasts
+  /// until the next stop().
   virtual void interrupt() noexcept {}
-  /// What is known of the last trouble, in one printable line; empty if nothing is.
+  /// Cause of the last trouble, one printable line; empty if unknown.
   virtual std::string reason() const { return {}; }
 };
 
 /// Driver without hardware.
 class SimulatedCoilDriver final : public CoilDriver {
  public:
-  /// `full_scale` is the maximum current [A]; with `waveforms` it makes them, at
-  /// the phase that it is told.
+  /// `full_scale` is the maximum current [A]. With `waveforms` it makes waveforms, at the commanded
+  /// phase.
   SimulatedCoilDriver(int channels, double full_scale, bool waveforms = false);
 
   int channels() const override { return static_cast<int>(currents_.size()); }
@@ -109,7 +108,7 @@ class SimulatedCoilDriver final : public CoilDriver {
   std::vector<double> currents_;
   double full_scale_;
   bool waveforms_;
-  std::optional<double> phase_;  // as last told
+  std::optional<double> phase_;  // as last commanded
 };
 
 }  // namespace microswarm

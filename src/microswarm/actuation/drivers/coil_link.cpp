@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint8_t reply_bit = 0x80;
 constexpr std::size_t longest_frame = 52;
-constexpr std::size_t former_reply = 24, reply_size = 35;  // without the check sum
+constexpr std::size_t former_reply = 24, reply_size = 35;  // without the checksum
 constexpr std::uint8_t emergency_bit = 0x80;
 
 void append16(std::vector<std::uint8_t>& to, int value) {
@@ -34,7 +34,7 @@ int signed16(std::span<const std::uint8_t> bytes, std::size_t at) {
   return static_cast<std::int16_t>(unsigned16(bytes, at));
 }
 
-// Consistent overhead byte stuffing (Cheshire and Baker 1999): no 0 but at the end.
+// Consistent overhead byte stuffing (Cheshire and Baker 1999): the only 0 is at the end.
 std::vector<std::uint8_t> frame_of(std::vector<std::uint8_t> packet) {
   append16(packet, crc16(packet));
   std::vector<std::uint8_t> frame{0};

@@ -74,7 +74,7 @@ class Spawning {
   void folder(const std::string& path) {
     posix_spawn_file_actions_addchdir_np(&actions_, path.c_str());
   }
-  /// The process; empty with errno set.
+  /// Starts the process; on failure nothing, with errno set.
   std::optional<pid_t> start(std::vector<std::string> command) {
     std::vector<char*> arguments;
     arguments.reserve(command.size() + 1);
@@ -115,7 +115,7 @@ class DriverProgram final : public LineConnection {
   DriverProgram& operator=(const DriverProgram&) = delete;
   ~DriverProgram() override {
     in_.close();
-    // Not reaped until then: no other process may get the number.
+    // Not reaped before that, so that no other process gets its id.
     for (const int signal : {0, SIGTERM, SIGKILL}) {
       if (signal != 0) ::kill(-process_, signal);
       if (is_over_within(patience)) break;
@@ -134,7 +134,7 @@ class DriverProgram final : public LineConnection {
   std::string ended() override {
     siginfo_t info{};
     const bool silent = stream_->ended();
-    if (silent) is_over_within(a_moment);  // it is usually about to end
+    if (silent) is_over_within(a_moment);  // it is usually about to end by itself
     hear();
     if (!exited(info)) return silent ? "has closed its output" : "";
     if (info.si_code == CLD_EXITED)
@@ -150,7 +150,7 @@ class DriverProgram final : public LineConnection {
            info.si_pid != 0;
   }
 
-  /// Whether the program has ended, and all that have its output, within so many seconds.
+  /// Waits up to `seconds` until the program and all holders of its output have ended.
   bool is_over_within(double seconds) {
     const auto began = Stop::Clock::now();
     for (;;) {
@@ -164,7 +164,7 @@ class DriverProgram final : public LineConnection {
     }
   }
 
-  /// Reads what it wrote to stderr, so that it can go on writing.
+  /// Reads its stderr, so that it does not block on writing.
   void hear() {
     constexpr std::size_t longest = 400;
     constexpr int most_reads = 64;
@@ -191,7 +191,7 @@ class DriverProgram final : public LineConnection {
   pid_t process_ = 0;
   Descriptor in_, out_, err_;
   std::optional<ByteStream> stream_;
-  std::string line_, last_line_;  // of stderr: the one that has begun, and the last whole one
+  std::string line_, last_line_;  // of stderr: the incomplete line, and the last complete one
 };
 
 }  // namespace

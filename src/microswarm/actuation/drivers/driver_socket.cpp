@@ -23,14 +23,14 @@
 namespace microswarm {
 namespace {
 
-/// A socket that does not block.
+/// A non-blocking socket.
 class Socket {
  public:
   explicit Socket(int family)
       : file_(::socket(family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)) {}
   int get() const { return file_.get(); }
 
-  /// Errno; 0 if it is connected.
+  /// Connects; returns errno, 0 on success.
   int connect(const sockaddr* address, socklen_t size, double timeout) const {
     if (!file_) return errno;
     if (::connect(get(), address, size) == 0) return 0;
@@ -87,7 +87,7 @@ std::unique_ptr<LineConnection> connect_socket(const std::string& host, int port
   addrinfo hints{};
   hints.ai_socktype = SOCK_STREAM;
   addrinfo* found = nullptr;
-  // Without a node it is this computer, which a computer without /etc/hosts cannot look up.
+  // A null node means this computer, also where /etc/hosts is missing and no lookup works.
   const char* const node = host == "localhost" ? nullptr : host.c_str();
   if (const int error = ::getaddrinfo(node, std::to_string(port).c_str(), &hints, &found))
     fail(name, ::gai_strerror(error));

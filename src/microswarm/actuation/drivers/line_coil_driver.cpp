@@ -14,15 +14,15 @@
 namespace microswarm {
 namespace {
 
-constexpr double stop_wait = 0.5;  // [s] for its confirmation
-constexpr double hello_wait = 2;   // [s] for that of another hello
+constexpr double stop_wait = 0.5;  // [s] for the confirmation of zeros
+constexpr double hello_wait = 2;   // [s] for the answer to the second hello
 
 std::span<const std::uint8_t> bytes_of(const std::string& text) {
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast)
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
-/// The factor by which all values were scaled, at best, in [0, 1].
+/// Best estimate of the factor by which all values were scaled, in [0, 1].
 double scale_between(std::span<const double> values, std::span<const double> applied) {
   double product = 0, square = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -94,7 +94,7 @@ DriveStatus LineCoilDriver::follow(std::span<const double> values,
       std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
   if (!finite || !is_possible(currents)) return DriveStatus::refused;
   DriveStatus status = DriveStatus::driven;
-  if (!armed_)  // only now: the watchdog starts immediately
+  if (!armed_)  // not before: the watchdog starts immediately
     if (const DriveStatus armed = arm(); armed != DriveStatus::driven) return armed;
   const Stop gives_up(&interrupted_);
   auto reply = exchange("set", params_.reply_timeout, gives_up, values);
@@ -112,7 +112,7 @@ DriveStatus LineCoilDriver::follow(std::span<const double> values,
   return status == DriveStatus::driven ? compared : status;
 }
 
-/// What a reply other than an acknowledgement means.
+/// Status of a reply, before its values are compared.
 DriveStatus LineCoilDriver::take(const std::optional<LineReply>& reply) {
   if (!reply) return gone_ ? DriveStatus::gone : DriveStatus::no_answer;
   reason_ = reply->text;
@@ -131,7 +131,7 @@ DriveStatus LineCoilDriver::take(const std::optional<LineReply>& reply) {
   return DriveStatus::mismatched;
 }
 
-/// Whether the acknowledged values are the ones sent, or those scaled by one factor.
+/// Status that says whether the acknowledged values are those sent, or scaled by one factor.
 DriveStatus LineCoilDriver::compare(std::span<const double> values, const LineReply& reply,
                                     double& scale) {
   const bool limited = reply.verdict == LineVerdict::limited;
@@ -178,7 +178,7 @@ bool LineCoilDriver::begin_again(std::string_view trouble) {
   turned_off_anew_ = false;
   const std::string reason = reason_;
   connection_.reset();
-  reader_ = {};  // which may hold half a line
+  reader_ = {};  // it may hold half a line
   try {
     const double timeout = std::min(hello_wait, params_.connect_timeout);
     connection_ = open_(timeout);

@@ -21,14 +21,14 @@
 
 namespace microswarm {
 
-/// What a driver of one's own is sent.
+/// Quantity that is sent to a user-supplied driver.
 enum class DriverInput { currents, field };
 constexpr auto enum_names(DriverInput) {
   return std::array<std::pair<DriverInput, std::string_view>, 2>{
       {{DriverInput::currents, "currents"}, {DriverInput::field, "field"}}};
 }
 
-/// What programs and sockets have in common.
+/// Common parameters of driver programs and sockets.
 struct LineDriverParams {
   DriverInput send = DriverInput::currents;
   std::optional<int> channels;
@@ -52,7 +52,7 @@ struct LineDriverParams {
   }
 };
 
-/// A program of one's own that drives the coils.
+/// A user-supplied program that drives the coils.
 struct ProgramDriverParams : LineDriverParams {
   static constexpr std::string_view type_name = "program";
   std::vector<std::string> command;
@@ -64,7 +64,7 @@ struct ProgramDriverParams : LineDriverParams {
   }
 };
 
-/// A server of one's own that drives the coils.
+/// A user-supplied server that drives the coils.
 struct SocketDriverParams : LineDriverParams {
   static constexpr std::string_view type_name = "socket";
   std::string host = "localhost";
@@ -77,16 +77,16 @@ struct SocketDriverParams : LineDriverParams {
   }
 };
 
-/// Driver that speaks the line protocol with a program or a server of the rig's owner
-/// (docs/reference/line-protocol.md), which turns the coils off by itself when nothing that it
-/// obeys comes for the watchdog's time. A card may hold the outputs of a program that has ended or
-/// hangs: when a stop is not answered with zeros, the connection is closed and opened once more, so
-/// that another hello turns the outputs off. Such a driver drives no more.
+/// Driver that speaks the line protocol (docs/reference/line-protocol.md) with a user-supplied
+/// program or server, which must turn the coils off if it obeys no message for the watchdog time. A
+/// card may hold the outputs of a program that ended or hangs: if a stop is not answered with
+/// zeros, the connection is closed and opened once more, so that a second hello turns the outputs
+/// off. After that the driver refuses to drive.
 class LineCoilDriver final : public CoilDriver {
  public:
-  /// Opens the connection and says hello. `coils` is how many currents are sent or stand behind the
-  /// field; `lock` lives as long as the driver. Throws HardwareError if nothing answers in time or
-  /// the answer is no consent.
+  /// Opens the connection and says hello. `coils` is the number of currents that are sent or that
+  /// make the field; `lock` is held for the driver's lifetime. Throws HardwareError if no answer
+  /// arrives in time or it is a refusal.
   LineCoilDriver(OpenConnection open, const LineDriverParams& params, std::size_t coils,
                  std::unique_ptr<DeviceLock> lock = nullptr);
   ~LineCoilDriver() override;
@@ -94,14 +94,14 @@ class LineCoilDriver final : public CoilDriver {
   LineCoilDriver& operator=(const LineCoilDriver&) = delete;
 
   int channels() const override { return static_cast<int>(currents_.size()); }
-  /// As acknowledged. With a field: the currents that would make it, by the coil system.
+  /// As acknowledged; with a field, the coil system's currents for it.
   std::span<const double> currents() const override { return currents_; }
   double device_scale() const override { return scale_; }
   DriveStatus drive(std::span<const double> currents) override;
   bool takes_field() const override { return params_.send == DriverInput::field; }
   DriveStatus drive_field(std::span<const double, 3> field,
                           std::span<const double> currents) override;
-  /// Waits 0.5 s at most to have it confirmed, and about 4 s more where it begins once more.
+  /// Waits at most 0.5 s for the confirmation, and about 4 s more if it connects again.
   bool stop() noexcept override;
   std::string stop_trouble() const override { return stop_trouble_; }
   void interrupt() noexcept override { interrupted_ = true; }
@@ -126,16 +126,16 @@ class LineCoilDriver final : public CoilDriver {
   std::unique_ptr<LineConnection> connection_;
   LineDriverParams params_;
   std::vector<double> currents_;
-  std::size_t sent_;  // values of a message
+  std::size_t sent_;  // number of values in a message
   LineReader reader_;
   std::uint32_t sequence_ = 0;
   std::atomic<bool> interrupted_ = false;
   bool armed_ = false;  // armed by this driver and not stopped since
-  bool gone_ = false;   // for good
+  bool gone_ = false;   // permanently
   std::optional<bool> turned_off_anew_;
   std::string stop_trouble_;
-  double scale_ = 1;     // as acknowledged
-  std::string strange_;  // the last line that was no reply
+  double scale_ = 1;     // acknowledged
+  std::string strange_;  // last line that was no reply
   std::string reason_;
 };
 

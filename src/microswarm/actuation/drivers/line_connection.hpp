@@ -12,8 +12,7 @@
 
 namespace microswarm {
 
-/// What leads to a driver of one's own: a program that was started, or a socket. The destructor
-/// closes it.
+/// Connection to a user-supplied driver: a child process or a socket. The destructor closes it.
 class LineConnection {
  public:
   LineConnection() = default;
@@ -21,34 +20,32 @@ class LineConnection {
   LineConnection& operator=(const LineConnection&) = delete;
   virtual ~LineConnection() = default;
 
-  /// For messages.
+  /// Name for messages.
   virtual const std::string& name() const = 0;
   virtual ByteStream& stream() = 0;
-  /// What has ended it, in one line; empty as long as the other side is there. To be called from
-  /// time to time.
+  /// Why the connection ended, in one line; empty while it is open. To be polled.
   virtual std::string ended() = 0;
-  /// The last line that the other side wrote beside the protocol, printable; empty if there is
-  /// none.
+  /// Last line that the other side wrote outside the protocol, printable; empty without one.
   virtual std::string last_words() { return {}; }
 };
 
-/// Opens a connection within so many seconds; throws HardwareError.
+/// Opens a connection within `timeout` seconds; throws HardwareError.
 using OpenConnection = std::function<std::unique_ptr<LineConnection>(double timeout)>;
 
-/// Starts a program without a shell, in `folder`, with its stdin and stdout as the stream. Its
-/// stderr is read, but for the last line not kept. It has a process group of its own, so that no
-/// key of a terminal ends it before its host does. It inherits the open file `lock` as its file 3,
-/// if that is not negative. On destruction its stdin is closed; what is left of its group after
-/// 0.5 s gets SIGTERM, after 0.5 s more SIGKILL. Throws HardwareError if it cannot be started.
+/// Starts a program without a shell, in `folder`, with its stdin and stdout as the stream. Only the
+/// last line of its stderr is kept. It has its own process group, so that Ctrl-C reaches the host
+/// first. It inherits the open file `lock`, unless negative, as file descriptor 3. The destructor
+/// closes its stdin; processes of its group that remain after 0.5 s get SIGTERM, after 0.5 s more
+/// SIGKILL. Throws HardwareError if it cannot be started.
 std::unique_ptr<LineConnection> start_program(const std::vector<std::string>& command,
                                               const std::filesystem::path& folder, int lock = -1);
 
 /// Connects to a TCP port, or to a Unix socket if `host` is a path with a '/'. Throws HardwareError
-/// if there is none within `timeout` seconds.
+/// if no connection is made within `timeout` seconds.
 std::unique_ptr<LineConnection> connect_socket(const std::string& host, int port, double timeout);
 
-/// Locks a file for as long as it or a program that inherits its descriptor lives. Throws
-/// HardwareError if it is locked.
+/// Lock of a file, held until this object and all programs that inherit its descriptor have ended.
+/// Throws HardwareError if the file is locked already.
 class DeviceLock {
  public:
   explicit DeviceLock(const std::filesystem::path& file);

@@ -22,7 +22,7 @@ constexpr std::array<std::pair<std::string_view, LineVerdict>, 5> verdicts{
      {"refused", LineVerdict::refused},
      {"emergency", LineVerdict::emergency}}};
 
-/// The first word of `text`, which is taken off it.
+/// Removes the first word from `text` and returns it.
 std::string_view take_word(std::string_view& text) {
   text = trimmed(text);
   const std::string_view word = text.substr(0, text.find_first_of(" \t"));

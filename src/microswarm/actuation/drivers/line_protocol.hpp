@@ -10,37 +10,36 @@
 
 namespace microswarm {
 
-/// The lines between host and a driver of one's own, version 1: docs/reference/line-protocol.md.
+/// Version of the line protocol for user-supplied drivers: docs/reference/line-protocol.md.
 inline constexpr int line_protocol_version = 1;
-inline constexpr std::size_t line_protocol_values = 64;    ///< of a message, at most
-inline constexpr std::size_t line_protocol_length = 4096;  ///< of a line in bytes, at most
+inline constexpr std::size_t line_protocol_values = 64;  ///< maximum number of values in a message
+inline constexpr std::size_t line_protocol_length = 4096;  ///< maximum length of a line [B]
 
-/// What the driver made of a message.
+/// The driver's verdict on a message.
 enum class LineVerdict : std::uint8_t { ok, limited, off, refused, emergency };
 
-/// An answer of the driver.
+/// A reply of the driver.
 struct LineReply {
   LineVerdict verdict{};
-  std::uint32_t sequence = 0;  ///< of the message answered
-  std::vector<double> values;  ///< as applied; empty if they are no finite numbers or too many
-  std::string text;            ///< of off, refused and emergency: why, in one printable line
+  std::uint32_t sequence = 0;  ///< of the message that it answers
+  std::vector<double> values;  ///< applied values; empty if not finite or too many
+  std::string text;            ///< reason of off, refused and emergency, one printable line
 };
 
-/// "hello SEQUENCE VERSION SEND CHANNELS WATCHDOG_MS", with its end; `send` is a word.
+/// The line "hello SEQUENCE VERSION SEND CHANNELS WATCHDOG_MS" with its end; `send` is a word.
 std::string line_hello(std::uint32_t sequence, std::string_view send, std::size_t channels,
                        int watchdog_ms);
-/// "WORD SEQUENCE VALUE VALUE …", with its end.
+/// The line "WORD SEQUENCE VALUE VALUE …" with its end.
 std::string line_message(std::string_view word, std::uint32_t sequence,
                          std::span<const double> values = {});
 
-/// A line without its end as a reply; empty if it is none.
+/// Parses a line without its end; nothing if it is no reply.
 std::optional<LineReply> parse_line_reply(std::string_view line);
 
-/// Finds lines in whatever comes in, without their ends (LF or CRLF). What is too long is passed
-/// over to its end.
+/// Splits a byte stream into lines, without their ends (LF or CRLF). Overlong lines are discarded.
 class LineReader {
  public:
-  /// A line when this byte completes one.
+  /// Takes a byte; returns the line that it completes, if any.
   std::optional<std::string> take(std::uint8_t byte);
 
  private:

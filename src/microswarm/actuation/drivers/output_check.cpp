@@ -10,9 +10,9 @@
 namespace microswarm {
 namespace {
 
-constexpr double rounding = 10;  // [per mille] of the device's table of sines and its integers
+constexpr double rounding = 10;  // [per mille] by the device's sine table and integers
 
-/// [per mille] that outputs change by, at most, when one aim replaces another.
+/// Upper bound of an output's change when one aim replaces another [per mille].
 double change(const CoilAim& from, const CoilAim& to, std::size_t c) {
   const double cosine = to.cosine[c] - from.cosine[c], sine = to.sine[c] - from.sine[c];
   return std::abs(to.constant[c] - from.constant[c]) + std::sqrt(cosine * cosine + sine * sine);
@@ -33,7 +33,7 @@ bool OutputCheck::agrees(const CoilAim& aim, const CoilReply& reply) {
   if (reply.aim_sum != check_sum(followed) || is_scaled != (reply.result == CoilResult::limited))
     return false;
   const auto [sine, cosine] = maths::sincos(2 * pi * reply.phase / 65536);
-  const double passed = ((reply.clock - clock_) & 0xFFFF) - 1;  // [ms] at least
+  const double passed = ((reply.clock - clock_) & 0xFFFF) - 1;  // lower bound [ms]
   bool agree = true;
   for (std::size_t c = 0; c < rest_.size(); ++c) {
     const double rest = std::abs(reply.outputs[c] - followed.constant[c] -

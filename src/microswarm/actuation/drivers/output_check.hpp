@@ -7,22 +7,23 @@
 
 namespace microswarm {
 
-/// Compares what a device acknowledges and reports with what it was told. A device follows an aim
-/// exactly, but for a rest that it takes away by its slew after each change.
+/// Compares a device's acknowledgements and outputs with the commands. A device follows an aim
+/// exactly, apart from a remainder that it removes at its slew rate after each change.
 class OutputCheck {
  public:
-  /// The device has just been armed: its outputs are zero.
+  /// Starts with a device that was just armed, so its outputs are zero.
   void begin(const CoilReply& armed);
-  /// An exchange failed: whether the device obeyed is not known.
+  /// Resets after a failed exchange, since it is unknown whether the device obeyed.
   void forget() { known_ = false; }
-  /// Whether the answer to `aim` is that of a device which follows it, and followed the one before.
+  /// Whether the reply to `aim` agrees with a device that follows it and followed the previous one.
   bool agrees(const CoilAim& aim, const CoilReply& reply);
 
  private:
   bool known_ = false;
-  CoilAim last_;                                   // as scaled by the device
-  int clock_ = 0;                                  // of the last reply [ms]
-  std::array<double, coil_link_channels> rest_{};  // upper bounds then [per mille]
+  CoilAim last_;   // scaled by the device
+  int clock_ = 0;  // of the last reply [ms]
+  std::array<double, coil_link_channels>
+      rest_{};  // upper bounds of the remainder at that time [per mille]
 };
 
 }  // namespace microswarm

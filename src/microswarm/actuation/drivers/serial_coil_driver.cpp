@@ -29,7 +29,7 @@ constexpr unsigned baud = 115200;
 constexpr double left_over = 0.03;  // [s] after opening; a reset takes longer
 constexpr std::chrono::seconds max_stop{2};
 constexpr int max_failures = 3;  // exchanges in a row
-// A bootloader that was spoken to listens for 5 s more.
+// A bootloader that received a byte listens for 5 s more.
 constexpr double silence_per_boot_time = 3;
 
 DriveStatus refusal(const CoilReply& reply) {
@@ -38,7 +38,7 @@ DriveStatus refusal(const CoilReply& reply) {
 
 }  // namespace
 
-/// The serial port, open for this program alone.
+/// The serial port, opened exclusively.
 class SerialCoilDriver::Port {
  public:
   explicit Port(const std::string& path) : port_(context_) {
@@ -49,7 +49,7 @@ class SerialCoilDriver::Port {
       throw HardwareError(fmt::format("{}: cannot open: {}", path, error.message()));
     if (taken || (::flock(port_.native_handle(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK))
       throw HardwareError(path + ": another program drives coils there");
-    // Keeps programs out that know no locks. A pseudo-terminal would stay closed for ever.
+    // Keeps programs out that ignore locks. A pseudo-terminal would stay closed permanently.
     int lines = 0;
     if (::ioctl(port_.native_handle(), TIOCMGET, &lines) == 0)
       ::ioctl(port_.native_handle(), TIOCEXCL);
@@ -82,7 +82,7 @@ SerialCoilDriver::SerialCoilDriver(const SerialCoilParams& params)
   const auto began = Clock::now();
   std::optional<CoilReply> reply;
   while (!reply && seconds_since(began) < params_.connect_timeout) {
-    failures_ = 0;  // it may be no stock Mega
+    failures_ = 0;  // it may not be a stock Mega
     reply = exchange(CoilMessage::hello);
   }
   if (!reply)
@@ -132,7 +132,7 @@ bool SerialCoilDriver::outputs_of(std::span<const double> currents, CoilOutputs&
 
 DriveStatus SerialCoilDriver::follow(CoilMessage message, const CoilAim& aim) {
   DriveStatus status = DriveStatus::driven;
-  if (!armed_)  // only now: the watchdog starts immediately
+  if (!armed_)  // not before: the watchdog starts immediately
     if (const DriveStatus armed = arm(); armed != DriveStatus::driven) return armed;
   auto reply = exchange(message, aim);
   if (reply && reply->result == CoilResult::not_armed) {
@@ -182,7 +182,7 @@ std::vector<std::uint8_t> SerialCoilDriver::bytes_of(CoilMessage message,
   if (message == CoilMessage::hello) return encode_hello(sequence_);
   if (message != CoilMessage::set && message != CoilMessage::waveform)
     return encode(message, sequence_);
-  // Twice the longest round trip after now, since the device's clock is known late by one.
+  // Two maximum round trips from now, since the device's clock is known with a delay of one.
   const double validity = steady_seconds() - clock_at_ + 2 * params_.reply_timeout;
   const int deadline = clock_ + static_cast<int>(std::lround(1e3 * validity));
   if (message == CoilMessage::set) return encode_set(sequence_, deadline, aim.constant);
@@ -220,7 +220,7 @@ bool SerialCoilDriver::keeps_silent() {
   return false;
 }
 
-/// Whether the device reports its start within so many seconds.
+/// Whether the device reports its start within `timeout` seconds.
 bool SerialCoilDriver::hears_start(double timeout) {
   const auto began = Clock::now();
   for (;;) {

@@ -46,9 +46,9 @@ struct SerialCoilParams {
 
 /// Driver of six coils on an Arduino Mega 2560 with firmware/coil_driver
 /// (docs/reference/protocol.md). A Mega that was reset runs its bootloader, which takes any byte
-/// for the start of an upload and then listens for seconds. The driver therefore says nothing after
-/// opening the port until the firmware reports its start or `boot_time` is over, and nothing but
-/// stop after three exchanges without an answer until the former or three times the latter.
+/// for the start of an upload and then listens for seconds. The driver therefore stays silent after
+/// opening the port until the firmware reports its start or `boot_time` is over. After three
+/// exchanges without an answer it sends only stop, until that report or for 3 · `boot_time`.
 class SerialCoilDriver final : public CoilDriver {
  public:
   /// Opens the port and identifies the device. The device is armed by the first currents. Throws
@@ -66,11 +66,11 @@ class SerialCoilDriver final : public CoilDriver {
   bool makes_waveforms() const override { return params_.waveforms; }
   DriveStatus drive_waveform(const CurrentWaveform& waveform) override;
   std::optional<double> phase() const override { return phase_; }
-  /// Also from three exchanges without an answer on. Waits 2 s at most to have it confirmed.
+  /// Sent also after three exchanges without an answer. Waits at most 2 s for the confirmation.
   bool stop() noexcept override;
   void interrupt() noexcept override { interrupted_ = true; }
 
-  /// Status reported by the device; empty if it does not answer.
+  /// Status reported by the device; nothing if it does not answer.
   std::optional<CoilReply> ask_status();
   /// Duration of the last exchange [s].
   double round_trip() const { return round_trip_; }
@@ -92,14 +92,14 @@ class SerialCoilDriver final : public CoilDriver {
   CoilReplyReader reader_;
   OutputCheck check_;
   std::uint8_t sequence_ = 0;
-  int clock_ = 0;        // of the device, in its last reply [ms]
-  double clock_at_ = 0;  // when that came [s], by steady_seconds()
+  int clock_ = 0;        // device's clock in its last reply [ms]
+  double clock_at_ = 0;  // arrival of that reply [s], by steady_seconds()
   int begin_phase_ = 0;  // of the next waveform [turns / 65536]
   std::optional<double> phase_;
-  double scale_ = 1;  // as acknowledged
+  double scale_ = 1;  // acknowledged
   double round_trip_ = 0;
   std::atomic<bool> interrupted_ = false;
-  int failures_ = 0;                                   // exchanges without an answer, in a row
+  int failures_ = 0;                                   // consecutive exchanges without an answer
   double silent_until_ = 0;                            // [s], by steady_seconds()
   bool armed_ = false;                                 // armed by this driver and not stopped since
   std::array<double, coil_link_channels> currents_{};  // from the last reply [A]
