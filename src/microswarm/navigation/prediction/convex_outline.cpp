@@ -14,7 +14,7 @@
 namespace microswarm {
 namespace {
 
-/// Number of points that are taken through the edges together.
+/// Number of points that are tested against the edges together.
 constexpr std::size_t points_at_once = 64;
 
 MICROSWARM_EACH_CPU void distances_from_disc(const double* x, const double* y, std::size_t count,
@@ -23,7 +23,7 @@ MICROSWARM_EACH_CPU void distances_from_disc(const double* x, const double* y, s
     distances[k] = std::sqrt(x[k] * x[k] + y[k] * y[k]) - radius;
 }
 
-/// At most points_at_once.
+/// Distances of at most points_at_once points from a hull's edges [µm].
 MICROSWARM_EACH_CPU void distances_from_edges(const double* x, const double* y, std::size_t count,
                                               const ConvexOutline::Edge* edges,
                                               std::size_t edge_count, double* distances) {

@@ -23,7 +23,7 @@ struct ConvexOutline {
 
   /// Exact distance [µm] of the point `from_centre` relative to the centre; negative inside.
   double distance_at(Vec2 from_centre) const;
-  /// The same of many points (`x`, `y`), to the bit.
+  /// The same for many points (`x`, `y`), bit-identical.
   void distances_at(std::span<const double> x, std::span<const double> y,
                     std::span<double> distances) const;
 };

@@ -5,7 +5,7 @@
 
 namespace microswarm {
 
-/// Constants of ConvexOutliner that seldom need a change. Hollow is the fraction of a hull that is
+/// Constants of ConvexOutliner that rarely need a change. Hollow is the fraction of a hull that is
 /// not in the body.
 struct ConvexOutlineTuning {
   double ignored_hollow = 0.02;

@@ -9,7 +9,7 @@
 namespace microswarm {
 namespace {
 
-/// Size of a buffer: a median of more differences is hardly more certain.
+/// Size of a buffer; a median of more differences is hardly more accurate.
 constexpr std::size_t max_differences = 64;
 
 /// Whether four sightings are evenly spaced, apart from the rounding of frame times.
@@ -40,8 +40,8 @@ double third_difference(std::span<const Sighting, 4> s) {
 
 constexpr double rayleigh_median = 1.1774100225154747;  // √(2 ln 2)
 
-/// Whether the median of the third differences is so small that the noise is the least one: more
-/// than half of them are. Told without their square roots.
+/// Whether more than half of the third differences are so small that the noise estimate is its
+/// lower bound. Computed without square roots.
 bool is_noiseless(std::span<const Sighting> sightings, std::size_t count, double min_noise) {
   constexpr double rounding = 1e-9;
   const double most =
@@ -72,8 +72,8 @@ double noise_of(std::span<const Sighting> sightings, const MotionFitTuning& tuni
 /// Sums over sightings, relative to the newest.
 struct Moments {
   std::array<double, 5> t{};  ///< Σ tᵏ
-  std::array<Vec2, 3> p{};    ///< Σ tᵏ · place
-  double squares = 0;         ///< Σ |place|²
+  std::array<Vec2, 3> p{};    ///< Σ tᵏ · position
+  double squares = 0;         ///< Σ |position|²
 
   void add(double time, Vec2 place) {
     double power = 1;
@@ -85,7 +85,7 @@ struct Moments {
   }
 };
 
-/// place(t) = c₀ + c₁ t + c₂ t²
+/// position(t) = c₀ + c₁ t + c₂ t²
 struct Curve {
   std::array<Vec2, 3> c{};
   double residual = 0;       ///< Σ of squares
@@ -108,7 +108,7 @@ Curve straight_through(const Moments& m) {
   return out;
 }
 
-/// By the cofactors of the symmetric matrix of the normal equations.
+/// Solves the normal equations by the cofactors of their symmetric matrix.
 Curve curved_through(const Moments& m) {
   const auto& t = m.t;
   const double a = t[2] * t[4] - t[3] * t[3];
@@ -132,7 +132,7 @@ struct Window {
   int sightings = 0;
 };
 
-/// Longest windows back from the newest sighting that a line and a parabola fit.
+/// Longest windows, ending at the newest sighting, that a line and a parabola fit.
 struct Windows {
   Window straight, curved;
 };

@@ -5,7 +5,7 @@
 
 namespace microswarm {
 
-/// Constants of fit_motion that seldom need a change.
+/// Constants of fit_motion that rarely need a change.
 struct MotionFitTuning {
   double min_noise = 0.02;
   double initial_noise = 0.5;

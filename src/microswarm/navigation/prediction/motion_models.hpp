@@ -24,7 +24,7 @@ struct ArcSwing {
   Vec2 at(double t) const { return centre + radius * unit_vector(angle(t)); }
 };
 
-/// Independent predictions of a body's motion: straight; with the present acceleration for a
+/// Independent predictions of a body's motion: straight; with the current acceleration for a
 /// while; oscillating on a line or ellipse, and oscillating on a circle, both fitted to the newest
 /// sightings in three windows; repeating a past motion from the same state.
 class MotionModels {

@@ -5,7 +5,7 @@
 
 namespace microswarm {
 
-/// Constants of MotionModels that seldom need a change.
+/// Constants of MotionModels that rarely need a change.
 struct MotionModelsTuning {
   int min_curved_frames = 5;
   double acceleration_time = 1;

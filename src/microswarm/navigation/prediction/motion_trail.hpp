@@ -19,7 +19,7 @@ struct TrailPoint {
   double turn = 0;    ///< rotation since first seen [rad]
 };
 
-/// Past time at which the state was like the present one. The motion after it is expected to repeat
+/// Past time at which the state was like the current one. The motion after it is expected to repeat
 /// or, if the body passed in the opposite direction, the motion before it.
 struct Recurrence {
   double t = 0;           ///< time [s]
@@ -42,7 +42,7 @@ class MotionTrail {
   const TrailPoint& back() const { return points_.back(); }
   const std::vector<TrailPoint>& points() const { return points_; }
 
-  /// Interpolated smoothly between the points, extrapolated straight beyond the first and last.
+  /// State at time `t` [s], interpolated smoothly between points, extrapolated straight outside.
   TrailPoint at(double t) const;
 
   /// Past time most similar to the newest point, which was seen with the `noise` [µm]. Nothing if

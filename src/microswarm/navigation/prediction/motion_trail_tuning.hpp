@@ -5,7 +5,7 @@
 
 namespace microswarm {
 
-/// Constants of MotionTrail::recurrence that seldom need a change.
+/// Constants of MotionTrail::recurrence that rarely need a change.
 struct RecurrenceTuning {
   double min_speed = 5;
   double min_age = 1;

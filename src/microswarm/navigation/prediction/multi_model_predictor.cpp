@@ -11,7 +11,7 @@
 namespace microswarm {
 namespace {
 
-/// Size of a buffer of forecasts that are not due.
+/// Size of the buffer of pending forecasts.
 std::size_t max_open(const MultiModelPredictorTuning& tuning) {
   const double most = std::max(tuning.near_forecast, tuning.far_forecast);
   return static_cast<std::size_t>(most / std::max(tuning.forecast_interval, 1e-2)) + 6;
@@ -25,7 +25,7 @@ double prior_of(std::size_t model, const MultiModelPredictorTuning& tuning) {
   return model < MotionModels::arc ? tuning.swing_prior : tuning.arc_prior;
 }
 
-/// How far `now` is turned against `then`, both about the centre, vertex by vertex [rad].
+/// Rotation from the outline `then` to `now` about the centre, by corresponding vertices [rad].
 double turn_against(std::span<const Vec2> then, std::span<const Vec2> now, Vec2 centre) {
   double sine = 0;
   double cosine = 0;
@@ -111,7 +111,7 @@ void MultiModelPredictor::append(BodyHistory& history, const Body& body,
   history.trail.add({now_, extent.centre, motion.velocity, extent.radius, turn}, params_.memory);
 }
 
-// Looks up what was said of the time that has come.
+// Compares the forecasts that are due with the frame.
 void MultiModelPredictor::update_errors(BodyHistory& history) const {
   const double kept = maths::exp(-0.1 / params_.error_time_constant);
   for (std::size_t k = 0; k < span_count; ++k) {

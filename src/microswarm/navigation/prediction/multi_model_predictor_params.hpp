@@ -7,7 +7,7 @@
 
 namespace microswarm {
 
-/// How the motion models of obstacles are judged and how far they are doubted.
+/// Selection of the motion models of obstacles, and their uncertainty.
 struct MultiModelPredictorParams {
   double memory = 60;
   double error_time_constant = 2;

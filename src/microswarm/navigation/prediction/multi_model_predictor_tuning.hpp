@@ -8,7 +8,7 @@
 
 namespace microswarm {
 
-/// Constants of MultiModelPredictor that seldom need a change. Priors are the errors expected of a
+/// Constants of MultiModelPredictor that rarely need a change. Priors are the errors expected of a
 /// model before it has shown any, as shares of the predicted distance.
 struct MultiModelPredictorTuning {
   double max_gap = 1;

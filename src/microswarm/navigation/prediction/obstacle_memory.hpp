@@ -32,8 +32,8 @@ class ObstacleMemory {
 
   double memory_;
   ObstacleTracker tracker_;
-  std::vector<Body> found_;  ///< in the newest frame
-  std::vector<Lost> lost_;   ///< before it
+  std::vector<Body> found_;  ///< detected in the newest frame
+  std::vector<Lost> lost_;   ///< detected before, missing now
 };
 
 }  // namespace microswarm

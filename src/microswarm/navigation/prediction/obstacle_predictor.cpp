@@ -48,7 +48,7 @@ double ObstaclePredictor::clearance(const Snapshot& frame, Segment s, double t0,
                                     double limit) const {
   const auto bodies = frame.moving().bodies();
   assert(bodies.size() == motions_.size());
-  if (all_rest_) {  // the indexed query suffices
+  if (all_rest_) {  // the indexed query is sufficient
     double growth = 0;
     for (const Motion& m : motions_) growth = std::max(growth, m.growth);
     growth *= std::min(t1, tuning_.growth_time);
@@ -65,7 +65,7 @@ double ObstaclePredictor::clearance(const Snapshot& frame, Segment s, double t0,
 }
 
 Snapshot ObstaclePredictor::swept_obstacles(const Snapshot& frame, double horizon, double r) const {
-  // Resolution of the sweep and limit of its cost; the horizon and the clearance shape it.
+  // Resolution of the sweep and limit of its cost.
   constexpr double enough_copies = 8;
   constexpr double max_copies = 100;
   const auto bodies = frame.moving().bodies();

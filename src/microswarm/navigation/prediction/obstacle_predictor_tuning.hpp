@@ -5,7 +5,7 @@
 
 namespace microswarm {
 
-/// Constants of ObstaclePredictor that seldom need a change.
+/// Constants of ObstaclePredictor that rarely need a change.
 struct ObstaclePredictorTuning {
   double min_significance = 2;
   double growth_time = 2;

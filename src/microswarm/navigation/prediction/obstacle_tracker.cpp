@@ -18,15 +18,15 @@ std::size_t max_sightings(const ObstacleTrackerParams& params) {
          static_cast<std::size_t>(params.frames);
 }
 
-/// Upper bound of the squared distance from `v` to the solid within the ring: from the vertex with
-/// this number and the edges beside it.
+/// Upper bound of the squared distance from `v` to the solid within the ring: from vertex `i` and
+/// the edges beside it.
 double squared_bound(Vec2 v, std::span<const Vec2> ring, std::size_t i) {
   const std::size_t n = ring.size();
   return std::min(squared_distance(v, {ring[(i + n - 1) % n], ring[i]}),
                   squared_distance(v, {ring[i], ring[(i + 1) % n]}));
 }
 
-/// Outlines of no more are searched edge by edge.
+/// Outlines with at most so many vertices are searched edge by edge.
 constexpr std::size_t few_vertices = 32;
 
 constexpr auto every_vertex = [](std::span<const Vec2>, std::size_t) { return true; };

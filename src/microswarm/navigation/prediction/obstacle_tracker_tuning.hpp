@@ -6,7 +6,7 @@
 
 namespace microswarm {
 
-/// Constants of ObstacleTracker that seldom need a change.
+/// Constants of ObstacleTracker that rarely need a change.
 struct ObstacleTrackerTuning {
   int noise_windows = 4;
   double outline_spacing = 0.4;

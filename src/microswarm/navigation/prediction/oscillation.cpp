@@ -10,10 +10,10 @@ namespace microswarm {
 namespace {
 
 constexpr double same_time = 1e-9;     // rounding of times [s]
-constexpr double no_rotation = 1e-6;   // half angle at which the limit of the quotients is exact
-constexpr std::size_t extra_rows = 4;  // beyond those that the spacing allows: the newest ones
+constexpr double no_rotation = 1e-6;   // half angle below which the quotients' limit is exact
+constexpr std::size_t extra_rows = 4;  // for the newest frames, besides those at the spacing
 
-/// Coefficients of the three terms, and the residual of Σ |place|².
+/// Coefficients of the three terms, and the residual of Σ |position|².
 struct Terms {
   std::array<Vec2, 3> c{};
   double residual = 0;
@@ -56,7 +56,7 @@ struct OscillationFit::Sums {
     }
   }
 
-  /// By the cofactors of the symmetric matrix; nothing if it is singular.
+  /// Solves by the cofactors of the symmetric matrix; nothing if it is singular.
   std::optional<Terms> solve(std::size_t k) const {
     const double n = count;
     const double a = ss[k] * cc[k] - sc[k] * sc[k];

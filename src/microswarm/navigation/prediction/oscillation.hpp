@@ -37,7 +37,7 @@ class OscillationFit {
   const std::array<double, window_count>& windows() const { return windows_; }
   /// Starts a frame taken at `now` [s], later than the previous one; no sighting may be newer.
   void begin(double now);
-  /// Best oscillation through the sightings in each window; the newest sighting is from the present
+  /// Best oscillation through the sightings in each window; the newest sighting is from the current
   /// frame. Nothing if a window has too few sightings, or if a shorter window already holds them
   /// all.
   Fits fit(std::span<const Sighting> sightings);
@@ -56,7 +56,7 @@ class OscillationFit {
 
   OscillationTuning tuning_;
   std::array<double, window_count> windows_;
-  std::size_t max_rows_;  ///< of frames in the longest window
+  std::size_t max_rows_;  ///< frames in the longest window
   std::array<double, rungs> frequencies_{};
   double now_ = 0;
   std::vector<Row> rows_;  ///< ascending in time

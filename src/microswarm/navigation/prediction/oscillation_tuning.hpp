@@ -5,7 +5,7 @@
 
 namespace microswarm {
 
-/// Constants of OscillationFit that seldom need a change. Windows and frequencies must ascend.
+/// Constants of OscillationFit that rarely need a change. Windows and frequencies must ascend.
 struct OscillationTuning {
   double short_window = 1.2;
   double medium_window = 3;

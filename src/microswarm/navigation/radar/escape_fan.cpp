@@ -17,7 +17,7 @@ struct Screened {
   std::int64_t open = 0, doubted = 0;
 };
 
-/// Blocks places nearer than √`near`, doubts others nearer than √`far` [µm²].
+/// Marks positions nearer than √`near` as blocked, others nearer than √`far` as doubted [µm²].
 MICROSWARM_EACH_CPU Screened screen_places(const EscapeFan::Places& places, double near, double far,
                                            std::int64_t* blocked, std::int64_t* doubted) {
   const EscapeFan::Places at = places;
@@ -39,7 +39,7 @@ MICROSWARM_EACH_CPU Screened screen_places(const EscapeFan::Places& places, doub
 
 double squared_if_positive(double v) { return v > 0 ? v * v : 0; }
 
-/// The straight rest of a way, from `before` on [s].
+/// Straight remainder of a trajectory, from `before` on [s].
 Segment last_leg(const Foresight& seen, const EscapeWay& way, double before) {
   const Vec2 start = seen.start().place;
   return {start + way.at(before), start + way.at(seen.end())};
@@ -76,8 +76,9 @@ EscapeFan::EscapeFan(std::vector<Vec2> velocities, double speed)
   }
 }
 
-/// Blocks what gets too near to a body; false once fewer than `count` velocities are left. `gap_at`
-/// gives the gap to be kept [µm]. The last instants come first, as the most bodies are near then.
+/// Blocks the velocities that get too near to a body; false once fewer than `count` remain.
+/// `gap_at` returns the required gap [µm]. The last instants come first, since most bodies are near
+/// then.
 template <class GapAt>
 bool EscapeFan::screen(const Foresight& seen, const Ways& ways, std::span<const Instant> instants,
                        Foresight::Error error, GapAt&& gap_at, std::int64_t count) {
@@ -114,7 +115,7 @@ bool EscapeFan::has_free(Foresight& seen, Vec2 begin, double until, int count) {
   return found >= count;
 }
 
-// A gap changes by no more than the place does.
+// A gap changes by no more than the position does.
 bool EscapeFan::excludes(Foresight& seen, Vec2 begin, double spread, double until, int count) {
   const Foresight::Schedule& schedule = seen.schedule(until);
   const Ways ways{{begin, until, {}}};
@@ -140,7 +141,7 @@ bool EscapeFan::may_keep(const Foresight& seen, const Ways& ways, std::span<cons
   return screen(seen, ways, instants, Foresight::Error::none, gap_at, 1);
 }
 
-/// Blocks what gets too near to this body; gives the number of velocities left.
+/// Blocks the velocities that get too near to this body; returns how many remain.
 std::int64_t EscapeFan::meet(const Foresight& seen, const Foresight::Near& body, const Ways& ways,
                              double t, const Demand& demand) {
   const Places places{x_.data(),         y_.data(),          x_.size(),  ways.varied_for(t),
@@ -157,7 +158,7 @@ std::int64_t EscapeFan::meet(const Foresight& seen, const Foresight::Near& body,
   return left.doubted == 0 ? left.open : left.open - settle(places, body, demand);
 }
 
-/// Blocks those of the doubted velocities that get too near; gives their number.
+/// Computes the exact gap of the doubted velocities; blocks and counts those that get too near.
 std::int64_t EscapeFan::settle(const Places& at, const Foresight::Near& body,
                                const Demand& demand) {
   std::size_t count = 0;

@@ -25,7 +25,7 @@ void EscapeSearch::consider(const EscapeWay& way, Trace trace) {
   if (!trace.blocked) {
     const std::span<const Foresight::Instant> all = seen_.schedule(way.until).instants;
     double last = tuning_.counted_gap;
-    if (only_gaps_count() || seen_.walls_from() >= seen_.end()) {  // it gets to its end, or loses
+    if (only_gaps_count() || seen_.walls_from() >= seen_.end()) {  // it reaches its end, or loses
       const Foresight::Instant& end = all.back();
       last = seen_.gap(seen_.start().place + way.at(end.t), end, last, Foresight::Error::none);
       if (only_gaps_count() && is_contact(last, end.t)) return;
@@ -60,8 +60,9 @@ void EscapeSearch::runs(double until, EscapeFan& fan, Bundle& out) {
   screen(fan, out);
 }
 
-/// Leaves those ways of the fan that may become the best. What touches a body sooner than the best
-/// cannot, nor can, once only gaps count, what has a gap so small that no last one makes up for it.
+/// Keeps the trajectories of the fan that may become the best. Excluded are those that touch a body
+/// sooner than the best one and, once only gaps count, those whose minimum gap is too small for any
+/// final gap.
 void EscapeSearch::screen(EscapeFan& fan, Bundle& out) const {
   const std::span<const Foresight::Instant> all = seen_.schedule(out.ways.common.until).instants;
   const auto later = std::find_if(all.begin(), all.end(), [&](const Foresight::Instant& i) {
@@ -90,8 +91,8 @@ void EscapeSearch::prefer(double time, double gap) {
   outcome_.last += gap;
 }
 
-/// Goes on along the way until a wall, or until it cannot be the best, given that its last gap is
-/// at most `most_last` if it is free.
+/// Follows the trajectory until a wall, or until it cannot become the best, given that its final
+/// gap is at most `most_last` if it is free.
 void EscapeSearch::follow(Trace& trace, const EscapeWay& way,
                           std::span<const Foresight::Instant> instants, double most_last) const {
   if (trace.blocked || instants.empty()) return;

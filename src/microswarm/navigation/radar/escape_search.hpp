@@ -12,47 +12,48 @@
 
 namespace microswarm {
 
-/// What comes of a way.
+/// Outcome of a trajectory.
 struct EscapeOutcome {
   double until_contact = 0;    ///< [s]
-  double least = 0, last = 0;  ///< gap on the way and at its end, as far as more is better [µm]
+  double least = 0, last = 0;  ///< minimum and final gap, each at most the counted one [µm]
+  /// Score among trajectories that are free equally long [µm].
   double worth() const { return least + last; }
 };
 
-/// Finds the way that is free of contact for longest; of those that are alike in that, the one
-/// that keeps most distance. A way is followed no farther than it may still be the best.
+/// Finds the trajectory that is free of contact for longest; among equally long ones, the one with
+/// the largest gaps. A trajectory is followed only while it may still become the best.
 class EscapeSearch {
  public:
-  /// How a way began.
+  /// Evaluation of the first part of a trajectory.
   struct Trace {
     EscapeOutcome outcome;
-    bool touched = false;  ///< a body
-    bool blocked = false;  ///< by a wall, and ended
+    bool touched = false;  ///< whether it touched a body
+    bool blocked = false;  ///< whether a wall ended it
     bool is_hopeless = false;
-    std::size_t instants = 0;  ///< how many are behind
+    std::size_t instants = 0;  ///< number of instants evaluated
   };
 
-  /// The ways of a fan, and what is known of them before one is followed.
+  /// The trajectories of a fan after screening.
   struct Bundle {
     EscapeFan::Ways ways;
-    Trace begun;                     ///< as all do
-    std::vector<std::uint8_t> left;  ///< whether it may become the best, by velocity
+    Trace begun;                     ///< the common first part
+    std::vector<std::uint8_t> left;  ///< for each velocity, whether it may become the best
   };
 
   EscapeSearch(Foresight& seen, const SafetyFilterTuning& tuning) : seen_(seen), tuning_(tuning) {}
 
-  /// The beginning that all ways share which turn from `first` at `until`.
+  /// First part of all trajectories that turn from `first` at `until`.
   Trace begin(Vec2 first, double until);
-  /// Takes the way if it is clearly better than the best so far; `begun` is how it begins.
+  /// Takes the trajectory if it is clearly better than the best so far; `begun` is its first part.
   void consider(const EscapeWay& way, Trace begun);
   void consider(const EscapeWay& way) { consider(way, begin(way.first, way.until)); }
-  /// Makes the best way so far harder to replace, by a time [s] and a gap [µm].
+  /// Makes the best trajectory so far harder to replace, by a time [s] and a gap [µm].
   void prefer(double time, double gap);
-  /// Screens the ways that turn from `first` at `until` into another velocity of the fan.
+  /// Screens the trajectories that turn from `first` at `until` to a velocity of the fan.
   void turns(Vec2 first, double until, EscapeFan& fan, Bundle& out);
-  /// Screens those that hold after `until`.
+  /// Screens the trajectories that hold after `until`.
   void runs(double until, EscapeFan& fan, Bundle& out);
-  /// Takes that velocity's way, if it is left and clearly better.
+  /// Takes the trajectory of a velocity if it passed the screening and is clearly better.
   void consider(const Bundle& bundle, const EscapeFan& fan, std::size_t velocity);
   const EscapeWay& best() const { return best_; }
 
@@ -65,12 +66,12 @@ class EscapeSearch {
   void follow(Trace& trace, const EscapeWay& way, std::span<const Foresight::Instant> instants,
               double most_last) const;
   bool is_hopeless(const Trace& trace, double most_last) const;
-  /// Whether no way can be free for longer than the best.
+  /// Whether no trajectory can be free for longer than the best.
   bool only_gaps_count() const { return outcome_.until_contact >= seen_.end(); }
   bool is_contact(double gap, double t) const {
     return gap < tuning_.contact_gap + tuning_.contact_gap_rate * t;
   }
-  /// What a way's worth must exceed that is free for as long as the best [µm].
+  /// Score that an equally long-lived trajectory must exceed [µm].
   double bar() const { return outcome_.worth() + tuning_.gap_tolerance; }
 
   Foresight& seen_;

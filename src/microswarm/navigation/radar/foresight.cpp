@@ -10,7 +10,7 @@ namespace {
 constexpr double clearance_rounding = 1e-6;  // [µm]
 constexpr double keep_rounding = 1e-7;       // [µm]
 constexpr double reach_rounding = 1e-9;      // relative
-constexpr double asked_beyond = 1;           // of the required gap [µm]
+constexpr double asked_beyond = 1;           // the required gap [µm]
 
 }  // namespace
 
@@ -20,7 +20,7 @@ Foresight::Foresight(const SafetyFilterParams& params, double speed)
       samples_(static_cast<int>(std::ceil(params.horizon / params.step))),
       outliner_(params.tuning.outline) {}
 
-// What is farther cannot come near within the horizon unless it is much faster than the swarm.
+// A body farther away cannot come near within the horizon unless it is much faster than the swarm.
 double Foresight::range() const {
   return 3 * speed_ * (params_.horizon + params_.tuning.max_dead_time);
 }
@@ -88,7 +88,7 @@ void Foresight::look_at_walls(double top_speed) {
   walls_from_ = room > 0 ? room / (top_speed * (1 + reach_rounding)) : 0;
 }
 
-/// How long outlines have grown by `t` seconds after the start [s].
+/// Time for which outlines have grown, `t` seconds after the start [s].
 double Foresight::grown_for(double t) const {
   return std::min(params_.tuning.growth_time, start_.time - seen_ + t);
 }

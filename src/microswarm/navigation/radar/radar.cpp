@@ -115,7 +115,7 @@ Decision RadarNavigator::decide(const Observation& seen, const Stop& stop) {
   return {{pose_.heading, 0}, contact_ ? NavigatorState::hold : NavigatorState::stuck};
 }
 
-// Waypoints given, planned, or only the goal.
+// Route of given waypoints, planned waypoints, or only the goal.
 void RadarNavigator::find_route(const Observation& seen, const Stop& stop) {
   if (!routed_ && !params_.waypoints.empty()) {
     std::vector<Vec2> points = params_.waypoints;
@@ -139,7 +139,7 @@ void RadarNavigator::find_route(const Observation& seen, const Stop& stop) {
   routed_ = true;
 }
 
-// A swarm observed or pushed slightly too near to a wall can plan from beside it.
+// A swarm observed or pushed slightly too near to a wall plans from a free point beside it.
 Pose2 RadarNavigator::beside_walls(const Map& map, double radius) const {
   const Vec2 place = free_place(map, pose_.position, radius);
   const bool in_sight = map.is_free(Segment{pose_.position, place}, 0);

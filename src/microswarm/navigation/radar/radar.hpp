@@ -22,12 +22,12 @@ Issues validate(const RadarParams& params, const SwarmLimits& swarm, const Map& 
                 const IsGiven& is_given);
 
 /// Navigator with a hierarchical radar [radar]; see RadarParams. It knows only the positions and
-/// sizes of obstacles. Made for a swarm that moves in any direction at once. States: direct, avoid,
+/// sizes of obstacles. For holonomic swarms. States: direct, avoid,
 /// retreat, guard (the safety filter's command), hold, wait, arrived, blind, and stuck if there is
 /// no plan around the walls or they block all directions that lead nearer.
 class RadarNavigator : public Navigator {
  public:
-  /// `params` must have passed `validate`; `swarm`: known properties of the swarm.
+  /// `params` must have passed `validate`; `swarm`: limits of the swarm.
   RadarNavigator(const RadarParams& params, const SwarmLimits& swarm, Vec2 goal,
                  double goal_tolerance, Rng rng, double frame_timeout = default_frame_timeout);
 
@@ -39,7 +39,7 @@ class RadarNavigator : public Navigator {
   /// Input of the last decision by Eq 9–17, for `scan`; empty if the last step made none: blind, or
   /// inside a body.
   const std::optional<RadarLook>& last_look() const { return look_; }
-  /// Number of directions it chooses from.
+  /// Number of candidate directions.
   int directions() const { return directions_of(params_); }
 
  private:
@@ -67,8 +67,8 @@ class RadarNavigator : public Navigator {
   RadarScanner scanner_;
   SafetyFilter filter_;
   RadarRoute route_;
-  std::optional<Plan> plan_;          ///< latest plan, found or not
-  bool routed_ = false;               ///< whether it has looked for a route
+  std::optional<Plan> plan_;          ///< latest plan, of any status
+  bool routed_ = false;               ///< whether a route was searched
   double plan_again_at_ = 0;          ///< [s]
   double wait_ = 0;                   ///< time between two plans; longer after each failure [s]
   std::optional<Sighting> sighting_;  ///< for the safety filter

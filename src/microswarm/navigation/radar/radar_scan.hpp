@@ -44,7 +44,7 @@ struct RadarWeights {
 /// 1/r_d))². Hence q_t >= 1 > q_a for k_a η < 1.
 RadarWeights radar_weights(const RadarLook& look, double distance);
 
-/// Lower bound of the distance in 1/‖O_pe O_t‖ of Eq 9 [µm].
+/// Lower bound of the distance ‖O_pe O_t‖ in Eq 9 [µm].
 inline constexpr double min_way = 1e-9;
 
 /// N(·) of Eq 9 [radar]: from 0 to 1 over the candidates, 0 if all are equal.
@@ -54,7 +54,7 @@ class MinMax {
     least_ = v < least_ ? v : least_;
     greatest_ = v > greatest_ ? v : greatest_;
   }
-  /// Factor per unit above the minimum; 0 if all are equal.
+  /// Reciprocal of the range; 0 if all are equal.
   double scale() const { return greatest_ > least_ ? 1 / (greatest_ - least_) : 0; }
   double normalised(double v) const { return (v - least_) * scale(); }
 
@@ -68,19 +68,19 @@ inline bool keeps_course(const RadarLook& look, Vec2 direction) {
   return !look.course || look.min_cosine <= -1 || dot(direction, *look.course) >= look.min_cosine;
 }
 
-/// Why a direction is not in χ_2 of Eq 17 [radar], or is in it but turns too far while others do
-/// not.
+/// Why a direction is not in χ_2 of Eq 17 [radar], or why it is not chosen from it: it turns too
+/// far while others do not.
 enum class BeamFate { kept, obstacle, wall, turn };
 
 /// One of the alternative directions, Eq 8 [radar].
 struct RadarBeam {
   double heading = 0;  ///< θ_i
   BeamFate fate = BeamFate::kept;
-  std::uint32_t obstacle = 0;  ///< number of the obstacle that screens it, if any
+  std::uint32_t obstacle = 0;  ///< index of the obstacle that screens it, if any
   double score = 0;            ///< φ_i of Eq 9, 31, over χ_2; 0 if screened
 };
 
-/// One decision in full, for inspection: every direction and its fate.
+/// One decision in full, for inspection: every direction and why it was kept or screened.
 struct RadarScan {
   RadarLook look;
   RadarWeights weights;

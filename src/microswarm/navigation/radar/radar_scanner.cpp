@@ -54,7 +54,7 @@ std::optional<RadarContact> RadarScanner::detect(const RadarLook& look, const Sn
     bodies_.push_back(body);
     note({body, d - look.approach});
   });
-  // A farther edge is not the one of its body nearest to a predictive swarm.
+  // An edge farther away is not its body's nearest one to a predictive swarm.
   const double far = reach + 2 * look.step;
   moving.polygons().for_each_edge_in(near.grown(2 * look.step), [&](std::uint32_t body, Segment e) {
     const double squared = squared_distance(look.centre, e);

@@ -24,7 +24,7 @@ class RadarScanner {
 
   int directions() const { return static_cast<int>(ux_.size()); }
 
-  /// Collects what is in the detection circle; returns the nearest body.
+  /// Collects the objects in the detection circle; returns the nearest body.
   std::optional<RadarContact> detect(const RadarLook& look, const Snapshot& world);
   /// Heading of the best direction by Eq 9–17, 30, 31 [radar] among what was detected for the same
   /// look, whose safety circle may have changed since. Nothing if all are screened.
@@ -33,7 +33,7 @@ class RadarScanner {
   /// steps long, it maximises the sum of the minimum distance to anything along the path and the
   /// distance at its end. Nothing if holding is as good.
   std::optional<double> retreat(const RadarLook& look, const Snapshot& world) const;
-  /// Directions that are not screened, χ_2 of Eq 17 [radar], among what was detected.
+  /// For each direction, whether it is not screened: χ_2 of Eq 17 [radar].
   std::vector<bool> kept(const RadarLook& look, const Snapshot& world);
 
  private:

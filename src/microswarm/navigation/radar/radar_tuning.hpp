@@ -5,7 +5,7 @@
 
 namespace microswarm {
 
-/// Constants of RadarNavigator that seldom need a change.
+/// Constants of RadarNavigator that rarely need a change.
 struct RadarTuning {
   double replan_interval = 1;
   double max_replan_interval = 30;

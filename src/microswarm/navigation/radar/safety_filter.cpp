@@ -15,7 +15,7 @@ namespace microswarm {
 namespace {
 
 constexpr double tie = 1e-6;
-constexpr std::size_t sectors = 8;  // of the circle, counted from the wanted heading
+constexpr std::size_t sectors = 8;  // of the circle, from the wanted heading on
 constexpr double half_sector = pi / sectors;
 
 Vec2 velocity_of(const Command& command) { return command.speed * unit_vector(command.heading); }
@@ -77,9 +77,9 @@ std::optional<Command> SafetyFilter::checked(const Command& wanted, double lasti
   return instead;
 }
 
-// Most often the first choice or none leaves escapes. So once one fails, all are ruled out together
-// if that can be, else the sector of each that fails. The middle of a sector's chord is no farther
-// from any of its velocities than from its ends.
+// Usually the first choice or none leaves escapes. So after the first failure all choices are
+// excluded by one test if possible, later the sector of each that fails. The middle of a sector's
+// chord is no farther from any velocity in the sector than from the chord's ends.
 std::optional<Command> SafetyFilter::nearest_safe(const Command& wanted, double lasting) {
   const int count = params_.tuning.min_escapes;
   const Vec2 half = unit_vector(half_sector);
@@ -100,8 +100,8 @@ std::optional<Command> SafetyFilter::nearest_safe(const Command& wanted, double 
   return std::nullopt;
 }
 
-// To hold counts as turning across, as it gets no nearer, and as more the longer it lasts: before
-// what stands it would last for ever.
+// A hold counts as a turn by 90°, since it makes no progress, and as more the longer it lasts:
+// otherwise it would never end in front of a standing obstacle.
 void SafetyFilter::list_choices(const Command& wanted) {
   const double course = course_.value_or(wanted.heading);
   const double hold = 0.5 * pi + params_.tuning.impatience * waited_;
@@ -109,7 +109,7 @@ void SafetyFilter::list_choices(const Command& wanted) {
   const int count = params_.tuning.refinement * params_.directions;
   for (int k = 0; k < count; ++k) {
     const double heading = wrap(wanted.heading + 2 * pi * k / count);
-    // Between the two all turn the same: then what is nearer to the wanted one comes first.
+    // All headings between the two have the same sum of turns; the factor prefers the wanted one.
     const double turn =
         (1 + tie) * turn_between(heading, wanted.heading) + turn_between(heading, course);
     const auto sector = static_cast<std::size_t>(k) * sectors / static_cast<std::size_t>(count);

@@ -15,37 +15,40 @@
 
 namespace microswarm {
 
-/// See SafetyFilterParams. For a swarm that moves into any direction at once. Allocates nothing
-/// once it has seen the obstacles.
+/// Safety filter of a command, see SafetyFilterParams. For holonomic swarms. Does not allocate once
+/// it has seen the obstacles.
 class SafetyFilter {
  public:
   using Start = EscapeStart;
 
-  /// `speed` is that of a way out [µm/s].
+  /// `speed`: speed of an escape [µm/s].
   SafetyFilter(const SafetyFilterParams& params, double speed);
 
-  /// Takes a frame: every one, before filter() is asked about it.
+  /// Processes a frame; to be called for each one, before filter().
   void update(const Observation& observation);
-  /// Nothing when there is a way out after `wanted`, should it last for the commitment, or `tick`
-  /// [s] where that is longer. Else, of the commands that leave several, the one that turns least
-  /// from what is wanted and from the course that is driven: so it keeps to the side that it has
-  /// begun to pass on. Where none does, how the way begins that is free for longest; of those
-  /// that are for the whole horizon, the one that keeps most distance. Then also turns are tried,
-  /// and a way once begun is kept to unless another is clearly better.
+  /// Command in place of `wanted`, which is assumed to last for the commitment, or for `tick` [s]
+  /// if that is longer:
+  /// 1. nothing if an escape remains after `wanted`;
+  /// 2. else, of the commands that leave several escapes, the one with the smallest sum of turns
+  ///    from `wanted` and from the current course, so that a side once chosen is kept;
+  /// 3. else the start of the trajectory that is free for longest or, among those free for the
+  /// whole
+  ///    horizon, keeps the largest gaps. These include turns; the trajectory of the last call is
+  ///    kept unless another one is clearly better.
   std::optional<Command> filter(const Command& wanted, const Start& start, const Snapshot& world,
                                 double tick);
 
  private:
-  /// The way last ordered, as long as it is needed.
+  /// Trajectory commanded last, as long as it is needed.
   struct Committed {
     EscapeWay way;
     double time = 0;  ///< [s]
   };
-  /// What may be commanded instead, by how far it is from what is wanted.
+  /// An alternative command, ordered by its turn from the wanted command and the course.
   struct Choice {
     double turn = 0;  ///< [rad]
     Command command;
-    std::optional<std::size_t> sector;  ///< of the circle; none for a hold
+    std::optional<std::size_t> sector;  ///< sector of the circle; none for a hold
     friend bool operator<(const Choice& a, const Choice& b) {
       return a.turn != b.turn ? a.turn < b.turn : a.command.heading < b.command.heading;
     }
@@ -60,14 +63,14 @@ class SafetyFilter {
   double speed_;
   ObstacleTracker tracker_;
   Foresight seen_;
-  EscapeFan escapes_;  ///< hold first
-  EscapeFan turns_;    ///< every other of their directions
+  EscapeFan escapes_;  ///< the hold is first
+  EscapeFan turns_;    ///< every other of these directions
 
   std::optional<Committed> committed_;
-  std::optional<double> course_;  ///< the heading last driven [rad]
-  double waited_ = 0;             ///< told to hold, since what was wanted was last safe [s]
+  std::optional<double> course_;  ///< last heading driven [rad]
+  double waited_ = 0;             ///< time of commanded holds since `wanted` was last safe [s]
   std::vector<Choice> choices_;
-  std::vector<EscapeSearch::Bundle> bundles_;  ///< as many as are ever taken by turns
+  std::vector<EscapeSearch::Bundle> bundles_;  ///< as many as are evaluated in turn at most
 };
 
 }  // namespace microswarm

@@ -7,9 +7,9 @@
 
 namespace microswarm {
 
-/// Safety filter, ours, not in [radar]: a command passes only if it leaves a way out, to hold or to
-/// go straight into some direction, free of contact as far as is foreseen. Else the nearest command
-/// that leaves one is given. Obstacles go on as they were seen to move.
+/// Safety filter (ours, not in [radar]). A command passes only if a collision-free escape remains
+/// after it: to hold, or to move straight in some direction. Otherwise the nearest command with an
+/// escape replaces it. Obstacles are extrapolated at their estimated velocity.
 struct SafetyFilterParams {
   bool active = true;
   double horizon = 5;

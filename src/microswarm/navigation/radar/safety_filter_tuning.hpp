@@ -9,7 +9,7 @@
 
 namespace microswarm {
 
-/// Constants of SafetyFilter that seldom need a change.
+/// Constants of SafetyFilter that rarely need a change.
 struct SafetyFilterTuning {
   double recovery_rate = 5;
   double counted_gap = 30;

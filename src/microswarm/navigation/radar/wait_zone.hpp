@@ -15,7 +15,7 @@ namespace microswarm {
 struct Waiting {
   Vec2 position;      ///< of its centre [µm]
   double radius = 0;  ///< [µm]
-  double reach = 0;   ///< distance from the leaves' path below which it does not wait [µm]
+  double reach = 0;   ///< distance from the leaves' sweep below which it does not wait [µm]
   Vec2 target;        ///< [µm]
 };
 
@@ -30,8 +30,8 @@ double gap_between(const Body& a, const Body& b);
 
 /// Eq 29 [radar]: whether some part of the swarm is in the zone and the gap of a valve there, two
 /// bodies of one obstacle, is below the minimum. False if the swarm has passed the valve, so that
-/// its target is on the same side, or is within reach of the leaves: there it must go on or leave
-/// before they close on it.
+/// its target is on the same side, or is within reach of the leaves, where it must move on before
+/// they close on it.
 bool must_wait(const WaitZone& area, std::span<const Body> bodies, const Waiting& swarm);
 
 }  // namespace microswarm
