@@ -9,17 +9,17 @@
 
 namespace microswarm {
 
-/// How near the coils are to their limits.
+/// Load of the coils relative to their limits.
 struct CoilLoad {
-  double current = 0;                     ///< peak of the last second, of the most loaded coil [A]
+  double current = 0;  ///< peak of the last second, in the coil nearest to its limit [A]
   std::optional<double> max_current;      ///< its limit, if any [A]
-  double temperature = 0;                 ///< of the hottest coil, for its limit [°C]
+  double temperature = 0;                 ///< of the coil nearest to its limit [°C]
   std::optional<double> max_temperature;  ///< its limit, if any [°C]
-  double scale = 1;                       ///< least scale of the last second by the coils' limits
-  CoilOutput output;                      ///< the newest; without currents before the first
+  double scale = 1;   ///< minimum of the last second: scale by the coils' limits
+  CoilOutput output;  ///< the newest output; without currents before the first
 };
 
-/// Largest value of the last second, or of a little less.
+/// Maximum over the last 0.5 to 1 s.
 class RecentPeak {
  public:
   void add(double t, double value) {
@@ -37,15 +37,15 @@ class RecentPeak {
   std::array<double, 2> peaks_{};
 };
 
-/// Follows what goes to the coils.
+/// Updates a CoilLoad from the outputs to the coils.
 class CoilLoadMeter {
  public:
-  /// `system` must outlive it.
+  /// `system` must outlive the meter.
   explicit CoilLoadMeter(const CoilSystem& system) : system_(system) {}
 
   /// Takes an output at `t` [s].
   void take(double t, const CoilOutput& output);
-  /// At the last output.
+  /// Load at the last output.
   const CoilLoad& load() const { return load_; }
 
  private:

@@ -18,11 +18,11 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-/// Counts how often the coils had been off by themselves.
+/// Counts how often the coils had switched off by themselves.
 class Trips {
  public:
   explicit Trips(const CoilLoopLimits& limits) : limits_(limits) {}
-  /// Adds one at `t` [s]. Returns why it is too much, or an empty string.
+  /// Adds a trip at `t` [s]. Returns why there are too many, or an empty string.
   std::string add(double t) {
     std::erase_if(times_, [&](double before) { return before < t - limits_.trip_window; });
     times_.push_back(t);
@@ -117,7 +117,7 @@ void CoilLoop::run() {
     due = std::min(due, now);
     if (!commanded_) {
       due = last = now;
-      standstill.pass(0);  // nothing is driven yet; a suspension counts at the first command
+      standstill.pass(0);  // nothing is driven yet; a suspension takes effect at the first command
       continue;
     }
     why_ = standstill.pass(wait);
@@ -139,7 +139,7 @@ void CoilLoop::run() {
     if (now > due + period) due = now;  // do not make up for missed outputs
     lock.lock();
     const DriveStatus status = moment.output.status;
-    // An exchange without an answer takes its time; one with an answer is short, or the coils were
+    // An exchange without an answer takes long; one with an answer is short, or the coils were
     // off meanwhile.
     const bool answered = status != DriveStatus::no_answer;
     const std::string stood = standstill.pass(answered ? 0 : moment.round_trip);

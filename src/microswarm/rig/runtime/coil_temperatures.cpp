@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::chrono::milliseconds between_entries{500};
-/// Longest time of a killed program after its last entry, with that of the device's watchdog [s].
+/// Maximum driving time after the last entry of a killed program, watchdog time included [s].
 constexpr double unwritten = 2;
 
 /// Contents of the file.
@@ -51,14 +51,14 @@ fs::path state_folder() {
   throw InputError("there is no folder for the coils' temperatures: set HOME or XDG_STATE_HOME");
 }
 
-/// Name of the file for a coil system: its own name, and a number for its path (FNV-1a).
+/// Name of the file for a coil system: its name and a hash of its path (FNV-1a).
 std::string name_for(const fs::path& coils) {
   std::uint64_t sum = 0xcbf29ce484222325;
   for (const char c : coils.string()) sum = (sum ^ static_cast<unsigned char>(c)) * 0x100000001b3;
   return fmt::format("{}-{:016x}.yaml", coils.stem().string(), sum);
 }
 
-/// Reads the file. Its place could be anything's, so that no message repeats what is in it.
+/// Reads the file. A link could point to any file, so no message repeats its content.
 KeptTemperatures read_kept(const fs::path& file, std::size_t coils) {
   const std::string text = read_file(file, max_yaml_bytes, LinkAtFile::refused);
   KeptTemperatures kept;
@@ -96,7 +96,7 @@ CoilTemperatures::CoilTemperatures(const Rig& rig, bool cold)
   } else if (!cold) {
     const KeptTemperatures kept = read_kept(file_, drives.size());
     Eigen::VectorXd then = Eigen::Map<const Eigen::VectorXd>(kept.temperatures.data(), coils)
-                               .cwiseMax(at_start_);  // no coil is colder than its surroundings
+                               .cwiseMax(at_start_);  // no coil is below ambient temperature
     if (kept.driven) then = heated(drives, then, unwritten);
     at_start_ = cooled(drives, then, wall_clock() - kept.clock - (kept.driven ? unwritten : 0));
   }
@@ -114,7 +114,7 @@ CoilTemperatures::~CoilTemperatures() {
   thread_.join();
   try {
     write(newest_, false);
-  } catch (const std::exception&) {  // the last entry counts
+  } catch (const std::exception&) {  // then the last entry remains
     return;
   }
 }

@@ -55,7 +55,7 @@ struct Driven {
   }
 };
 
-/// The nearest number with so many decimals, which keeps the lines short.
+/// Rounds to multiples of 1 / `per_one`, which keeps the lines short.
 double rounded(double value, double per_one) { return std::round(value * per_one) / per_one; }
 
 template <class Row>
@@ -70,7 +70,7 @@ std::string line_of(const Commanded& before, const Eigen::VectorXd& currents, co
   return line + "," + csv_line(columns<Driven>(), &after) + "\n";
 }
 
-/// Opens a new file in place of what has this name. A link is not followed.
+/// Creates a new file, replacing one of this name. A link is not followed.
 std::FILE* create(const std::filesystem::path& file) {
   std::error_code none;
   std::filesystem::remove(file, none);
@@ -134,7 +134,7 @@ std::string CommandLog::finish(double zero_at, bool confirmed) noexcept {
       std::filesystem::rename(part_, file_);
       return {};
     }
-  } catch (const std::exception&) {  // told below
+  } catch (const std::exception&) {  // reported below
     out_.reset();
   }
   return fmt::format("{}: write failed; partial log kept as {}", file_.string(), part_.string());

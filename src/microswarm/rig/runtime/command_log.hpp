@@ -18,13 +18,13 @@ class CommandLog {
  public:
   /// Logs into `folder`; an empty path disables the log. Rows of a dry run are marked.
   CommandLog(const std::filesystem::path& folder, const CoilSystem& system, bool dry);
-  /// Without finish() the file keeps its temporary name; it is removed if there is no row.
+  /// Without finish() the file keeps its temporary name; it is removed if it has no row.
   ~CommandLog();
   CommandLog(const CommandLog&) = delete;
   CommandLog& operator=(const CommandLog&) = delete;
 
-  /// Times are counted from `start` [s], by steady_seconds(), as those of the record. Throws
-  /// InputError if it cannot be written.
+  /// Adds a row. Times count from `start` [s], by steady_seconds(), as those of the record. Throws
+  /// InputError if the file cannot be written.
   void add(const CoilMoment& moment, double start);
 
   /// Adds the time at which zero was commanded [s], by steady_seconds(), and renames the log to its
@@ -42,7 +42,7 @@ class CommandLog {
   std::unique_ptr<std::FILE, Close> out_;
   std::size_t coils_;
   bool dry_;
-  std::optional<double> start_;  // once there is a row
+  std::optional<double> start_;  // set with the first row
 };
 
 }  // namespace microswarm

@@ -11,12 +11,12 @@
 
 namespace microswarm {
 
-/// Notices a device whose own limits leave next to nothing of the currents: a field that is meant
-/// is not there.
+/// Detects a device whose own limits leave almost no current, so that the commanded field is
+/// absent.
 class DeviceLimits {
  public:
-  static constexpr double min_scale = 0.1;  ///< of CoilOutput::device_scale
-  static constexpr double longest = 1;      ///< for which it may be less [s]
+  static constexpr double min_scale = 0.1;  ///< minimum of CoilOutput::device_scale
+  static constexpr double longest = 1;      ///< longest time below the minimum [s]
 
   /// Takes an output at `t` [s]. Returns why it is a fault, or an empty string.
   std::string take(double t, const CoilOutput& output) {
@@ -31,7 +31,7 @@ class DeviceLimits {
   }
 
  private:
-  double since_ = infinity;  // when it began [s]
+  double since_ = infinity;  // start of the time below the minimum [s]
 };
 
 }  // namespace microswarm

@@ -19,9 +19,9 @@ struct Devices {
   CoilDriver& driver() { return bench ? bench->coils() : *coils; }
 };
 
-/// Opens camera and coils of a rig. With `dry`, nothing is sent to the coils, and with `idle` a
-/// simulated swarm does not feel what would be. The experiment must
-/// outlive the devices. Throws HardwareError if a device fails, InputError if the rig has no scale.
+/// Opens camera and coils of a rig. With `dry`, nothing is sent to the coils; with `idle`, a
+/// simulated swarm ignores the field. The experiment must outlive the devices. Throws HardwareError
+/// if a device fails, InputError if the rig has no scale.
 Devices open_devices(const RigExperiment& on, bool dry, bool idle = false);
 
 /// Opens the coil driver of a rig. Throws HardwareError if the device fails.

@@ -40,8 +40,8 @@ std::optional<FollowDirection> FollowAngle::direction() const {
   constexpr int enough = 5;
   const double moved = norm({along_, left_});
   if (stretches_ < enough || moved <= 0) return std::nullopt;
-  // The seen way is the commanded one, turned and scaled, with noise of the same spread in both
-  // directions.
+  // Model: the observed displacement is the commanded one, rotated and scaled, with isotropic
+  // noise.
   const double rest = std::max(0.0, seen_squares_ - moved * moved / commanded_squares_);
   const double spread = std::sqrt(rest / (2 * (stretches_ - 1)));
   return FollowDirection{maths::atan2(left_, along_),

@@ -6,19 +6,20 @@
 
 namespace microswarm {
 
-/// Judges whether a swarm follows its commands: over a commanded way, the part of it that was seen
-/// must be at least a given share. A dead amplifier, exchanged coils or a turned camera fail.
+/// Checks whether a swarm follows its commands: over a commanded distance, the observed distance
+/// along it must be at least a given share. A dead amplifier, exchanged coils or a turned camera
+/// fail.
 class FollowMonitor {
  public:
-  /// `min_share` of the commanded way must be followed; 0: none needs to be.
+  /// `min_share` of the commanded distance must be followed; 0 disables the check.
   explicit FollowMonitor(double min_share) : min_share_(min_share) {}
 
-  /// Takes the commanded way between two pictures and the part of it that was seen [µm]. Returns
-  /// false if the swarm does not follow over the last `distance` µm of commanded way.
+  /// Takes the commanded distance between two pictures and the observed distance along it [µm].
+  /// Returns false if the swarm did not follow over the last `distance` µm commanded.
   bool take(double commanded, double followed, double distance);
 
-  double commanded() const { return commanded_; }  ///< over the window [µm]
-  double followed() const { return followed_; }    ///< over the window [µm]
+  double commanded() const { return commanded_; }  ///< within the window [µm]
+  double followed() const { return followed_; }    ///< within the window [µm]
 
  private:
   struct Step {
@@ -32,25 +33,25 @@ class FollowMonitor {
   double followed_ = 0;
 };
 
-/// Direction in which a swarm goes, relative to that of its commands.
+/// Direction in which a swarm moves, relative to that of its commands.
 struct FollowDirection {
   double angle = 0;  ///< counter-clockwise [rad]
   double sd = 0;     ///< standard deviation of the angle [rad]
-  double share = 0;  ///< seen way over commanded way
+  double share = 0;  ///< observed over commanded distance
 };
 
-/// Measures the direction in which a swarm goes, relative to its commands, by least squares over
-/// stretches of way. A camera that is turned against the coils shows as an angle.
+/// Estimates the direction in which a swarm moves, relative to its commands, by least squares over
+/// stretches of its path. A camera that is rotated against the coils shows as an angle.
 class FollowAngle {
  public:
-  /// Takes the commanded way between two pictures, the part of it that was seen, and what was seen
-  /// to its left [µm]. A stretch ends after `stretch` µm of commanded way.
+  /// Takes the commanded distance between two pictures and the observed displacement along it and
+  /// to its left [µm]. A stretch ends after `stretch` µm commanded.
   void take(double commanded, double followed, double across, double stretch);
-  /// Nothing before five stretches, or if nothing moved.
+  /// The estimate; nothing before five stretches, or without motion.
   std::optional<FollowDirection> direction() const;
 
  private:
-  double commanded_ = 0, followed_ = 0, across_ = 0;  // of the present stretch
+  double commanded_ = 0, followed_ = 0, across_ = 0;  // of the current stretch
   double commanded_squares_ = 0, along_ = 0, left_ = 0, seen_squares_ = 0;  // sums over stretches
   int stretches_ = 0;
 };

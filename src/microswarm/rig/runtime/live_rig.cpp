@@ -13,7 +13,7 @@ namespace microswarm {
 namespace {
 
 constexpr double first_frame = 5;                   // [s] timeout of the first frame
-constexpr double stretches_of_follow_distance = 6;  // over which a direction is measured
+constexpr double stretches_of_follow_distance = 6;  // over which a direction is estimated
 
 const RigParams& checked(const Rig& rig, const Scenario& scenario) {
   KeyLocations().require_none(validate(rig, scenario));
@@ -99,7 +99,7 @@ LiveRig::LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const
   read_frame();
 }
 
-/// In the coils' thread.
+/// Called in the coils' thread.
 void LiveRig::hear(const CoilMoment& moment) {
   const CoilOutput& output = moment.output;
   const bool acknowledged = is_acknowledged(output.status);
@@ -131,7 +131,7 @@ Observation LiveRig::observe() {
   return observation_of(*detections_, std::make_shared<const Snapshot>(world_then()), now, seen_);
 }
 
-/// The bodies that the newest picture shows, numbered after the virtual obstacles of its time.
+/// World at the newest picture: virtual obstacles, then the bodies that the picture shows.
 Snapshot LiveRig::world_then() const {
   std::vector<Body> moving = detections_->moving;
   const auto virtual_ones = static_cast<std::uint32_t>(world_.obstacles.size());

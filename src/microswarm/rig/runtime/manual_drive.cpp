@@ -21,7 +21,7 @@
 namespace microswarm {
 namespace {
 
-/// The currents that are wanted at full share, as time goes on.
+/// Currents wanted at full share, as a function of time.
 class Wanted {
  public:
   Wanted(const Rig& rig, const ManualCommand& command)
@@ -34,7 +34,7 @@ class Wanted {
                command.wanted);
   }
 
-  /// After `dt` more seconds, in `output`.
+  /// Advances by `dt` seconds and fills `output`.
   void advance(double dt, CoilOutput& output) {
     std::visit(Overloaded{[&](const Eigen::VectorXd& currents) {
                             output.wanted = actuation_.field_of(currents);
@@ -69,13 +69,13 @@ class Wanted {
   std::optional<FieldGenerator> generator_;
 };
 
-/// Share of a command that ends at `end`, at t: both ramps are straight.
+/// Share at `t` of a command that ends at `end`, with linear ramps of `ramp` [s].
 double share_at(double t, double end, double ramp) {
   if (ramp <= 0) return 1;
   return std::clamp(std::min(t, end - t) / ramp, 0.0, 1.0);
 }
 
-/// Counts answers that do not come; says why it cannot go on, or nothing.
+/// Counts missing answers; returns why driving must end, or an empty string.
 class Watch {
  public:
   std::string take(const CoilDriver& driver, const ManualMoment& moment) {

@@ -68,7 +68,7 @@ class RealtimeRigSimulator::Coils : public CoilDriver {
     }
     return status;
   }
-  /// Currents of the coils at a time [s]: between two messages a waveform goes on by itself.
+  /// Currents of the coils at a time [s]; a waveform continues between two messages.
   std::span<const double> currents_at(double t) {
     if (!turning_) return driver_->currents();
     TurningCurrents then = *turning_;
@@ -79,7 +79,8 @@ class RealtimeRigSimulator::Coils : public CoilDriver {
   bool stop() noexcept override {
     const std::lock_guard lock(bench_.mutex_);
     turning_.reset();
-    return driver_->stop();  // catches up later without current: nothing may fail here
+    return driver_
+        ->stop();  // nothing may fail here; the simulation catches up later, without current
   }
   double device_scale() const override { return driver_->device_scale(); }
   std::string stop_trouble() const override { return driver_->stop_trouble(); }
@@ -89,8 +90,8 @@ class RealtimeRigSimulator::Coils : public CoilDriver {
  private:
   RealtimeRigSimulator& bench_;
   std::unique_ptr<CoilDriver> driver_;
-  std::optional<TurningCurrents> turning_;  // as acknowledged
-  double told_at_ = 0;                      // [s], by steady_seconds()
+  std::optional<TurningCurrents> turning_;  // acknowledged
+  double told_at_ = 0;                      // time of that message [s], by steady_seconds()
   Eigen::VectorXd now_;
 };
 

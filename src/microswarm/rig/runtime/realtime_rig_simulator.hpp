@@ -16,10 +16,10 @@ namespace microswarm {
 class RealtimeRigSimulator {
  public:
   /// The scenario's observation delay is ignored, since real time has its own. `driver` drives the
-  /// coils; with `idle` the simulated swarm does not feel them.
+  /// coils; with `idle` the simulated swarm ignores them.
   RealtimeRigSimulator(const Scenario& scenario, const World& world, const Rig& rig,
                        std::unique_ptr<CoilDriver> driver, bool idle = false);
-  /// Waits until its cameras are destroyed.
+  /// Waits until its cameras have been destroyed.
   ~RealtimeRigSimulator();
   RealtimeRigSimulator(const RealtimeRigSimulator&) = delete;
   RealtimeRigSimulator& operator=(const RealtimeRigSimulator&) = delete;
@@ -35,7 +35,7 @@ class RealtimeRigSimulator {
   class Coils;
   class Camera;
 
-  void catch_up();  // advances to the present; requires the mutex
+  void catch_up();  // advances to the current time; requires the mutex
 
   std::mutex mutex_;
   std::condition_variable no_camera_;

@@ -25,7 +25,7 @@ std::string unlimited(const Rig& rig) {
                                    : "voltage and the temperature");
 }
 
-/// The most that limits weaken the field while it turns in one direction.
+/// Minimum scale of the field by the limits while it turns in one direction.
 struct Weakening {
   double scale = 1;
   bool reached = true;
@@ -50,7 +50,7 @@ Weakening weakening_of(const Rig& rig) {
   return most;
 }
 
-/// Durations between frames, and the last one.
+/// Durations between frames, and the last frame.
 struct Watched {
   Durations gaps;
   LiveFrame frame;

@@ -18,24 +18,24 @@ struct RigCheck {
   std::string what;
   bool good = true;
   std::string answer;
-  bool required = true;  ///< a run is refused if it is not good
+  bool required = true;  ///< whether a run is refused if the check fails
 };
 
-/// Checks whether the coils hold the rig's field in every direction, from ambient temperature.
+/// Checks whether the coils can hold the rig's field in every direction, from ambient temperature.
 RigCheck check_field(const Rig& rig);
 
-/// Reports the limits that a coil system driven by a real device needs and does not have.
+/// Reports the limits that are missing in a coil system driven by a real device.
 Issues missing_limits(const Rig& rig);
 
-/// Watches the rig's camera for so many seconds: its state, and the time between frames.
+/// Observes the rig's camera for `seconds`: its state, and the time between frames.
 std::vector<RigCheck> check_camera(NewestFrame& camera, const Rig& rig, std::optional<double> rate,
                                    double seconds, const Stop& stop = {});
 
-/// Exchanges zero currents with the device for so many seconds, then stops it.
+/// Sends zero currents to the device for `seconds`, then stops it.
 std::vector<RigCheck> check_driver(CoilDriver& driver, const Rig& rig, double seconds,
                                    const Stop& stop = {});
 
-/// "p50 / p95 / p99 ms" of durations, "–" if there are none.
+/// Quantiles of durations as "p50 / p95 / p99 ms", "–" if there are none.
 std::string quantiles(const Durations& times);
 
 }  // namespace microswarm

@@ -11,16 +11,16 @@
 
 namespace microswarm {
 
-/// Notices that the program was stopped or the computer was suspended, wherever it was then: what
-/// is commanded after it may be stale. A test passes another clock.
+/// Detects a stopped process or suspended machine; later commands may be stale. Tests pass another
+/// clock.
 class Standstill {
  public:
-  /// `most` [s] is allowed. `suspended` gives the time for which the computer was suspended [s].
+  /// `most`: longest allowed standstill [s]. `suspended` returns the total time of suspension [s].
   explicit Standstill(double most, std::function<double()> suspended = suspended_seconds)
       : most_(most), clock_(std::move(suspended)), at_(steady_seconds()), suspended_(clock_()) {}
 
-  /// The time since the last call was meant to take `seconds` at most. Returns what happened, or an
-  /// empty string. A suspension since the construction is never forgotten.
+  /// To be called when at most `seconds` should have passed since the last call. Returns what
+  /// happened, or an empty string. A suspension since the construction is always reported.
   std::string pass(double seconds) {
     const double asleep = clock_() - suspended_;
     const double late = steady_seconds() - std::exchange(at_, steady_seconds()) - seconds;
