@@ -20,7 +20,7 @@ struct MapParts {
 /// Bounding box of walls and discs.
 Box box_of(const MapParts& parts);
 
-/// Fingerprint of every bit: equal for equal maps, whatever file they came from.
+/// Hash of every bit: equal for equal maps, independent of the file format.
 std::uint64_t fingerprint(const MapParts& parts);
 
 /// Throws InputError "NAME: WHY" if the bounds are empty, or anything is not finite or beyond

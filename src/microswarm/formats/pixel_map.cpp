@@ -11,7 +11,7 @@
 namespace microswarm {
 namespace {
 
-/// With so many a map takes some seconds and a few GB.
+/// A map of this size takes some seconds and a few GB.
 constexpr std::size_t max_corners = 5'000'000;
 
 }  // namespace

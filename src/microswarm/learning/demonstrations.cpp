@@ -12,7 +12,7 @@
 namespace microswarm {
 namespace {
 
-/// Beyond this angle answers are next to the jump from π to −π, which no network can learn [rad].
+/// Beyond this angle answers are near the jump from π to −π, which no network can learn [rad].
 constexpr double max_off_path = 2.5;
 
 /// Computes the features of a learned follower and queries the expert.

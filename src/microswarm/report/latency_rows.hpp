@@ -8,8 +8,8 @@
 
 namespace microswarm {
 
-/// Adds how long pictures waited for their currents to a table of quantities and values; nothing
-/// for a record that is not of a rig.
+/// Adds the latency from picture to currents to a table of quantities and values; does nothing for
+/// a record without a rig.
 void add_latency_rows(std::vector<std::vector<std::string>>& table, const Record& record);
 
 }  // namespace microswarm

@@ -11,7 +11,7 @@ namespace microswarm {
 /// Title of a run in reports.
 std::string title_of(const Record& record);
 
-/// The frame of a time [s]: the last one that is not later, or the first.
+/// Frame at a time [s]: the last one that is not later, or the first.
 const Frame& frame_at(const Record& record, double t);
 
 /// Marks start and goal, with the goal's tolerance.

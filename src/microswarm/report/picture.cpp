@@ -52,7 +52,7 @@ struct Picture::Impl {
   cairo_t* cr;
   std::vector<LegendEntry> entries;
   std::vector<Box> texts;             // positions of the texts [px]
-  cairo_surface_t* pixels = nullptr;  // of the drawing, made when another picture asks for it
+  cairo_surface_t* pixels = nullptr;  // of the drawing, made when another picture needs them
 
   Impl(const Box& v, std::string_view t, double longer_side)
       : view(v), title(t), scale(longer_side / std::max(v.width(), v.height())) {

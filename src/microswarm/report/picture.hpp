@@ -64,7 +64,7 @@ class Picture {
   /// Draws a photograph as background, `um_per_px` µm per pixel, its lower left corner at the
   /// origin; `fade` in [0, 1] whitens it.
   void photo(const Image& image, double um_per_px, double fade = 0);
-  /// Draws what is in another picture of the same view and size, as pixels, which are made once.
+  /// Draws another picture of the same view and size as pixels, which are cached in it.
   void ground(const Picture& other);
   void walls(const Map& map, Colour fill = colours::wall, Colour edge = colours::wall_edge);
   void bodies(std::span<const Body> bodies, Colour fill = colours::obstacle);

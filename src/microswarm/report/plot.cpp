@@ -32,7 +32,7 @@ constexpr std::ptrdiff_t max_upright_letters = 4;  // longer labels are rotated
 constexpr const char* band_colour = "#ececec";
 constexpr std::array<int, 7> markers{7, 5, 9, 11, 13, 8, 4};  // gnuplot point types
 
-/// gnuplot runs what stands between back quotes, also within a text.
+/// Quotes a text for gnuplot, which would execute text between back quotes.
 std::string in_quotes(std::string_view s) {
   std::string out = "\"";
   for (char c : printable(s)) {
@@ -212,7 +212,8 @@ std::optional<std::string> drawn_by_gnuplot(const std::filesystem::path& script)
   posix_spawnattr_init(&attributes);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   std::string program = "gnuplot";
-  std::string argument = std::filesystem::absolute(script).string();  // no option
+  std::string argument =
+      std::filesystem::absolute(script).string();  // an absolute path cannot look like an option
   char* const arguments[] = {program.data(), argument.data(), nullptr};
   pid_t child = 0;
   const int error = posix_spawnp(&child, "gnuplot", &actions, &attributes, arguments, environ);

@@ -9,9 +9,9 @@
 
 namespace microswarm {
 
-/// Whether each robot has a colour of its own.
+/// Whether each robot has its own colour.
 bool are_few(const RobotSwarmParams& robots);
-/// Colour of a robot: its own, or that of all.
+/// Colour of a robot: its own, or the common one.
 Colour robot_colour(const RobotSwarmParams& robots, std::size_t robot);
 
 /// Draws individually tracked robots at `places` [µm]. Many are drawn as piles: robots that would

@@ -9,8 +9,8 @@ namespace microswarm {
 
 /// One value of a paper and ours. `paper` is empty if the paper gives no value, `ours` if it is
 /// undefined (a median over no trials), `aim` if there is none, for which `note` gives the reason.
-/// `at_most` tells whether `aim` is an upper or a lower bound. An empty `ours` never meets an aim.
-/// A row that is not `judged` keeps its aim but has no verdict: too few trials, or the run was
+/// `at_most` selects whether `aim` is an upper or a lower bound. An empty `ours` never meets an
+/// aim. A row that is not `judged` keeps its aim but has no verdict: too few trials, or the run was
 /// interrupted.
 struct ReproduceRow {
   std::string figure;
@@ -39,7 +39,7 @@ struct BenchRow {
   std::optional<double> peer;
   std::string peer_name;
   std::optional<double> aim;
-  bool at_most = true;  ///< ours, to be good: a time, not a rate
+  bool at_most = true;  ///< true for a time, false for a rate
 
   bool has_verdict() const { return aim || peer; }
   bool ok() const { return (!aim || reaches(*aim)) && (!peer || reaches(*peer)); }

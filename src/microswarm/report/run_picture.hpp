@@ -10,10 +10,10 @@
 
 namespace microswarm {
 
-/// Draws a whole run: the travelled path with the swarm at its end, obstacles where they were and,
-/// faint, where they were before; of individually tracked robots their last recorded positions.
-/// The planning events of `numbered` are marked on the path. A run that goes on shows the path
-/// that is followed, a record without frames the start.
+/// Draws a whole run: the travelled path with the swarm at its end, the last positions of obstacles
+/// and, faint, earlier ones; of individually tracked robots the last recorded positions. The
+/// planning events of `numbered` are marked on the path. A run in progress shows the path that is
+/// followed, a record without frames the start.
 std::unique_ptr<Picture> draw_run(const Record& record, const ReportOptions& options = {},
                                   std::span<const PlanEvent* const> numbered = {});
 

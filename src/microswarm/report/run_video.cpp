@@ -16,7 +16,7 @@
 namespace microswarm {
 namespace {
 
-constexpr double margins = 48;  // beside the drawing [px]; see Picture
+constexpr double margins = 48;  // around the drawing [px]; see Picture
 constexpr Colour travelled{0.0, 0.45, 0.70, 0.35};
 
 /// Length of the drawing's longer side for a picture of this width [px].
@@ -38,7 +38,7 @@ class Film {
 
   const std::vector<Frame>& frames() const { return playback_.record().frames; }
 
-  /// The run at time t, which must not decrease; with a ground of pixels, which is made once.
+  /// The run at time t, which must not decrease; the background is drawn once as pixels.
   Image at(double t) {
     Picture picture(view_, title(t), size_);
     picture.ground(ground_);
@@ -46,7 +46,7 @@ class Film {
     return picture.raster();
   }
 
-  /// The run at time t, all of it as lines and areas.
+  /// The run at time t, entirely as vector graphics.
   void write(double t, const std::filesystem::path& file) {
     Picture picture(view_, title(t), size_);
     draw_ground(picture, *playback_.world().map, options_.report);
@@ -80,7 +80,7 @@ class Film {
     if (!scenario().robots) trail_.push_back(frames()[next_ - 1].pose.position);
   }
 
-  /// On the straight line between two frames.
+  /// Pose at `t`, interpolated linearly between two frames.
   Pose2 pose(double t) const {
     const Frame& from = frames()[next_ - 1];
     if (next_ == frames().size()) return from.pose;
@@ -112,7 +112,7 @@ class Film {
   Box view_;
   double size_;
   Picture ground_;
-  std::size_t next_ = 0;  ///< frame after the present one
+  std::size_t next_ = 0;  ///< frame after the current one
   const Tick* tick_ = nullptr;
   std::vector<Vec2> trail_;
 };

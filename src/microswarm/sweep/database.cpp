@@ -18,9 +18,9 @@
 namespace microswarm {
 namespace {
 
-constexpr int busy_timeout_ms = 60'000;  // for a reader that keeps the file to itself
+constexpr int busy_timeout_ms = 60'000;  // for a reader that locks the file
 
-// SQLite locks bytes from 2^30 on; nobody has a byte here.
+// SQLite locks bytes from 2^30 on; no file has a byte here.
 constexpr off_t lock_byte = off_t{1} << 62;
 
 constexpr int max_value_bytes = 16 << 20;   // of a value or a row
@@ -45,8 +45,8 @@ SqlValue value_of(const SQLite::Column& column) {
   return column.getString();
 }
 
-/// Lets nothing in the file act by itself: no views, triggers, functions with effects, or changes
-/// of the schema by other means than statements; long values are refused.
+/// Disables everything in the file that could act by itself: views, triggers, functions with side
+/// effects, changes of the schema other than by statements; long values are refused.
 void harden(sqlite3* database) {
   for (const auto& [option, on] :
        {std::pair{SQLITE_DBCONFIG_DEFENSIVE, 1}, std::pair{SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0},
@@ -57,7 +57,7 @@ void harden(sqlite3* database) {
   sqlite3_limit(database, SQLITE_LIMIT_ATTACHED, 0);
 }
 
-/// Ends a statement of too many steps without a row.
+/// Aborts a statement that takes too many steps without a row.
 int count_steps(void* steps) { return ++*static_cast<int*>(steps) > max_steps_a_row; }
 
 }  // namespace

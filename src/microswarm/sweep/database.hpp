@@ -38,9 +38,9 @@ class WriterLock {
 };
 
 /// An SQLite database in a file that exists; an empty file is a database without tables. The file
-/// is not trusted: views and triggers do nothing, values above 16 MiB are refused, and a statement
-/// that goes on without a row is ended. Every error is an InputError of one line that begins with
-/// the file's name.
+/// is not trusted: views and triggers are disabled, values above 16 MiB are refused, and a
+/// statement that runs long without a row is aborted. Every error is an InputError of one line that
+/// begins with the file's name.
 class Database {
  public:
   enum class Access { read, write };
@@ -56,17 +56,17 @@ class Database {
   /// The same, and calls `each` for every row of the result.
   void select(const std::string& sql, std::span<const SqlValue> values,
               const std::function<void(std::span<const SqlValue>)>& each) const;
-  /// Executes one statement `count` times, with the values of each number below it; it is prepared
-  /// once. Within a transaction this is much quicker than `run`.
+  /// Executes one statement `count` times, prepared once, with the values of each index. Within a
+  /// transaction this is much faster than `run`.
   void run_each(const std::string& sql, std::size_t count,
                 const std::function<std::span<const SqlValue>(std::size_t)>& values);
-  /// The whole number in the first column of the first row; 0 without a row.
+  /// Integer in the first column of the first row; 0 without a row.
   std::int64_t number(const std::string& sql) const;
-  /// Executes `statements` in one transaction, which is rolled back when they throw.
+  /// Executes `statements` in one transaction, which is rolled back if they throw.
   void transaction(const std::function<void()>& statements);
 
-  /// Throws InputError if one of these is no table with rows of its own, but a view, a virtual
-  /// table or missing.
+  /// Throws InputError if one of these is missing or no ordinary table, such as a view or a virtual
+  /// table.
   void require_tables(std::span<const std::string_view> tables) const;
 
   const std::string& name() const { return name_; }
@@ -77,7 +77,7 @@ class Database {
   [[noreturn]] void fail(const SQLite::Exception& error) const;
 
   std::string name_;
-  mutable int steps_ = 0;  ///< since the last row
+  mutable int steps_ = 0;  ///< steps since the last row
   std::unique_ptr<SQLite::Database> connection_;
 };
 

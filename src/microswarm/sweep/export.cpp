@@ -25,7 +25,7 @@ std::string csv_value(const SqlValue& value) {
                     value);
 }
 
-/// Collects a column; whole numbers stay whole as long as none is missing.
+/// Collects a column; integers stay integers unless one is missing.
 struct Hdf5Column {
   std::vector<std::int64_t> wholes;
   std::vector<double> reals;
@@ -49,7 +49,7 @@ struct Hdf5Column {
   }
 };
 
-/// Writes the tables of a record that are asked for, and learns the names of all.
+/// Writes the requested table of a record and collects the names of all.
 struct RecordTables {
   std::string wanted;
   std::vector<std::string> names;

@@ -17,13 +17,12 @@ std::string sweep_csv(const SweepReader& sweep);
 /// with its unit and description as attributes; the sweep file and each cell's scenario as texts.
 std::string sweep_hdf5(const SweepReader& sweep);
 
-/// Logs as OMPL's benchmarks write them, which ompl_benchmark_statistics.py puts into a database
-/// for Planner Arena: a file name and a log for each combination of the grid's values, in which the
-/// methods are the planners.
+/// Logs in the format of OMPL's benchmarks, for ompl_benchmark_statistics.py and Planner Arena: a
+/// file name and a log for each combination of grid values, with the methods as planners.
 std::vector<std::pair<std::string, std::string>> ompl_logs(const SweepReader& sweep);
 
 /// One table of a record as CSV (frames, paths, paths/points, ...), units in the names. In a table
-/// of parts, as the points of all paths, the column `row` is the index of the owner. Throws
+/// of parts, such as the points of all paths, the column `row` is the index of the owner. Throws
 /// InputError for an unknown table.
 std::string record_csv(const Record& record, const std::string& table);
 

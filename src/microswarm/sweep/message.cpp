@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Numbers are their bits in an array of one: CBOR would make every NaN the same.
+// A number is stored as its bits in an array of one, since CBOR would make all NaNs equal.
 Json json_of(const SqlValue& value) {
   return std::visit(
       Overloaded{[](std::monostate) { return Json(nullptr); },
@@ -25,7 +25,7 @@ Json json_of(const SqlValue& value) {
       value);
 }
 
-// What follows throws std::exception for a document of other types or ranges.
+// The functions below throw std::exception for other types or ranges.
 
 std::uint64_t whole_of(const Json& json, std::uint64_t max = ~std::uint64_t{0}) {
   const auto whole = json.get_ref<const std::uint64_t&>();

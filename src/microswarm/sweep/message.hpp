@@ -14,16 +14,16 @@ namespace microswarm {
 struct SweepMessage {
   enum class Kind : std::uint8_t { ready, failed, rows, stopped, done, tasks, over };
   Kind kind = Kind::over;
-  std::string text;              ///< ready: the plan's hash; failed: why
+  std::string text;              ///< ready: the plan's hash; failed: the reason
   std::uint32_t want = 0;        ///< ready, rows: how many more tasks to send
   std::vector<SweepTask> tasks;  ///< tasks
   std::vector<SweepRow> rows;    ///< rows
 };
 
-/// The message in CBOR; doubles keep every bit.
+/// Encodes a message in CBOR; doubles keep every bit.
 std::string to_bytes(const SweepMessage& message);
 
-/// The message of these bytes. Throws InputError "mpirun: malformed message of … bytes".
+/// Decodes a message. Throws InputError "mpirun: malformed message of … bytes".
 SweepMessage message_of(std::string_view bytes);
 
 }  // namespace microswarm

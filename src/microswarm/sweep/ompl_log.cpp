@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The layout that ompl::tools::Benchmark writes and ompl_benchmark_statistics.py reads, by the
+// The format that ompl::tools::Benchmark writes and ompl_benchmark_statistics.py reads, by the
 // grammar of OMPL's page "How to Benchmark Planners"; tests/sweep/ompl_grammar.py checks it.
 #include <fmt/format.h>
 
@@ -18,7 +18,7 @@ namespace {
 using Role = SweepColumn::Role;
 using Lines = std::vector<std::string>;
 
-/// A text of the grammar, which has no spaces; `none` for an empty one.
+/// A text without spaces, as the grammar requires; `none` for an empty one.
 std::string one_word(std::string_view text, std::string_view none) {
   std::string word(text.empty() ? none : text);
   for (char& c : word)
@@ -34,7 +34,7 @@ std::string value_word(std::string_view value) {
   return one_word(text, "~");
 }
 
-/// A property of the experiment in SQL: its name is not that of a column that each experiment has.
+/// Name of an experiment's property in SQL, distinct from the columns of every experiment.
 std::string property_name(const std::string& column) {
   constexpr std::array<std::string_view, 12> taken{
       "id",      "name",     "totaltime", "timelimit", "memorylimit", "runcount",
@@ -51,7 +51,7 @@ bool are_words(const SweepParameter& parameter, SweepColumnKind kind) {
   return kind == SweepColumnKind::text && std::ranges::any_of(parameter.values, is_word);
 }
 
-/// A grid's value as a number: itself, of true and false 1 and 0, of words its place.
+/// A grid value as a number: itself, 1 and 0 for true and false, its index for words.
 std::string property_value(const SweepParameter& parameter, std::size_t place,
                            SweepColumnKind kind) {
   const std::string& text = parameter.values[place];
@@ -65,7 +65,7 @@ std::string_view property_type(const SweepParameter& parameter, SweepColumnKind 
   return are_words(parameter, kind) ? "INTEGER" : "BOOLEAN";
 }
 
-/// Free text inside the log must not look like the end of its block, and stays on its line.
+/// Free text as one line, so that it cannot end its block of the log.
 std::string plain_line(std::string_view text) { return one_line(text, 10'000); }
 
 std::string log_number(const SqlValue& value) {
@@ -82,7 +82,7 @@ std::string log_text(const SqlValue& value) {
   return text ? *text : log_number(value);
 }
 
-/// Words of the column `status`, in the order of their numbers in the log.
+/// Words of the column `status`, ordered by their numbers in the log.
 Lines statuses() {
   Lines words;
   for (int i = 0; i <= static_cast<int>(Status::fault); ++i)
@@ -145,7 +145,7 @@ class LogWriter {
     return text + "\n";
   }
 
-  /// Places of the grid's values in their lists.
+  /// Indices of the grid's values in their lists.
   std::vector<std::size_t> places_of(std::size_t combination) const {
     const auto& grid = sweep_.sweep().grid;
     std::vector<std::size_t> places(grid.size());

@@ -64,7 +64,7 @@ std::string cell_name(const SweepPlan& plan, const SweepCell& cell) {
   return fmt::format("{}: {}method '{}'", plan.file, name, cell.method);
 }
 
-/// Issues are prefixed with the cell's name; only whether a key is given is known.
+/// Locations that prefix issues with the cell's name and know only whether a key is given.
 KeyLocations locations_of(const SweepPlan& plan, const SweepCell& cell) {
   using Seek = KeyLocations::Seek;
   const std::string name = cell_name(plan, cell);
@@ -81,8 +81,8 @@ struct Loader {
   std::filesystem::path folder;
   MapCache& maps;
 
-  /// Applies a setting and keeps it with its present keys; messages call it `what`.
-  /// False for a key that no longer exists, which is only noted.
+  /// Applies a setting and stores it with its current keys; messages call it `what`.
+  /// False for a key that no longer exists, which becomes a note.
   bool apply(SweepCell& cell, const std::string& setting, const std::string& what) const {
     try {
       Notes notes;
@@ -177,7 +177,7 @@ SweepPlan plan_sweep(Sweep sweep, const std::string& name, const SweepBase& base
   MapCache maps;
   const Loader loader{plan, scenario, base.folder, maps};
   std::vector<SweepCell> cells(cell_count(plan.sweep));
-  cells[0] = loader.cell_of(0);  // alone, for the map that all may share
+  cells[0] = loader.cell_of(0);  // first, for the map that all may share
   for_each_in_order(cells.size() - 1, jobs, stop,
                     [&](std::size_t i) { cells[i + 1] = loader.cell_of(i + 1); });
   if (stop()) return plan;

@@ -20,7 +20,7 @@ struct SweepCell {
   std::vector<std::string> settings;  ///< all, in order of application
   Scenario scenario;                  ///< with the samples of its tracks
   World world;                        ///< cells with the same walls share their map
-  Notes notes;                        ///< on former keys in the settings
+  Notes notes;                        ///< about former keys in the settings
   std::string input_hash;             ///< of scenario, map and tracks, as Scene::hash()
 };
 
@@ -28,26 +28,26 @@ struct SweepCell {
 /// fastest, then the last grid parameter.
 struct SweepPlan {
   Sweep sweep;
-  std::string file;           ///< as given
+  std::string file;           ///< name as given
   std::string scenario_text;  ///< of the base scenario
   YamlNode scenario_document;
-  Notes notes;  ///< on former keys that were read
+  Notes notes;  ///< about former keys that were read
   std::vector<SweepCell> cells;
 
   /// Fingerprint of everything the results depend on.
   std::string hash() const;
 };
 
-/// The text of a base scenario; `name` stands for its file in messages, and files that it names are
-/// relative to `folder`.
+/// The text of a base scenario; `name` is its name in messages, and file names in it are relative
+/// to `folder`.
 struct SweepBase {
   std::string text;
   std::string name;
   std::filesystem::path folder;
 };
 
-/// Builds the cells of a checked sweep on `jobs` threads (0: one per core); `name` stands for the
-/// sweep file in messages. Throws InputError, one line, for the first invalid cell. If stopped,
+/// Builds the cells of a checked sweep on `jobs` threads (0: one per core); `name` is the
+/// sweep's name in messages. Throws InputError, one line, for the first invalid cell. If stopped,
 /// there are no cells.
 SweepPlan plan_sweep(Sweep sweep, const std::string& name, const SweepBase& base, int jobs = 0,
                      const Stop& stop = {});

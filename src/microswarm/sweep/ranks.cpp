@@ -9,7 +9,7 @@
 namespace microswarm {
 namespace {
 
-/// Open MPI's mpirun, and what other launchers say by the interfaces that it understands.
+/// Whether Open MPI's mpirun or a launcher with a compatible interface started this process.
 bool started_together() {
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"})
     if (std::getenv(name)) return true;

@@ -14,7 +14,7 @@ struct RankMessage {
   std::string bytes;
 };
 
-/// What the module of MPI does, from its creation to the end of all messages.
+/// Interface of the MPI module; its lifetime is that of the communication.
 class RankMessages {
  public:
   virtual ~RankMessages() = default;
@@ -30,7 +30,7 @@ class Ranks {
  public:
   /// Throws InputError under mpirun when the program was built without MPI.
   Ranks();
-  /// Only this process, whoever started it.
+  /// Only this process, regardless of the launcher.
   static Ranks alone() { return Ranks(nullptr); }
 
   int rank() const { return messages_ ? messages_->rank() : 0; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// libmicroswarm_mpi.so: all that is linked with MPI.
+// libmicroswarm_mpi.so, the only part that is linked with MPI.
 #include <mpi.h>
 
 #include "microswarm/core/errors/error.hpp"
@@ -49,5 +49,5 @@ class MpiMessages : public RankMessages {
 }  // namespace
 }  // namespace microswarm
 
-/// What Ranks looks up; the caller owns it. Throws InputError.
+/// Symbol that Ranks looks up; the caller owns the object. Throws InputError.
 extern "C" microswarm::RankMessages* microswarm_mpi() { return new microswarm::MpiMessages; }

@@ -59,7 +59,7 @@ std::vector<SweepColumn> read_columns(const Database& database) {
   return columns;
 }
 
-/// `WITHOUT ROWID` keeps the rows in the order of their key, whatever order they came in.
+/// `WITHOUT ROWID` keeps the rows in the order of their key, independent of insertion.
 std::string trials_sql(const std::vector<SweepColumn>& columns) {
   std::string sql = "CREATE TABLE trials(";
   for (const SweepColumn& column : columns)
@@ -79,7 +79,7 @@ std::string inputs_hash(const SweepPlan& plan) {
   return hash.hex();
 }
 
-/// What a sweep must not change half-way: what people call it, and its text or fingerprint.
+/// An input that must not change during a sweep: its name for messages, and its text or hash.
 struct Identity {
   const char* key;
   const char* name;
@@ -93,7 +93,7 @@ std::vector<Identity> identity_of(const SweepPlan& plan) {
           {"inputs_hash", "map, track or program", inputs_hash(plan)}};
 }
 
-/// Before the first look: a folder is told apart from what cannot be written.
+/// Throws for a folder, so that its message differs from that of an unwritable file.
 const std::filesystem::path& no_folder(const std::filesystem::path& file) {
   std::error_code error;
   if (std::filesystem::is_directory(file, error))
@@ -113,7 +113,7 @@ SweepDatabase::SweepDatabase(const std::filesystem::path& file, const SweepPlan&
   if (is_empty(database_)) {
     try {
       database_.transaction([&] { make(origin); });
-    } catch (const InputError&) {  // nothing is left behind of what did not come to be
+    } catch (const InputError&) {  // removes a file that was not completed
       std::error_code error;
       if (std::filesystem::file_size(file, error) == 0) std::filesystem::remove(file, error);
       throw;

@@ -13,7 +13,7 @@
 namespace microswarm {
 namespace {
 
-/// The first text that stands there twice, or nothing.
+/// The first duplicate text, or nothing.
 std::optional<std::string> twin(std::vector<std::string> texts) {
   std::sort(texts.begin(), texts.end());
   const auto found = std::adjacent_find(texts.begin(), texts.end());

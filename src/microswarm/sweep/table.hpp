@@ -24,7 +24,7 @@ constexpr auto enum_names(SweepColumnKind) {
 struct SweepColumn {
   std::string name;  ///< letters, digits and underscores; ends with its unit
   SweepColumnKind kind = SweepColumnKind::real;
-  std::string unit;  ///< as people read it
+  std::string unit;  ///< for display
   std::string description;
   /// Role of the column; wall-clock times differ from run to run.
   enum class Role { key, parameter, result, metric, wall_clock } role = Role::result;
@@ -55,7 +55,7 @@ struct SweepRow {
   std::vector<SqlValue> values;
 };
 
-/// Where the rows of a sweep are kept.
+/// Storage of a sweep's rows.
 class SweepStore {
  public:
   virtual ~SweepStore() = default;

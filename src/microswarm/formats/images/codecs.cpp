@@ -37,11 +37,12 @@ bool starts_with(Bytes bytes, std::string_view text) {
 
 // --- PNG -----------------------------------------------------------------------------------------
 
-constexpr std::size_t max_chunk_bytes = 64 << 20;  // of a text or profile, also when inflated
+constexpr std::size_t max_chunk_bytes = 64
+                                        << 20;  // of a text or profile, before and after inflation
 
 constexpr int alpha_bit = 4;  // of a colour type
 
-/// A sample with its alpha in front of white.
+/// A sample with its alpha, composed over white.
 template <class Sample>
 Sample over_white(Sample sample, std::uint64_t alpha) {
   constexpr std::uint64_t white = std::numeric_limits<Sample>::max();
@@ -58,7 +59,7 @@ cv::Mat over_white(const cv::Mat& rgba) {
   return rgb;
 }
 
-/// Colours of packed indices. libspng takes an index beyond the palette as black.
+/// Colours of packed indices. libspng would map an index beyond the palette to black.
 cv::Mat looked_up(const cv::Mat& packed, const spng_ihdr& header, const spng_plte& palette,
                   const spng_trns& of_colours, std::string_view name) {
   const std::uint32_t bits = header.bit_depth;
@@ -106,7 +107,7 @@ struct OpenPng {
   std::unique_ptr<spng_ctx, void (*)(spng_ctx*)> png{spng_ctx_new(0), spng_ctx_free};
   spng_ihdr header{};
   spng_trns of_colours{};
-  bool transparent = false;  ///< whether pixels may be
+  bool transparent = false;  ///< whether pixels may be transparent
 };
 
 cv::Mat decode_png(Bytes bytes, std::string_view name) {
@@ -143,7 +144,7 @@ cv::Mat decode_png(Bytes bytes, std::string_view name) {
 
 // --- JPEG and BMP: checked here, then decoded by OpenCV ------------------------------------------
 
-/// Decodes at an eighth of the size; every warning is an error.
+/// Checks a JPEG by decoding it at an eighth of its size; every warning is an error.
 void check_jpeg(Bytes bytes, std::string_view name) {
   const std::unique_ptr<void, int (*)(tjhandle)> jpeg(tjInitDecompress(), tjDestroy);
   const auto check = [&](bool ok) {
@@ -167,7 +168,7 @@ void check_jpeg(Bytes bytes, std::string_view name) {
                       four ? TJPF_CMYK : TJPF_GRAY, TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS) == 0);
 }
 
-/// A BMP is a file header, the size of the info header, then little-endian fields.
+/// Checks a BMP: a file header, the size of the info header, then little-endian fields.
 void check_bmp(Bytes bytes, std::string_view name) {
   const auto number = [&](std::size_t at, std::size_t count) {
     std::uint32_t value = 0;
@@ -215,7 +216,7 @@ std::string encode_png(const Image& image) {
   const auto check = [](int code) {
     if (code) throw InputError(std::string("cannot encode a PNG: ") + spng_strerror(code));
   };
-  // Quick, and small enough for pictures with large even areas.
+  // Fast, and small enough for pictures with large uniform areas.
   check(spng_set_option(png.get(), SPNG_ENCODE_TO_BUFFER, 1));
   check(spng_set_option(png.get(), SPNG_IMG_COMPRESSION_LEVEL, 3));
   check(spng_set_option(png.get(), SPNG_FILTER_CHOICE, SPNG_FILTER_CHOICE_SUB));

@@ -16,13 +16,13 @@ class Mat;
 
 namespace microswarm {
 
-/// Whether the bytes begin as a PNG does.
+/// Whether the bytes begin with a PNG's signature.
 bool is_png(std::span<const std::byte> bytes);
 
 /// Pixels of a PNG, JPEG, BMP, or of the first page of a TIFF: one channel (grey) or three (red,
-/// green, blue) of 8 or 16 bits, transparency in front of white. Strict: a warning of the decoder,
-/// a wrong checksum and a file that ends early are errors, and the size is checked before anything
-/// is decoded. A JPEG is turned as its EXIF says; a BMP has three channels always. Throws
+/// green, blue) of 8 or 16 bits, composed over white. Strict: a warning of the decoder, a wrong
+/// checksum and a truncated file are errors, and the size is checked before decoding. A JPEG is
+/// rotated according to its EXIF; a BMP always has three channels. Throws
 /// InputError "NAME: WHY".
 cv::Mat decode_pixels(std::span<const std::byte> bytes, std::string_view name);
 
@@ -30,7 +30,7 @@ cv::Mat decode_pixels(std::span<const std::byte> bytes, std::string_view name);
 /// Throws as `decode_pixels`.
 std::vector<std::uint8_t> transparency_of(std::span<const std::byte> bytes, std::string_view name);
 
-/// An 8-bit PNG of an image. Throws InputError "cannot encode a PNG: WHY".
+/// Encodes an image as an 8-bit PNG. Throws InputError "cannot encode a PNG: WHY".
 std::string encode_png(const Image& image);
 
 /// Bits, 8 to 16, that the largest sample of 16-bit pixels needs.

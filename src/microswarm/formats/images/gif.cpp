@@ -20,7 +20,7 @@
 namespace microswarm {
 namespace {
 
-constexpr int max_colours = 255;  // beside the transparent one, which is 0
+constexpr int max_colours = 255;  // besides the transparent one, which is 0
 
 /// A rectangle of the picture, its end excluded [px].
 struct ChangedArea {
@@ -37,7 +37,7 @@ bool is_same(const Image& a, const Image& b, std::size_t i) {
   return std::equal(&a.pixels[i], &a.pixels[i] + 3, &b.pixels[i]);
 }
 
-/// What differs from the last picture; a pixel if nothing does.
+/// Area that differs from the last picture; one pixel if none does.
 ChangedArea changed_since(const Image& last, const Image& picture) {
   if (last.pixels.empty()) return {0, 0, picture.width, picture.height};
   ChangedArea area{picture.width, picture.height, 0, 0};
@@ -50,13 +50,13 @@ ChangedArea changed_since(const Image& last, const Image& picture) {
   return area.right > 0 ? area : ChangedArea{0, 0, 1, 1};
 }
 
-/// Pixels as places in a palette of 256, where 0 is transparent.
+/// Pixels as indices into a palette of 256, where 0 is transparent.
 struct IndexedPixels {
   std::vector<GifByteType> indices;
   std::vector<GifColorType> colours{{}};
 };
 
-/// Nothing if the area has more than max_colours.
+/// Pixels with the area's own colours; nothing if it has more than max_colours.
 std::optional<IndexedPixels> with_own_colours(const Image& last, const Image& picture,
                                               const ChangedArea& area) {
   IndexedPixels pixels;
@@ -149,11 +149,11 @@ void GifWriter::Parts::begin(const Image& picture) const {
   check(EGifPutScreenDesc(gif, picture.width, picture.height, 8, 0, nullptr));
   check(EGifPutExtensionLeader(gif, APPLICATION_EXT_FUNC_CODE));
   check(EGifPutExtensionBlock(gif, 11, "NETSCAPE2.0"));
-  check(EGifPutExtensionBlock(gif, 3, "\x01\x00\x00"));  // again and again
+  check(EGifPutExtensionBlock(gif, 3, "\x01\x00\x00"));  // repeated without limit
   check(EGifPutExtensionTrailer(gif));
 }
 
-/// Until the next picture [1/100 s]; rounded so that the whole keeps its length.
+/// Delay until the next picture [1/100 s], rounded so that the total duration is kept.
 int GifWriter::Parts::delay() const {
   const auto begins = [this](int picture) { return std::lround(100 * picture / rate); };
   return static_cast<int>(std::min(begins(pictures + 1) - begins(pictures), 65535L));
@@ -167,7 +167,7 @@ void GifWriter::Parts::put(const ChangedArea& area, IndexedPixels pixels) const 
   std::array<GifByteType, 4> bytes{};
   EGifGCBToExtension(&control, bytes.data());
   check(EGifPutExtension(gif, GRAPHICS_EXT_FUNC_CODE, bytes.size(), bytes.data()));
-  // giflib wants a power of two, and at least two.
+  // giflib requires a power of two, at least two.
   pixels.colours.resize(std::max<std::size_t>(2, std::bit_ceil(pixels.colours.size())));
   const std::unique_ptr<ColorMapObject, FreeColours> colours(
       GifMakeMapObject(static_cast<int>(pixels.colours.size()), pixels.colours.data()));

@@ -8,13 +8,12 @@
 
 namespace microswarm {
 
-/// Most pictures a second of a GIF: its delays are whole hundredths of a second, and browsers slow
-/// down those below two.
+/// Maximum rate of a GIF [1/s]: its delays are multiples of 10 ms, and browsers play delays below
+/// 20 ms more slowly.
 inline constexpr double max_gif_rate = 50;
 
-/// Writes an animated GIF that repeats forever. A picture is stored as what differs from the one
-/// before, with a palette of its own: its colours, or the 255 that giflib chooses if there are
-/// more.
+/// Writes an animated GIF that repeats without limit. A picture is stored as its difference from
+/// the previous one, with its own palette: its colours, or 255 chosen by giflib if there are more.
 class GifWriter {
  public:
   /// `rate` is in 1/s, at most max_gif_rate. Throws InputError "PATH: cannot write: REASON".

@@ -37,12 +37,12 @@ void check_image_size(std::int64_t width, std::int64_t height, std::string_view 
 
 /// Reads PNG, JPEG, BMP, TIFF (its first page), PGM, PPM or PBM: deeper samples are scaled to 8
 /// bits, those of PNG and TIFF as numbers of `depth` bits (8 to 16; what is larger becomes white),
-/// palettes and 1-bit pictures expanded, transparency of PNG shown in front of white. The structure
+/// palettes and 1-bit pictures expanded, a PNG composed over white. The structure
 /// is checked before anything is decoded; throws InputError "x.png: WHY" for no file, an empty one,
 /// no image, a truncated or damaged one, 0 pixels, or more than max_image_side or max_image_pixels.
 Image read_image(const std::filesystem::path& path, int depth = 16);
 
-/// The same from memory; `name` stands for the file in messages.
+/// The same from memory; `name` replaces the file's name in messages.
 Image decode_image(std::span<const std::byte> bytes, std::string_view name, int depth = 16);
 
 /// Extensions of the files that read_image takes, in small letters.

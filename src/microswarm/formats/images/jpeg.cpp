@@ -31,7 +31,7 @@ void decode_jpeg_frame(std::span<const std::byte> bytes, std::string_view name, 
   if (tjDecompress2(jpeg.get(), data, bytes.size(), image.pixels.data(), 0, 0, height,
                     image.channels == 1 ? TJPF_GRAY : TJPF_RGB,
                     TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS) != 0) {
-    // This warning comes after the last row.
+    // This warning is raised after the last row.
     if (why().find("extraneous bytes before marker 0xd9") == std::string_view::npos) fail(why());
   }
 }

@@ -200,7 +200,7 @@ std::size_t farthest_from(const std::vector<Vec2>& ring, std::size_t from) {
 
 void simplify_ring(std::vector<Vec2>& ring, double tolerance) {
   if (ring.size() < 4) return;
-  // Two vertices that are far apart are kept, independent of the ring's first vertex.
+  // Two distant vertices are kept, independent of the ring's first vertex.
   const std::size_t a = farthest_from(ring, 0);
   const std::size_t b = farthest_from(ring, a);
   if (a == b) return;

@@ -15,7 +15,8 @@ namespace microswarm {
 /// mask_walls for the same cell. Throws InputError for more cells than an image may have pixels.
 Mask rasterise(const Map& map, double cell);
 
-/// Mask of the cells whose place, `place_of(column, row)`, is in or on a wall or outside the map.
+/// Mask of the cells whose position, `place_of(column, row)`, is in or on a wall or outside the
+/// map.
 template <class PlaceOf>
 Mask blocked_cells(const Map& map, int width, int height, PlaceOf&& place_of) {
   Mask mask(width, height);

@@ -22,25 +22,26 @@ namespace {
 constexpr tmsize_t max_allocation = 512L << 20;  // [bytes] of the library at once
 constexpr int max_pages = 1'000'000;
 
-/// What a page says of itself.
+/// Header of a page.
 struct Page {
   std::uint32_t width = 0, height = 0;
   std::uint16_t bits = 1, samples = 1, format = SAMPLEFORMAT_UINT;
   std::uint16_t planes = PLANARCONFIG_CONTIG, photometric = PHOTOMETRIC_MINISBLACK;
 };
 
-/// SampleLayout of 9 to 16 bits as they are stored in a row: of all channels, or of one plane.
+/// Layout of samples of 9 to 16 bits in a row: of all channels, or of one plane.
 struct SampleLayout {
   int bits = 16;
   int step = 1;    ///< samples a pixel
   int plane = -1;  ///< channel of the only sample; -1: all channels
 
   std::uint16_t plane_number() const { return static_cast<std::uint16_t>(std::max(plane, 0)); }
-  /// Size of a row of so many pixels.
+  /// Size of a row [B].
   std::size_t bytes(std::uint32_t pixels) const {
     return (std::size_t{pixels} * static_cast<std::size_t>(step * bits) + 7) / 8;
   }
-  /// SampleLayout of 16 bits are in the computer's byte order; others are packed, high bits first.
+  /// Sample of a row. 16-bit samples have the computer's byte order; others are packed, high bits
+  /// first.
   std::uint16_t at(const std::uint8_t* row, std::size_t sample) const {
     if (bits == 16) {
       std::uint16_t value = 0;
@@ -72,7 +73,7 @@ int keep_silent(TIFF*, void*, const char*, const char*, va_list) { return 1; }
 
 }  // namespace
 
-/// The open file; the library says nothing.
+/// The open file; libtiff's own messages are suppressed.
 struct TiffPages::File {
   std::span<const std::byte> bytes;  // of a file in memory
   toff_t at = 0;                     // place in it
@@ -132,7 +133,7 @@ struct TiffPages::File {
     return p;
   }
 
-  /// Whether every strip or tile has a place in the file. One without is read as black.
+  /// Whether every strip or tile is in the file. libtiff would read a missing one as black.
   bool is_all_there() const {
     const std::uint32_t count =
         TIFFIsTiled(tiff) ? TIFFNumberOfTiles(tiff) : TIFFNumberOfStrips(tiff);
@@ -141,7 +142,7 @@ struct TiffPages::File {
     return true;
   }
 
-  /// Pixels of at most 8 bits, by the library's own conversion to red, green, blue.
+  /// Decodes samples of at most 8 bits by libtiff's own conversion to red, green, blue.
   bool decode_8(const Page& p, cv::Mat& pixels) const {
     std::vector<std::uint32_t> rgba(std::size_t{p.width} * p.height);
     if (!TIFFReadRGBAImageOriented(tiff, p.width, p.height, rgba.data(), ORIENTATION_TOPLEFT, 1))
@@ -159,7 +160,7 @@ struct TiffPages::File {
     return true;
   }
 
-  /// Pixels of 9 to 16 bits: grey, or the first three samples.
+  /// Decodes samples of 9 to 16 bits: grey, or the first three samples.
   bool decode_deep(const Page& p, cv::Mat& pixels) const {
     const int channels = p.samples >= 3 ? 3 : 1;
     pixels =

@@ -18,12 +18,12 @@ namespace microswarm {
 bool is_tiff(std::span<const std::byte> bytes);
 
 /// Pages of a TIFF or BigTIFF, read one after the other in linear time. Strips and tiles, in every
-/// compression of libtiff. The size of a page is checked before anything is decoded.
+/// compression of libtiff. The size of a page is checked before decoding.
 class TiffPages {
  public:
-  /// Opens a file. Throws InputError "FILE: WHY", as all members.
+  /// Opens a file. All members throw InputError "FILE: WHY".
   explicit TiffPages(const std::filesystem::path& file);
-  /// Opens a file in memory, which must outlive the object; `name` stands for it in messages.
+  /// Opens a file in memory, which must outlive the object; `name` is its name in messages.
   TiffPages(std::span<const std::byte> bytes, std::string_view name);
   ~TiffPages();
   TiffPages(const TiffPages&) = delete;
@@ -31,8 +31,8 @@ class TiffPages {
 
   int count() const { return count_; }
   /// Pixels of the next page: one channel (grey) or three (red, green, blue) of 8 or 16 bits,
-  /// which hold samples of up to 8 or of 9 to 16 bits; without transparency. Call it `count()`
-  /// times at most.
+  /// which hold samples of up to 8 or of 9 to 16 bits; without transparency. May be called at most
+  /// `count()` times.
   cv::Mat next();
 
  private:

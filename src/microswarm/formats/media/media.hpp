@@ -10,9 +10,8 @@ class Mat;
 
 namespace microswarm {
 
-// Photographs and videos, as OpenCV's imgcodecs and videoio decode and encode them. These two bring
-// some 150 shared libraries, 0.2 s of a program's start, so they are in a module of their own that
-// is loaded at the first use.
+// Photographs and videos by OpenCV's imgcodecs and videoio. These depend on some 150 shared
+// libraries, 0.2 s of a program's start, so they form a module that is loaded at the first use.
 
 /// A video that is open for reading.
 class VideoInput {
@@ -23,11 +22,11 @@ class VideoInput {
 
   int width = 0;             ///< [px]
   int height = 0;            ///< [px]
-  double rate = 0;           ///< pictures a second, as the file says
-  double picture_count = 0;  ///< as the file says
+  double rate = 0;           ///< frame rate in the file's header [Hz]
+  double picture_count = 0;  ///< number of pictures in the file's header
 };
 
-/// A video that is open for writing. Its end is written when it is destroyed.
+/// A video that is open for writing. The destructor writes its end.
 class VideoOutput {
  public:
   virtual ~VideoOutput() = default;
@@ -35,28 +34,28 @@ class VideoOutput {
   virtual void write(const cv::Mat& picture) = 0;
 };
 
-/// How a video is encoded.
+/// Encoding of a video.
 enum class VideoCodec { h264, mpeg4, huffyuv, ffv1 };
 
-/// What to write.
+/// Format of a video to write.
 struct VideoForm {
   VideoCodec codec = VideoCodec::h264;
-  double rate = 30;  ///< pictures a second
+  double rate = 30;  ///< frame rate [Hz]
   int width = 0;     ///< [px]
   int height = 0;    ///< [px]
   bool colours = true;
 };
 
-/// What the module does. Its functions may be called from several threads at once.
+/// Interface of the module. Thread-safe.
 class Media {
  public:
   virtual ~Media() = default;
   /// Pixels of a JPEG or BMP, grey or blue, green, red; empty if they cannot be decoded. `bytes` is
   /// one row of 8 bits.
   virtual cv::Mat decode(const cv::Mat& bytes) const = 0;
-  /// Null if it cannot be read as a video.
+  /// Opens a video; null if it cannot be read.
   virtual std::unique_ptr<VideoInput> open(const std::filesystem::path& file) const = 0;
-  /// Null if there is no such encoder, or the file cannot be written.
+  /// Creates a video; null without such an encoder, or if the file cannot be written.
   virtual std::unique_ptr<VideoOutput> create(const std::filesystem::path& file,
                                               const VideoForm& form) const = 0;
   /// Pictures in a video, counted without decoding them; 0 if it cannot be read.

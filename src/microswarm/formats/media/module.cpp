@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// libmicroswarm_media.so: all that is linked with OpenCV's imgcodecs and videoio.
+// libmicroswarm_media.so, the only part that is linked with OpenCV's imgcodecs and videoio.
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 
@@ -85,7 +85,7 @@ class OpenCvMedia : public Media {
 }  // namespace
 }  // namespace microswarm
 
-/// What media() looks up.
+/// Symbol that media() looks up.
 extern "C" const microswarm::Media* microswarm_media() {
   static const microswarm::OpenCvMedia only;
   return &only;
