@@ -10,14 +10,14 @@
 namespace microswarm::c {
 namespace {
 
-/// All open objects. Handles are never used twice.
+/// All open objects. Handles are never reused.
 struct Registry {
   std::shared_mutex mutex;
   std::unordered_map<std::uint64_t, std::shared_ptr<Object>> objects;
   std::uint64_t next = 1;
 };
 
-/// Lives to the end of the process: a caller may close its handles while the program ends.
+/// Never destroyed, since a caller may close its handles while the program ends.
 Registry& registry() {
   static auto* const all = new Registry;  // NOLINT(cppcoreguidelines-owning-memory)
   return *all;
@@ -46,7 +46,7 @@ std::shared_ptr<Object> find(std::uint64_t handle) {
 
 bool forget(std::uint64_t handle) {
   Registry& all = registry();
-  std::shared_ptr<Object> closed;  // ends when the lock is gone
+  std::shared_ptr<Object> closed;  // destroyed after the lock is released
   const std::unique_lock lock(all.mutex);
   const auto found = all.objects.find(handle);
   if (found == all.objects.end()) return false;

@@ -24,8 +24,8 @@ struct OpenMap {
   std::string name;
 };
 
-/// What a handle stands for: one of the first three. Text and numbers that a caller was given stay
-/// here until the next call.
+/// Object behind a handle: one of the first three members. It owns the text and numbers that were
+/// returned to the caller until the next call.
 struct Object {
   std::unique_ptr<Session> session;
   std::unique_ptr<StandaloneNavigator> navigator;
@@ -39,19 +39,19 @@ struct Object {
   std::string why;
 };
 
-/// A call that cannot be obeyed; its text is for ms_error_text.
+/// An invalid call; its text is for ms_error_text.
 struct BadCall {
   std::string text;
 };
 
-/// Takes the object in and gives its handle.
+/// Registers the object and returns its handle.
 std::uint64_t keep(std::unique_ptr<Object> object);
 /// The object of a handle; null if there is none.
 std::shared_ptr<Object> find(std::uint64_t handle);
-/// Forgets the object; a call that uses it goes on to its end. False if there is none.
+/// Removes the object; a call that uses it still completes. False if there is none.
 bool forget(std::uint64_t handle);
 
-/// Calls `work`, which returns a code, and turns what it throws into a code and a text.
+/// Calls `work`, which returns a code, and converts exceptions into a code and a text.
 std::int32_t guarded(const std::function<std::int32_t()>& work) noexcept;
 /// Sets ms_error_text and returns the code.
 std::int32_t fail(ms_code code, const std::string& text) noexcept;
@@ -91,7 +91,7 @@ std::int32_t with_map(std::uint64_t handle, Work&& work) noexcept {
   return with(handle, &Object::map, "map", work);
 }
 
-/// Shows places as x0, y0, x1, ... out of the object's numbers.
+/// Returns positions as x0, y0, x1, ... in the object's buffer.
 std::int32_t show(Object& object, std::span<const Vec2> places, const double** xy,
                   std::size_t* count);
 

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* microswarm in C, and for whatever calls C: experiments, navigators in a loop of one's own, paths.
+/* microswarm for C and languages that call C: experiments, navigators in your own loop, paths.
  *
  * Lengths are in micrometres, times in seconds, angles in radians, counter-clockwise from x.
  *
- * Handles are numbers that are never used twice; 0 is none. Each is closed by ms_close.
- * Every function that can fail returns a code of ms_code; ms_error_text has the reason in words,
- * one line for each mistake, until the next call of the same thread.
+ * Handles are numbers that are never reused; 0 is no handle. Each is closed by ms_close.
+ * Every function that can fail returns a code of ms_code; ms_error_text returns the reason, one
+ * line for each mistake, until the next call of the same thread.
  *
  * Threads: calls with different handles may be made in different threads at the same time. A call
  * with a handle that another thread is using fails with MS_BAD_CALL. ms_stop may be called from any
@@ -24,10 +24,10 @@
 extern "C" {
 #endif
 
-/* Version of this header. ms_interface is that of the library: at least this one, if it fits. */
+/* Interface version of this header. ms_interface() of a compatible library is at least as large. */
 enum { MS_INTERFACE = 1 };
 
-/* What functions return. */
+/* Return codes. */
 typedef enum ms_code {
   MS_OK = 0,
   MS_END = 1,       /* the run has ended: there is no further tick */
@@ -41,25 +41,25 @@ typedef enum ms_code {
 /* Version of the library, three numbers with points. */
 const char* ms_version(void);
 int32_t ms_interface(void);
-/* Why the last call of this thread that failed did; empty before. */
+/* Reason of this thread's last failed call; empty before. */
 const char* ms_error_text(void);
 /* Closes a session, navigator, map or path. */
 int32_t ms_close(uint64_t handle);
-/* Ends the call that another thread makes with a map or a navigator, and the run of a session for
- * good: its next tick is the last one. */
+/* Ends the call of another thread with a map or a navigator, and the run of a session
+ * permanently: its next tick is the last one. */
 int32_t ms_stop(uint64_t handle);
 
 /* ---- Experiments ---------------------------------------------------------------------------- */
 
-/* A tick of an experiment. What is not there is NaN. */
+/* A tick of an experiment. Absent values are NaN. */
 typedef struct ms_frame {
-  double t_s;  /* when it begins */
+  double t_s;  /* start of the tick */
   double x_um; /* centre of the swarm */
   double y_um;
   double heading_rad;
-  double radius_um; /* of robots 0 */
+  double radius_um; /* 0 for robots */
   double speed_um_per_s;
-  double command_heading_rad; /* what the navigator commanded */
+  double command_heading_rad; /* command of the navigator */
   double command_speed_um_per_s;
   double goal_distance_um;
   double wall_clearance_um; /* from the centre; infinite for robots */
@@ -74,15 +74,16 @@ typedef struct ms_frame {
 /* Opens a scenario file, or a record for playback. `settings` are `count` texts "KEY=VALUE". */
 int32_t ms_session_open(const char* file, const char* const* settings, size_t count,
                         uint64_t* session);
-/* Opens a scenario from YAML text; `folder` is that of the files it names, null for the present. */
+/* Opens a scenario from YAML text. File names in it are relative to `folder`; null: the current
+ * one. */
 int32_t ms_session_open_text(const char* text, const char* folder, const char* const* settings,
                              size_t count, uint64_t* session);
-/* A scenario as a whole: a file or a text, the other null. All zero but those is as in
+/* A scenario: a file or a text, the other one null. With all other members zero it is that of
  * ms_session_open. */
 typedef struct ms_scenario {
-  const char* file; /* of a session also a record, which takes neither settings nor trial */
+  const char* file; /* for a session also a record, without settings and trial */
   const char* text;
-  const char* folder; /* of the files that the text names, null for the present */
+  const char* folder; /* of file names in the text; null: the current one */
   const char* const* settings;
   size_t setting_count;
   uint32_t trial; /* selects the random streams: trial k is that of `microswarm run --trials` */
@@ -96,25 +97,25 @@ int32_t ms_session_step(uint64_t session, ms_frame* frame);
 int32_t ms_session_finish(uint64_t session);
 /* Sets a value from the next tick on, written as in a scenario. */
 int32_t ms_session_set(uint64_t session, const char* key, const char* value);
-/* "running", then how it ended: "solved", "collided", "time_limit", ... */
+/* "running", or the final status: "solved", "collided", "time_limit", ... */
 int32_t ms_session_status(uint64_t session, const char** status);
 /* A metric by its name in the summary, for example "length_um" or "walls.clearance_um". */
 int32_t ms_session_metric(uint64_t session, const char* name, double* value);
 /* All metrics as JSON. */
 int32_t ms_session_metrics(uint64_t session, const char** json);
-/* The present positions x0, y0, x1, ... of robots, obstacles (x, y, radius of a circle around it)
- * and the path that is followed; null and 0 where there are none. `count` is that of the places. */
+/* Current positions x0, y0, x1, ... of robots, obstacles (x, y, radius of a circle around each) and
+ * the followed path; null and 0 without any. `count` is the number of positions. */
 int32_t ms_session_robots(uint64_t session, const double** xy_um, size_t* count);
 int32_t ms_session_obstacles(uint64_t session, const double** xyr_um, size_t* count);
 int32_t ms_session_path(uint64_t session, const double** xy_um, size_t* count);
-/* All frames so far, of a record all that it has; after the last tick one more tells the end. */
+/* All frames so far, or all of a record; after the last tick there is one more for the end. */
 int32_t ms_session_frames(uint64_t session, const ms_frame** frames, size_t* count);
-/* Fingerprint of the record so far: equal for equal runs. */
+/* Hash of the record so far: equal for equal runs. */
 int32_t ms_session_hash(uint64_t session, const char** hash);
 /* Writes the record (HDF5). */
 int32_t ms_session_record(uint64_t session, const char* file);
 
-/* ---- A navigator in a loop of one's own ------------------------------------------------------ */
+/* ---- A navigator in your own loop ------------------------------------------------------------ */
 
 /* An obstacle that the camera sees: a disc, or an outline x0, y0, x1, ... of `points` corners. */
 typedef struct ms_obstacle {
@@ -123,14 +124,14 @@ typedef struct ms_obstacle {
   double radius_um;
   const double* outline_um; /* null for a disc */
   size_t points;
-  int32_t number; /* the same in all pictures, 0 or more; see ms_observation */
+  int32_t number; /* >= 0, constant over all pictures; see ms_observation */
 } ms_obstacle;
 
-/* What the camera saw. */
+/* What the camera detected. */
 typedef struct ms_observation {
-  double now_s;      /* the present */
+  double now_s;      /* current time */
   double seen_s;     /* when the picture was taken */
-  int32_t has_swarm; /* 0 if it was not found, and for robots */
+  int32_t has_swarm; /* 0 if not detected, and for robots */
   int32_t numbered;  /* 1 if obstacles have numbers; 0: they are matched by distance */
   double x_um;
   double y_um;
@@ -138,19 +139,19 @@ typedef struct ms_observation {
   double radius_um;
   const ms_obstacle* obstacles;
   size_t obstacle_count;
-  const double* robots_um; /* x0, y0, x1, ...: robot i is the same in every picture */
+  const double* robots_um; /* x0, y0, x1, ...; index i is the same robot in every picture */
   size_t robot_count;
-  int32_t unseen;   /* how many of the robots were not seen and are where they are expected */
+  int32_t unseen;   /* number of robots that were not detected, at expected positions */
   int32_t reserved; /* 0 */
 } ms_observation;
 
-/* What to drive until the next one. Speed 0 is hold. */
+/* Command until the next one. Speed 0 is a hold. */
 typedef struct ms_command {
   double heading_rad;
   double speed_um_per_s;
   double target_x_um; /* local target; NaN without one */
   double target_y_um;
-  int32_t state;   /* compare by ms_state_name: names stay, numbers may not */
+  int32_t state;   /* compare by ms_state_name: names are stable, numbers are not */
   int32_t planned; /* 1 if a planner was called */
 } ms_command;
 
@@ -162,23 +163,23 @@ int32_t ms_navigator_open_text(const char* text, const char* folder, const char*
 int32_t ms_navigator_open_trial(const ms_scenario* scenario, uint64_t* navigator);
 /* The command for an observation. A refused observation changes nothing. */
 int32_t ms_navigator_step(uint64_t navigator, const ms_observation* seen, ms_command* command);
-/* The path that it follows, x0, y0, x1, ... */
+/* The path that it follows: x0, y0, x1, ... */
 int32_t ms_navigator_path(uint64_t navigator, const double** xy_um, size_t* count);
-/* "follow", "hold", "arrived", "blind", ...; "" for a number that is no state. */
+/* Name of a state: "follow", "hold", "arrived", "blind", ...; "" for an unknown number. */
 const char* ms_state_name(int32_t state);
 
 /* ---- Paths ----------------------------------------------------------------------------------- */
 
-/* A map file; `um_per_px` is the side of a pixel or cell, 0 where the file tells it. */
+/* Opens a map file; `um_per_px` is the side of a pixel or cell, 0 if the file contains it. */
 int32_t ms_map_open(const char* file, double um_per_px, uint64_t* map);
-/* A map from `width` x `height` pixels, the upper row first; where it is not 0 the swarm may go. */
+/* A map from `width` x `height` pixels, upper row first; pixels that are not 0 are free. */
 int32_t ms_map_from_pixels(const uint8_t* pixels, size_t width, size_t height, double um_per_px,
                            uint64_t* map);
-/* Extent of a map and the distance of a place to its walls, 0 in one. */
+/* Extent of a map, and the distance of a position to its walls, 0 inside one. */
 int32_t ms_map_bounds(uint64_t map, double* x_lo, double* y_lo, double* x_hi, double* y_hi);
 int32_t ms_map_clearance(uint64_t map, double x_um, double y_um, double* clearance_um);
 
-/* A path that is asked for. Settings are "planner.KEY=VALUE"; the rest is fitted to the map. */
+/* A path query. Settings are "planner.KEY=VALUE"; other parameters are fitted to the map. */
 typedef struct ms_query {
   double start_x_um;
   double start_y_um;
@@ -190,18 +191,18 @@ typedef struct ms_query {
   size_t setting_count;
 } ms_query;
 
-/* What was found. */
+/* Result of a query. */
 typedef struct ms_path {
-  int32_t solved;   /* 0: the points are the beginning of a path */
-  double length_um; /* arcs as arcs */
+  int32_t solved;   /* 0: the points are the beginning of a path only */
+  double length_um; /* of true arcs */
   double turning_rad;
-  double time_s;           /* that the planner took */
+  double time_s;           /* computing time of the planner */
   const double* points_um; /* x0, y0, x1, ... */
   size_t point_count;
   const char* why_none; /* why there is no path; empty with one */
 } ms_path;
 
-/* Plans a path. What `path` points to belongs to the map's handle. */
+/* Plans a path. The data that `path` points to belongs to the map's handle. */
 int32_t ms_plan(uint64_t map, const ms_query* query, ms_path* path);
 
 #ifdef __cplusplus

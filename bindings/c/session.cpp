@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Experiments, and navigators in a loop of the caller's own.
+// Experiments, and navigators in the caller's loop.
 #include <algorithm>
 
 #include <nlohmann/json.hpp>
@@ -60,7 +60,7 @@ ms_frame plain(const Frame& frame) {
           .planned = frame.planned};
 }
 
-/// The places x0, y0, x1, ... of a caller.
+/// Positions x0, y0, x1, ... of a caller.
 std::vector<Vec2> places(const double* xy, std::size_t count, const char* name) {
   if (count > 0) c::require(xy, name);
   constexpr std::size_t most = 10'000'000;
@@ -181,7 +181,7 @@ int32_t ms_session_metric(uint64_t handle, const char* name, double* value) {
       begin = end + 1;
     }
     if (!here || here->is_object()) throw InputError("there is no metric '" + path + "'");
-    *value = here->is_number() ? here->get<double>() : infinity;  // null: it never came near
+    *value = here->is_number() ? here->get<double>() : infinity;  // null: no obstacle came near
     return MS_OK;
   });
 }

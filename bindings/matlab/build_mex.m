@@ -4,13 +4,13 @@ function file = build_mex(library_folder, output_folder)
 %   build_mex()
 %   file = build_mex(library_folder, output_folder)
 %
-% library_folder   where libmicroswarm_c.so is; without, ../../build/release/lib from this file, or where
-%                  it is installed with this file
-% output_folder    where the MEX file goes; without, the folder of this file
+% library_folder   folder of libmicroswarm_c.so; default: ../../build/release/lib from this file, or its
+%                  place in an installation
+% output_folder    folder for the MEX file; default: that of this file
 %
 % Needs a C compiler: in MATLAB see `mex -setup C`, in Octave the package octave-dev of Debian.
 % Afterwards: addpath of this folder, and of output_folder if it is another one.
-% An error tells that the library is not there, or what the compiler said.
+% An error says that the library is missing, or repeats the compiler's message.
 
   % SPDX-License-Identifier: Apache-2.0
   here = fileparts(mfilename('fullpath'));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Values of MATLAB and Octave into those of the C interface, and back; what does not fit ends the
- * call with an error that names it. */
+/* Converts values of MATLAB and Octave to those of the C interface and back; an invalid one ends
+ * the call with an error that names it. */
 #ifndef MICROSWARM_MEX_VALUES_H
 #define MICROSWARM_MEX_VALUES_H
 
@@ -24,7 +24,7 @@ static void fail(const char* id, const char* format, ...) {
 
 #define REFUSE(...) fail("microswarm:bad_input", __VA_ARGS__)
 
-/* Ends in an error unless a call of the library worked. */
+/* Raises an error unless a call of the library succeeded. */
 static void check(int32_t code) {
   static const char* const ids[] = {"microswarm:bad_input", "microswarm:stopped",
                                     "microswarm:bad_call", "microswarm:no_memory",
@@ -91,7 +91,7 @@ static double element(const mxArray* a, size_t i) {
   }
 }
 
-/* The rows of a matrix one behind the other, as the library takes them; null for an empty one. */
+/* The rows of a matrix in sequence, as the library expects them; null for an empty matrix. */
 static double* rows_of(const mxArray* a, const char* name, size_t columns, size_t* rows) {
   size_t row, column;
   double* all;

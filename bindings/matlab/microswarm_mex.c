@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* microswarm_mex(command, ...): the C interface for MATLAB and Octave. Users call the functions of
- * the package folder +microswarm, which say what their arguments mean; here arguments are checked
- * and converted. Handles are uint64. Places are matrices with a row for each.
+ * the package folder +microswarm, which describe their arguments; here arguments are checked and
+ * converted. Handles are uint64. Positions are matrices with one row each.
  *
  * Errors have the identifiers microswarm:bad_input, bad_call, stopped, no_memory and fault. */
 #include <stddef.h>
@@ -27,7 +27,7 @@ static void close_all(void) {
   memset(&opened, 0, sizeof opened);
 }
 
-/* A handle as value of MATLAB; it is closed at `clear mex` at the latest. */
+/* A handle as a MATLAB value; it is closed by `clear mex` at the latest. */
 static mxArray* keep(uint64_t handle) {
   mxArray* value;
   if (opened.count == opened.space) {
@@ -72,7 +72,7 @@ static void put(mxArray* made, const char* name, mxArray* value) {
   mxSetFieldByNumber(made, 0, mxAddField(made, name), value);
 }
 
-/* A struct of columns; the state is a cell array of texts, of a single frame a text. */
+/* A struct of columns; the state is a cell array of texts, for a single frame a text. */
 static mxArray* frames_of(const ms_frame* frames, size_t count, int is_single) {
   mxArray* made = mxCreateStructMatrix(1, 1, 0, NULL);
   mxArray* states = is_single ? NULL : mxCreateCellMatrix(count, 1);
@@ -142,7 +142,7 @@ static mxArray* navigator_open_text(arguments in) {
   return open_scenario(in, 1, ms_navigator_open_trial);
 }
 
-/* At most so many ticks, to keep MATLAB able to interrupt; whether the run has ended. */
+/* Steps a limited number of ticks, so that MATLAB can interrupt; whether the run has ended. */
 static mxArray* session_advance(arguments in) {
   const uint64_t session = handle_of(in[0]);
   double left = whole(in[1], "the number of ticks", 1e9);
@@ -238,7 +238,7 @@ static void set_numbers(const mxArray* a, ms_obstacle* obstacles, size_t count) 
   }
 }
 
-/* handle, now, seen, swarm, obstacles, numbers, robots, unseen; empty for what is not there. */
+/* handle, now, seen, swarm, obstacles, numbers, robots, unseen; absent ones are empty. */
 static mxArray* navigator_step(arguments in) {
   static const char* const names[] = {"heading_rad", "speed_um_per_s", "state", "target_um",
                                       "planned"};

@@ -23,20 +23,20 @@ namespace microswarm::python {
 
 namespace py = pybind11;
 
-/// Rows of numbers of a caller, contiguous or not, of any type of number.
+/// Rows of numbers from a caller, contiguous or not, of any numeric type.
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-/// Whether the interpreter is about to end, and how many threads are on their way back into it.
+/// Whether the interpreter is shutting down, and how many threads are about to re-enter it.
 struct Ending {
   static std::atomic<bool> begun;
-  static std::thread::id ends_it;  ///< the thread that may still call it, once it has begun
+  static std::thread::id ends_it;  ///< the thread that may still call it during shutdown
   static std::atomic<int> returning;
-  /// For `atexit`: from now on no other thread comes back.
+  /// For `atexit`: from then on no other thread re-enters.
   static void begin();
 };
 
-/// Gives the GIL away. A thread that would come back while the interpreter ends waits for ever
-/// instead: the interpreter would end it in the middle of a destructor.
+/// Releases the GIL. A thread that would re-enter during shutdown blocks permanently instead, since
+/// the interpreter would terminate it within a destructor.
 class Free {
  public:
   Free() : state_(PyEval_SaveThread()) {}
@@ -48,9 +48,9 @@ class Free {
   PyThreadState* state_;
 };
 
-/// Calls `work(stop)` in another thread, without the GIL, and looks for signals meanwhile: Ctrl-C
-/// stops it, and KeyboardInterrupt is raised once it has ended. `look` is called 10 times a second.
-/// After `budget` it is stopped too, which raises nothing, and whoever sets `flag` stops it.
+/// Calls `work(stop)` in another thread, without the GIL, while this one handles signals: Ctrl-C
+/// stops the work, and KeyboardInterrupt is raised once it has ended. `look` is called 10 times a
+/// second. The work is also stopped after `budget`, which raises nothing, and by setting `flag`.
 template <class Work, class Look>
 auto interruptible(std::atomic<bool>& flag, Work&& work, Look&& look,
                    std::optional<Stop::Clock::duration> budget = {}) {
@@ -75,7 +75,7 @@ auto interruptible(std::atomic<bool>& flag, Work&& work, Look&& look,
   if (raised) {
     try {
       task.get();
-    } catch (...) {  // that it was stopped is told
+    } catch (...) {  // the interruption is reported instead
     }
     throw std::move(*raised);
   }
@@ -91,8 +91,8 @@ auto interruptible(Work&& work) {
   return interruptible(work, [] {});
 }
 
-/// Calls that are quick as a rule: they stay in this thread, since another one costs more than most
-/// of them. The first one, those after a slow one and those that the caller expects to be slow are
+/// Calls that are usually quick: they stay in this thread, since starting one costs more than most
+/// of them. The first call, calls after a slow one and those that the caller expects to be slow are
 /// interruptible.
 class QuickCalls {
  public:
@@ -105,11 +105,11 @@ class QuickCalls {
     return call(
         here, [&] { return interruptible(work); }, may_be_slow);
   }
-  /// Calls `here()` if it may stay in this thread, else `interruptibly()`.
+  /// Calls `here()` if the call may stay in this thread, else `interruptibly()`.
   template <class Here, class Interruptibly>
   auto call(Here&& here, Interruptibly&& interruptibly, bool may_be_slow) {
     const bool stays = !was_slow_ && !may_be_slow;
-    was_slow_ = true;  // also after an exception
+    was_slow_ = true;  // remains set after an exception
     const auto began = Stop::Clock::now();
     const auto made = stays ? here() : interruptibly();
     was_slow_ = Stop::Clock::now() - began > std::chrono::milliseconds(2);
@@ -120,12 +120,12 @@ class QuickCalls {
   bool was_slow_ = true;
 };
 
-/// Warns of each outdated key.
+/// Issues a Python warning for each note.
 void warn(const Notes& notes);
 
-/// Places of an array of shape (n, 2). Throws InputError for another shape.
+/// Positions from an array of shape (n, 2). Throws InputError for another shape.
 std::vector<Vec2> places(const Numbers& array, const char* name);
-/// An array of shape (n, 2).
+/// Array of shape (n, 2) from positions.
 py::array_t<double> array_of(std::span<const Vec2> places);
 
 /// Adds the parts of the module.

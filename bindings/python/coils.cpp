@@ -19,13 +19,13 @@ namespace {
 using Row = Eigen::Map<const Eigen::VectorXd>;
 using Out = Eigen::Map<Eigen::VectorXd>;
 
-/// Coils, and the file's contents if they were calibrated here.
+/// Coils, and the content of their file if they were calibrated here.
 struct Coils {
   CoilSystem system;
   std::optional<CoilSystemParams> calibrated{};
 };
 
-/// Whether a file is that of a rig, which names the file of its coils.
+/// Whether a file describes a rig, which names the file of its coils.
 bool is_rig(const std::string& file) {
   const YamlNode root = parse_yaml(read_file(file, max_yaml_bytes), file);
   for (std::size_t i = 0; root.kind == YamlNode::Kind::map && i + 1 < root.items.size(); i += 2)
@@ -45,7 +45,7 @@ void check_columns(const Numbers& array, py::ssize_t columns, const char* name) 
                      ")");
 }
 
-/// Calls `work(i)` for each row. A few take less time than to start a thread.
+/// Calls `work(i)` for each row; few rows stay in this thread.
 template <class Work>
 void for_rows(py::ssize_t rows, Work&& work) {
   constexpr py::ssize_t few = 100;
@@ -105,7 +105,7 @@ py::array_t<double> fields_of_currents(const Coils& coils, const Numbers& curren
                   });
 }
 
-/// Row by row ∂B_i/∂x_j [T/m].
+/// ∂B_i/∂x_j for each row [T/m].
 py::array_t<double> gradients_of_currents(const Coils& coils, const Numbers& currents,
                                           const Numbers& at) {
   return each_row(coils, currents, count_of(coils), "currents_a", at, 9,

@@ -21,7 +21,7 @@ Rules rules_of(const std::vector<std::string>& settings) {
   return rules;
 }
 
-/// A task and environments of it, whose observations are arrays of `shape`.
+/// A task and its environments, whose observations are arrays of `shape`.
 template <class Task_, class Episode_, class Number_>
 struct Environments {
   using Task = Task_;
@@ -89,7 +89,7 @@ std::size_t action_of(const Gathering&, std::uint8_t action) {
   return action;
 }
 
-/// Heading [rad] and share of the greatest speed.
+/// Action from a heading [rad] and a share of the maximum speed.
 NavigationAction action_of(const Navigation& all, double heading, double share) {
   if (!std::isfinite(heading) || !(share >= 0 && share <= 1))
     throw InputError("an action must be a finite heading_rad and a share of the speed from 0 to 1");
@@ -105,7 +105,7 @@ py::array_t<typename All::Number> observation(All& all, std::size_t index) {
   return copy;
 }
 
-/// As a step of Gymnasium returns it; py::make_tuple would take half of the time of a step.
+/// Result of a step in Gymnasium's form; py::make_tuple would take half of a step's time.
 template <class All>
 py::tuple step_one(All& all, const EnvironmentStep& made) {
   py::tuple out(5);
@@ -116,7 +116,7 @@ py::tuple step_one(All& all, const EnvironmentStep& made) {
   return out;
 }
 
-/// Array for a copy of all observations; null for none.
+/// Checks the array for a copy of all observations; null without one.
 template <class All>
 using Copy = std::optional<py::array_t<typename All::Number, py::array::c_style>>;
 
@@ -144,7 +144,7 @@ py::tuple step_all(All& all, Copy<All>& copy, Action&& action) {
   return py::make_tuple(rewards, terminated, truncated);
 }
 
-/// Calls `work(environments, index)` if there is such an environment.
+/// Calls `work(environments, index)` if that environment exists.
 template <class All, class Work>
 auto of_one(Work work) {
   return [work](Guarded<All>& open, std::size_t index) {
@@ -155,7 +155,7 @@ auto of_one(Work work) {
   };
 }
 
-/// What environments of every kind have.
+/// Adds the methods that all kinds of environments have.
 template <class All>
 py::class_<Guarded<All>> add_kind(py::module_& module, const char* name) {
   return py::class_<Guarded<All>>(module, name)
@@ -169,7 +169,7 @@ py::class_<Guarded<All>> add_kind(py::module_& module, const char* name) {
                });
              });
            })
-      // The observations themselves, which each step renews.
+      // A view of the observations, which each step updates.
       .def("observations",
            [](Guarded<All>& open) {
              return open.use([&](All& all) {

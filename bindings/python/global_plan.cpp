@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Common inputs that bring each of several robots to its own goal.
+// Global inputs that bring each of several robots to its own goal.
 #include "calls.hpp"
 #include "microswarm/session/global_query.hpp"
 #include "named_map.hpp"

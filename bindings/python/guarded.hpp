@@ -9,7 +9,7 @@
 
 namespace microswarm::python {
 
-/// Something that one thread at a time may use, until it is closed.
+/// A resource that one thread at a time may use, until it is closed.
 template <class T>
 class Guarded {
  public:
@@ -34,7 +34,7 @@ class Guarded {
   }
 
  protected:
-  /// Ends it when nobody else can use it any more.
+  /// Destroys it, once no other thread can use it.
   void end() { held_.reset(); }
 
  private:

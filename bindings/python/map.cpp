@@ -66,7 +66,7 @@ py::array_t<double> discs(const NamedMap& map) {
   return array;
 }
 
-/// Calls `work(first, count)` for blocks of `all` places, without the GIL; Ctrl-C ends it if they
+/// Calls `work(first, count)` for blocks of `all` positions, without the GIL; interruptible if there
 /// are many.
 template <class Work>
 void in_blocks(std::size_t all, Work&& work) {

@@ -10,7 +10,7 @@
 
 namespace microswarm::python {
 
-/// A map, its name in messages, and where it comes from as a scenario says it.
+/// A map, its name in messages, and its source in a scenario's form.
 struct NamedMap {
   Snapshot world;
   std::string name;
@@ -19,7 +19,7 @@ struct NamedMap {
   const Map& map() const { return world.map(); }
 };
 
-/// A map that was made of what a caller gave.
+/// A map made from a caller's data.
 inline NamedMap map_in_memory(Map map) {
   PolygonsMap spec;
   spec.lo = map.bounds().lo;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Navigators in a loop of the caller's own. A step takes a few µs, so its arguments are read here
-// and not by converters.
+// Navigators in the caller's loop. A step takes a few µs, so its arguments are read here instead of
+// by converters.
 #include "microswarm/session/standalone_navigator.hpp"
 
 #include "guarded.hpp"
@@ -31,7 +31,7 @@ double number_of(py::handle value, const char* why = no_numbers) {
   return number;
 }
 
-/// An array of any numbers; that of the caller if it is one of doubles.
+/// Converts to an array of doubles; the caller's own if it is one already.
 Numbers doubles_of(py::handle value) {
   if (Numbers::check_(value)) return py::reinterpret_borrow<Numbers>(value);
   Numbers made = Numbers::ensure(value);
@@ -50,7 +50,7 @@ SwarmPose swarm_of(py::handle value) {
   return {{{v[0], v[1]}, v[2]}, v[3]};
 }
 
-/// Obstacles of a caller: rows x, y, radius, or outlines of shape (n, 2).
+/// Obstacles from a caller: rows x, y, radius, or outlines of shape (n, 2).
 std::vector<Body> bodies_of(py::handle obstacles) {
   std::vector<Body> bodies;
   if (obstacles.is_none()) return bodies;
@@ -87,7 +87,7 @@ void number_bodies(std::vector<Body>& bodies, const std::vector<std::int64_t>& n
   }
 }
 
-/// Names of the states as texts of Python, made once.
+/// Names of the states as Python strings, made once.
 class StateNames {
  public:
   StateNames() {
@@ -105,7 +105,7 @@ class StateNames {
   std::vector<py::str> names_;
 };
 
-/// What Command is made of.
+/// Steps the navigator; returns the members of a Command.
 py::tuple step_navigator(OpenNavigator& open, py::handle t, py::handle swarm, py::handle obstacles,
                          py::handle robots, py::handle seen,
                          const std::vector<std::int64_t>* numbers, py::handle unseen,

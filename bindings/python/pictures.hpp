@@ -10,13 +10,13 @@
 
 namespace microswarm::python {
 
-/// Takes an array of uint8 or uint16, contiguous, of the shape (height, width) or (height, width,
-/// 3). 16-bit numbers have `depth` bits, by default as many as this picture needs, which `depth`
-/// then keeps. Throws InputError.
+/// Copies a contiguous array of uint8 or uint16 of shape (height, width) or (height, width, 3) into
+/// an image. 16-bit numbers have `depth` bits; without a value it is set to what this picture needs.
+/// Throws InputError.
 void take_array(const py::array& array, std::optional<int>& depth, std::string_view name,
                 Image& image);
 
-/// An array of booleans of the shape (height, width).
+/// Array of booleans of shape (height, width) from a mask.
 py::array_t<bool> array_of(const Mask& mask);
 
 }  // namespace microswarm::python

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Records as NumPy arrays: a column of every recorded quantity, out of its declaration.
+// Records as NumPy arrays: a column for every recorded quantity, from its declaration.
 #include "microswarm/experiment/record/record.hpp"
 #include "calls.hpp"
 #include "drawing.hpp"

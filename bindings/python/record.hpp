@@ -7,10 +7,10 @@
 
 namespace microswarm::python {
 
-/// A column of every quantity of a list of rows. `places` is the field of a list of places.
+/// A column for every quantity of a list of rows. `places` is the field of a list of positions.
 py::dict columns_of_list(const ListRef<const void*>& list, const Field* places = nullptr);
 
-/// Status, metrics as JSON and times of the steps.
+/// Dictionary of status, metrics as JSON and times of the steps.
 py::dict summary_of(const RunResult& result);
 
 }  // namespace microswarm::python

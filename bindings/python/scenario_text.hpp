@@ -16,7 +16,7 @@
 
 namespace microswarm::python {
 
-/// A scenario as text and what was set since, which is opened as the command line does.
+/// A scenario as text and later settings, opened in the same way as by the command line.
 struct ScenarioText {
   std::string text;
   std::string name;

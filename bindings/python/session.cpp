@@ -15,25 +15,25 @@ namespace {
 
 class OpenSession : public Guarded<Session> {
  public:
-  /// `navigator` is the caller's own, which the session uses, or None.
+  /// `navigator`: the caller's navigator, or None.
   OpenSession(std::unique_ptr<Session> session, py::object navigator)
       : Guarded(std::move(session), "session"), navigator_(std::move(navigator)) {}
-  /// The session ends before the navigator that it uses.
+  /// Destroys the session before the navigator that it uses.
   ~OpenSession() { end(); }
 
-  /// Ends the run, from any thread and also while another one steps.
+  /// Ends the run; callable from any thread, also while another one steps.
   void stop() {
     is_stopped_ = true;
     stops_ = true;
   }
 
-  /// Calls `work(stop)`, which steps. With a navigator of the caller's own it stays in this thread,
-  /// where Ctrl-C reaches that; an exception of its ends the session.
+  /// Calls `work(stop)`, which steps. With the caller's navigator it stays in this thread, where
+  /// Ctrl-C reaches the navigator; an exception of the navigator ends the session.
   template <class Work, class Look>
   auto drive(Work&& work, Look&& look) {
     if (has_failed_) throw InputError("the navigator of the session has raised an exception");
     if (is_stopped_) stops_ = true;
-    const struct Forget {  // Ctrl-C in this call is not one in the next
+    const struct Forget {  // Ctrl-C in this call must not affect the next one
       OpenSession& open;
       ~Forget() { open.stops_ = open.is_stopped_.load(); }
     } forget{*this};
@@ -47,7 +47,7 @@ class OpenSession : public Guarded<Session> {
     return made;
   }
   bool has_own_navigator() const { return !navigator_.is_none(); }
-  /// For a step that is too short for Ctrl-C.
+  /// Stop for a step that is too short to need Ctrl-C.
   Stop when_stopped() const { return Stop(&is_stopped_); }
 
   /// For the garbage collector: a navigator may refer to the session that uses it.
@@ -80,7 +80,7 @@ OpenSession* session_of(PyObject* self) {
   return parts.holder_constructed() ? parts.value_ptr<OpenSession>() : nullptr;
 }
 
-/// Lets the garbage collector see what a session refers to.
+/// Registers a session's references with the garbage collector.
 void collect_garbage(PyHeapTypeObject* heap_type) {
   PyTypeObject& type = heap_type->ht_type;
   type.tp_flags |= Py_TPFLAGS_HAVE_GC;
@@ -105,7 +105,7 @@ std::unique_ptr<OpenSession> open(const ScenarioText& scenario, std::optional<st
   return std::make_unique<OpenSession>(std::move(session), navigator);
 }
 
-/// The present view as a dictionary of numbers and arrays.
+/// The current view as a dictionary of numbers and arrays.
 py::dict view_of(const Session& session) {
   const SessionView view = session.view();
   py::dict out;
@@ -137,7 +137,7 @@ bool step(OpenSession& open) {
   });
 }
 
-/// Steps to the end; `report` hears the share that is done, 10 times a second.
+/// Steps to the end; `report` gets the completed share, 10 times a second.
 py::dict finish(OpenSession& open, const py::object& report) {
   return open.use([&](Session& session) {
     std::atomic<double> done = 0;

@@ -22,7 +22,7 @@ bool is_at_or_within(std::string_view key, std::string_view outer) {
   return key.starts_with(outer) && (key.size() == outer.size() || key[outer.size()] == '.');
 }
 
-/// The keys of a map, its inner ones in brackets; empty for another value.
+/// Keys of a map, nested ones in brackets; empty for another value.
 std::string keys_in(const YamlNode& node) {
   if (node.kind != YamlNode::Kind::map) return {};
   std::string keys = "{";
@@ -51,17 +51,17 @@ std::vector<std::string> with_setting(
   if (key.ends_with(type_word)) {
     const std::string_view variant = key.substr(0, key.size() - type_word.size());
     const auto is_part = [&](const std::string& s) { return is_at_or_within(key_of(s), variant); };
-    // The same alternative as before: what is within stays.
+    // The same alternative as before: settings within it are kept.
     std::erase_if(list, [&](const std::string& s) { return key_of(s) == key; });
     list.insert(std::ranges::find_if(list, is_part), added);
     if (is_same(list)) return list;
     if (is_same(settings)) return settings;
-    // Another one, which has its defaults.
+    // Another alternative, with its defaults.
     list = settings;
     std::erase_if(list, is_part);
   } else if (const std::string keys = keys_in_value(added); keys.empty()) {
     std::erase_if(list, [&](const std::string& s) { return is_at_or_within(key_of(s), key); });
-  } else {  // what a map does not name stays
+  } else {  // keys that the map does not name are kept
     std::erase_if(
         list, [&](const std::string& s) { return key_of(s) == key && keys_in_value(s) == keys; });
   }

@@ -18,7 +18,7 @@ using Rows = std::vector<std::span<const SqlValue>>;
 
 std::string key_of(const std::string& setting) { return setting.substr(0, setting.find('=')); }
 
-/// The settings of the scenario, but those that the sweep varies or sets.
+/// The scenario's settings without those that the sweep varies or sets.
 std::vector<std::string> unvaried(const std::vector<std::string>& settings, const Grid& grid,
                                   bool has_seed) {
   std::vector<std::string> all;
@@ -30,7 +30,7 @@ std::vector<std::string> unvaried(const std::vector<std::string>& settings, cons
   return all;
 }
 
-/// Numbers of a column, NaN where there is none.
+/// Numbers of a column; NaN for missing ones.
 template <class Number>
 py::array_t<Number> numbers_in(const Rows& rows, std::size_t column) {
   py::array_t<Number> array(static_cast<py::ssize_t>(rows.size()));
@@ -61,7 +61,7 @@ py::object sweep_column(const Rows& rows, std::size_t column, SweepColumnKind ki
   return numbers_in<double>(rows, column);
 }
 
-/// The columns of the table of trials, and what they mean.
+/// Columns of the table of trials, and their descriptions.
 py::tuple sweep_scenario(const ScenarioText& scenario, const Grid& grid, const Methods& methods,
                          int trials, std::optional<std::uint64_t> seed, int jobs,
                          const py::object& report) {

@@ -14,7 +14,7 @@ namespace {
 
 using Texts = std::vector<std::string>;
 
-/// Segments a photograph, an array or the name of a file.
+/// Segments a photograph, given as an array or a file name.
 py::dict segment(const py::object& photo, double um_per_px, double smooth, const Texts& settings) {
   VesselParams params;
   warn(set_values(params, Settings(settings, "segment")));
@@ -79,7 +79,7 @@ py::dict tracks_of(const TrackResult& result) {
   return out;
 }
 
-/// Robots in pictures that the caller hands over one by one.
+/// Tracks robots in pictures that the caller passes one by one.
 class ArrayTracker {
  public:
   explicit ArrayTracker(const Texts& settings)

@@ -1,5 +1,5 @@
 classdef Map < microswarm.internal.Handle
-% microswarm.Map  Walls of a place, with exact distances to them.
+% microswarm.Map  Walls of a workspace, with exact distances to them.
 %
 %   map = microswarm.Map('vessels.geojson');
 %   map = microswarm.Map(picture > 128, 9);     % a pixel has a side of 9 um
@@ -7,7 +7,7 @@ classdef Map < microswarm.internal.Handle
 % Lengths are in um; y points up, and the origin of a matrix is its lower left corner.
 %
 % Methods: bounds, clearance, close. A map that is cleared is closed.
-% Errors: microswarm:bad_input for a file, matrix or place; microswarm:bad_call after close.
+% Errors: microswarm:bad_input for a file, matrix or position; microswarm:bad_call after close.
 
 % SPDX-License-Identifier: Apache-2.0
   methods
@@ -15,8 +15,8 @@ classdef Map < microswarm.internal.Handle
     % Map(source, um_per_px)
     %
     % source      a picture, ROS .yaml, MovingAI .map, GeoJSON or CSV of rectangles, or a matrix of class
-    %             logical or uint8, the upper row first: the swarm may go where it is not 0
-    % um_per_px   side of a pixel or cell [um]; needed where the file does not tell it
+    %             logical or uint8, the upper row first: free where it is not 0
+    % um_per_px   side of a pixel or cell [um]; needed if the file does not contain it
       microswarm.internal.need(nargin, 1, 'a map needs a file or a matrix');
       if nargin < 2, um_per_px = 0; end
       if isa(source, 'string') && isscalar(source), source = char(source); end
@@ -32,7 +32,7 @@ classdef Map < microswarm.internal.Handle
     end
 
     function distances = clearance(self, places_um)
-    % distances = map.clearance(places_um)   From each row x, y to walls and border [um], 0 in a wall.
+    % distances = map.clearance(places_um)   Distance of each row x, y from walls and border [um]; 0 in a wall.
       microswarm.internal.need(nargin, 2, 'clearance needs places_um');
       distances = microswarm_mex('map_clearance', self.id, places_um);
     end

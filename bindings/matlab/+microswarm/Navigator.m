@@ -1,12 +1,12 @@
 classdef Navigator < microswarm.internal.Handle
-% microswarm.Navigator  The navigator of a scenario in a loop of your own.
+% microswarm.Navigator  The navigator of a scenario in your own loop.
 %
 %   nav = microswarm.Navigator('chip.yaml');
 %   nav = microswarm.Navigator('chip.yaml', 'goal_um', [1800 500], 'seed', 3);
 %   command = nav.step(t, [x_um y_um heading_rad radius_um]);
 %
-% In goes what your camera sees, out comes the command for your coils. Of the scenario it uses map,
-% swarm or robots, goal, navigator, tick and seed; the scenario's obstacles are not used.
+% It maps the detections of your camera to the command for your coils. It uses map, swarm or robots,
+% goal, navigator, tick and seed of the scenario, but not its obstacles.
 %
 % Lengths are in um, times in s, angles in rad, counter-clockwise from x; y points up.
 %
@@ -20,7 +20,7 @@ classdef Navigator < microswarm.internal.Handle
     %
     % scenario   a file, or YAML text of several lines
     % settings   'KEY=VALUE', or 'KEY', value, with the keys of a scenario file
-    %            and 'trial', k, which selects the random streams; 0 without
+    %            and 'trial', k, which selects the random streams; default 0
       microswarm.internal.need(nargin, 1, 'a navigator needs a scenario');
       self.id = microswarm.internal.open_source('navigator', scenario, varargin);
     end
@@ -28,18 +28,18 @@ classdef Navigator < microswarm.internal.Handle
     function command = step(self, t, swarm, obstacles, robots, varargin)
     % command = nav.step(t, swarm, obstacles, robots, 'seen', time, 'numbers', numbers, 'unseen', count)
     %
-    % t           the present [s]; never before that of the step before
-    % swarm       [x_um y_um heading_rad radius_um]; [] if it was not found, and for robots
+    % t           current time [s]; never before that of the previous step
+    % swarm       [x_um y_um heading_rad radius_um]; [] if it was not detected, and for robots
     % obstacles   n x 3 with x_um, y_um, radius_um in each row, or a cell array of such rows and of
     %             outlines (n x 2); [] for none
-    % robots      n x 2; robot i is the same in every step
-    % seen        when the picture was taken [s]; t without
-    % numbers     one for each obstacle, the same in every step, 0 or more; without, they are matched by distance
-    % unseen      how many of the robots were not seen and are where they are expected; 0 without
+    % robots      n x 2; row i is the same robot in every step
+    % seen        time at which the picture was taken [s]; default t
+    % numbers     one for each obstacle, constant over all steps, 0 or more; default: matched by distance
+    % unseen      number of robots that were not detected, at expected positions; default 0
     %
-    % command.heading_rad, command.speed_um_per_s   to drive until the next step; speed 0 is hold
+    % command.heading_rad, command.speed_um_per_s   until the next step; speed 0 is a hold
     % command.state       'follow', 'hold', 'arrived', 'blind', ...
-    % command.target_um   what it heads for now; [] without
+    % command.target_um   current local target; [] without one
     % command.planned     whether it called a planner
     %
     % A step that is refused (microswarm:bad_input) changes nothing.
@@ -55,7 +55,7 @@ classdef Navigator < microswarm.internal.Handle
     end
 
     function places = path(self)
-    % places = nav.path()   The path that it follows, n x 2 [um].
+    % points = nav.path()   The path that it follows, n x 2 [um].
       places = microswarm_mex('navigator_path', self.id);
     end
   end

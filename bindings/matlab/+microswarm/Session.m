@@ -9,7 +9,7 @@ classdef Session < microswarm.internal.Handle
 %   end
 %   result = session.result();
 %
-% Of a record (.h5) it is the playback. Lengths are in um, times in s, angles in rad; y points up.
+% A record (.h5) is played back. Lengths are in um, times in s, angles in rad; y points up.
 %
 % Methods: step, advance, set, status, metrics, obstacles, robots, path, frames, hash, result, save,
 % close. A session that is cleared is closed.
@@ -22,18 +22,18 @@ classdef Session < microswarm.internal.Handle
     %
     % scenario   a file, or YAML text of several lines
     % settings   'KEY=VALUE', or 'KEY', value, with the keys of a scenario file
-    %            and 'trial', k, which selects the random streams; 0 without
+    %            and 'trial', k, which selects the random streams; default 0
       microswarm.internal.need(nargin, 1, 'a session needs a scenario');
       self.id = microswarm.internal.open_source('session', scenario, varargin);
     end
 
     function frame = step(self)
-    % frame = session.step()   The next tick as a struct; [] when the run has ended. NaN: not there.
+    % frame = session.step()   The next tick as a struct; [] after the end. Absent values are NaN.
       frame = microswarm_mex('session_step', self.id);
     end
 
     function ended = advance(self, ticks)
-    % ended = session.advance(ticks)   At most so many ticks; true when the run has ended.
+    % ended = session.advance(ticks)   Steps at most so many ticks; true if the run has ended.
       microswarm.internal.need(nargin, 2, 'advance needs the number of ticks');
       ended = microswarm_mex('session_advance', self.id, ticks);
     end
@@ -46,7 +46,7 @@ classdef Session < microswarm.internal.Handle
     end
 
     function text = status(self)
-    % text = session.status()   'running', or how it ended: 'solved', 'collided', 'time_limit', ...
+    % text = session.status()   'running', or the final status: 'solved', 'collided', 'time_limit', ...
       text = microswarm_mex('session_status', self.id);
     end
 
@@ -56,27 +56,27 @@ classdef Session < microswarm.internal.Handle
     end
 
     function places = obstacles(self)
-    % places = session.obstacles()   Rows x_um, y_um, radius_um of the present obstacles.
+    % places = session.obstacles()   Rows x_um, y_um, radius_um of the current obstacles.
       places = microswarm_mex('session_obstacles', self.id);
     end
 
     function places = robots(self)
-    % places = session.robots()   Present places of individual robots, n x 2 [um].
+    % places = session.robots()   Current positions of individually tracked robots, n x 2 [um].
       places = microswarm_mex('session_robots', self.id);
     end
 
     function places = path(self)
-    % places = session.path()   The path that is followed, n x 2 [um].
+    % places = session.path()   The followed path, n x 2 [um].
       places = microswarm_mex('session_path', self.id);
     end
 
     function columns = frames(self)
-    % columns = session.frames()   All ticks so far: a struct of columns; after the end one row more.
+    % columns = session.frames()   All ticks so far: a struct of columns; after the end with one more row.
       columns = microswarm_mex('session_frames', self.id);
     end
 
     function text = hash(self)
-    % text = session.hash()   Fingerprint of the record so far: equal for equal runs.
+    % text = session.hash()   Hash of the record so far: equal for equal runs.
       text = microswarm_mex('session_hash', self.id);
     end
 

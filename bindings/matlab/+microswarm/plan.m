@@ -5,8 +5,8 @@ function path = plan(map, start, goal, varargin)
 %   path = microswarm.plan(free, [50 50], [350 50], 'um_per_px', 10, ...
 %                          'planner', 'drrt_star', 'clearance_um', 40, 'max_nodes', 5000)
 %
-% map        a file, a matrix of class logical or uint8, the upper row first (the swarm may go where
-%            it is not 0), or a microswarm.Map, which is quicker for many paths
+% map        a file, a matrix of class logical or uint8, the upper row first (free where it is not
+%            0), or a microswarm.Map, which is faster for many paths
 % start      [x_um y_um] or [x_um y_um heading_rad]
 % goal       [x_um y_um]
 %
@@ -19,11 +19,11 @@ function path = plan(map, start, goal, varargin)
 %
 % path.solved        false: the points are the beginning of a path
 % path.points_um     n x 2
-% path.length_um, path.turning_rad   arcs as arcs
-% path.time_s        that the planner took
+% path.length_um, path.turning_rad   of true arcs
+% path.time_s        computing time of the planner
 % path.why_none      why there is no path; '' with one
 %
-% Errors: microswarm:bad_input for a file, matrix, place or value.
+% Errors: microswarm:bad_input for a file, matrix, position or value.
 
   % SPDX-License-Identifier: Apache-2.0
   microswarm.internal.need(nargin, 3, 'plan needs a map, a start and a goal');

@@ -5,7 +5,7 @@ function result = read_record(file)
 %
 % result   the struct of microswarm.run: status, metrics, frames, hash
 %
-% The library reads and checks the file, so that it works where h5read is missing. All other tables
+% The library reads and checks the file, so that it works without h5read. All other tables
 % of a record can be read in MATLAB by h5read; docs/reference/record.md lists them.
 % Errors: microswarm:bad_input for a file that is no record.
 

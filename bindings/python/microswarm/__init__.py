@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Plans, steers, gathers and measures magnetic microrobot swarms.
 
-Lengths are in µm, times in s, angles in rad, fields in mT, currents in A. Places are arrays of the
+Lengths are in µm, times in s, angles in rad, fields in mT, currents in A. Positions are arrays of
 shape (n, 2), y points up. Bad input raises InputError, a ValueError with a line for each mistake.
 
     import microswarm as ms

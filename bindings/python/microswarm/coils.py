@@ -20,20 +20,20 @@ MAX_CURRENT_A = 1e6
 
 
 class Coils:
-    """A system of coils: linear in its currents, with a matrix for each place.
+    """A system of coils: the field is linear in the currents, with a matrix that depends on the position.
 
     coils = ms.Coils.load("coils.yaml")
     currents_a = coils.currents(fields_mt)          # (n, 3) in, (n, coils) out
-    coils.field(currents_a)                         # the fields that they make
+    coils.field(currents_a)                         # the fields of these currents
 
-    Every method takes a row of the shape (3,) or (coils,) as well, and gives a row then. `at_um` is one place (x, y, z)
-    or one for each row; without, it is the centre of the coils. Outside a measured grid is InputError.
+    Every method also takes a single row of shape (3,) or (coils,) and then returns a row. `at_um` is one position
+    (x, y, z) or one for each row; default: the centre of the coils. A position outside a measured grid is an InputError.
     """
 
     def __init__(self, core: _core.Coils, fit: Optional[dict[str, Any]] = None) -> None:
         self._core = core
         self.fit = fit
-        """Of calibrated coils: rms_mt, rms_abs_mt, worst_mt, worst_row, residuals_mt, field_mt_per_a, field_error_mt_per_a
+        """Quality of a calibration: rms_mt, rms_abs_mt, worst_mt, worst_row, residuals_mt, field_mt_per_a, field_error_mt_per_a
         (standard errors; NaN without freedom), offset_mt, centre_um, and the gradients in T/m/A if they were fitted."""
 
     @classmethod
@@ -54,15 +54,15 @@ class Coils:
         gradients: bool = False,
         centre_um: Optional[Sequence[float]] = None,
     ) -> "Coils":
-        """Fits the coils' fields to measured ones by least squares, as `microswarm rig calibrate`.
+        """Fits the coils' fields to measured ones by least squares, like `microswarm rig calibrate`.
 
-        currents_a     in each coil, of the shape (n, coils)
-        fields_mt      that a probe measured, of the shape (n, 3)
-        positions_um   of the probe, of the shape (n, 3); (0, 0, 0) without
-        names          of the coils; coil1, coil2, … without
-        offset         also the field without current
-        gradients      also the gradients, for which the positions must differ
-        centre_um      where the matrix holds if there are gradients; the middle of the positions without
+        currents_a     current of each coil, shape (n, coils)
+        fields_mt      measured fields, shape (n, 3)
+        positions_um   positions of the probe, shape (n, 3); default (0, 0, 0)
+        names          names of the coils; default coil1, coil2, …
+        offset         fit the field without current too
+        gradients      fit the gradients too, for which the positions must differ
+        centre_um      position of the matrix if gradients are fitted; default: the middle of the positions
 
         The quality of the fit is in `fit`. InputError if the measurements do not determine it.
         """
@@ -89,7 +89,7 @@ class Coils:
         return cls(*_core.Coils.of_file(path_text(path), flag("offset", offset), flag("gradients", gradients), centre(centre_um)))
 
     def save(self, path: PathLike) -> None:
-        """Writes calibrated coils as a coil system (YAML). It names no limits of the coils: add its `drives`."""
+        """Writes calibrated coils as a coil system (YAML). The coils' limits are missing: add `drives`."""
         self._core.save(path_text(path))
 
     @property
@@ -112,31 +112,31 @@ class Coils:
         return len(self.names)
 
     def matrix(self, at_um: Optional[Sequence[float]] = None) -> np.ndarray:
-        """Field of each coil for one ampere at a place [mT/A], of the shape (3, coils)."""
+        """Field of each coil per ampere at a position [mT/A], shape (3, coils)."""
         return self._core.matrix(self._place(at_um))
 
     def in_workspace(self, at_um: Sequence[float]) -> bool:
-        """Whether the calibration holds at a place. Windings and a matrix hold everywhere."""
+        """Whether the calibration is valid at a position; always true for windings and a matrix."""
         return self._core.in_workspace(self._place(at_um))
 
     def currents(self, fields_mt: Any, at_um: Any = None) -> np.ndarray:
-        """The least currents that make each field [A]; the nearest field if the coils cannot make it.
+        """Minimum-norm currents for each field [A]; for the nearest field if the coils cannot make it.
 
-        They are not limited; multiply by allowed_share(currents) for what the coils can hold.
+        They are not limited: multiply by allowed_share(currents) for currents that the coils can hold.
         """
         return self._each(self._core.currents, "fields_mt", fields_mt, 3, MAX_FIELD_MT, at_um)
 
     def field(self, currents_a: Any, at_um: Any = None) -> np.ndarray:
-        """The field of currents [mT]."""
+        """Field of the currents [mT]."""
         return self._each(self._core.fields, "currents_a", currents_a, len(self), MAX_CURRENT_A, at_um)
 
     def gradient(self, currents_a: Any, at_um: Any = None) -> np.ndarray:
-        """The gradient of the field of currents [T/m], of the shape (n, 3, 3): ∂B_i/∂x_j."""
+        """Gradient of the field of the currents [T/m], shape (n, 3, 3): ∂B_i/∂x_j."""
         made = self._each(self._core.gradients, "currents_a", currents_a, len(self), MAX_CURRENT_A, at_um)
         return made.reshape(*made.shape[:-1], 3, 3)
 
     def allowed_share(self, currents_a: Any) -> Any:
-        """The share of currents that amplifiers and coils can hold for ever, 1 for all: (n,), or a number for one row."""
+        """Share of the currents that amplifiers and coils can hold indefinitely, at most 1; shape (n,), a number for one row."""
         given = checked_rows("currents_a", currents_a, len(self), MAX_CURRENT_A)
         made = self._core.allowed_shares(given)
         return float(made[0]) if np.ndim(currents_a) == 1 else made
@@ -155,7 +155,7 @@ class Coils:
 
 
 def checked_rows(name: str, values: Any, columns: Optional[int], most: float) -> np.ndarray:
-    """Rows of finite numbers; a single row as one."""
+    """Checks rows of finite numbers; a single row becomes an array of one row."""
     shape = f"(n, {columns or 'coils'})"
     array = rows(name, values, shape)
     array = array[np.newaxis] if array.ndim == 1 else array
@@ -169,7 +169,7 @@ def checked_rows(name: str, values: Any, columns: Optional[int], most: float) ->
 
 
 def centre(centre_um: Optional[Sequence[float]]) -> Optional[list[float]]:
-    """A place, or none."""
+    """Checks a position, or None."""
     if centre_um is None:
         return None
     return checked_rows("centre_um", numbers("centre_um", centre_um, (3,), "(x_um, y_um, z_um)"), 3, 1e8)[0].tolist()

@@ -15,14 +15,14 @@ from .values import InputError, mapping, number, numbers, rows, setting, whole
 
 
 class Gathering:
-    """How robots gathered.
+    """Result of gathering robots.
 
-    solved, status     whether and how it ended
-    steps              inputs that were applied
-    inputs_um          each of them, of the shape (steps, 2): how far it moves a robot that meets no wall
-    robots_um          where the robots are at the end, of the shape (n, 2)
+    solved, status     whether the robots are gathered, and the final status
+    steps              number of inputs applied
+    inputs_um          displacement of a robot without contact by each input, shape (steps, 2)
+    robots_um          final positions of the robots, shape (n, 2)
     mean_distance_um   mean length of the robots' shortest paths to the goal at the end
-    notes              what of the map does not suit the method, a line each
+    notes              properties of the map that do not suit the method, a line each
     record             the Record, to save, replay or draw
     """
 
@@ -61,16 +61,16 @@ def gather(
     progress: Progress = None,
     **values: Any,
 ) -> Gathering:
-    """Simulates gathering robots at a goal with one input for all, as `microswarm gather`.
+    """Simulates gathering robots at a goal with one input for all, like `microswarm gather`.
 
     goal_um           (x_um, y_um), in a dead end
-    robots_um         where the robots begin, of the shape (n, 2); without, `n` of them, 256 by default, are at random
-                      places that reach the goal
+    robots_um         initial positions, shape (n, 2); default: `n` robots, 256 if not given, at random
+                      positions from which the goal can be reached
     method            "rollout", "divide_and_conquer", "heuristic" or "dynamic_shortest_path"
-    channel_width_um  typical width of the map's channels, which scales all lengths; measured without
-    values            of the navigator: gathered="all", rollout={"horizon": 30}, …
-    settings          of any key of the scenario: {"robots.speed_spread": 0.1}
-    progress          called with the share that is done; False: nothing is shown
+    channel_width_um  typical width of the map's channels, which scales all lengths; default: measured
+    values            values of the navigator: gathered="all", rollout={"horizon": 30}, …
+    settings          values of any other key of the scenario: {"robots.speed_spread": 0.1}
+    progress          called with the completed share; False: nothing is shown
     """
     given = [setting("navigator.method", method)]
     for key, value in values.items():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Common inputs that bring each of several robots to its own goal."""
+"""Global inputs that bring each of several robots to its own goal."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from .values import InputError, flag, number, rows, setting, whole
 class GlobalPlan:
     """Inputs for several robots.
 
-    solved, status, why_none   whether they bring every robot to its goal, and why not
-    inputs_um                  the moves, of the shape (inputs, 2)
-    paths_um                   where the robots are before the first input and after each: (inputs + 1, robots, 2)
-    worst_um                   distance of the farthest robot from its goal at the end
-    inputs_found               inputs before superfluous ones were left out
-    nodes, time_s              nodes that the planner made, and its time
+    solved, status, why_none   whether every robot reaches its goal, and why not
+    inputs_um                  moves, shape (inputs, 2)
+    paths_um                   positions of the robots before the first input and after each: (inputs + 1, robots, 2)
+    worst_um                   largest final distance of a robot from its goal
+    inputs_found               number of inputs before superfluous ones were removed
+    nodes, time_s              nodes and computing time of the planner
 
-    A plan that is not solved leads to the best configuration that was seen.
+    A plan that is not solved leads to the best configuration found.
     """
 
     def __init__(self, made: dict[str, Any]) -> None:
@@ -37,7 +37,7 @@ class GlobalPlan:
 
     @property
     def solved(self) -> bool:
-        """Whether every robot comes to its goal."""
+        """Whether every robot reaches its goal."""
         return self.status == "solved"
 
     def __repr__(self) -> str:
@@ -55,13 +55,13 @@ def global_plan(
     time_limit_s: Optional[float] = None,
     **values: Any,
 ) -> GlobalPlan:
-    """Plans inputs common to all robots that bring each to its own goal, as `microswarm global`.
+    """Plans global inputs that bring each robot to its own goal, like `microswarm global`.
 
-    robots_um, goals_um   places of the shape (n, 2), 1 to 64 robots, in the same order
+    robots_um, goals_um   positions, shape (n, 2), of 1 to 64 robots, in the same order
     planner               "global_search" or "global_rrt"
-    shorten               leave out superfluous inputs
+    shorten               remove superfluous inputs
     time_limit_s          after which the best plan so far is returned, with the status "time_limit"
-    values                of the planner: robostep_um=5, goal_tolerance_um=10, separation_um=20, max_nodes=100000, …
+    values                values of the planner: robostep_um=5, goal_tolerance_um=10, separation_um=20, max_nodes=100000, …
 
     InputError if a robot or goal is in a wall, or a goal is cut off.
     """

@@ -18,7 +18,7 @@ planners = _core.planners  # names that plan() takes
 
 
 class Map(Drawable):
-    """Walls of a place, with exact distances to them."""
+    """Walls of a workspace, with exact distances to them."""
 
     def __init__(self, core: _core.Map) -> None:
         self._core = core
@@ -30,11 +30,11 @@ class Map(Drawable):
 
     @classmethod
     def from_walls(cls, bounds_um: Sequence[float], walls_um: Sequence[Any] = (), discs_um: Any = ()) -> "Map":
-        """A map from the outlines of its walls, and of round ones.
+        """A map from the outlines of its walls, and from discs.
 
         bounds_um  (x_lo, y_lo, x_hi, y_hi)
-        walls_um   an array of the shape (n, 2) for each wall; walls that overlap are one
-        discs_um   array of the shape (n, 3): x, y, radius
+        walls_um   an array of shape (n, 2) for each wall; overlapping walls are united
+        discs_um   array of shape (n, 3): x, y, radius
         """
         box = numbers("bounds_um", bounds_um, (4,), "(x_lo, y_lo, x_hi, y_hi)")
         try:
@@ -47,11 +47,10 @@ class Map(Drawable):
     def from_image(
         cls, image: Any, um_per_px: float, *, threshold: Optional[float] = None, free: str = "bright", simplify_um: float = 0
     ) -> "Map":
-        """A map from an array of the shape (height, width), the upper row first.
+        """A map from an array of shape (height, width), the upper row first.
 
-        The swarm may go where the image is at least `threshold`, or with free="dark" where it is below. Of an array of
-        booleans that is where it is True; of one of uint8 the threshold is 128 if it is not given, and of other
-        numbers it must be given. A mask of 0 and 1 needs threshold=1.
+        A pixel is free if it is at least `threshold`, or with free="dark" if it is below. In an array of booleans True is
+        free. The default threshold of uint8 is 128; other numbers have no default. A mask of 0 and 1 needs threshold=1.
         """
         array = grid_of("image", image, MAX_SIDE_PX)
         if free not in ("bright", "dark"):
@@ -72,7 +71,7 @@ class Map(Drawable):
 
     @property
     def walls_um(self) -> list[list[np.ndarray]]:
-        """Outlines of the walls: of each its ring and those of its holes, as arrays of the shape (n, 2)."""
+        """Outlines of the walls: for each its outer ring and its holes, as arrays of shape (n, 2)."""
         return self._core.outlines()
 
     @property
@@ -81,11 +80,11 @@ class Map(Drawable):
         return self._core.discs()
 
     def clearance(self, places_um: Any) -> np.ndarray:
-        """Distance from each place to walls and border [µm], 0 in a wall. The shape is (n, 2), the answer's (n,)."""
+        """Distance of each position, shape (n, 2), from walls and border [µm], shape (n,); 0 in a wall."""
         return self._core.clearance(rows("places_um", places_um))
 
     def is_free(self, places_um: Any, clearance_um: float = 0) -> np.ndarray:
-        """Whether each place keeps a clearance from walls and border."""
+        """Whether each position keeps a clearance from walls and border."""
         return self._core.are_free(rows("places_um", places_um), number("clearance_um", clearance_um))
 
     def _picture(self, file: Optional[str]) -> Optional[bytes]:
@@ -97,20 +96,20 @@ class Map(Drawable):
 
 
 def core_of(map: Map) -> Any:
-    """The map of an argument."""
+    """The native map of an argument."""
     if not isinstance(map, Map):
         raise InputError(f"map is {told(map)}, must be a Map: Map.load(file) or Map.from_image(array, um_per_px)")
     return map._core
 
 
 class Path(Drawable):
-    """A path that was planned, or its beginning.
+    """A planned path, or its beginning.
 
     solved, status, why_none   whether it leads to the goal, and why not
-    points_um                  its points, of the shape (n, 2)
-    length_um, turning_rad     with arcs as arcs
-    time_s                     that the planner took
-    planner                    the values that were used
+    points_um                  its points, shape (n, 2)
+    length_um, turning_rad     of true arcs
+    time_s                     computing time of the planner
+    planner                    values of the planner that were used
     tree_um, parents           nodes of the search tree and the index of each node's parent
     """
 
@@ -152,7 +151,7 @@ def plan(
     seed: int = 1,
     **values: Any,
 ) -> Path:
-    """Plans a path in a map; what is not given follows from the map.
+    """Plans a path in a map; values that are not given are fitted to the map.
 
     start     (x_um, y_um) or (x_um, y_um, heading_rad)
     planner   "exact", the shortest path, or another of microswarm.planners

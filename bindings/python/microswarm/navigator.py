@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A navigator of the library in a loop of your own."""
+"""A navigator of the library in your own loop."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _made = tuple.__new__  # without the checks of Command()
 
 
 class Command(NamedTuple):
-    """What to drive until the next command; speed 0 is hold."""
+    """Command until the next step; speed 0 is a hold."""
 
     heading_rad: float
     speed_um_per_s: float
@@ -29,7 +29,7 @@ class Command(NamedTuple):
 
 
 class Navigator:
-    """The navigator of a scenario: in goes what your camera sees, out comes the command for your coils.
+    """The navigator of a scenario: it maps the detections of your camera to the command for your coils.
 
     nav = ms.Navigator(scenario)
     while True:
@@ -51,15 +51,15 @@ class Navigator:
         numbers: Optional[Sequence[int]] = None,
         unseen: int = 0,
     ) -> Command:
-        """The command from the time `t` [s] on.
+        """Returns the command from the time `t` [s] on.
 
-        swarm      (x_um, y_um, heading_rad, radius_um); None if it was not found, and for robots
-        obstacles  array of the shape (n, 3) with x_um, y_um, radius_um, or a list of such rows and of outlines of
-                   the shape (n, 2)
-        robots     array of the shape (n, 2); robot i is the same in every step
-        seen       when the picture was taken [s]; `t` without
-        numbers    of the obstacles, the same in every step, 0 to 2147483647; without, they are matched by distance
-        unseen     how many of the robots were not seen and are where they are expected
+        swarm      (x_um, y_um, heading_rad, radius_um); None if it was not detected, and for robots
+        obstacles  array of shape (n, 3) with x_um, y_um, radius_um, or a list of such rows and of outlines of
+                   shape (n, 2)
+        robots     array of shape (n, 2); index i is the same robot in every step
+        seen       time at which the picture was taken [s]; default `t`
+        numbers    numbers of the obstacles, constant over all steps, 0 to 2147483647; default: matched by distance
+        unseen     number of robots that were not detected, at expected positions
         """
         try:
             if numbers is not None:
@@ -76,7 +76,7 @@ class Navigator:
             raise InputError("t, seen and unseen must be numbers, obstacles and robots arrays of numbers") from None
 
     def path(self) -> np.ndarray:
-        """The path that it follows, of the shape (n, 2) [µm]."""
+        """The path that it follows, shape (n, 2) [µm]."""
         return self._core.path()
 
     def close(self) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Pictures of what can be drawn."""
+"""Drawing of records, sessions, maps and paths."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ from .values import InputError, path_text
 
 
 class Drawable:
-    """What has a picture: a notebook shows it, and draw() writes it."""
+    """Base of objects with a picture, which a notebook shows and draw() writes."""
 
     def _picture(self, file: Optional[str]) -> Optional[bytes]:
-        """Writes the picture into `file`; without one it returns it as PNG, or nothing."""
+        """Writes the picture into `file`; without a file returns it as PNG, or None."""
         raise NotImplementedError
 
     def draw(self, path: str | os.PathLike[str]) -> None:
-        """Writes a picture of it into a file: .png, .svg or .pdf."""
+        """Writes a picture into a file: .png, .svg or .pdf."""
         self._picture(path_text(path))
 
     def _repr_png_(self) -> Optional[bytes]:
         try:
             return self._picture(None)
-        except InputError:  # such as a closed session
+        except InputError:  # for example a closed session
             return None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How much of a long call is done."""
+"""Progress of long calls."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 
 
 class Bar:
-    """Shows how much is done once it has taken a second, 10 times a second: in a line on stderr if that is a terminal, or in a notebook."""
+    """Shows the progress of calls longer than a second, 10 times a second: on stderr if it is a terminal, or in a notebook."""
 
     def __init__(self) -> None:
         self._began = time.monotonic()
@@ -26,7 +26,7 @@ class Bar:
         self._show(f"{100 * done:3.0f} %{left}")
 
     def end(self) -> None:
-        """Takes the line away; in a notebook it tells how long it took."""
+        """Removes the line; in a notebook it shows the duration instead."""
         if not self._shown:
             return
         if self._cell:
@@ -46,6 +46,6 @@ class Bar:
 
 
 def notebook_line() -> Any:
-    """What a notebook displays, and displays anew; None elsewhere."""
+    """A line of a notebook that can be updated; None elsewhere."""
     shell = sys.modules["IPython"].get_ipython() if "IPython" in sys.modules else None
     return sys.modules["IPython"].display.DisplayHandle() if hasattr(shell, "kernel") else None

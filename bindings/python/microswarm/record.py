@@ -41,7 +41,7 @@ class Table(Mapping):
         return len(next(iter(self._columns.values()))) if self._columns else 0
 
     def to_array(self) -> np.ndarray:
-        """The table as a structured array, which pandas.DataFrame takes as it is."""
+        """The table as a structured array, which pandas.DataFrame accepts."""
         types = [(name, column.dtype) for name, column in self._columns.items()]
         array = np.empty(self.rows, dtype=types)
         for name, column in self._columns.items():
@@ -55,22 +55,22 @@ class Table(Mapping):
 
 
 def finite(value: Any) -> Any:
-    """Metrics with infinity where a distance never came about."""
+    """Metrics with infinity for distances that were never measured."""
     if isinstance(value, dict):
         return {key: finite(one) for key, one in value.items()}
     return float("inf") if value is None else value
 
 
 class Record(Drawable):
-    """What a run recorded: enough to repeat, measure and draw it.
+    """Record of a run, sufficient to repeat, measure and draw it.
 
     status     "solved", "collided", "time_limit", …
     metrics    dictionary of the metrics, with their units in their names
     frames     Table with a row for each tick: t_s, x_um, y_um, heading_rad, command_speed_um_per_s, …
-    events     Table of what happened
+    events     Table of events
     plans      Table of planning events; plan_trees and plan_paths have a Table for each
-    robots_t_s, robots_um   times, and places of the shape (times, robots, 2)
-    step_time_s   time that each step of the navigator took
+    robots_t_s, robots_um   times, and positions of shape (times, robots, 2)
+    step_time_s   computing time of each step of the navigator
     """
 
     def __init__(self, core: _core.Record) -> None:
@@ -88,12 +88,12 @@ class Record(Drawable):
 
     @property
     def hash(self) -> str:
-        """Fingerprint of all that is physical: equal for equal runs."""
+        """Hash of all physical quantities: equal for equal runs."""
         return self._core.hash()
 
     @property
     def version(self) -> str:
-        """Version of the library that made it."""
+        """Version of the library that made the record."""
         return self._core.version
 
     @property
@@ -141,11 +141,11 @@ class Record(Drawable):
         return self._core.scenario()
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the record as HDF5. A file of that name is replaced whole; of a symbolic link the link, not what it points to."""
+        """Writes the record as HDF5. A file of that name is replaced as a whole; a symbolic link itself, not its target."""
         self._core.write(path_text(path))
 
     def replay(self) -> tuple[bool, str]:
-        """Runs it again: whether all bits are the same, and else the first difference."""
+        """Runs it again: whether all bits are equal, otherwise the first difference."""
         return self._core.replay()
 
     def _picture(self, file: Optional[str]) -> Optional[bytes]:

@@ -20,13 +20,13 @@ Progress = Union[bool, Callable[[float], Any], None]
 
 
 def scenario_of(source: Source) -> Scenario:
-    """A scenario, or that of a file."""
+    """A scenario, given as such or as a file."""
     return source if isinstance(source, Scenario) else Scenario.load(path_text(source, "scenario", "a Scenario or the name of a file"))
 
 
 @contextmanager
 def shown(progress: Progress) -> Iterator[Optional[Callable[[float], Any]]]:
-    """What hears the share that is done: a function of the caller, or a bar."""
+    """Receiver of the completed share: the caller's function, or a bar."""
     if not (progress is None or isinstance(progress, bool) or callable(progress)):
         raise InputError("progress must be a function, True, False or None")
     bar = Bar() if progress is None or progress is True else None
@@ -45,19 +45,19 @@ class Session(Drawable):
     """
 
     def __init__(self, scenario: Source, *, seed: Optional[int] = None, trial: int = 0, navigator: Any = None) -> None:
-        """Opens a scenario, or a file. `navigator` is one of your own, see run()."""
+        """Opens a scenario, or a file. `navigator` is your own one, see run()."""
         core = scenario_of(scenario)._core
         self._core = _core.Session(core, seed_of(seed), whole("trial", trial, 2**32 - 1), navigator)
 
     @classmethod
     def _of(cls, core: _core.Session) -> "Session":
-        """A session that is open."""
+        """Wraps an open session."""
         session = cls.__new__(cls)
         session._core = core
         return session
 
     def step(self) -> bool:
-        """The next tick; False when the run has ended before."""
+        """Runs the next tick; False if the run had ended."""
         return self._core.step()
 
     def set(self, key: str, value: Any) -> None:
@@ -65,12 +65,12 @@ class Session(Drawable):
         self._core.set(key_of(key), text_of(key, value))
 
     def view(self) -> dict[str, Any]:
-        """The present state: the numbers of the frame, obstacles_um (x, y, radius), robots_um, path_um."""
+        """The current state: the numbers of the frame, obstacles_um (x, y, radius), robots_um, path_um."""
         return self._core.view()
 
     @property
     def status(self) -> str:
-        """ "running", or how it ended."""
+        """ "running", or the final status."""
         return self._core.summary()["status"]
 
     @property
@@ -79,7 +79,7 @@ class Session(Drawable):
         return finite(json.loads(self._core.summary()["metrics"]))
 
     def finish(self, progress: Progress = None) -> Record:
-        """Steps to the end. `progress` hears the share that is done; by default a line on stderr, or in the notebook, tells it."""
+        """Steps to the end. `progress` is called with the completed share; default: a line on stderr or in the notebook."""
         with shown(progress) as report:
             self._core.finish(report)
         return self.record()
@@ -98,8 +98,8 @@ class Session(Drawable):
             return "<Session: closed, or in use>"
 
     def stop(self) -> None:
-        """Ends the run, from any thread: finish() or step() of another one returns soon, the next tick is the last one,
-        and the record has what was done, with the status "stopped", or "solved" if the swarm was held at the goal."""
+        """Ends the run; callable from any thread. finish() or step() in another thread returns soon, the next tick is the last
+        one, and the record holds all ticks, with the status "stopped", or "solved" if the swarm was held at the goal."""
         self._core.stop()
 
     def close(self) -> None:
@@ -121,16 +121,16 @@ def run(
     navigator: Any = None,
     progress: Progress = None,
 ) -> Record:
-    """Runs a scenario, or a file, to its end; the record is that of `microswarm run`, to the bit.
+    """Runs a scenario, or a file, to its end; the record is bit-identical to that of `microswarm run`.
 
     seed          replaces the scenario's
     trial         selects the random streams: trial k is that of `microswarm run --trials`
-    navigator     an object of your own with a method step(observation) that returns (heading_rad,
+    navigator     your own object with a method step(observation) that returns (heading_rad,
                   speed_um_per_s), or None to hold. The observation has now_s, seen_s, swarm = (x_um,
                   y_um, heading_rad, radius_um) or None, obstacles_um = rows of x, y, radius, and
                   robots_um. prepare() is called before the first step if there is one. Both are called in
-                  the thread of the caller; an exception of theirs ends the run and is raised.
-    progress      called with the share that is done; False: nothing is shown
+                  the caller's thread; an exception ends the run and is raised.
+    progress      called with the completed share; False: nothing is shown
     """
     with Session(scenario, seed=seed, trial=trial, navigator=navigator) as session:
         return session.finish(progress)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Scenarios: everything that an experiment consists of."""
+"""Scenarios: complete descriptions of experiments."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class Group:
         self._scenario.set(".".join((*self._path, name)), value)
 
     def to_dict(self) -> Any:
-        """The keys as a dictionary, or the list: a copy."""
+        """A copy as dictionary or list."""
         return copy.deepcopy(self._value())
 
     def __getitem__(self, index: int | slice) -> Any:
@@ -88,7 +88,7 @@ class Scenario(Group):
     """An experiment as data: map, obstacles, swarm or robots, start, goal, navigator, limits.
 
     Every key of a scenario file is an attribute, with its unit in its name; groups of keys have
-    attributes of their own, and lists are indexed: `scenario.obstacles[0].shape.radius_um = 30`. Places are tuples,
+    attributes themselves, and lists are indexed: `scenario.obstacles[0].shape.radius_um = 30`. Positions are tuples,
     and lists are replaced as a whole: `scenario.obstacles = scenario.obstacles[:2]`.
     A bad value raises InputError and changes nothing.
     """
@@ -129,7 +129,7 @@ class Scenario(Group):
         return copy.deepcopy(value)
 
     def copy(self) -> "Scenario":
-        """Another scenario with the same values."""
+        """A scenario with the same values."""
         return Scenario(self._core.copy())
 
     def __copy__(self) -> "Scenario":
@@ -142,7 +142,7 @@ class Scenario(Group):
         return _restored, self._core.parts()
 
     def to_yaml(self) -> str:
-        """The scenario as a file with every key."""
+        """The scenario as YAML with every key."""
         return self._core.yaml()
 
     def _values(self) -> dict[str, Any]:
@@ -170,5 +170,5 @@ def _restored(text: str, name: str, base: str, settings: list[str]) -> Scenario:
 
 
 def is_numbers(value: Any) -> bool:
-    """Whether a value is a list of numbers, such as a place."""
+    """Whether a value is a list of numbers, such as a position."""
     return isinstance(value, list) and all(isinstance(one, (int, float)) for one in value) and len(value) > 0

@@ -23,19 +23,18 @@ def sweep(
     navigator: Any = None,
     progress: Progress = None,
 ) -> Table:
-    """Runs all combinations of values; a row each with the metrics, as of `microswarm sweep`.
+    """Runs all combinations of values, like `microswarm sweep`; returns a row with the metrics of each run.
 
     grid      values of each key: {"navigator.speed_um_per_s": [40, 60], "seed": range(100)}. The last one
               varies fastest
     methods   groups of settings that are compared in every combination: {"name": {key: value}}
-    trials    of each combination, with random streams of their own
+    trials    number of trials of each combination, each with its own random streams
     seed      replaces the scenario's
-    jobs      number of threads, one a core without. Apart from times no value depends on it
-    progress  called with the share that is done; False: nothing is shown
+    jobs      number of threads; default: one a core. Apart from times no value depends on it
+    progress  called with the completed share; False: nothing is shown
 
-    The columns are those of the database of a sweep: cell, trial, method, what the grid varies (with _
-    for .), status, arrived, metrics, wall-clock times, record_hash. A run with a navigator of your own
-    is one of run().
+    The columns are those of the database of a sweep: cell, trial, method, the grid's keys (with _ for .),
+    status, arrived, metrics, wall-clock times, record_hash. Your own navigators need run().
     """
     if navigator is not None:
         raise InputError("a sweep runs in threads of the library, without navigators of your own: call run() in a loop")
@@ -58,7 +57,7 @@ def sweep(
 
 
 def _values(key: str, values: Any) -> list[str]:
-    """The values of a key as texts; a number or a text is none."""
+    """The values of a key as texts; a single number or text is refused."""
     if isinstance(values, (str, bytes)) or not isinstance(values, Iterable):
         raise InputError(f"values of {key} are {told(values)}, must be a list")
     made = [text_of(key, one) for one in values]
@@ -69,10 +68,10 @@ def _values(key: str, values: Any) -> list[str]:
 
 
 def _check_seed(value: str) -> None:
-    """Whether the table's column of seeds, which is of floats, can hold it."""
+    """Refuses a seed that the table's column, which holds floats, cannot represent."""
     try:
         exact = Decimal(value) <= 2**53
-    except InvalidOperation:  # no number, which the sweep itself tells
+    except InvalidOperation:  # no number, which the sweep itself reports
         return
     if not exact:
         raise InputError(f"seed in grid is {told(value)}, must be at most {2**53} (2^53) for the table")

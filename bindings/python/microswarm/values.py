@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Arguments of callers, told by their names where they are wrong."""
+"""Checks of arguments, whose errors name the argument."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ._core import InputError
 
 
 def told(value: Any) -> str:
-    """A value in a message: one line, not a long one."""
+    """A value in a message: one short line."""
     try:
         line = " ".join(repr(value).split())
     except (RecursionError, ValueError):  # nested deeply, or of thousands of digits
@@ -25,7 +25,7 @@ def told(value: Any) -> str:
 
 
 def text(name: str, value: Any) -> str:
-    """A text that UTF-8 can hold."""
+    """Checks a text that UTF-8 can encode."""
     if not isinstance(value, str):
         raise InputError(f"{name} is {told(value)}, must be a text")
     try:
@@ -36,7 +36,7 @@ def text(name: str, value: Any) -> str:
 
 
 def path_text(path: Any, name: str = "path", what: str = "the name of a file") -> str:
-    """A file's name as text."""
+    """Checks a file's name; returns it as text."""
     try:
         made = os.fspath(path)
     except TypeError:
@@ -47,7 +47,7 @@ def path_text(path: Any, name: str = "path", what: str = "the name of a file") -
 
 
 def whole(name: str, value: Any, most: int, least: int = 0) -> int:
-    """A whole number from `least` to `most`."""
+    """Checks an integer from `least` to `most`."""
     try:
         made = operator.index(value)
     except TypeError:
@@ -58,19 +58,19 @@ def whole(name: str, value: Any, most: int, least: int = 0) -> int:
 
 
 def seed_of(value: Any) -> Optional[int]:
-    """A seed, or none."""
+    """Checks a seed, or None."""
     return None if value is None else whole("seed", value, 2**64 - 1)
 
 
 def flag(name: str, value: Any) -> bool:
-    """True or False."""
+    """Checks True or False."""
     if not isinstance(value, (bool, np.bool_)):
         raise InputError(f"{name} is {told(value)}, must be True or False")
     return bool(value)
 
 
 def mapping(name: str, value: Any) -> Mapping[str, Any]:
-    """A dictionary; None is an empty one."""
+    """Checks a dictionary; None becomes an empty one."""
     if value is None:
         return {}
     if not isinstance(value, Mapping):
@@ -79,7 +79,7 @@ def mapping(name: str, value: Any) -> Mapping[str, Any]:
 
 
 def numbers(name: str, values: Any, counts: tuple[int, ...], what: str) -> list[float]:
-    """As many numbers as one of `counts`."""
+    """Checks a list of finite numbers whose length is one of `counts`."""
     try:
         made = [float(one) for one in values]
     except (TypeError, ValueError, OverflowError):
@@ -90,7 +90,7 @@ def numbers(name: str, values: Any, counts: tuple[int, ...], what: str) -> list[
 
 
 def number(name: str, value: Any) -> float:
-    """A finite number."""
+    """Checks a finite number."""
     try:
         made = float(value)
     except (TypeError, ValueError):
@@ -103,7 +103,7 @@ def number(name: str, value: Any) -> float:
 
 
 def array_of(name: str, values: Any, what: str, kinds: str = "buif", shape: Optional[tuple[int, ...]] = None) -> np.ndarray:
-    """An array of real numbers, or of the `kinds` of NumPy."""
+    """Checks an array of real numbers, or of the given NumPy `kinds`."""
     try:
         array = np.asarray(values)
     except (TypeError, ValueError):  # rows of different lengths
@@ -114,12 +114,12 @@ def array_of(name: str, values: Any, what: str, kinds: str = "buif", shape: Opti
 
 
 def rows(name: str, values: Any, shape: str = "(n, 2)") -> np.ndarray:
-    """An array of real numbers."""
+    """Checks an array of real numbers of a shape."""
     return array_of(name, values, f"numbers of the shape {shape}")
 
 
 def grid_of(name: str, values: Any, most: int) -> np.ndarray:
-    """Finite numbers of two dimensions. The sides are checked before anything reads or copies them."""
+    """Checks a 2-D array of finite numbers; its sides are checked before it is read or copied."""
     array = array_of(name, values, "an array of numbers with 2 dimensions")
     if array.ndim != 2:
         raise InputError(f"{name} has the shape {array.shape}, must have 2 dimensions")
@@ -131,19 +131,19 @@ def grid_of(name: str, values: Any, most: int) -> np.ndarray:
 
 
 def key_of(key: Any) -> str:
-    """A key of a scenario."""
+    """Checks a key of a scenario."""
     if not isinstance(key, str) or not key or any(c in key for c in "=\n\r\0# "):
         raise InputError(f"{told(key)} is no key of a scenario")
     return text("a key of a scenario", key)
 
 
 def setting(key: Any, value: Any) -> str:
-    """KEY=VALUE as in --set."""
+    """A setting as text, KEY=VALUE."""
     return f"{key_of(key)}={text_of(key, value)}"
 
 
 def text_of(key: str, value: Any) -> str:
-    """A key's value as in a scenario file. Arrays become lists."""
+    """A value in a scenario file's form. Arrays become lists."""
     if isinstance(value, str):
         return text(key, value)
     try:
@@ -160,7 +160,7 @@ def text_of(key: str, value: Any) -> str:
 
 
 def plain(value: Any) -> Any:
-    """What json does not know: arrays and groups of a scenario."""
+    """Converts arrays and groups of a scenario for json."""
     for way in ("tolist", "to_dict"):
         if hasattr(value, way):
             return getattr(value, way)()

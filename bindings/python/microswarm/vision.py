@@ -20,10 +20,10 @@ PathLike = Union[str, "os.PathLike[str]"]
 class Segmentation:
     """Vessels of a photograph.
 
-    mask             where vessels are: booleans of the shape (height, width), the upper row first
+    mask             vessels, as booleans of shape (height, width), the upper row first
     map              the Map, free in the vessels; the lower left corner of the picture is (0, 0), y points up
-    field_of_view    what the optics show, like `mask`
-    method           "lines" or "regions", which was used
+    field_of_view    area shown by the optics, like `mask`
+    method           method that was used, "lines" or "regions"
     vessel_share     area of the vessels, as a share of the field of view
     wide_width_um    width of the wide vessels
     pieces           connected networks, of which `kept_share` of the area was kept
@@ -46,13 +46,13 @@ class Segmentation:
 
 
 def segment(image: Any, um_per_px: float, *, smooth_px: float = 1.0, **values: Any) -> Segmentation:
-    """Finds the vessels of a photograph, as `microswarm map segment`.
+    """Finds the vessels of a photograph, like `microswarm map segment`.
 
-    image       array of uint8 or uint16 of the shape (height, width) or (height, width, 3) with red, green, blue, the
+    image       array of uint8 or uint16 of shape (height, width) or (height, width, 3) with red, green, blue, the
                 upper row first, or the name of a file. 16-bit numbers have as many bits as the largest one needs.
     um_per_px   side of a pixel, 1e-6 to 1e6
     smooth_px   tolerance of the outlines, 0 to 100
-    values      those of `map segment --set`: method="lines", polarity="dark", min_width_px=6, keep="all", …
+    values      values of `map segment --set`: method="lines", polarity="dark", min_width_px=6, keep="all", …
 
     InputError if no vessels are found.
     """
@@ -72,22 +72,22 @@ def track(
     progress: Progress = None,
     **values: Any,
 ) -> Any:
-    """Finds robots in pictures and tracks them, as `microswarm track`.
+    """Finds robots in pictures and tracks them, like `microswarm track`.
 
-    frames         array of the shape (n, height, width) or (n, height, width, 3), any iterable of such pictures, of
-                   which one at a time is held, or the name of a video, folder of pictures or TIFF. Pictures are of
-                   uint8, or of uint16, whose numbers have as many bits as the first picture needs, or `depth`.
+    frames         array of shape (n, height, width) or (n, height, width, 3), any iterable of such pictures,
+                   which are held one at a time, or the name of a video, folder of pictures or TIFF. Pictures are
+                   uint8, or uint16, whose numbers have as many bits as the first picture needs, or `depth`.
     um_per_px      side of a pixel, 1e-6 to 1e6
-    fps            frames per second; a video without it has its own
-    times_s        time of each picture, ascending, in place of fps. The tracker takes their mean distance as the time
-                   between pictures, so velocities suppose even ones.
+    fps            frame rate [Hz]; default: the video's own
+    times_s        time of each picture, ascending, instead of fps. The tracker assumes even times with the same mean
+                   distance, also in velocities.
     return_events  return (tracks, events)
-    progress       called with the share that is done; False: nothing is shown
-    values         those of `track --set`, with or without their group: diameter_px=11, min_mass=40, tone="bright",
+    progress       called with the completed share; False: nothing is shown
+    values         values of `track --set`, with or without their group: diameter_px=11, min_mass=40, tone="bright",
                    channel="red", memory=5, search_range_um=4, or find={"diameter_px": 11}
 
     Returns a structured array with a row for each robot in each picture, ordered by pictures, which pandas.DataFrame
-    takes. Columns as trackpy's: frame and particle, from 0; x and y in pixels, where y points down and (0, 0) is the
+    accepts. Columns as trackpy's: frame and particle, from 0; x and y in pixels, where y points down and (0, 0) is the
     centre of the upper left pixel; mass, signal. Columns as those of tracks.csv: x_um and y_um, where y points up and
     (0, 0) is the lower left corner of the picture; t_s, vx_um_per_s, vy_um_per_s, radius_um, eccentricity. `mass` and
     `signal` are grey values of 8 bits. Events have frame, event ("birth", "death", "merge", "split"), particle and
@@ -122,7 +122,7 @@ def track(
 
 
 def track_arrays(frames: Any, settings: list[str], report: Any, times: Optional[np.ndarray]) -> dict[str, Any]:
-    """Tracks pictures in memory, one after the other."""
+    """Tracks pictures in memory one by one."""
     if isinstance(frames, np.ndarray) and (frames.ndim not in (3, 4) or (frames.ndim == 3 and frames.shape[2] == 3)):
         raise InputError(f"frames has the shape {frames.shape}, must be (n, height, width) or (n, height, width, 3)")
     count = len(frames) if hasattr(frames, "__len__") else None
@@ -144,7 +144,7 @@ def track_arrays(frames: Any, settings: list[str], report: Any, times: Optional[
 
 
 def track_settings(values: dict[str, Any]) -> list[str]:
-    """KEY=VALUE of each value; a key without its group gets it."""
+    """Settings KEY=VALUE of the values; a key without a group gets its group."""
     keys = {key.rpartition(".")[2]: key for key in _core.track_keys()}
     for own in ("um_per_px", "rate_hz"):
         if own in values:
@@ -161,7 +161,7 @@ def track_settings(values: dict[str, Any]) -> list[str]:
 def tracks_of(made: dict[str, Any]) -> np.ndarray:
     """The rows of a result as a structured array, trackpy's columns first."""
     rows = dict(made["rows"])
-    rows.pop("id")  # is particle
+    rows.pop("id")  # equals particle
     columns = {key: rows.pop(key) for key in ("frame", "particle", "x", "y", "x_um", "y_um", "t_s")}
     return structured({**columns, **rows})
 
@@ -175,7 +175,7 @@ def structured(columns: dict[str, np.ndarray]) -> np.ndarray:
 
 
 def picture_of(name: str, image: Any) -> np.ndarray:
-    """A picture as a contiguous array of uint8 or uint16."""
+    """Checks a picture; returns a contiguous array of uint8 or uint16."""
     array = array_of(name, image, "an array of uint8 or uint16", kinds="buifc")
     if array.ndim == 3 and array.shape[2] == 1:
         array = array[:, :, 0]
@@ -190,7 +190,7 @@ def picture_of(name: str, image: Any) -> np.ndarray:
 
 
 def in_range(name: str, value: Any, least: float, most: float) -> float:
-    """A number within its limits."""
+    """Checks a number within limits."""
     made = number(name, value)
     if not least <= made <= most:
         raise InputError(f"{name} is {made:g}, must be {least:g} to {most:g}")
@@ -198,7 +198,7 @@ def in_range(name: str, value: Any, least: float, most: float) -> float:
 
 
 def ascending(times_s: Any) -> np.ndarray:
-    """Times, at least two, that ascend."""
+    """Checks two or more ascending times."""
     try:
         times = np.asarray(times_s, dtype=float)
     except (TypeError, ValueError):

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Environments for learning in the form of Gymnasium, which is used where it is installed.
+"""Environments for learning in Gymnasium's form; Gymnasium itself is used if it is installed.
 
     from microswarm import environments
     env = environments.make("CorridorAlgorithmicFixedPCFixedGoal-v0", maze="corridor.pgm")
     observation, info = env.reset(seed=1)
     observation, reward, terminated, truncated, info = env.step(env.action_space.sample())
 
-Many at once, stepped together on all cores, are `make_vec(id, num_envs)`. With Gymnasium the names are known
-to gymnasium.make() too.
+`make_vec(id, num_envs)` makes many environments that are stepped together on all cores. With Gymnasium installed, gymnasium.make()
+knows the names too.
 """
 
 import importlib.util
@@ -17,7 +17,7 @@ from .navigation import NavigationEnv, NavigationVectorEnv
 
 
 def register() -> None:
-    """Makes the names known to gymnasium.make(); done at import where Gymnasium is installed."""
+    """Registers the names with gymnasium.make(); done at import if Gymnasium is installed."""
     from gymnasium.envs.registration import register as add
     from gymnasium.envs.registration import registry
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What environments of every kind have in common."""
+"""Common base of all environments."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Steps = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, dict[str, Any]]
 
 
 def count_of(num_envs: Any) -> int:
-    """A number of environments."""
+    """Checks a number of environments."""
     return whole("num_envs", num_envs, 10**6, least=1)
 
 
@@ -27,12 +27,12 @@ class Environments:
 
     @property
     def rules(self) -> dict[str, Any]:
-        """The rules with every value."""
+        """All rules and their values."""
         return json.loads(self._core.rules())
 
     @property
     def unwrapped(self) -> Any:
-        """Itself: there is no wrapper."""
+        """The environment itself, since there is no wrapper."""
         return self
 
     def close(self) -> None:
@@ -61,8 +61,8 @@ class SingleEnvironment(Environments, Env):
 class VectorEnvironment(Environments):
     """Environments that are stepped together on all cores.
 
-    Environment i is seeded with seed + i and is then that of a single one with that seed. One whose episode
-    has ended begins the next with the step after, whose reward is 0 (Gymnasium's "next step").
+    Environment i is seeded with seed + i and equals a single environment with that seed. After the end of an episode,
+    the following step begins the next one, with reward 0 (Gymnasium's "next step").
     """
 
     metadata: dict[str, Any] = {"autoreset_mode": "NextStep"}
@@ -79,11 +79,11 @@ class VectorEnvironment(Environments):
         self._made: list[np.ndarray] = []
 
     def _array(self) -> Optional[np.ndarray]:
-        """An array for a copy of the observations: one that nobody else holds any more, or a new one."""
+        """Array for a copy of the observations: a kept one that is no longer referenced, or a new one."""
         if not self._copy:
             return None
         for one in self._made:
-            if sys.getrefcount(one) == 3:  # of the list, of `one` and of the call
+            if sys.getrefcount(one) == 3:  # references: the list, `one` and the call
                 return one
         self._made = [np.empty_like(self._all), *self._made[:2]]
         return self._made[0]

@@ -41,7 +41,7 @@ def ids() -> list[str]:
 
 
 def values_of(name: str) -> dict[str, Any]:
-    """What the name of an environment says."""
+    """Values that the name of an environment stands for."""
     for maze, (goal, _) in MAZES.items():
         for physics in PHYSICS:
             for count in COUNTS:
@@ -59,7 +59,7 @@ def values_of(name: str) -> dict[str, Any]:
 
 
 def _named_maze(name: str) -> np.ndarray:
-    """A maze of the benchmark, from its own package or the folder of real input."""
+    """A maze of the benchmark, from its package or the folder of real input."""
     folder = os.environ.get("MICROSWARM_DATA")
     if folder:
         file = pathlib.Path(folder, "gym_gathering", f"{name.lower()}.pgm")
@@ -146,8 +146,8 @@ class GatheringEnv(SingleEnvironment):
     action_space         Discrete(8): east, south-east, south, south-west, west, north-west, north, north-east
     observation_space    Box of uint8, of shape (rows, columns, channels). "simple": particles are 255;
                          "multichannel": walls, particles and, if it is random, the goal
-    reward               what the particles came nearer to the goal, in all and the farthest, as shares of the
-                         costs of the maze, less 1 / the estimated length of an episode
+    reward               decrease of the total and of the largest distance to the goal, as shares of the maze's
+                         costs, minus 1 / the estimated length of an episode
     terminated           all are within goal_range steps of the goal
     truncated            max_episode_steps have passed
 
@@ -173,7 +173,7 @@ class GatheringEnv(SingleEnvironment):
         self.observation_space = Box(0, 255, self._shape(), np.uint8)
 
     def step(self, action: Any) -> tuple[np.ndarray, float, bool, bool, dict[str, Any]]:
-        """An input: (observation, reward, terminated, truncated, info)."""
+        """Applies an input; returns (observation, reward, terminated, truncated, info)."""
         try:
             return self._step(action)
         except TypeError:
@@ -181,7 +181,7 @@ class GatheringEnv(SingleEnvironment):
 
     @property
     def particle_locations(self) -> np.ndarray:
-        """Row and column of each particle, in no order once particles have met."""
+        """Row and column of each particle; the order is undefined once particles have met."""
         return self._core.particles(0)
 
     @property
@@ -200,7 +200,7 @@ class GatheringEnv(SingleEnvironment):
         return self._core.costs(0)
 
     def render(self) -> np.ndarray:
-        """A picture in colours, of shape (rows, columns, 3)."""
+        """Colour picture, shape (rows, columns, 3)."""
         costs = self.costs
         image = np.where((costs >= 0)[:, :, None], np.array([90, 150, 190], np.uint8), np.array([15, 30, 65], np.uint8))
         column, row = self.goal
@@ -214,12 +214,12 @@ class GatheringEnv(SingleEnvironment):
 class GatheringVectorEnv(VectorEnvironment):
     """`num_envs` gatherings of the same maze and rules, stepped together on all cores.
 
-    Environment i is seeded with seed + i and is then that of a GatheringEnv with that seed. One whose episode
-    has ended begins the next with the step after, whose reward is 0 (Gymnasium's "next step"). The arguments
-    are those of GatheringEnv.
+    Environment i is seeded with seed + i and equals a GatheringEnv with that seed. After the end of an episode, the
+    following step begins the next one, with reward 0 (Gymnasium's "next step"). The arguments are those of
+    GatheringEnv.
 
-    threads    how many are used, 0: one a core. Results do not depend on it
-    copy       False: the same array of observations is returned and renewed by each step
+    threads    number of threads; 0: one a core. Results do not depend on it
+    copy       False: each step updates and returns the same array of observations
     """
 
     def __init__(
@@ -233,7 +233,7 @@ class GatheringVectorEnv(VectorEnvironment):
         self.observation_space = Box(0, 255, self._all.shape, np.uint8)
 
     def step(self, actions: Sequence[int]) -> Steps:
-        """An input for each: arrays of observations, rewards, terminated, truncated, and info."""
+        """Applies an input in each environment; returns arrays of observations, rewards, terminated, truncated, and info."""
         given = array_of("actions", actions, f"{self.num_envs} whole numbers", kinds="iu", shape=(self.num_envs,))
         bad = (given < 0) | (given > 7)
         if bad.any():
@@ -246,7 +246,7 @@ class GatheringVectorEnv(VectorEnvironment):
 
 
 def make(id: str, **values: Any) -> GatheringEnv:
-    """An environment by its name in the benchmark; `values` replace what the name says."""
+    """An environment by its name in the benchmark; `values` override those of the name."""
     return GatheringEnv(**values_of(id) | values)
 
 

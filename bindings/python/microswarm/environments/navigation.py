@@ -21,7 +21,7 @@ def _batch(scenario: Source, num_envs: int, threads: int, rules: dict[str, Any])
 
 
 def _spaces(size: int, count: Optional[int] = None) -> tuple[Box, Box]:
-    """Of observations and actions."""
+    """Spaces of observations and actions."""
     first = () if count is None else (count,)
     low = np.broadcast_to(np.array([-math.pi, 0], np.float32), (*first, 2))
     high = np.broadcast_to(np.array([math.pi, 1], np.float32), (*first, 2))
@@ -29,15 +29,15 @@ def _spaces(size: int, count: Optional[int] = None) -> tuple[Box, Box]:
 
 
 class NavigationEnv(SingleEnvironment):
-    """A scenario of one swarm that the agent steers, a tick at a time; any heading is allowed, in rad.
+    """A scenario of one swarm that the agent steers, tick by tick; any heading is allowed [rad].
 
-    action_space         Box: heading_rad, and the speed as a share of the swarm's greatest
+    action_space         Box: heading_rad, and the speed as a share of the swarm's maximum
     observation_space    Box of float32: the state without camera delay and noise. In order: x and y of the goal
                          from the swarm [µm], cosine and sine of the heading, speed [µm/s], radius [µm]; the free
-                         distance in `rays` directions, the first along x, counter-clockwise [µm]; and of each of
-                         the nearest `obstacles` that move x and y from the swarm, radius [µm] and velocity [µm/s]
-    reward               what the swarm came nearer to the goal as a share of the first distance, arrival_reward
-                         at the goal, less contact_penalty and time_penalty times the share of the time limit
+                         distance in `rays` directions, the first along x, counter-clockwise [µm]; and, for each of
+                         the nearest `obstacles` moving obstacles, x and y from the swarm, radius [µm] and velocity [µm/s]
+    reward               decrease of the distance to the goal as a share of the first distance, plus arrival_reward
+                         at the goal, minus contact_penalty and time_penalty times the share of the time limit
     terminated           the goal is reached, or there was a contact
     truncated            the scenario's time limit has passed
 
@@ -56,7 +56,7 @@ class NavigationEnv(SingleEnvironment):
         self.observation_space, self.action_space = _spaces(self._shape()[0])
 
     def step(self, action: Any) -> tuple[np.ndarray, float, bool, bool, dict[str, Any]]:
-        """One tick: (observation, reward, terminated, truncated, info)."""
+        """Advances one tick; returns (observation, reward, terminated, truncated, info)."""
         try:
             heading, share = (float(one) for one in action)
         except (TypeError, ValueError, OverflowError):
@@ -65,7 +65,7 @@ class NavigationEnv(SingleEnvironment):
 
     @property
     def max_speed_um_per_s(self) -> float:
-        """The swarm's greatest speed."""
+        """Maximum speed of the swarm."""
         return self._core.max_speed()
 
     @property
@@ -77,8 +77,8 @@ class NavigationEnv(SingleEnvironment):
 class NavigationVectorEnv(VectorEnvironment):
     """`num_envs` episodes of a scenario, stepped together on all cores; see NavigationEnv.
 
-    threads    how many are used, 0: one a core. Results do not depend on it
-    copy       False: the same array of observations is returned and renewed by each step
+    threads    number of threads; 0: one a core. Results do not depend on it
+    copy       False: each step updates and returns the same array of observations
     """
 
     def __init__(self, num_envs: int, scenario: Source, *, threads: int = 0, copy: bool = True, **rules: Any) -> None:
@@ -89,6 +89,6 @@ class NavigationVectorEnv(VectorEnvironment):
         self.observation_space, self.action_space = _spaces(size, num_envs)
 
     def step(self, actions: Any) -> Steps:
-        """An action for each, of shape (num_envs, 2): arrays of observations, rewards, terminated, truncated, and info."""
+        """Applies actions of shape (num_envs, 2); returns arrays of observations, rewards, terminated, truncated, and info."""
         what = f"numbers of the shape ({self.num_envs}, 2)"
         return self._stepped(array_of("actions", actions, what, shape=(self.num_envs, 2)))

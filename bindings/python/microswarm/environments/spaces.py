@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Spaces of environments: those of Gymnasium where it is installed, else the same names here."""
+"""Spaces of environments: Gymnasium's if it is installed, else own classes of the same names."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ try:
 except ModuleNotFoundError:
 
     class Env:  # type: ignore[no-redef]
-        """What environments have in common."""
+        """Base class of environments."""
 
         metadata: dict[str, Any] = {"render_modes": []}
         render_mode: Optional[str] = None
         spec: Any = None
 
         def render(self) -> Any:
-            """No picture."""
+            """Not supported: no picture."""
             return None
 
     class _Space:
@@ -31,14 +31,14 @@ except ModuleNotFoundError:
             self.seed(seed)
 
         def seed(self, seed: Optional[int] = None) -> None:
-            """Seeds what `sample` draws."""
+            """Seeds sample()."""
             self._random = np.random.default_rng(seed)
 
         def __contains__(self, value: Any) -> bool:
             return self.contains(value)
 
         def contains(self, value: Any) -> bool:
-            """Whether a value is of this space."""
+            """Whether a value belongs to this space."""
             raise NotImplementedError
 
     class Discrete(_Space):  # type: ignore[no-redef]
@@ -81,7 +81,7 @@ except ModuleNotFoundError:
             return f"MultiDiscrete({self.nvec})"
 
     class Box(_Space):  # type: ignore[no-redef]
-        """Arrays of a shape whose entries are within bounds."""
+        """Arrays of a given shape with bounded entries."""
 
         def __init__(self, low: Any, high: Any, shape: Optional[tuple[int, ...]] = None, dtype: Any = np.float32, seed: Optional[int] = None) -> None:
             self.dtype = np.dtype(dtype)
@@ -91,7 +91,7 @@ except ModuleNotFoundError:
             super().__init__(seed)
 
         def sample(self) -> np.ndarray:
-            """A value at random; unbounded entries are normal."""
+            """A random value; unbounded entries are normally distributed."""
             if self.dtype.kind in "iu":
                 return self._random.integers(self.low, self.high, endpoint=True, dtype=self.dtype)
             low, high = (np.where(np.isfinite(bound), bound, 0) for bound in (self.low, self.high))
