@@ -11,7 +11,7 @@ import { photograph } from './uploads';
 
 let page: Page | undefined;
 
-/** The page that the address names: #/session/7, #/rig/7, #/compare/7/8, else the gallery. */
+/** The page of the current address: #/session/7, #/rig/7, #/compare/7/8, else the gallery. */
 function named(): Promise<Page> {
   const session = /^#\/session\/(\d+)$/.exec(location.hash);
   if (session) return sessionPage(Number(session[1]));

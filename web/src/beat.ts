@@ -1,3 +1,3 @@
 // SPDX-License-Identifier: Apache-2.0
-// A worker that ticks: unlike a page's own timers it keeps its time in a hidden tab.
+// A worker with a timer, which is not throttled in a hidden tab as a page's timers are.
 setInterval(() => postMessage('tick'), 100);

@@ -14,7 +14,7 @@ import { tabs } from './tabs';
 import { themeSwitch } from './theme';
 import { timeBar, timeKeys } from './time_bar';
 
-/** Opens the experiment of a session a second time beside it; both begin at 0. */
+/** Opens the experiment of a session a second time beside it; both start at 0. */
 export async function openCopy(live: Live, parameters: Parameters): Promise<void> {
   const settings = parameters.settings();
   const open = (file: object) =>
@@ -27,7 +27,7 @@ export async function openCopy(live: Live, parameters: Parameters): Promise<void
   location.hash = `#/compare/${live.session}/${session}`;
 }
 
-/** Two sessions side by side, with one time and their metrics in one table. */
+/** Two sessions side by side, with a common time and one table of metrics. */
 export async function comparePage(numbers: number[]): Promise<Page> {
   const names = ['A', 'B'];
   const trouble = element('p', { class: 'trouble', role: 'alert' });
@@ -59,7 +59,7 @@ export async function comparePage(numbers: number[]): Promise<Page> {
       const status = live.standing?.ended ? live.standing.status : (live.standing?.state ?? '');
       side.caption.replaceChildren(
         element('strong', {}, names[i] as string),
-        element('span', { class: 'own' }, shown || (lists[0]?.join() === lists[1]?.join() ? 'same settings' : 'as the file says')),
+        element('span', { class: 'own' }, shown || (lists[0]?.join() === lists[1]?.join() ? 'same settings' : 'settings of the file')),
         element('output', { class: 'status' }, status.replaceAll('_', ' ')),
       );
       side.figure.dataset['status'] = live.standing?.status ?? '';
@@ -80,8 +80,8 @@ export async function comparePage(numbers: number[]): Promise<Page> {
   const fit = () => sides.forEach((side) => side.stage.scene.fit());
   const keys = new Keys([
     ...timeKeys(time),
-    { keys: ['ArrowLeft'], shown: '←', does: 'the frame before', act: (e) => time.seekBy(e.shiftKey ? -10 : -1) },
-    { keys: ['ArrowRight'], shown: '→', does: 'the next frame', act: (e) => time.seekBy(e.shiftKey ? 10 : 1) },
+    { keys: ['ArrowLeft'], shown: '←', does: 'previous frame', act: (e) => time.seekBy(e.shiftKey ? -10 : -1) },
+    { keys: ['ArrowRight'], shown: '→', does: 'next frame', act: (e) => time.seekBy(e.shiftKey ? 10 : 1) },
     { keys: ['f'], shown: 'f', does: 'fit the maps', act: fit },
   ]);
   document.title = 'Compare – microswarm lab';

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import { type Answer, type Message, type Request, read } from './protocol';
 
-const gone = 'The lab has ended, or cannot be reached. Start it again and open the address that it prints.';
+const gone = 'The lab has ended or cannot be reached. Start it again and open the address that it prints.';
 
-/** Why a stream has ended that this page did not close. */
+/** Reason for the end of a stream that this page did not close. */
 export async function whyClosed(what: string): Promise<string> {
   try {
     await call('GET', '/api/schema');
@@ -13,7 +13,7 @@ export async function whyClosed(what: string): Promise<string> {
   }
 }
 
-/** Asks the server; an error has the server's words. */
+/** Sends a request to the server; an error has the server's text. */
 export async function call<T>(method: 'GET' | 'POST', path: string, body?: unknown): Promise<T> {
   const response = await fetch(path, {
     method,
@@ -30,7 +30,7 @@ const closed: Answer = { type: 'answer', id: 0, issues: [{ keys: [], text: 'the 
 
 type Listener = (message: Message) => void;
 
-/** The stream of a session. */
+/** The message stream of a session. */
 export class Connection {
   private readonly socket: WebSocket;
   private readonly waiting = new Map<number, (answer: Answer) => void>();
@@ -52,7 +52,7 @@ export class Connection {
     this.listeners.push(listener);
   }
 
-  /** Sends a request; its answer says what is wrong with it, if anything. */
+  /** Sends a request; the answer lists its issues, if any. */
   ask(request: Request): Promise<Answer> {
     const id = this.next++;
     if (this.socket.readyState > WebSocket.OPEN) return Promise.resolve({ ...closed, id });
@@ -62,7 +62,7 @@ export class Connection {
     });
   }
 
-  /** Sends what is not answered; nothing while the stream is not open. */
+  /** Sends a request that has no answer; does nothing unless the stream is open. */
   tell(request: Request): void {
     if (this.socket.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(request));
   }
@@ -72,7 +72,7 @@ export class Connection {
     this.socket.close();
   }
 
-  /** The id 0 is of a message that could not be read, and may be the answer to any. */
+  /** Settles a request. Id 0 answers an unreadable message, so it settles all. */
   private settle(answer: Answer): void {
     const settled = answer.id === 0 ? [...this.waiting.keys()] : [answer.id];
     for (const id of settled) {

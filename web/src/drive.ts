@@ -3,7 +3,7 @@ import type { Live } from './live';
 import { at } from './settings';
 
 const period = 100; // ms between commands
-const deadZone = 0.15; // of a stick's way
+const deadZone = 0.15; // share of a stick's range
 const arrows: { [key: string]: [number, number] } = {
   ArrowRight: [1, 0],
   ArrowLeft: [-1, 0],
@@ -29,7 +29,7 @@ export class Drive {
     void this.live.ask({ do: 'manual', on: !this.isManual });
   }
 
-  /** Takes an arrow key while a person steers; whether it did. */
+  /** Takes an arrow key during manual steering; returns whether it did. */
   key(event: KeyboardEvent, down: boolean): boolean {
     this.isSlow = event.shiftKey;
     if (!arrows[event.key]) return false;

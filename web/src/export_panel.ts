@@ -5,7 +5,7 @@ import type { Scene } from './scene/scene';
 
 const speeds = [1, 2, 4, 8, 16, 32];
 
-/** What is shown as files: a picture, a drawing, the plotted numbers, a video of the run. */
+/** Export of the view as files: picture, vector drawing, numbers of the plots, video of the run. */
 export function exportPanel(live: Live, scene: Scene): HTMLElement {
   const said = element('output', { class: 'doc' });
   const speed = element('select', { 'aria-label': 'Speed of the video', title: 'Seconds of the run per second' });
@@ -17,7 +17,7 @@ export function exportPanel(live: Live, scene: Scene): HTMLElement {
   const time = (label: string, title: string) =>
     element('input', { type: 'number', class: 'number', min: '0', step: 'any', placeholder: label, 'aria-label': label, title });
   const from = time('from s', 'First time of the video [s]; empty: the start');
-  const to = time('to s', 'Last time of the video [s]; empty: the newest');
+  const to = time('to s', 'Last time of the video [s]; empty: the newest frame');
   const video = () => new URLSearchParams({ from: from.value, to: to.value, speed: speed.value, width: width.value });
   const path = `/api/sessions/${live.session}`;
   let cancel: AbortController | undefined;
@@ -28,7 +28,7 @@ export function exportPanel(live: Live, scene: Scene): HTMLElement {
       cancel?.abort();
       cancel = new AbortController();
       stop.hidden = false;
-      said.value = `${name} is being made …`;
+      said.value = `Making ${name} …`;
       try {
         save(await make(cancel.signal), name);
         said.value = '';
@@ -46,8 +46,8 @@ export function exportPanel(live: Live, scene: Scene): HTMLElement {
     element(
       'div',
       { class: 'row' },
-      act('PNG', 'picture.png', 'The scene as it is shown', () => scene.picture()),
-      act('SVG', 'picture.svg', 'The run at this time, as lines and areas', (signal) =>
+      act('PNG', 'picture.png', 'The scene as shown', () => scene.picture()),
+      act('SVG', 'picture.svg', 'The run at this time, as vector graphics', (signal) =>
         fetched(`${path}/picture.svg?t=${live.shown}`, signal),
       ),
       act('CSV', 'plots.csv', 'The numbers of the plots', () => Promise.resolve(plotted(live))),
@@ -56,7 +56,7 @@ export function exportPanel(live: Live, scene: Scene): HTMLElement {
       'div',
       { class: 'row' },
       act('MP4', 'run.mp4', 'A video of the run so far', (signal) => fetched(`${path}/run.mp4?${video()}`, signal)),
-      act('GIF', 'run.gif', 'The same as an animated picture', (signal) => fetched(`${path}/run.gif?${video()}`, signal)),
+      act('GIF', 'run.gif', 'The same as an animated GIF', (signal) => fetched(`${path}/run.gif?${video()}`, signal)),
       speed,
       width,
     ),
@@ -71,7 +71,7 @@ async function fetched(address: string, signal: AbortSignal): Promise<Blob> {
   return response.blob();
 }
 
-/** A row for each tick, with units in the names of the columns. */
+/** CSV with a row for each tick and units in the column names. */
 function plotted(live: Live): Blob {
   const columns = [...live.history.columns];
   const lines = [columns.map(([name]) => name).join(',')];

@@ -4,11 +4,11 @@ import { number, words } from './numbers';
 import type { Json } from './protocol';
 import { type Schema, allowsNull, described, rangeOf, withoutNull } from './schema';
 
-/** One parameter in the form. */
+/** One parameter of the form. */
 export interface Field {
   key: string;
   root: HTMLElement;
-  /** Words by which it is found. */
+  /** Text for the search. */
   text: string;
   show(value: Json | undefined): void;
   setIssue(text: string): void;
@@ -18,10 +18,10 @@ export interface Field {
 
 export type Change = (key: string, value: Json) => void;
 
-/** What a control does with what was typed. */
+/** Callbacks of a control for typed values. */
 interface Typed {
   change(value: Json): void;
-  /** Says at the field why it is no value; the value before is shown again. */
+  /** Shows at the field why the text is no value, and restores the previous value. */
   complain(text: string): void;
 }
 
@@ -166,7 +166,7 @@ function line(id: string, change: (value: Json) => void): Control {
   return { nodes: [entry], show: (value) => (entry.value = String(value ?? '')) };
 }
 
-/** The value of a text in JSON; nothing if it is none, or has a number beyond all bounds. */
+/** Parses JSON; undefined if the text is invalid or has an infinite number. */
 function parsed(text: string): Json | undefined {
   const isFinite = (value: Json): boolean =>
     Array.isArray(value) ? value.every(isFinite) : typeof value !== 'number' || Number.isFinite(value);
@@ -178,7 +178,7 @@ function parsed(text: string): Json | undefined {
   }
 }
 
-/** Lists of numbers or points, as JSON. */
+/** Control for lists of numbers or points, as JSON. */
 function list(id: string, nullable: boolean, typed: Typed): Control {
   const entry = element('input', {
     id,

@@ -15,13 +15,13 @@ interface Listing {
   open?: boolean;
 }
 
-/** Opens an experiment and goes to its page. */
+/** Opens an experiment and shows its page. */
 async function open(body: { file?: string; settings?: string[] }): Promise<void> {
   const { session, live } = await call<{ session: number; live: boolean }>('POST', '/api/sessions', body);
   location.hash = `#/${live ? 'rig' : 'session'}/${session}`;
 }
 
-/** What can be opened. What the program was started with is opened at once, the first time. */
+/** Everything that can be opened. The program's own argument is opened at once, the first time. */
 export async function galleryPage(): Promise<Page> {
   const listing = await call<Listing>('GET', '/api/scenarios');
   const trouble = element('p', { class: 'trouble', role: 'alert' });
@@ -71,7 +71,7 @@ export async function galleryPage(): Promise<Page> {
       element('div', { class: 'cards' }, ...entries.map((entry) => card(entry, () => void attempt({ file: entry.file })))),
     ),
   );
-  const none = element('p', { class: 'doc', hidden: true }, 'Nothing has these words.');
+  const none = element('p', { class: 'doc', hidden: true }, 'No experiment matches.');
   const find = () => {
     const wanted = search.value.toLowerCase().split(/\s+/);
     for (const section of sections) {
@@ -90,7 +90,7 @@ export async function galleryPage(): Promise<Page> {
   });
   document.title = 'microswarm lab';
   const again = listing.open
-    ? [element('button', { type: 'button', onclick: () => void attempt({}) }, 'Open what the lab was started with')]
+    ? [element('button', { type: 'button', onclick: () => void attempt({}) }, 'Open the experiment of the command line')]
     : [];
   const root = element(
     'div',
@@ -109,7 +109,7 @@ export async function galleryPage(): Promise<Page> {
   return { root, leave: () => undefined };
 }
 
-/** The folder that all are in. */
+/** The common folder of all. */
 function sharedFolder(folders: string[]): string {
   let shared = folders[0] ?? '';
   while (!folders.every((one) => one === shared || one.startsWith(`${shared}/`)) && shared !== '')

@@ -12,7 +12,7 @@ const writable = 'input:not([type=checkbox], [type=range]), textarea';
 const pressable = 'button, a, summary, input[type=checkbox], select';
 const movable = 'input[type=range], select';
 
-/** Whether the element that has the focus needs the key itself. */
+/** Whether the focused element needs the key itself. */
 function isTaken(target: HTMLElement, key: string): boolean {
   if (target.matches(writable)) return true;
   if (target.matches(pressable) && (key === ' ' || key === 'Enter')) return true;
@@ -20,17 +20,17 @@ function isTaken(target: HTMLElement, key: string): boolean {
   return target.matches('select') && /^\w$/.test(key);
 }
 
-/** Keys of a page, with the dialog that lists them. Fields and buttons keep their own keys. */
+/** Keyboard shortcuts of a page and the dialog that lists them. Fields and buttons keep their own keys. */
 export class Keys {
   private readonly dialog: HTMLDialogElement;
   private readonly down = (event: KeyboardEvent) => this.press(event);
-  /** A button that was clicked gives the space bar back. */
+  /** Removes the focus from a clicked button, so that the space bar works again. */
   private readonly click = (event: MouseEvent) => {
     const at = (event.target as Element).closest<HTMLElement>('button, summary, input[type=checkbox]');
     if (event.detail > 0 && !this.dialog.open) at?.blur();
   };
 
-  /** A dialog that is not modal leaves the rest of the page in reach. */
+  /** Opens the dialog, not modal, so that the rest of the page stays usable. */
   constructor(
     private readonly list: Key[],
     private readonly isModal = true,

@@ -4,7 +4,7 @@ import { type Answer, type Hello, type Message, type Request, type RigStanding, 
 
 type Listener = (message: Message) => void;
 
-/** Numbers of all ticks so far, a list for each column, and the events. */
+/** Numbers of all ticks so far, a list for each column, and events. */
 export class History {
   readonly columns = new Map<string, number[]>();
   events: RunEvent[] = [];
@@ -30,7 +30,7 @@ export class History {
     this.events.push(...events);
   }
 
-  /** Number of the frame nearest to a time. */
+  /** Index of the frame nearest to a time. */
   nearest(time: number): number {
     const times = this.times;
     let lo = 0;
@@ -45,16 +45,16 @@ export class History {
   }
 }
 
-/** A session as this page knows it: what was said last, and the numbers so far. */
+/** State of a session in this page: the last messages and the numbers so far. */
 export class Live {
   hello: Hello | undefined;
   standing: Standing | undefined;
   rig: RigStanding | undefined;
   readonly history = new History();
-  /** Time that the scene shows, and where the pointer is on a plot or the time line [s]. */
+  /** Time shown by the scene, and time under the pointer on a plot or the time line [s]. */
   shown = 0;
   pointed: number | undefined;
-  /** Whether it was changed or steered by a person since it began. */
+  /** Whether the session was changed or steered manually since its start. */
   isTouched = false;
   private connection: Connection | undefined;
   private readonly listeners: Listener[] = [];
@@ -70,7 +70,7 @@ export class Live {
     this.closers.push(onClose);
   }
 
-  /** Begins, when everybody listens who wants to. */
+  /** Starts the stream, once all listeners are registered. */
   open(): void {
     this.connection = new Connection(this.session, () => {
       for (const one of this.closers) one();
@@ -78,12 +78,12 @@ export class Live {
     this.connection.listen((message) => this.take(message));
   }
 
-  /** Hears every message after the state here has taken it. */
+  /** Registers a listener, called with every message after the state was updated. */
   listen(listener: Listener): void {
     this.listeners.push(listener);
   }
 
-  /** The stream has ended, and not by close(). */
+  /** Registers a listener for the end of the stream, unless by close(). */
   onClose(listener: () => void): void {
     this.closers.push(listener);
   }
@@ -106,7 +106,7 @@ export class Live {
     this.connection?.tell(request);
   }
 
-  /** Looks at a frame; of many wishes while the server answers only the last is sent. */
+  /** Seeks a frame; while a request is pending only the last one is kept. */
   seek(frame: number): void {
     const last = this.history.times.length - 1;
     this.wanted = Math.max(0, Math.min(last, Math.round(frame)));

@@ -2,7 +2,7 @@
 import { element } from './dom';
 import type { Live } from './live';
 
-/** Whether a run may be given up. Asks if it was changed or steered while it ran, so that its settings alone do not repeat it. */
+/** Whether a run may be discarded. Asks if it was changed or steered, so that its settings alone do not repeat it. */
 export function mayBeginAnew(live: Live): Promise<boolean> {
   if (!live.isTouched || live.hello?.live || live.hello?.playback) return Promise.resolve(true);
   return new Promise((resolve) => {
@@ -11,8 +11,8 @@ export function mayBeginAnew(live: Live): Promise<boolean> {
     const dialog = element(
       'dialog',
       { class: 'loss' },
-      element('h2', {}, 'Begin anew?'),
-      element('p', {}, 'The run was changed or steered while it ran. Only its record repeats it, and that ends here.'),
+      element('h2', {}, 'Restart?'),
+      element('p', {}, 'The run was changed or steered while it ran. Only its record can repeat it, and a restart discards the record.'),
       element(
         'div',
         { class: 'row' },

@@ -10,7 +10,7 @@ export interface Metric {
   value: number | undefined;
 }
 
-/** The metrics of a run in one list; those of a part are named after it. */
+/** Metrics of a run as one list; nested ones have their group's name as prefix. */
 export function metricsOf(metrics: { [key: string]: Json }, within = ''): Metric[] {
   return Object.entries(metrics).flatMap(([key, value]) => {
     const { label, unit } = words(key);
@@ -20,7 +20,7 @@ export function metricsOf(metrics: { [key: string]: Json }, within = ''): Metric
   });
 }
 
-/** A table of the metrics of one or more runs; of two with their difference. */
+/** Table of the metrics of one or more runs, with the difference of two. */
 export function metricsTable(names: string[], runs: { [key: string]: Json }[]): HTMLElement {
   const lists = runs.map((one) => metricsOf(one));
   const heads = names.length > 1 ? [...names, ...(names.length === 2 ? ['B − A'] : [])] : [''];
@@ -40,7 +40,7 @@ export function metricsTable(names: string[], runs: { [key: string]: Json }[]): 
   return element('table', { class: 'metrics' }, ...(names.length > 1 ? [element('thead', {}, head)] : []), element('tbody', {}, ...rows));
 }
 
-/** B − A; zero where it is a rounding error of theirs. */
+/** B − A; zero for a rounding error. */
 function differenceOf(a: number, b: number): number {
   return Math.abs(b - a) < 1e-9 * Math.max(Math.abs(a), Math.abs(b)) ? 0 : b - a;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers, units and keys as a person reads them.
+// Numbers, units and keys for display.
 
 const units: [string, string][] = [
   ['_um_per_s', 'µm/s'],
@@ -15,14 +15,14 @@ const units: [string, string][] = [
   ['_mT', 'mT'],
 ];
 
-/** The words and the unit of a key: goal_tolerance_um is "goal tolerance" in µm. */
+/** Label and unit of a key: goal_tolerance_um is "goal tolerance" in µm. */
 export function words(key: string): { label: string; unit: string } {
   const found = units.find(([end]) => key.endsWith(end));
   const name = found ? key.slice(0, -found[0].length) : key;
   return { label: name.replaceAll('_', ' '), unit: found ? found[1] : '' };
 }
 
-/** At most `digits` significant digits, without an exponent where that reads well. */
+/** A number with at most `digits` significant digits, without an exponent if it is short. */
 export function number(value: number, digits = 4): string {
   if (!Number.isFinite(value)) return '–';
   const isPlain = value === 0 || (Math.abs(value) >= 1e-4 && Math.abs(value) < 1e6);

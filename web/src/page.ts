@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-/** A page in the window, and how it is left. */
+/** A page in the window, and the function that leaves it. */
 export interface Page {
   root: HTMLElement;
   leave(): void;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Colours of scene and plots, as in the reports: of Okabe and Ito, which people with any kind of
-// colour blindness tell apart.
+// Colours of scene and plots, as in the reports: those of Okabe and Ito, which are distinguishable
+// with any kind of colour blindness.
 
 export type Theme = 'light' | 'dark';
 
@@ -96,12 +96,12 @@ const dark: Palette = {
 
 export const palettes: Record<Theme, Palette> = { light, dark };
 
-/** The theme that the visitor's system prefers. */
+/** The theme preferred by the system. */
 export function preferredTheme(): Theme {
   return matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light';
 }
 
-/** A colour as in a style sheet. */
+/** A colour in CSS form. */
 export function css(colour: number): string {
   return `#${colour.toString(16).padStart(6, '0')}`;
 }
@@ -113,7 +113,7 @@ export function between(stops: number[], share: number): number {
   return mixed(stops[i]!, stops[i + 1]!, place - i);
 }
 
-/** `a` with a share of `b`. */
+/** Mixes `a` with a share of `b`. */
 export function mixed(a: number, b: number, share: number): number {
   const channel = (shift: number) => {
     const from = (a >> shift) & 255;

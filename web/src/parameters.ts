@@ -9,14 +9,14 @@ import type { Answer, Json, Scenario } from './protocol';
 import { type Schema, alternative, allowsNull, described, isGroup, kinds, withoutNull } from './schema';
 import { at, combine, keyOf, text } from './settings';
 
-const most = 40; // entries of a list of groups that are shown
+const most = 40; // maximum number of entries shown of a list of groups
 const last = ['name', 'description', 'map'];
 const refused: Answer = {
   type: 'answer',
   id: 0,
   issues: [{ keys: [], text: 'This needs a new run: stop the rig first.' }],
 };
-const kept: Answer = { type: 'answer', id: 0, issues: [{ keys: [], text: 'The run was kept.' }] };
+const kept: Answer = { type: 'answer', id: 0, issues: [{ keys: [], text: 'The run continues.' }] };
 const unfolded = ['goal_um', 'navigator'];
 
 let schemaOnce: Promise<Schema> | undefined;
@@ -29,8 +29,8 @@ export class Parameters {
   private shape = '';
   private readonly open = new Set<string>(unfolded);
   private readonly waiting = new Map<string, Json>();
-  private readonly asked = new Map<string, Json>(); // set, and not yet answered
-  private setting: Promise<unknown> = Promise.resolve(); // that was asked for last
+  private readonly asked = new Map<string, Json>(); // values sent, not yet confirmed
+  private setting: Promise<unknown> = Promise.resolve(); // the last one sent
   private readonly form = element('div', { class: 'form' });
   private readonly search = element('input', {
     type: 'search',
@@ -59,7 +59,7 @@ export class Parameters {
     });
   }
 
-  /** Opens the experiment anew with all that was changed, and `more` KEY=VALUE. */
+  /** Restarts the experiment with all changes and `more` settings KEY=VALUE. */
   async restart(more: string[] = []): Promise<Answer> {
     await this.setting;
     const waiting = [...this.waiting].map(([key, value]) => `${key}=${text(value)}`);
@@ -78,13 +78,13 @@ export class Parameters {
     return answer;
   }
 
-  /** Settings of a session that begins as this one is now. */
+  /** Settings of a session that starts in this one's current state. */
   settings(): string[] {
     const waiting = [...this.waiting].map(([key, value]) => `${key}=${text(value)}`);
     return combine(this.live.hello?.settings ?? [], this.live.standing?.changes ?? [], waiting);
   }
 
-  /** Whether it takes effect at the next tick; else at a restart. */
+  /** Whether a key takes effect at the next tick, otherwise at a restart. */
   isAtOnce(key: string): boolean {
     const top = key.split('.')[0] as string;
     return !this.live.standing?.ended && (this.live.hello?.changeable.includes(top) ?? false);
@@ -115,7 +115,7 @@ export class Parameters {
     this.rebuild();
   }
 
-  /** The scenario with the changes that wait for a restart or for their answer. */
+  /** The scenario with pending and unconfirmed changes. */
   private wanted(): Scenario {
     const scenario = structuredClone(this.live.hello?.scenario ?? {});
     for (const [key, value] of [...this.waiting, ...this.asked]) {
@@ -127,7 +127,7 @@ export class Parameters {
     return scenario;
   }
 
-  /** Shows the present values; the form is made anew only if it has other fields than before. */
+  /** Shows the current values; the form is rebuilt only if its fields changed. */
   private rebuild(): void {
     if (!this.schema || !this.live.hello) return;
     const scenario = this.wanted();
@@ -185,7 +185,7 @@ export class Parameters {
     return made.root;
   }
 
-  /** The menu of an object's `type`; another type begins with its defaults. */
+  /** Menu of an object's `type`; a new type gets its defaults. */
   private kindNode(key: string, schema: Schema, fields: Field[]): HTMLElement {
     const id = `field-${key}.type`;
     const control = menu(id, kinds(schema), (type) => void this.change(key, { type }));
@@ -267,7 +267,7 @@ export class Parameters {
     );
   }
 
-  /** Shows the fields whose key or doc line has all words of the search, with their groups open. */
+  /** Shows the fields whose key or doc line has all words of the search, and opens their groups. */
   private filter(): void {
     const wanted = this.search.value.toLowerCase().split(/\s+/).filter((one) => one !== '');
     for (const one of this.fields) one.root.hidden = !wanted.every((word) => one.text.includes(word));
@@ -278,7 +278,7 @@ export class Parameters {
     }
   }
 
-  /** Puts each issue at its field, or at the nearest field around it, else above the form. */
+  /** Shows each issue at its field, at the nearest enclosing group, or above the form. */
   private showIssues(answer: Answer, asked: string[]): void {
     for (const one of this.fields) one.setIssue('');
     const loose: string[] = [];
@@ -306,7 +306,7 @@ export class Parameters {
     this.bar.hidden = count === 0;
     if (count === 0) return;
     this.bar.replaceChildren(
-      element('span', {}, count === 1 ? 'One change waits for a restart.' : `${count} changes wait for a restart.`),
+      element('span', {}, count === 1 ? 'One change takes effect after a restart.' : `${count} changes take effect after a restart.`),
       element('button', { type: 'button', class: 'primary restart', onclick: () => void this.restart() }, 'Restart'),
       element(
         'button',
@@ -324,7 +324,7 @@ export class Parameters {
   }
 }
 
-/** Which fields a scenario has: the types of its objects and the lengths of its lists. */
+/** Shape of a scenario's form: the types of its objects and the lengths of its lists. */
 function shapeOf(value: Json): Json {
   if (Array.isArray(value)) return value.some((one) => one && typeof one === 'object') ? value.map(shapeOf) : 0;
   if (value === null || typeof value !== 'object') return value === null ? null : 0;

@@ -2,7 +2,7 @@
 import { element } from './dom';
 import type { Point } from './protocol';
 
-/** A marked place of a photograph [px]. */
+/** A marked point of a photograph [px]. */
 export interface Dot {
   at: Point;
   label: string;
@@ -16,7 +16,7 @@ const ways: { [key: string]: Point } = {
   ArrowDown: [0, 1],
 };
 
-/** A photograph on which places are put: by clicks, or by a cross that keys move. */
+/** A photograph on which points are set: by clicks, or by a cross that is moved by keys. */
 export class PhotoCanvas {
   readonly root: HTMLElement;
   private readonly image: HTMLImageElement;

@@ -7,13 +7,13 @@ import type { Point } from './protocol';
 import { themeSwitch } from './theme';
 import { VesselSearch } from './vessel_search';
 
-/** A photograph that was sent to the lab. */
+/** A photograph that was uploaded. */
 export interface Photograph {
   file: string;
   width_px: number;
   height_px: number;
   name: string;
-  address: string; // of its bytes in the page
+  address: string; // URL of its bytes in the page
 }
 
 type Step = 'scale' | 'vessels' | 'places';
@@ -23,9 +23,9 @@ const steps: [Step, string][] = [
   ['places', '3 Start and goal'],
 ];
 const hints: { [step in Step]: string } = {
-  scale: 'Click two points whose distance you know, or type the µm per pixel. Keys: arrows and Enter on the photograph.',
-  vessels: 'The outline shows the vessels that were found.',
-  places: 'Click the start, then the goal; or gather robots where you click.',
+  scale: 'Click two points of known distance, or type the µm per pixel. Keys: arrows and Enter on the photograph.',
+  vessels: 'The outline shows the vessels found.',
+  places: 'Click the start, then the goal, or gather robots at a click.',
 };
 
 /** From a photograph to an experiment: scale, vessels, start and goal. */
@@ -58,7 +58,7 @@ class PhotoPage {
       places: element(
         'div',
         {},
-        element('label', { class: 'layer' }, this.gather, 'Gather robots where I click'),
+        element('label', { class: 'layer' }, this.gather, 'Gather robots at the click'),
         this.robots.root,
         element('div', { class: 'row' }, this.make),
       ),
@@ -112,7 +112,7 @@ class PhotoPage {
     this.mark();
   }
 
-  /** The places are chosen anew. */
+  /** Clears start and goal, or sets a new start. */
   private begin(start?: Point): void {
     this.start = start;
     this.goal = undefined;
@@ -147,7 +147,7 @@ class PhotoPage {
 
   private async play(): Promise<void> {
     this.make.disabled = true;
-    this.vessels.found.value = 'The experiment is being made …';
+    this.vessels.found.value = 'Making the experiment …';
     const scale = this.scale.get();
     try {
       const { file } = await call<{ file: string }>('POST', '/api/photographs', {

@@ -14,14 +14,14 @@ const plotted: Plotted[] = [
   { column: 'clearance_um', title: 'Clearance [µm]', factor: 1 },
   { column: 'avoidance_cost', title: 'Avoidance cost δ', factor: 1 },
   { column: 'step_time_s', title: 'Planning time [ms]', factor: 1000 },
-  { column: 'goal_distance_um', title: 'Mean way to the goal [µm]', factor: 1 },
+  { column: 'goal_distance_um', title: 'Mean distance to the goal [µm]', factor: 1 },
 ];
-const period = 200; // ms between renewals
+const period = 200; // ms between updates
 const height = 132;
 
 const colours = ['--accent', '--bad']; // of the sessions
 
-/** Plots over time of one session, or of several in one; one cursor. A click looks at that time. */
+/** Plots over time of one or more sessions, with a common cursor. A click seeks that time. */
 export class Plots {
   readonly root = element('div', { class: 'plots' });
   private plots: uPlot[] = [];
@@ -52,7 +52,7 @@ export class Plots {
     for (const plot of this.plots) plot.destroy();
   }
 
-  /** Now that it is in sight. */
+  /** To be called when the plots become visible. */
   show(): void {
     this.resize();
     this.renew();
@@ -91,7 +91,7 @@ export class Plots {
           stroke: colour(colours[i] ?? '--ink'),
           width: 1.5,
           points: { show: false },
-          spanGaps: this.lives.length > 1, // where only the other has a tick
+          spanGaps: this.lives.length > 1, // at ticks of the other session only
         })),
       ],
       hooks: {
@@ -143,7 +143,7 @@ export class Plots {
     for (const plot of this.plots) plot.redraw(false, false);
   }
 
-  /** A line at the time that the scene shows. */
+  /** Draws a line at the time shown by the scene. */
   private drawShown(plot: uPlot, colour: string): void {
     const x = plot.valToPos(Math.max(...this.lives.map((live) => live.shown)), 'x', true);
     const { left, top, width, height: high } = plot.bbox;
@@ -168,7 +168,7 @@ export class Plots {
     for (const live of this.lives) live.point(time);
   }
 
-  /** Brings the cursor of all plots to where the pointer is on one of them or on the time line. */
+  /** Moves the cursor of all plots to the time under the pointer on a plot or the time line. */
   private point(time: number | undefined): void {
     if (!this.isInSight()) return;
     for (const plot of this.plots) {
@@ -179,7 +179,7 @@ export class Plots {
   }
 }
 
-/** The time beneath the pointer [s]. */
+/** Time under the pointer [s]. */
 function pointed(plot: uPlot): number | undefined {
   const { idx } = plot.cursor;
   return idx == null ? undefined : plot.data[0][idx];

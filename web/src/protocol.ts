@@ -4,7 +4,7 @@ import { decode } from 'cborg';
 
 export type Point = [number, number];
 
-/** A byte string of little-endian numbers, as in the messages. */
+/** A byte string of little-endian numbers. */
 export type Bytes = Uint8Array;
 
 export interface PolygonBody {
@@ -12,7 +12,7 @@ export interface PolygonBody {
   holes: Bytes[];
   number: number;
 }
-/** Solids: discs as x, y, radius, number each, and polygons. */
+/** Solids: discs as x, y, radius, number, and polygons. */
 export interface Bodies {
   discs: Bytes;
   polygons: PolygonBody[];
@@ -26,18 +26,18 @@ export interface Hello {
   type: 'hello';
   name: string;
   command: string;
-  settings: string[]; // KEY=VALUE that it was opened with
+  settings: string[]; // KEY=VALUE given at opening
   rig: string;
-  live: boolean; // on the rig in real time
-  rig_info?: RigInfo; // of one that is open
-  photo: { file: string; um_per_px: number } | null; // beneath the map, its lower left corner at the origin
+  live: boolean; // on a rig in real time
+  rig_info?: RigInfo; // of an open rig
+  photo: { file: string; um_per_px: number } | null; // background, lower left corner at the origin
   playback: boolean;
   scenario: Scenario;
   changeable: string[];
   map: { lo: Point; hi: Point; walls: Bodies };
 }
 
-/** What a rig is. */
+/** Properties of a rig. */
 export interface RigInfo {
   name: string;
   coils: string[];
@@ -49,7 +49,7 @@ export interface RigInfo {
   warnings: string[];
 }
 
-/** The scenario after a change while it runs. */
+/** The scenario after a change during the run. */
 export interface Changed {
   type: 'scenario';
   scenario: Scenario;
@@ -62,7 +62,7 @@ export interface Radar {
   safety: number;
   detection: number;
   step: number;
-  beams: Bytes; // heading [rad], fate (0 kept, 1 obstacle, 2 wall, 3 turn), score each
+  beams: Bytes; // heading [rad], fate (0 kept, 1 obstacle, 2 wall, 3 turn), score for each
   best?: number;
   straight?: number;
 }
@@ -97,7 +97,7 @@ export interface Aggregation {
   regions: { junction: Point; gate: number; next: number; branches: number }[];
 }
 
-/** Distances to the nearest wall or border at the middles of square cells, row by row from below. */
+/** Distances to the nearest wall or border at the centres of square cells, row by row from below. */
 export interface Clearance {
   type: 'clearance';
   lo: Point;
@@ -116,7 +116,7 @@ export interface RunEvent {
   body: number;
 }
 
-/** Numbers of ticks for plots: all so far if `anew`, else those since the last such message. */
+/** Numbers of ticks for plots: all so far if `anew`, else those since the last message of this type. */
 export interface Rows {
   type: 'rows';
   anew: boolean;
@@ -133,7 +133,7 @@ export interface Standing {
   frame: number;
   frames: number;
   ended: boolean;
-  growing: boolean; // a record that its run still writes
+  growing: boolean; // a record that a run still writes
   mode: 'autonomous' | 'manual' | 'hold';
   changes: string[];
   status: string;
@@ -142,7 +142,7 @@ export interface Standing {
   trouble: string;
 }
 
-/** A camera's picture: x = a u + b v + c and y = d u + e v + f [µm] of the middle of a pixel. */
+/** A camera's picture; the centre of pixel (u, v) is at x = a u + b v + c, y = d u + e v + f [µm]. */
 export interface Picture {
   type: 'picture';
   t_s: number;
@@ -152,10 +152,10 @@ export interface Picture {
   jpeg: Bytes;
 }
 
-/** Median, 95th and 99th of 100 [ms]. */
+/** Median, 95th and 99th percentile [ms]. */
 export type Quantiles = [number, number, number];
 
-/** How a rig stands, and the numbers of its run if there is one. */
+/** State of a rig, and the numbers of its run if there is one. */
 export interface RigStanding {
   type: 'rig';
   state: 'dry' | 'opening' | 'armed' | 'ended';
@@ -192,7 +192,7 @@ export interface RigStanding {
   weakened?: number;
 }
 
-/** Whether this page has the controls of the rig, or nobody has. */
+/** Whether this page has the controls of the rig, or no page has. */
 export interface Controls {
   type: 'controls';
   holds: boolean;
@@ -233,7 +233,7 @@ export function read(bytes: ArrayBuffer): Message {
   return decode(new Uint8Array(bytes)) as Message;
 }
 
-/** The numbers in a byte string; copied, because its place in the message is not aligned. */
+/** The numbers in a byte string, copied because it is not aligned in the message. */
 export function floats(bytes: Bytes): Float32Array {
   return new Float32Array(bytes.slice().buffer);
 }

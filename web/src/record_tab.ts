@@ -9,7 +9,7 @@ import { shellWord } from './settings';
 
 const downloads = ['record.h5', 'scenario.yaml', 'frames.csv', 'events.csv'];
 
-/** Metrics so far, the changes that were made, the command that repeats them, and downloads. */
+/** Metrics so far, changes, the command that repeats them, and downloads. */
 export function recordTab(live: Live, scene: Scene, compare: () => void): HTMLElement {
   const metrics = element('div', { class: 'table' });
   const changes = element('ol', { class: 'changes' });
@@ -60,13 +60,13 @@ export function recordTab(live: Live, scene: Scene, compare: () => void): HTMLEl
     metrics,
     element('h2', {}, 'Changes since the start'),
     changes,
-    element('h2', {}, 'The same from a terminal'),
+    element('h2', {}, 'Command line'),
     command,
-    element('p', { class: 'doc' }, 'There, the changes apply from the start. The record keeps when each was made: microswarm replay record.h5 repeats that.'),
+    element('p', { class: 'doc' }, 'This command applies the changes from the start. The record stores the time of each change: microswarm replay record.h5 repeats the run.'),
     element('div', { class: 'row' }, copy, copied),
     element('h2', {}, 'Download'),
     element('div', { class: 'row' }, ...links),
-    element('h2', {}, 'Export what is shown'),
+    element('h2', {}, 'Export the view'),
     exportPanel(live, scene),
     element('h2', {}, 'Compare'),
     element(

@@ -13,18 +13,18 @@ const badges = {
 };
 
 export interface RigConsole {
-  /** The bar that nothing covers. */
+  /** The bar, which is always visible. */
   bar: HTMLElement;
-  /** Whether the coils are driven or may be in a moment. */
+  /** Whether the coils are or may soon be driven. */
   isHot(): boolean;
   destroy(): void;
 }
 
-/** Arms and stops a rig. Space and Esc stop it wherever the focus is, while it is armed. */
+/** Arms and stops a rig. While it is armed, Space and Esc stop it regardless of the focus. */
 export function rigConsole(live: Live, drive: Drive, say: (text: string, isTrouble?: boolean) => void): RigConsole {
   let rig: RigStanding | undefined;
   let controls: Controls | undefined;
-  let arms = false; // asked for and not answered
+  let arms = false; // requested, not yet answered
   let isLost = false;
   const isHot = () => !isLost && (arms || rig?.state === 'armed' || rig?.state === 'opening');
   const ask = async (request: Parameters<Live['ask']>[0]) => {
@@ -37,13 +37,13 @@ export function rigConsole(live: Live, drive: Drive, say: (text: string, isTroub
   const stopButton = element('button', { type: 'button', class: 'stop', title: 'Coils to zero at once (space or Esc)', onclick: stop }, 'STOP');
   const words = element('span', { class: 'why' });
   const armButton = button('Arm …', 'Drive the coils', () => openPanel());
-  const dryButton = button('Dry run', 'Begin anew and drive nothing', () => void ask({ do: 'dry' }));
-  const takeButton = button('Take the controls', 'No page has them', () => void ask({ do: 'control' }));
-  const holdButton = button('Hold', 'The swarm holds', () =>
+  const dryButton = button('Dry run', 'Restart without driving the coils', () => void ask({ do: 'dry' }));
+  const takeButton = button('Take the controls', 'No page has the controls', () => void ask({ do: 'control' }));
+  const holdButton = button('Hold', 'Hold the swarm', () =>
     void ask({ do: 'hold', on: live.standing?.mode !== 'hold' }),
   );
-  const manualButton = button('By hand', 'Arrow keys or a gamepad steer (m)', () => drive.toggle());
-  const endButton = button('End', 'End the run in order', () => void ask({ do: 'end' }));
+  const manualButton = button('Steer', 'Steer with the arrow keys or a gamepad (m)', () => drive.toggle());
+  const endButton = button('End', 'End the run and keep its record', () => void ask({ do: 'end' }));
 
   const facts = element('ul', {});
   const cancel = button('Cancel', '', () => closePanel());
@@ -87,7 +87,7 @@ export function rigConsole(live: Live, drive: Drive, say: (text: string, isTroub
     const state = isLost ? 'lost' : arms ? 'opening' : (rig?.state ?? 'opening');
     bar.dataset['state'] = state;
     badge.textContent = isLost ? '✕ Connection lost' : badges[state as keyof typeof badges];
-    words.textContent = isLost ? 'The coils go to zero by themselves: the lab, or the watchdog of their device. Open the page again.' : wordsOf(rig, controls);
+    words.textContent = isLost ? 'The lab, or the watchdog of the device, sets the coils to zero. Open the page again.' : wordsOf(rig, controls);
     const holds = controls?.holds ?? false;
     const runs = rig?.state === 'dry' || rig?.state === 'armed';
     stopButton.disabled = isLost || !(runs || isHot());
@@ -144,17 +144,17 @@ function button(label: string, title: string, act: () => void): HTMLButtonElemen
 }
 
 function wordsOf(rig: RigStanding | undefined, controls: Controls | undefined): string {
-  const watches = controls && !controls.holds && !controls.free ? 'Another page has the controls; you can stop it.' : '';
-  if (!rig || rig.state === 'opening') return 'The devices are being opened.';
+  const watches = controls && !controls.holds && !controls.free ? 'Another page has the controls; this page can stop the rig.' : '';
+  if (!rig || rig.state === 'opening') return 'Opening the devices.';
   if (rig.state === 'armed') return watches;
-  if (rig.state === 'dry') return watches || 'Nothing goes to the coils.';
+  if (rig.state === 'dry') return watches || 'No current is sent to the coils.';
   const zero =
     rig.zero_confirmed === false
       ? 'NOT CONFIRMED by the device: use its emergency stop!'
       : rig.zero_confirmed
         ? 'Confirmed by the device.'
         : '';
-  return [`${sentence(rig.why.replaceAll('_', ' '))}`, zero, rig.stop_trouble, rig.folder && `Kept in ${rig.folder}`]
+  return [`${sentence(rig.why.replaceAll('_', ' '))}`, zero, rig.stop_trouble, rig.folder && `Record in ${rig.folder}`]
     .filter((one) => one !== '')
     .join(' ');
 }
@@ -163,7 +163,7 @@ function sentence(text: string): string {
   return text === '' ? '' : `${text[0]?.toUpperCase()}${text.slice(1)}.`;
 }
 
-/** What a person is told before the coils are driven. */
+/** Facts shown before the coils are driven. */
 function factsOf(info: RigInfo | undefined): string[] {
   if (!info) return [];
   const limit = (values: (number | null)[], unit: string) => {
@@ -173,7 +173,7 @@ function factsOf(info: RigInfo | undefined): string[] {
   return [
     `${info.name}: ${info.coils.length} ${info.real_coils ? 'coils are driven by a device' : 'simulated coils'}, ${info.real_camera ? 'a real camera' : 'a simulated camera'}`,
     `Field of ${number(info.field_mt)} mT; ${limit(info.max_current_a, 'A')}, ${limit(info.max_temperature_c, '°C')}`,
-    'Space, Esc and the button stop it, and so does closing this page.',
+    'Space, Esc, the button and closing this page stop it.',
     ...info.warnings,
   ];
 }

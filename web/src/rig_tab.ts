@@ -16,14 +16,14 @@ const sights: { [trouble: string]: string } = {
   '': 'seen',
   none: 'not seen',
   several: 'several are seen',
-  far: 'too far from where it was',
-  size: 'of another size',
+  far: 'too far from its last position',
+  size: 'of a different size',
   split: 'split into parts',
   merged: 'merged with another',
   robots: 'robots are missing',
 };
 
-/** The numbers of a rig: currents, temperatures, field, limits, latencies. */
+/** Numbers of a rig: currents, temperatures, field, limits, latencies. */
 export function rigTab(live: Live): HTMLElement {
   const root = element('div', { class: 'rig-numbers' });
   let drawn = 0;
@@ -51,11 +51,11 @@ function sections(rig: RigStanding, info: RigInfo | undefined): HTMLElement[] {
       ...(rig.robots ? [['Robots unseen', `${rig.unseen ?? 0} of ${rig.robots}`] as [string, string]] : []),
       ['Gap to walls and obstacles', rig.gap_um == null ? '–' : `${number(rig.gap_um, 3)} µm`],
       ['Commanded speed', `${number(rig.speed_um_per_s ?? 0, 3)} µm/s`],
-      ['Limits of the coils leave', share(rig.scale ?? 1)],
-      ['Limits of the device leave', share(rig.device_scale ?? 1)],
+      ['Share allowed by the coils', share(rig.scale ?? 1)],
+      ['Share allowed by the device', share(rig.device_scale ?? 1)],
       ['Ticks, missed deadlines', `${rig.ticks ?? 0}, ${rig.missed_deadlines ?? 0}`],
       ['Frames, dropped', `${rig.frames ?? 0}, ${rig.dropped_frames ?? 0}`],
-      ['Device switched off by itself', String(rig.resumed ?? 0)],
+      ['Device switched itself off', String(rig.resumed ?? 0)],
     ]),
     element('h2', {}, 'Latencies [ms]'),
     element(
@@ -85,7 +85,7 @@ function table(rows: [string, string][]): HTMLElement {
   return element('table', { class: 'metrics' }, element('tbody', {}, ...rows.map((one) => row('td', one))));
 }
 
-/** A bar for each value, from the middle for signed ones, as far as its limit. */
+/** A bar for each value relative to its limit; signed values start in the middle. */
 function bars(values: number[], names: string[], limits: (number | null)[], unit: string): HTMLElement {
   const signed = unit === 'A';
   return element(
@@ -107,7 +107,7 @@ function bars(values: number[], names: string[], limits: (number | null)[], unit
   );
 }
 
-/** The field in the plane as an arrow in a circle of its amplitude, and in numbers. */
+/** The in-plane field as an arrow in a circle of its amplitude, and in numbers. */
 function field([x, y, z]: [number, number, number], amplitude: number): HTMLElement {
   const space = 'http://www.w3.org/2000/svg';
   const svg = document.createElementNS(space, 'svg');

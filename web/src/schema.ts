@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// JSON Schema as `microswarm schema scenario` writes it.
+// JSON Schema as written by `microswarm schema scenario`.
 import type { Json } from './protocol';
 
 export interface Schema {
@@ -17,7 +17,7 @@ export interface Schema {
   anyOf?: Schema[];
 }
 
-/** What `anyOf` [X, null] allows besides null; else the schema itself. */
+/** X of `anyOf` [X, null]; else the schema itself. */
 export function withoutNull(schema: Schema): Schema {
   const inner = schema.anyOf?.find((one) => one.type !== 'null');
   return inner ? { ...inner, ...(schema.description ? { description: schema.description } : {}) } : schema;
@@ -27,7 +27,7 @@ export function allowsNull(schema: Schema): boolean {
   return schema.anyOf?.some((one) => one.type === 'null') ?? false;
 }
 
-/** Words that `type` can be. */
+/** Possible values of `type`. */
 export function kinds(schema: Schema): string[] {
   return (schema.oneOf ?? []).map((one) => String(one.properties?.['type']?.const));
 }
@@ -43,7 +43,7 @@ export function isGroup(schema: Schema): boolean {
   return inner.properties !== undefined || inner.oneOf !== undefined;
 }
 
-/** A doc line and the unit in brackets at its end. */
+/** Splits a doc line into text and the unit in brackets at its end. */
 export function described(schema: Schema): { doc: string; unit: string } {
   const found = /^(.*?)\s*(?:\[([^\]]+)\])?$/s.exec(schema.description ?? '');
   const unit = found?.[2] ?? '';
@@ -51,7 +51,7 @@ export function described(schema: Schema): { doc: string; unit: string } {
   return isUnit ? { doc: found?.[1] ?? '', unit } : { doc: schema.description ?? '', unit: '' };
 }
 
-/** Where a slider stands for a value, and back: even on a logarithm where the range spans decades. */
+/** Position of a slider for a value, and back; logarithmic if the range spans decades. */
 export interface Range {
   toShare(value: number): number;
   toValue(share: number): number;
@@ -70,7 +70,7 @@ export function rangeOf(schema: Schema): Range | undefined {
       toShare: (value) => (clamp(value) - lo) / (hi - lo),
       toValue: (share) => whole(Number((lo + share * (hi - lo)).toPrecision(3))),
     };
-  // Zero, where it is allowed, has the slider's left end for itself.
+  // Zero, if allowed, is the slider's left end.
   const least = lo > 0 ? lo : isWhole ? 1 : (standard || hi / 1e3) / 1e3;
   const zero = lo > 0 ? 0 : 0.03;
   const decades = Math.log(hi / least);

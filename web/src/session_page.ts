@@ -23,7 +23,7 @@ const stopKeys = [
   { keys: [], shown: 'space, Esc', does: 'stop: coils to zero at once, while it is armed', act: () => undefined },
 ];
 
-/** The page of one session: its scene, panels and time line; of a rig in real time with its console. */
+/** Page of one session: scene, panels and time line; for a rig in real time also the console. */
 export async function sessionPage(session: number, isRig = false): Promise<Page> {
   const trouble = element('p', { class: 'trouble', role: 'alert' });
   let fades: number | undefined;
@@ -37,7 +37,7 @@ export async function sessionPage(session: number, isRig = false): Promise<Page>
   const live = new Live(session, () => void whyClosed('The session').then((why) => say(why)));
   const stage = await stageFor(live);
   const { scene } = stage;
-  scene.keepFree(60); // for the tools over it
+  scene.keepFree(60); // for the tools above it
   const parameters = new Parameters(live);
   const time = timeBar([live], isRig ? undefined : () => parameters.restart());
   const plots = new Plots([live], time.seekTime);
@@ -55,19 +55,19 @@ export async function sessionPage(session: number, isRig = false): Promise<Page>
     follows = on;
     followButton.setAttribute('aria-pressed', String(on));
   });
-  const manualButton = button('Steer by hand', 'Arrow keys or a gamepad steer (m)', () => drive.toggle());
+  const manualButton = button('Steer', 'Steer with the arrow keys or a gamepad (m)', () => drive.toggle());
   const arrow = (by: number) => (event: KeyboardEvent) => {
     if (!drive.key(event, true)) time.seekBy(by * (event.shiftKey ? 10 : 1));
   };
   const keys = new Keys([
     ...(isRig ? stopKeys : timeKeys(time)),
-    { keys: ['ArrowLeft'], shown: '←', does: 'the frame before (Shift: ten) · steer left', act: arrow(-1) },
-    { keys: ['ArrowRight'], shown: '→', does: 'the next frame (Shift: ten) · steer right', act: arrow(1) },
+    { keys: ['ArrowLeft'], shown: '←', does: 'previous frame (Shift: ten) · steer left', act: arrow(-1) },
+    { keys: ['ArrowRight'], shown: '→', does: 'next frame (Shift: ten) · steer right', act: arrow(1) },
     { keys: ['ArrowUp', 'ArrowDown'], shown: '↑ ↓', does: 'steer (Shift: slowly)', act: arrow(0) },
     { keys: ['f'], shown: 'f', does: 'fit the map', act: () => scene.fit() },
     { keys: ['l'], shown: 'l', does: 'follow the swarm', act: toggleFollow },
     { keys: ['m'], shown: 'm', does: 'steer by hand', act: () => drive.toggle() },
-    ...(isRig ? [] : [{ keys: ['Escape'], shown: 'Esc', does: 'put the tool away', act: () => hands.choose(undefined) }]),
+    ...(isRig ? [] : [{ keys: ['Escape'], shown: 'Esc', does: 'deselect the tool', act: () => hands.choose(undefined) }]),
   ], !isRig);
   const up = (event: KeyboardEvent) => drive.key(event, false);
   const blur = () => drive.release();

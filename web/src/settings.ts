@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Json } from './protocol';
 
-/** A value as `--set KEY=VALUE` takes it: plain words stay plain, the rest is JSON. */
+/** A value for `--set KEY=VALUE`: plain words are unquoted, everything else is JSON. */
 export function text(value: Json): string {
   if (typeof value === 'string' && /^[a-z][a-z_]*$/.test(value)) {
     const isWord = !['true', 'false', 'null', 'yes', 'no', 'on', 'off'].includes(value);
@@ -14,7 +14,7 @@ export function keyOf(setting: string): string {
   return setting.slice(0, setting.indexOf('='));
 }
 
-/** One list of settings; a later one takes the place of those of its key and of keys within. */
+/** Joins lists of settings; a later one replaces those of its key and of keys within it. */
 export function combine(...lists: string[][]): string[] {
   let all: string[] = [];
   for (const setting of lists.flat()) {
@@ -25,7 +25,7 @@ export function combine(...lists: string[][]): string[] {
   return all;
 }
 
-/** A word of a command line for a POSIX shell. */
+/** Quotes a word for a POSIX shell. */
 export function shellWord(word: string): string {
   return /^[\w\-./=,:+@%]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
 }

@@ -9,7 +9,7 @@ declare global {
   }
 }
 
-/** A scene that shows a session, in the page's theme. */
+/** A scene of a session in the page's theme. */
 export interface Stage {
   scene: Scene;
   destroy(): void;

@@ -4,11 +4,11 @@ import { element } from './dom';
 export interface Tab {
   name: string;
   panel: HTMLElement;
-  /** Called when it comes into sight. */
+  /** Called when the panel becomes visible. */
   shown?: () => void;
 }
 
-/** Tabs with the keyboard of the ARIA pattern: arrows, Home, End. The last one seen is shown first. */
+/** Tabs with the keys of the ARIA pattern: arrows, Home, End. The tab of the last visit is selected. */
 export function tabs(id: string, list: Tab[]): HTMLElement {
   const buttons = list.map((tab, i) =>
     element(

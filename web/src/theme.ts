@@ -6,7 +6,7 @@ export type Theme = 'light' | 'dark';
 const dark = window.matchMedia('(prefers-color-scheme: dark)');
 const listeners = new Set<(theme: Theme) => void>();
 
-/** What the person chose, else what the system prefers. */
+/** The chosen theme, or the system's preference. */
 export function theme(): Theme {
   const chosen = localStorage.getItem('theme');
   if (chosen === 'light' || chosen === 'dark') return chosen;
@@ -18,7 +18,7 @@ function apply(): void {
   for (const listener of listeners) listener(theme());
 }
 
-/** Tells the theme at once and when it changes; returns how to stop that. */
+/** Calls a listener now and at each change of the theme; returns the function that removes it. */
 export function onTheme(listener: (theme: Theme) => void): () => void {
   listeners.add(listener);
   listener(theme());

@@ -7,7 +7,7 @@ import { timeline } from './timeline';
 
 export const speeds = [0.1, 0.25, 0.5, 1, 2, 5, 10, 20, 50, 0];
 
-/** The speed that is `by` steps faster than `speed`; 0 is as fast as possible. */
+/** The speed `by` steps above `speed`; 0 is as fast as possible. */
 export function fasterSpeed(speed: number, by: number): number {
   let here = speeds.indexOf(speed);
   if (here < 0) here = speeds.findIndex((one) => one === 0 || one >= speed);
@@ -25,19 +25,19 @@ export interface TimeBar {
   seekTime(time: number): void;
 }
 
-/** The keys of a time bar that every page with one has. */
+/** Keyboard shortcuts of every page with a time bar. */
 export function timeKeys(time: TimeBar): Key[] {
   return [
     { keys: [' '], shown: 'space', does: 'play or pause', act: time.play },
-    { keys: ['.'], shown: '.', does: 'a single tick', act: time.step },
-    { keys: ['Home'], shown: 'Home', does: 'the first frame', act: () => time.seek(0) },
-    { keys: ['End'], shown: 'End', does: 'the newest frame', act: time.live },
+    { keys: ['.'], shown: '.', does: 'single tick', act: time.step },
+    { keys: ['Home'], shown: 'Home', does: 'first frame', act: () => time.seek(0) },
+    { keys: ['End'], shown: 'End', does: 'newest frame', act: time.live },
     { keys: ['+', '='], shown: '+', does: 'faster', act: () => time.speed(1) },
     { keys: ['-'], shown: '−', does: 'slower', act: () => time.speed(-1) },
   ];
 }
 
-/** Play, pause, tick, speed and the time line of one session, or of several in step. `again` begins them anew. */
+/** Play, pause, tick, speed and time line of one session, or of several in step. `again` restarts them. */
 export function timeBar(sessions: Live[], again?: () => Promise<unknown>): TimeBar {
   const first = sessions[0] as Live;
   const all = (request: Parameters<Live['ask']>[0]) => {
@@ -51,7 +51,7 @@ export function timeBar(sessions: Live[], again?: () => Promise<unknown>): TimeB
     await again?.();
     if (!sessions.some((one) => one.standing?.ended)) all({ do: 'play' });
   };
-  /** Those that are behind go on to the time of the first. */
+  /** Advances the sessions that are behind to the time of the first. */
   const pause = async () => {
     await Promise.all(sessions.map((one) => one.ask({ do: 'pause' })));
     if (sessions.length < 2) return;
@@ -63,7 +63,7 @@ export function timeBar(sessions: Live[], again?: () => Promise<unknown>): TimeB
   };
   const step = () => all({ do: 'step' });
   const live = () => all({ do: 'live' });
-  /** The one with the most frames; the others look at the same time. */
+  /** The session with the most frames; the others show the same time. */
   const lead = () =>
     sessions.reduce((a, b) => (b.history.times.length > a.history.times.length ? b : a), first);
   const seek = (frame: number) => {
@@ -83,7 +83,7 @@ export function timeBar(sessions: Live[], again?: () => Promise<unknown>): TimeB
   const playButton = element('button', { class: 'play primary', type: 'button', onclick: play }, '▶ Play');
   const stepButton = element(
     'button',
-    { class: 'step', type: 'button', title: 'A single tick (.)', onclick: step },
+    { class: 'step', type: 'button', title: 'Single tick (.)', onclick: step },
     'Tick',
   );
   const menu = element('select', {
@@ -105,8 +105,8 @@ export function timeBar(sessions: Live[], again?: () => Promise<unknown>): TimeB
   const take = (standing: Standing) => {
     const plays = anyPlays();
     const over = isOver();
-    playButton.textContent = plays ? '❚❚ Pause' : over ? '↻ Again' : '▶ Play';
-    playButton.title = plays ? 'Pause (space)' : over ? 'From the start (space)' : 'Play (space)';
+    playButton.textContent = plays ? '❚❚ Pause' : over ? '↻ Restart' : '▶ Play';
+    playButton.title = plays ? 'Pause (space)' : over ? 'Restart (space)' : 'Play (space)';
     const ended = sessions.every((one) => one.standing?.ended);
     const record = first.hello?.playback ?? false;
     playButton.disabled = ended && !plays && !record && !over;

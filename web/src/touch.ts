@@ -8,11 +8,11 @@ import type { Scene, Touch } from './scene/scene';
 
 type Tool = 'obstacle' | 'wall' | 'remove';
 const hints: { [tool in Tool]: string } = {
-  obstacle: 'Click where the new obstacle shall be. Esc ends it.',
-  wall: 'Click where the new round wall shall be; the run begins anew. Esc ends it.',
-  remove: 'Click an obstacle or a round wall to remove it. Esc ends it.',
+  obstacle: 'Click the position of the new obstacle. Esc: done.',
+  wall: 'Click the position of the new round wall; the run restarts. Esc: done.',
+  remove: 'Click an obstacle or a round wall to remove it. Esc: done.',
 };
-/** Where a motion keeps its place. */
+/** Key of a motion's position. */
 const places: { [motion: string]: string } = {
   still: 'position_um',
   straight: 'start_um',
@@ -21,7 +21,7 @@ const places: { [motion: string]: string } = {
   waypoints: 'points_um',
 };
 
-/** What dragging and clicking in the scene does to the session, and the tools for it. */
+/** Effects of dragging and clicking in the scene on the session, and the tools for them. */
 export class Hands {
   readonly tools: HTMLElement;
   private tool: Tool | undefined;
@@ -34,7 +34,7 @@ export class Hands {
     'aria-label': 'Radius of a new disc in µm',
   });
   private readonly buttons = new Map<Tool, HTMLButtonElement>();
-  private last: Promise<void> = Promise.resolve(); // touch; they are obeyed one after the other
+  private last: Promise<void> = Promise.resolve(); // touches are handled in sequence
 
   constructor(
     private readonly live: Live,
@@ -90,7 +90,7 @@ export class Hands {
   private async moveObstacle(index: number, dx: number, dy: number): Promise<void> {
     const motion = `obstacles.${index}.motion`;
     const place = places[String(at(this.live.hello?.scenario, `${motion}.type`))];
-    if (!place) return this.say('This obstacle moves as its file says; it cannot be dragged.');
+    if (!place) return this.say('The motion of this obstacle comes from a file; it cannot be dragged.');
     const shift = (point: Json) => {
       const [x, y] = point as Point;
       return rounded([x + dx, y + dy]);
@@ -121,7 +121,7 @@ export class Hands {
 
   private async addWall(position: Point): Promise<void> {
     const discs = this.discs();
-    if (!discs) return this.say('Round walls can be added only to a map of polygons.');
+    if (!discs) return this.say('Round walls can only be added to a map of polygons.');
     const wall = { centre_um: rounded(position), radius_um: Number(this.radius.value) };
     await this.restart([`map.discs=${text([...discs, wall])}`]);
   }
@@ -135,7 +135,7 @@ export class Hands {
       return Math.hypot(touch.at[0] - centre[0], touch.at[1] - centre[1]) > radius;
     });
     if (left && left.length < (this.discs()?.length ?? 0)) return this.restart([`map.discs=${text(left)}`]);
-    this.say('There is nothing here that can be removed.');
+    this.say('Nothing to remove here.');
   }
 
   private async apply(key: string, value: Json): Promise<void> {
@@ -147,7 +147,7 @@ export class Hands {
   private async restart(settings: string[]): Promise<void> {
     const answer = await this.parameters.restart(settings);
     const trouble = answer.issues.map((one) => one.text).join(' ');
-    this.say(trouble || 'The run begins anew.', trouble !== '');
+    this.say(trouble || 'The run restarts.', trouble !== '');
   }
 }
 

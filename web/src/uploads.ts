@@ -8,10 +8,10 @@ interface Upload {
   height_px: number;
 }
 
-/** The photograph that the page #/photo is about. */
+/** Photograph of the page #/photo. */
 export let photograph: Photograph | undefined;
 
-/** Sends a file to the lab; a photograph becomes the page's. An error has the server's words. */
+/** Uploads a file; a photograph becomes that of #/photo. An error has the server's text. */
 export async function upload(file: File): Promise<Upload> {
   const response = await fetch(`/api/uploads?name=${encodeURIComponent(file.name)}`, { method: 'POST', body: file });
   const json = await response.json();

@@ -6,14 +6,14 @@ import { number } from './numbers';
 import type { Json } from './protocol';
 import type { Schema } from './schema';
 
-/** The vessels of an uploaded photograph, with the search's parameters as a form. */
+/** Search for the vessels of an uploaded photograph, with its parameters as a form. */
 export class VesselSearch {
   readonly form = element('div', { class: 'form' });
-  /** What was found, or that it is being looked for. */
+  /** Result or progress of the search. */
   readonly found = element('output', { class: 'doc' });
   private readonly values = new Map<string, Json>();
   private fields: Field[] = [];
-  private address = ''; // of the picture that is shown
+  private address = ''; // URL of the shown picture
   private has = false;
   private runs = false;
   private again = false;
@@ -29,12 +29,12 @@ export class VesselSearch {
     );
   }
 
-  /** KEY=VALUE of its parameters. */
+  /** Its parameters as KEY=VALUE. */
   settings(): string[] {
     return [...this.values].filter(([, value]) => value !== null).map(([key, value]) => `${key}=${String(value)}`);
   }
 
-  /** Searches if it has not yet. */
+  /** Starts the first search, unless done. */
   begin(): void {
     if (!this.has) void this.search();
   }
@@ -52,7 +52,7 @@ export class VesselSearch {
     this.form.replaceChildren(...this.fields.map((one) => one.root));
   }
 
-  /** One search at a time; the last of many wishes counts. */
+  /** Runs one search at a time; of several requests the last one counts. */
   private async search(): Promise<void> {
     this.has = true;
     this.again = this.runs;

@@ -175,7 +175,7 @@ test('a run that ended begins again; one that was touched asks first', () =>
     await page.waitForSelector('dialog.loss');
     await picture('loss');
     await page.click('.loss .keep');
-    await page.locator('.top .trouble', { hasText: 'kept' }).waitFor();
+    await page.locator('.top .trouble', { hasText: 'continues' }).waitFor();
     assert.equal(await frames(), before);
     await page.click('.record .compare');
     await page.click('.loss .anew');

@@ -180,7 +180,7 @@ test('a page that watches cannot arm or steer, and can stop', async () => {
     await holder.state('dry');
     const { page, close } = await openPage(browser, lab.url);
     await state(page, 'dry');
-    for (const name of ['Arm …', 'By hand', 'Hold'])
+    for (const name of ['Arm …', 'Steer', 'Hold'])
       assert.ok(await page.getByRole('button', { name }).isHidden());
     await holder.say({ id: 1, do: 'arm' });
     await state(page, 'armed');

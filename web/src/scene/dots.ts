@@ -4,8 +4,8 @@ import { Mesh, MeshGeometry, Texture } from 'pixi.js';
 const side = 64; // of the texture [px]
 const rim = 4; // around its disc [px]
 
-/** Any number of discs of one colour, drawn at once. (Pixi's particles need the evaluation of
- *  texts, which the page's policy forbids.) */
+/** Any number of discs of one colour in one draw call. (Pixi's particles evaluate text as code,
+ *  which the page's policy forbids.) */
 export class Dots extends Mesh {
   private count = 0;
   private corners = new Float32Array();
@@ -36,7 +36,7 @@ export class Dots extends Mesh {
     corners[i + 5] = corners[i + 7] = y + half;
   }
 
-  /** Shows what was added since it was cleared. */
+  /** Shows the discs added since the last clear. */
   update(): void {
     this.corners.fill(0, 8 * this.count);
     this.geometry.getBuffer('aPosition').update();
@@ -62,7 +62,7 @@ export class Dots extends Mesh {
 
 let shared: Texture | undefined;
 
-/** A white disc, for all. */
+/** Texture of a white disc, shared by all. */
 function disc(): Texture {
   if (shared) return shared;
   const canvas = document.createElement('canvas');

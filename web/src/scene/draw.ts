@@ -22,13 +22,13 @@ export function label(text: string, options: TextStyleOptions = {}): Text {
   });
 }
 
-/** Writes in a colour, with a rim of the paper's that keeps it legible on anything. */
+/** Sets a text's colour, with an outline in the paper's colour for legibility. */
 export function ink(text: Text, colour: number, paper: number): void {
   text.style.fill = colour;
   text.style.stroke = { color: paper, width: 4, join: 'round' };
 }
 
-/** A container at a place of the world whose content is in pixels, y down. */
+/** A container at a world position whose content is in pixels, y down. */
 export class Pin extends Container {
   at(view: View, x: number, y: number): void {
     this.position.set(x, y);
@@ -36,7 +36,7 @@ export class Pin extends Container {
   }
 }
 
-/** Lines of one device pixel at any zoom, from point to point as pairs of indices. */
+/** Lines of one device pixel at any zoom, given as pairs of point indices. */
 export class Segments extends Mesh {
   constructor(points: Float32Array, pairs: Uint32Array) {
     const geometry = new MeshGeometry({
@@ -71,12 +71,12 @@ export class Segments extends Mesh {
   }
 }
 
-/** Removes and destroys what a container holds. */
+/** Removes and destroys a container's content. */
 export function empty(container: Container): void {
   for (const child of container.removeChildren()) child.destroy({ children: true });
 }
 
-/** The corners of a circle; `scale` in px/µm makes it round on the screen. */
+/** Vertices of a circle; `scale` [px/µm] determines their number. */
 export function ring(x: number, y: number, radius: number, scale: number): Float32Array {
   const sides = Math.round(Math.min(Math.max(6 * Math.sqrt(radius * scale), 16), 180));
   const points = new Float32Array(2 * sides);
@@ -87,7 +87,7 @@ export function ring(x: number, y: number, radius: number, scale: number): Float
   return points;
 }
 
-/** A path through x and y in turn. */
+/** Draws a path through alternating x and y. */
 export function polyline(to: Graphics, points: ArrayLike<number>): void {
   for (let i = 0; i + 1 < points.length; i += 2) {
     if (i === 0) to.moveTo(points[i]!, points[i + 1]!);
@@ -95,7 +95,7 @@ export function polyline(to: Graphics, points: ArrayLike<number>): void {
   }
 }
 
-/** An arc's points, from heading to heading [rad]. */
+/** Points of an arc between two headings [rad]. */
 export function arc(x: number, y: number, radius: number, from: number, to: number): number[] {
   const steps = Math.max(2, Math.ceil(Math.abs(to - from) / 0.06));
   const points: number[] = [];
@@ -106,7 +106,7 @@ export function arc(x: number, y: number, radius: number, from: number, to: numb
   return points;
 }
 
-/** A circle's outline of `width` px, in dashes of `dash` px if given. */
+/** Outline of a circle, `width` px wide, in dashes of `dash` px if given. */
 export function circle(
   to: Graphics,
   view: View,
@@ -124,10 +124,10 @@ export function circle(
   to.stroke({ ...look, width: view.um(width) });
 }
 
-/** A body: its outline and then its holes. */
+/** Draws a body: its outline, then its holes. */
 export type Rings = Float32Array[];
 
-/** Discs (x, y, radius, number each) of at least `least` µm, and polygons, as outlines. */
+/** Outlines of discs (x, y, radius, number) with a radius of at least `least` µm, and of polygons. */
 export function ringsOf(
   discs: Float32Array,
   polygons: { rings: Rings }[],

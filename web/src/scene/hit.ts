@@ -9,7 +9,7 @@ import type { View } from './view';
 const slack = 4; // [px]
 const mark = 13; // radius of a mark [px]
 
-/** The mark at a point of the screen. */
+/** The mark at a screen position. */
 export function hitMark(
   kind: 'goal' | 'start',
   places: Place[],
@@ -25,7 +25,7 @@ export function hitMark(
   return { what: places.length > 1 ? { kind, index } : { kind }, place: place.at };
 }
 
-/** The obstacle at a point of the screen. */
+/** The obstacle at a screen position. */
 export function hitObstacle(now: Moment, view: View, screen: Point): Grip | undefined {
   const [x, y] = view.toWorld(screen);
   const near = view.um(slack);

@@ -5,20 +5,20 @@ import type { Message, Request } from '../protocol';
 import type { Moment } from './motion';
 import type { View } from './view';
 
-/** What a layer draws from, besides the messages it took. */
+/** Input of a layer besides its messages. */
 export interface Drawing {
   view: View;
   now: Moment;
   colours: Palette;
 }
 
-/** What else than its messages a layer is drawn anew for. */
+/** Reasons besides messages for which a layer is redrawn. */
 export interface Occasions {
   zoom?: boolean;
   motion?: boolean;
 }
 
-/** One thing that can be shown or not. It is drawn only when something changed. */
+/** A part of the scene that can be shown or hidden. It is redrawn only after a change. */
 export abstract class Layer {
   abstract readonly name: string;
   abstract readonly label: string;
@@ -26,15 +26,15 @@ export abstract class Layer {
   readonly world = new Container(); // in µm, y up
   readonly screen = new Container(); // in pixels, above all worlds
   shown = true;
-  /** Over a camera's picture, what it marks is seen through it. */
+  /** Whether the layer is translucent over a camera's picture. */
   readonly isSeenThrough: boolean = false;
 
-  /** Takes from a message what concerns the layer; whether it is to be drawn anew. */
+  /** Takes the layer's data from a message; returns whether it must be redrawn. */
   abstract take(message: Message): boolean;
   abstract draw(drawing: Drawing): void;
-  /** Called before each picture, for what keeps its shape but not its place. */
+  /** Called before each picture, to update positions of unchanged shapes. */
   place(_drawing: Drawing): void {}
-  /** What the layer asks the session for before it can be drawn. */
+  /** Request to the session that the layer needs before it can be drawn. */
   wants(): Request | undefined {
     return undefined;
   }

@@ -7,7 +7,7 @@ export function roundLength(most: number): number {
   return power;
 }
 
-/** A length of `um` µm in words, in mm from 1 mm on. */
+/** A length of `um` µm as text, in mm from 1 mm on. */
 export function lengthText(um: number): string {
   const [value, unit] = um >= 1000 ? [um / 1000, 'mm'] : [um, 'µm'];
   return `${Number(value.toPrecision(3))} ${unit}`;

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 import { type Frame, floats } from '../protocol';
 
-/** A swarm's disc. */
+/** Disc of a swarm. */
 export interface Disc {
   x: number;
   y: number;
   radius: number;
   heading: number;
 }
-/** A solid polygon: its outline and then its holes, x and y in turn. */
+/** A solid polygon: its outline, then its holes, with alternating x and y. */
 export interface Solid {
   rings: Float32Array[];
   number: number;
 }
-/** What moves, at one moment. */
+/** Moving objects at one time. */
 export interface Moment {
   t: number;
   number: number;
@@ -23,7 +23,7 @@ export interface Moment {
   robots: Float32Array;
 }
 
-const longest = 300; // a step that takes longer is not smoothed [ms]
+const longest = 300; // longer steps are not interpolated [ms]
 
 export const nothing: Moment = {
   t: 0,
@@ -34,12 +34,12 @@ export const nothing: Moment = {
   robots: new Float32Array(),
 };
 
-/** The way from frame to frame: what is shown is between the last two, never beyond the newest. */
+/** Interpolation between the last two frames, never beyond the newest. */
 export class Motion {
   private from = nothing;
   private to = nothing;
-  private began = 0; // when the newest frame came [ms]
-  private lasts = 0; // the way to it [ms]
+  private began = 0; // arrival of the newest frame [ms]
+  private lasts = 0; // duration of the interpolation [ms]
 
   take(frame: Frame, now: number, plays: boolean): void {
     const next = momentOf(frame);
@@ -52,7 +52,7 @@ export class Motion {
     this.began = now;
   }
 
-  /** The newest frame itself is shown from now on. */
+  /** Ends the interpolation: shows the newest frame itself. */
   settle(): void {
     this.from = this.to;
     this.lasts = 0;
@@ -100,7 +100,7 @@ function momentOf(frame: Frame): Moment {
   };
 }
 
-/** Whether everything in one is in the other, in the same order. */
+/** Whether both have the same objects in the same order. */
 function isLike(a: Moment, b: Moment): boolean {
   return (
     a.robots.length === b.robots.length &&

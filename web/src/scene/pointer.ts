@@ -7,18 +7,18 @@ export interface Grip {
   index?: number; // of the robot, or the obstacle's number
 }
 
-/** Something that is dragged. A click on the empty map is a begin and an end at one place. */
+/** A drag. A click on the empty map is a begin and an end at one position. */
 export interface Touch {
   phase: 'begin' | 'move' | 'end';
   what: Grip;
-  from: Point; // of the goal or start, else of the pointer [µm]
-  at: Point; // the same, moved
+  from: Point; // initial position of goal or start, else of the pointer [µm]
+  at: Point; // current position [µm]
 }
 
-/** What the pointer needs of the scene. */
+/** Interface of the scene for the pointer. */
 export interface Touched {
   readonly view: View;
-  /** What lies under a point of the screen, and the place of a mark. */
+  /** The object at a screen position, and the position of a mark. */
   hit(screen: Point): { what: Grip; place?: Point };
   touch(touch: Touch): void;
   viewChanged(): void;
@@ -26,9 +26,9 @@ export interface Touched {
   panned(): void;
 }
 
-const click = 4; // movement that is none yet [px]
+const click = 4; // movement that still counts as a click [px]
 
-/** Pointer, wheel and fingers on the scene's canvas: pans, zooms, drags. */
+/** Pointer, wheel and touch on the scene's canvas: pan, zoom, drag. */
 export class Pointer {
   private readonly fingers = new Map<number, Point>();
   private drag: { what: Grip; from: Point; grip: Point } | undefined; // in µm
@@ -96,7 +96,7 @@ export class Pointer {
     this.point(at);
   }
 
-  /** Ends what is being done; a drag that is broken off ends where it began. */
+  /** Ends the gesture; an aborted drag returns to its initial position. */
   private letGo(isBroken: boolean): void {
     if (this.drag && isBroken) this.tell('end', this.drag.grip);
     this.drag = this.pan = undefined;
@@ -128,7 +128,7 @@ export class Pointer {
     this.on.viewChanged();
   }
 
-  /** The cursor shows what a press would take. */
+  /** Sets the cursor for the object under it. */
   private point(at: Point): void {
     const isMap = this.pan ?? (!this.drag && this.on.hit(at).what.kind === 'map');
     const isHeld = this.drag || (this.pan && this.fingers.size > 0);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the scene needs of a scenario.
+// Data of a scenario for the scene.
 import type { Json, Point, Scenario } from '../protocol';
 
-/** Where a swarm or robot starts, or is to arrive. */
+/** Start or goal of a swarm or robot. */
 export interface Place {
   at: Point;
   heading?: number; // [rad]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import 'pixi.js/unsafe-eval'; // the page's policy forbids the evaluation of texts
+import 'pixi.js/unsafe-eval'; // the page's policy forbids eval
 import { Container, WebGLRenderer } from 'pixi.js';
 import { type Palette, type Theme, palettes, preferredTheme } from '../palette';
 import type { Message, Point, Request } from '../protocol';
@@ -32,11 +32,11 @@ import { View } from './view';
 
 export type { Touch } from './pointer';
 
-/** The map and what moves in it, drawn from the stream alone. World coordinates are µm, y up. */
+/** The map and the moving objects, drawn from the stream only. World coordinates are µm, y up. */
 export class Scene {
   readonly root = document.createElement('div');
   readonly view = new View();
-  /** How many pictures were drawn. */
+  /** Number of pictures drawn. */
   pictures = 0;
 
   private readonly stage = new Container();
@@ -69,7 +69,7 @@ export class Scene {
     this.goal,
     new ScaleBar(),
     this.clock,
-  ]; // from below
+  ]; // from bottom to top
   private readonly all: Layer[] = [new Ground(), ...this.listed, this.ghost];
   private readonly stale = new Set<Layer>(this.all);
   private readonly touchListeners: ((touch: Touch) => void)[] = [];
@@ -154,7 +154,7 @@ export class Scene {
     this.viewChanged();
   }
 
-  /** Fits the map below so many pixels from the top, where something covers the scene. */
+  /** Keeps so many pixels at the top free when the map is fitted, where the scene is covered. */
   keepFree(top: number): void {
     this.view.head = top;
     this.resize();
@@ -165,7 +165,7 @@ export class Scene {
     this.viewChanged();
   }
 
-  /** Keeps the swarm, or the robots' mean, in the middle, until the view is moved or fitted. */
+  /** Centres the swarm, or the robots' mean, until the view is moved or fitted. */
   follow(on: boolean): void {
     if (on === this.follows) return;
     this.follows = on;
@@ -200,7 +200,7 @@ export class Scene {
     this.schedule();
   }
 
-  /** Shows a picture beneath the map, its lower left corner at `lo` [µm]; none for an empty address. */
+  /** Shows a background picture with its lower left corner at `lo` [µm]; none for an empty address. */
   async setBackground(url: string, lo: Point, umPerPx: number): Promise<void> {
     await this.background.set(url, lo, umPerPx);
     this.drawAnew('walls');
@@ -211,13 +211,13 @@ export class Scene {
     this.touchListeners.push(listener);
   }
 
-  /** Requests of layers that are shown, for the session. */
+  /** Requests of visible layers to the session. */
   onWant(listener: (request: Request) => void): void {
     this.wantListeners.push(listener);
     this.ask();
   }
 
-  /** What is shown, with its time, as a PNG. */
+  /** The current view with its time, as a PNG. */
   picture(): Promise<Blob> {
     return this.withClock(
       () =>
@@ -227,7 +227,7 @@ export class Scene {
     );
   }
 
-  /** Does something with a picture that has the time on it. */
+  /** Calls a function with a picture that shows the time. */
   private withClock<T>(act: () => T): T {
     const { shown } = this.clock;
     const paint = (clock: boolean) => {
@@ -243,12 +243,12 @@ export class Scene {
     }
   }
 
-  /** What moves, as it is shown at a time of performance.now(). */
+  /** Moving objects as shown at a time of performance.now(). */
   shownAt(now: number): Moment {
     return this.motion.at(now);
   }
 
-  /** A picture of the camera was decoded. */
+  /** Called after a camera's picture was decoded. */
   private pictureCame(): void {
     if (!this.hasCamera) this.drawAnew('walls');
     this.hasCamera = true;
@@ -282,10 +282,10 @@ export class Scene {
     this.renderer.resize(clientWidth, clientHeight, window.devicePixelRatio);
     this.view.resize(clientWidth, clientHeight);
     this.viewChanged();
-    this.paint(performance.now()); // a canvas of another size is blank
+    this.paint(performance.now()); // a resized canvas is blank
   }
 
-  /** A window may move to a screen of another density. */
+  /** Adapts to a screen of another pixel density. */
   private watchDensity(): void {
     if (this.isGone) return;
     const density = matchMedia(`(resolution: ${window.devicePixelRatio}dppx)`);

@@ -3,10 +3,10 @@ import type { Point } from '../protocol';
 
 const margin = 16; // around the fitted map [px]
 const foot = 52; // below it, for the scale bar [px]
-const most = 400; // the closest look, relative to the fitted map
+const most = 400; // maximum zoom, relative to the fitted map
 const least = 0.25;
 
-/** Where the world lies on the screen. World in µm with y up, screen in CSS pixels with y down. */
+/** Transformation from the world (µm, y up) to the screen (CSS pixels, y down). */
 export class View {
   scale = 1; // [px/µm]
   width = 1; // of the screen [px]
@@ -27,12 +27,12 @@ export class View {
   toWorld([x, y]: Point): Point {
     return [(x - this.x) / this.scale, (this.y - y) / this.scale];
   }
-  /** A length on the screen [px] as one in the world [µm]. */
+  /** World length [µm] of a screen length [px]. */
   um(pixels: number): number {
     return pixels / this.scale;
   }
 
-  /** Of another map; the same one stays where it is. */
+  /** Sets the map; the view changes only for a new one. */
   showMap(lo: Point, hi: Point): void {
     if (String([lo, hi]) === String([this.lo, this.hi])) return;
     this.lo = lo;
@@ -62,7 +62,7 @@ export class View {
     this.isFitted = false;
   }
 
-  /** Zooms; the world's point under the pointer stays there. */
+  /** Zooms about the world position under the pointer. */
   zoom(factor: number, [px, py]: Point): void {
     const fitted = this.fittedScale();
     const scale = Math.min(Math.max(this.scale * factor, least * fitted), most * fitted);

@@ -5,8 +5,8 @@ import { type Aggregation as Plan, type Message, floats, indices } from '../../p
 import { Pin, Segments, empty, ink, label, polyline } from '../draw';
 import { type Drawing, Layer } from '../layer';
 
-/** The plan of a gathering: its tree, regions by colour and branches by shade, junctions with
- *  their regions' numbers, and the ways from region to region to the goal. */
+/** Plan of a gathering: tree, regions by colour and branches by shade, junctions with the regions'
+ *  numbers, and the routes from region to region to the goal. */
 export class Aggregation extends Layer {
   readonly name = 'aggregation';
   readonly label = 'Regions';
@@ -85,7 +85,7 @@ export class Aggregation extends Layer {
     });
   }
 
-  /** From a node along the next ones to the goal. */
+  /** Route from a node along the next ones to the goal. */
   private route(from: number): number[] {
     const points: number[] = [];
     let node = from;

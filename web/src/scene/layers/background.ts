@@ -4,10 +4,10 @@ import type { Point } from '../../protocol';
 import { empty } from '../draw';
 import { Layer } from '../layer';
 
-const faded = 0.75; // of its strength, so that what lies on it stands out
-const largest = 4096; // px, a side of a texture
+const faded = 0.75; // opacity, so that the layers above stand out
+const largest = 4096; // maximum side of a texture [px]
 
-/** A picture of a size that every graphics card takes. */
+/** A picture scaled to a size that every graphics card supports. */
 function reduced(image: HTMLImageElement): HTMLImageElement | HTMLCanvasElement {
   const factor = largest / Math.max(image.naturalWidth, image.naturalHeight);
   if (factor >= 1) return image;
@@ -28,7 +28,7 @@ export class Background extends Layer {
   }
   draw(): void {}
 
-  /** Shows the picture from its lower left corner on; nothing for an empty address. */
+  /** Shows the picture with its lower left corner at `lo`; none for an empty address. */
   async set(url: string, lo: Point, umPerPx: number): Promise<void> {
     empty(this.world);
     if (!url) return;

@@ -3,7 +3,7 @@ import { Matrix, Sprite, Texture } from 'pixi.js';
 import type { Message, Picture } from '../../protocol';
 import { Layer } from '../layer';
 
-/** The newest picture of a rig's camera, where it shows the world. */
+/** The newest picture of a rig's camera at its world position. */
 export class Camera extends Layer {
   readonly name = 'camera';
   readonly label = 'Camera';
@@ -40,7 +40,7 @@ export class Camera extends Layer {
         const bitmap = await createImageBitmap(new Blob([picture.jpeg.slice()], { type: 'image/jpeg' }));
         this.show(bitmap, picture.to_um);
       } catch {
-        // One that cannot be decoded is not shown.
+        // A picture that cannot be decoded is skipped.
       }
     }
     this.decodes = false;
@@ -51,7 +51,7 @@ export class Camera extends Layer {
     const old = this.sprite.texture;
     this.sprite.texture = Texture.from(bitmap, true);
     if (old !== Texture.EMPTY) old.destroy(true);
-    // The middle of the first pixel is half a pixel from the corner of the sprite.
+    // The centre of the first pixel is half a pixel from the sprite's corner.
     this.sprite.setFromMatrix(new Matrix(a, d, b, e, c - (a + b) / 2, f - (d + e) / 2));
     this.sprite.visible = true;
     this.came();

@@ -2,8 +2,7 @@
 import { ink, label } from '../draw';
 import { type Drawing, Layer } from '../layer';
 
-/** The simulated time that is shown. A page with a time bar has it there; exported pictures have it
- *  here. */
+/** The simulated time, for exported pictures; in the page the time bar shows it. */
 export class Clock extends Layer {
   readonly name = 'clock';
   readonly label = 'Clock';

@@ -4,7 +4,7 @@ import type { Point } from '../../protocol';
 import { type Rings, fill, outline, ring } from '../draw';
 import { type Drawing, Layer } from '../layer';
 
-/** What is being dragged, where it would be. */
+/** Preview of the dragged object at its new position. */
 export class Ghost extends Layer {
   readonly name = 'ghost';
   readonly label = 'Dragged';
@@ -16,7 +16,7 @@ export class Ghost extends Layer {
     return false;
   }
 
-  /** Bodies, or for a mark its place. */
+  /** Bodies, or the position of a mark. */
   hold(held: { kind: string; bodies: Rings[]; place?: Point } | undefined): void {
     this.held = held;
     this.world.position.set(0);

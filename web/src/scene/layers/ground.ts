@@ -3,7 +3,7 @@ import { Graphics } from 'pixi.js';
 import type { Message } from '../../protocol';
 import { type Drawing, Layer } from '../layer';
 
-/** The map's area, beneath everything. */
+/** Area of the map, below everything. */
 export class Ground extends Layer {
   readonly name = 'ground';
   readonly label = 'Ground';

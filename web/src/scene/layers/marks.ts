@@ -5,7 +5,7 @@ import { Pin, circle, ink, label } from '../draw';
 import { type Drawing, Layer } from '../layer';
 import { type Place, goalsOf, startsOf } from '../scenario';
 
-/** Places with a word, of the same size at any zoom. */
+/** Labelled positions, of the same size at any zoom. */
 abstract class Marks extends Layer {
   override readonly occasions = { zoom: true };
   places: Place[] = [];
@@ -58,7 +58,7 @@ abstract class Marks extends Layer {
   }
 }
 
-/** Where the swarm or each robot starts, and its heading. */
+/** Start and heading of the swarm or of each robot. */
 export class Start extends Marks {
   readonly name = 'start';
   readonly label = 'Start';
@@ -77,7 +77,7 @@ export class Start extends Marks {
   }
 }
 
-/** Goal and its tolerance; one for each robot if each has its own. */
+/** Goal and its tolerance; one for each robot with its own goal. */
 export class Goal extends Marks {
   readonly name = 'goal';
   readonly label = 'Goal';

@@ -6,7 +6,7 @@ import { type Drawing, Layer } from '../layer';
 
 const longest = 400; // points of a trail
 
-/** Where obstacles were in the frames that were shown: discs' centres and polygons' middles. */
+/** Past positions of obstacles in the frames shown: centres of discs and of polygons. */
 export class ObstacleTrails extends Layer {
   readonly name = 'obstacle-trails';
   readonly label = 'Trails of obstacles';
@@ -25,7 +25,7 @@ export class ObstacleTrails extends Layer {
     return message.type === 'hello' || message.type === 'frame';
   }
 
-  /** Even while hidden, so that the trails are there when they are shown. */
+  /** Also collects while hidden, so that the trails are complete when shown. */
   follow({ number, discs, solids }: Drawing['now']): void {
     const count = discs.length / 4 + solids.length;
     if (number < this.frame || count !== this.trails.length)

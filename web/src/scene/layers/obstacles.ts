@@ -6,10 +6,10 @@ import { type Rings, fill, outline, ringsOf } from '../draw';
 import { type Drawing, Layer } from '../layer';
 import type { View } from '../view';
 
-export const leastRadius = 3; // smaller ones would not be seen [px]
-const largest = 0.6; // of the map; what spans more is ground that moves
+export const leastRadius = 3; // smaller ones would be invisible [px]
+const largest = 0.6; // share of the map; larger bodies are moving walls
 
-/** Everything that moves but the swarm, as it is at the moment. */
+/** Current positions of all moving bodies except the swarm. */
 export class Obstacles extends Layer {
   readonly name = 'obstacles';
   readonly label = 'Obstacles';
@@ -40,7 +40,7 @@ export class Obstacles extends Layer {
 
 const none = new Float32Array();
 
-/** Whether an outline spans most of the map, as a channel's that deforms: it is not taken hold of. */
+/** Whether an outline spans most of the map, as a deforming channel does: it cannot be dragged. */
 export function isGround(ring: Float32Array, { lo, hi }: View): boolean {
   const [low, high]: [Point, Point] = [[Infinity, Infinity], [-Infinity, -Infinity]];
   ring.forEach((value, i) => {

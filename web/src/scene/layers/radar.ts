@@ -15,8 +15,8 @@ interface Beam {
   score: number;
 }
 
-/** The radar's decision: its directions by what became of them, those that are kept as long as
- *  their φ is great; the chosen one and the three circles. */
+/** The radar's decision: directions coloured by their fate, kept ones with a length by their score φ,
+ *  the chosen one, and the three circles. */
 export class Radar extends Layer {
   readonly name = 'radar';
   readonly label = 'Radar';
@@ -57,7 +57,7 @@ export class Radar extends Layer {
     this.world.position.set(x, y);
   }
 
-  /** Neighbours of one fate are one shape. */
+  /** Merges neighbours of equal fate into one shape. */
   private drawSectors({ radius, detection }: Scan, beams: Beam[], colours: Palette['radar']): void {
     const half = Math.PI / Math.max(beams.length, 1);
     const kept = beams.filter(({ fate }) => fate === 0).map(({ score }) => score);
@@ -82,7 +82,7 @@ export class Radar extends Layer {
     }
   }
 
-  /** To the right; the head is as long and wide as `head`. */
+  /** An arrow to the right; `head` is length and width of its head. */
   private arrow(from: number, to: number, head: number, style: { width: number; color: number }): void {
     const stroke = { ...style, cap: 'round', join: 'round' } as const;
     polyline(this.choice, [from, 0, to, 0]);

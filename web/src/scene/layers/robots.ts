@@ -5,17 +5,17 @@ import { type Drawing, Layer } from '../layer';
 import type { View } from '../view';
 
 const dot = 2.5; // radius of one robot [px]
-const cell = 3; // robots within one are one pile [px]
-const crowd = 2000; // so many dots have no rims
+const cell = 3; // robots within one cell are one pile [px]
+const crowd = 2000; // number of dots from which they have no rims
 const largest = 30; // radius of a pile [px]
 
-/** Individually tracked robots. Those that share a cell of the screen are a pile: one dot, whose
- *  area is that of its robots' dots. */
+/** Individually tracked robots. Robots in one cell of the screen are a pile: one dot with the area of
+ *  their dots. */
 export class Robots extends Layer {
   readonly name = 'robots';
   readonly label = 'Robots';
   override readonly occasions = { zoom: true, motion: true };
-  private readonly rims = this.world.addChild(new Dots()); // part the dots from what lies beneath
+  private readonly rims = this.world.addChild(new Dots()); // separate the dots from the background
   private readonly dots: Dots[] = []; // one for all, or one for each colour
   private readonly piles = new Map<number, number>(); // cell to index of its pile
   private x = new Float64Array(); // sums over a pile
@@ -63,7 +63,7 @@ export class Robots extends Layer {
     return dots;
   }
 
-  /** Sums of places and numbers of robots for each cell of `width` µm; how many piles. */
+  /** Sums of positions and numbers of robots for each cell of `width` µm; returns the number of piles. */
   private pile(robots: Float32Array, width: number): number {
     this.reserve(robots.length / 2);
     this.piles.clear();

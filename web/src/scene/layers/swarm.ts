@@ -17,7 +17,7 @@ export class Swarm extends Layer {
   private readonly pin = this.world.addChild(new Pin());
   private readonly body = this.pin.addChild(new Graphics());
   private type = '';
-  private drawn = ''; // what the body is drawn for
+  private drawn = ''; // state for which the body was drawn
 
   take(message: Message): boolean {
     if (message.type === 'hello') this.type = swarmType(message.scenario);

@@ -35,7 +35,7 @@ export class Target extends Layer {
         .stroke({ width, color, cap: 'round' });
   }
 
-  /** Then the goal's mark is enough. */
+  /** At the goal its mark is sufficient. */
   private isGoal([x, y]: Point): boolean {
     return this.goal.places.some(({ at }) => Math.hypot(x - at[0], y - at[1]) < 1e-3);
   }

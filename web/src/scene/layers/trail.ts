@@ -5,9 +5,9 @@ import { polyline } from '../draw';
 import { type Drawing, Layer } from '../layer';
 
 const gap = 0.7; // between drawn points [px]
-const most = 300; // points of the part that is drawn anew with each frame
+const most = 300; // points of the part that is redrawn with each frame
 
-/** The way that was made, up to the moment that is shown. */
+/** The travelled path, up to the time shown. */
 export class Trail extends Layer {
   readonly name = 'trail';
   readonly label = 'Trail';
@@ -16,7 +16,7 @@ export class Trail extends Layer {
   private readonly fresh = this.world.addChild(new Graphics());
   private way: number[] = []; // x and y of every tick
   private end = 0; // tick up to which `old` is drawn
-  private look = ''; // of `old`
+  private look = ''; // style of `old`
 
   take(message: Message): boolean {
     if (message.type === 'rows') this.takeRows(message);
@@ -57,7 +57,7 @@ export class Trail extends Layer {
     this.fresh.stroke(style);
   }
 
-  /** From the tick before `first` to the one before `end`, without points that lie close together. */
+  /** Path from the tick before `first` to the one before `end`, without points close together. */
   private thinned(first: number, end: number, apart: number): number[] {
     const points: number[] = [];
     for (let i = Math.max(0, first - 1); i < end; ++i) {

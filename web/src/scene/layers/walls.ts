@@ -12,7 +12,7 @@ export class Walls extends Layer {
   private hi: Point = [0, 0];
   private bodies: Bodies | undefined;
 
-  /** Walls over a picture are seen through. */
+  /** Walls over a picture are translucent. */
   constructor(private readonly pictures: { readonly isSet: boolean }[]) {
     super();
   }
