@@ -24,7 +24,7 @@ inline constexpr int failed = 1;
 inline constexpr int bad_input = 2;
 inline constexpr int not_reached = 3;
 inline constexpr int hardware = 4;
-/// Returned by an action in place of `ok` if a Ctrl-C did not cut it short; the program ends with
+/// Like `ok`, but says that the work is complete even if Ctrl-C was pressed; the program ends with
 /// 0.
 inline constexpr int complete = -1;
 
@@ -42,7 +42,7 @@ struct Context {
   const std::atomic<bool>* interrupted;
 };
 
-/// Input is being read and nothing has been begun yet: while an instance lives, the first Ctrl-C
+/// Marks that input is being read and no work has begun: while an instance lives, the first Ctrl-C
 /// ends the program at once, with exit code 3.
 class Reading {
  public:
@@ -52,7 +52,7 @@ class Reading {
   Reading& operator=(const Reading&) = delete;
 };
 
-/// The result of `read`, which reads input.
+/// Calls `read`, which reads input, and returns its result.
 template <class Read>
 auto reading(Read&& read) {
   const Reading now;
@@ -88,7 +88,7 @@ inline void note_each(const std::vector<std::string>& lines) {
   for (const std::string& line : lines) note("note: {}\n", line);
 }
 
-/// Shows progress of library code on such bars, one after the other.
+/// Shows progress of library code on progress bars.
 BeginProgress progress_bars();
 
 /// An output folder, locked for one command at a time. The lock ends with the process; on file

@@ -26,24 +26,24 @@ struct Check {
 Check number(double lo, double hi);
 /// An integer within lo..hi.
 Check whole(std::uint64_t lo, std::uint64_t hi);
-/// One of these words.
+/// One of these `words`.
 Check one_of(const std::vector<std::string>& words);
 /// A file name with one of these extensions, such as ".png".
 Check file_kind(const std::vector<std::string>& kinds);
 /// 2 … `most` numbers separated by commas; `form` describes the format.
 Check place(std::size_t most, const char* form);
 
-/// A word that a shell offers, and its description.
+/// A word that shell completion offers, and its description.
 struct Suggestion {
   std::string word;
   std::string doc;
 };
-/// The values that a shell offers, given the beginning of one.
+/// Function that returns the completions of a typed beginning.
 using Suggest = std::function<std::vector<Suggestion>(const std::string& typed)>;
-/// The options that say themselves which values they take.
+/// Completions of the options that define their own.
 using Suggestions = std::map<const CLI::Option*, Suggest>;
 
-/// Always these words.
+/// Completes to these words.
 Suggest suggest_words(const std::vector<std::string>& words);
 
 /// An option or an argument of a command.
@@ -60,11 +60,11 @@ class Option {
   /// Not valid together with the other option.
   Option excludes(Option other);
   Option excludes(const char* other);
-  /// Shows the present value as default in the help.
+  /// Shows the current value as default in the help.
   Option capture_default();
   /// May be given several times, with one value each.
   Option repeatable();
-  /// Has a shell offer these values. FILE, FOLDER and a Check of words need no such call.
+  /// Sets the completions. Not needed for FILE, FOLDER and a Check of words.
   Option suggest(const Suggest& values);
 
  private:
@@ -80,7 +80,7 @@ class Command {
   Command add_command(const char* name, const char* doc, const char* example);
   /// Adds a group of commands, one of which must be named.
   Command add_group(const char* name, const char* doc);
-  /// Name of this command in earlier versions, which still works.
+  /// Adds a name of earlier versions, which still works.
   void former_name(const char* name);
   /// Adds an option "--name" or an argument "name". T: std::string, a list of strings, double, int,
   /// an unsigned integer, or an optional number.
@@ -88,7 +88,7 @@ class Command {
   Option add_option(const char* name, T& value, const char* doc);
   Option add_flag(const char* name, bool& value, const char* doc);
   Option option(const char* name);
-  /// Called if this command was given and its options are valid.
+  /// Sets the function called if this command was given and its options are valid.
   void callback(std::function<void()> given);
 
  private:
@@ -105,9 +105,9 @@ class CommandLine {
   CommandLine& operator=(const CommandLine&) = delete;
 
   Command root() { return {app_.get(), &suggestions_}; }
-  /// Parses the command line. Returns the exit code if nothing remains to be done, as after --help.
-  /// `complete WORD...` prints what a shell offers for the last word, as `completion` says.
-  /// Throws a one-line InputError that refers to the help.
+  /// Parses the command line. Returns the exit code if the work is done, as after --help.
+  /// `complete WORD...` prints the completions of the last word, see `completion`. Throws a
+  /// one-line InputError that refers to the help.
   std::optional<int> parse(int argc, char** argv);
 
  private:

@@ -12,7 +12,7 @@ namespace {
 
 using CLI::App;
 
-/// Words for a shell to choose from, or the kind of file that is wanted.
+/// Words to choose from, or the kind of file wanted.
 struct Offer {
   std::string kind = "words";
   std::vector<Suggestion> words{};
@@ -20,7 +20,7 @@ struct Offer {
 
 bool takes_value(const CLI::Option& option) { return option.get_items_expected_max() > 0; }
 
-/// The words of "TEXT:{one,two}", which a Check of words writes for the help.
+/// Words of "TEXT:{one,two}", the help of a Check of words.
 std::vector<Suggestion> listed_words(const std::string& type_name) {
   std::vector<Suggestion> words;
   const std::size_t begin = type_name.find('{');
@@ -31,11 +31,11 @@ std::vector<Suggestion> listed_words(const std::string& type_name) {
   return words;
 }
 
-/// Where the words before the last one lead.
+/// Parser state before the last word.
 struct Place {
   const App* at;
-  const CLI::Option* wants = nullptr;  ///< the option whose value comes next
-  std::size_t arguments = 0;           ///< that were given
+  const CLI::Option* wants = nullptr;  ///< option whose value is next
+  std::size_t arguments = 0;           ///< number of arguments given
   std::set<const CLI::Option*> given{};
 
   void pass(const std::string& word) {
@@ -58,7 +58,7 @@ struct Place {
     return found.empty() ? nullptr : found.front();
   }
 
-  /// The argument that comes next, if any.
+  /// The next argument, if any.
   const CLI::Option* argument() const {
     const auto all = at->get_options([](const CLI::Option* o) { return o->get_positional(); });
     if (arguments < all.size()) return all[arguments];
@@ -94,7 +94,7 @@ Offer offered_options(const Place& place) {
   return offer;
 }
 
-/// Offers "--option=VALUE" for the values.
+/// Prefixes the values with "--option=".
 Offer joined(Offer values, const std::string& before) {
   for (Suggestion& word : values.words) word.word.insert(0, before);
   return values;

@@ -17,10 +17,10 @@ namespace microswarm::cli {
 /// Options shared by several commands.
 void add_map_file(Command command, std::string& file);
 void add_um_per_px(Command command, std::optional<double>& value, const char* doc);
-/// Option `--set KEY=VALUE`; the keys are those of `keys()`, which is called for completion only.
+/// Adds `--set KEY=VALUE`; `keys()` is called for completion only.
 void add_settings(Command command, std::vector<std::string>& values, const char* doc,
                   const Type& (*keys)());
-/// Has a shell offer the keys of `keys()`, and after `=` their values.
+/// Completes keys of `keys()` and, after `=`, their values.
 Suggest suggest_settings(const Type& (*keys)());
 void add_json(Command command, bool& value);
 
@@ -44,7 +44,7 @@ std::string aims_met(const std::vector<Row>& rows) {
                      open == 0 ? "" : fmt::format(", {} have no verdict", open));
 }
 
-/// The numbers in "200,500,-90" or "200, 500, -90"; empty when it is no such list.
+/// Numbers of a list "200,500,-90" or "200, 500, -90"; empty for another text.
 std::vector<double> numbers(std::string_view text);
 
 }  // namespace microswarm::cli

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/program.hpp"
 
-#include <malloc.h>  // of glibc
+#include <malloc.h>  // glibc
 #include <unistd.h>
 
 #include <atomic>
@@ -27,9 +27,9 @@ std::atomic<Clock::rep> first_signal{0};
 static_assert(std::atomic<bool>::is_always_lock_free &&
               std::atomic<Clock::rep>::is_always_lock_free);
 
-// The first Ctrl-C asks for a clean end, unless there is nothing to end yet; a second one ends at
-// once. Programs such as `timeout` send the same signal to the process and to its group: what
-// follows at once is the first one still.
+// The first Ctrl-C requests a clean end, unless no work has begun; a second one ends at once.
+// Programs such as `timeout` send the signal to the process and to its group, so a signal that
+// follows immediately counts as the same one.
 extern "C" void on_interrupt(int signal) {
   constexpr Clock::duration same = std::chrono::milliseconds(250);
   if (is_reading) ::_exit(not_reached);
@@ -53,7 +53,7 @@ int complain(const char* name, std::string_view what, int code) {
   return code;
 }
 
-/// Keeps freed memory, because pictures are allocated and freed repeatedly.
+/// Lets malloc keep freed memory, since pictures are allocated and freed repeatedly.
 void keep_memory() {
 #ifdef __GLIBC__
   mallopt(M_MMAP_THRESHOLD, 32 << 20);

@@ -18,21 +18,21 @@
 namespace microswarm::cli {
 namespace {
 
-/// What is shown at the end of stderr. Several threads may write.
+/// Line at the end of stderr. Thread-safe.
 struct Screen {
   std::mutex mutex;
-  const StatusLine* owner = nullptr;  ///< of the line that is there
+  const StatusLine* owner = nullptr;  ///< owner of the visible line
   std::string line;
 };
 
 Screen& screen() {
-  static Screen* const one = new Screen;  // lives as long as the program can still complain
+  static Screen* const one = new Screen;  // never destroyed, so that late errors can be written
   return *one;
 }
 
 constexpr std::string_view clear_line = "\r\033[K";
 
-/// Writes to stderr as it is, control characters included.
+/// Writes to stderr unchanged, control characters included.
 void write_raw(std::string_view text) noexcept {
   std::fwrite(text.data(), 1, text.size(), stderr);
   std::fflush(stderr);

@@ -9,11 +9,11 @@
 
 namespace microswarm::cli {
 
-/// Columns that a text takes on a terminal.
+/// Width of a text on a terminal [columns].
 std::size_t columns_of(std::string_view text);
 
-/// A line at the end of stderr that is renewed in place, only on a terminal. What say() and note()
-/// write comes above it. Of several, the last one that was shown is there.
+/// A line at the end of stderr that is updated in place, on a terminal only. Output of say() and
+/// note() appears above it. Of several lines, the last one shown is visible.
 class StatusLine {
  public:
   StatusLine();
@@ -24,9 +24,9 @@ class StatusLine {
 
   /// Whether stderr is a terminal.
   bool is_there() const { return is_there_; }
-  /// Columns that a line may take: it never wraps.
+  /// Maximum width of the line [columns], so that it never wraps.
   std::size_t columns() const;
-  /// Shows a text in place of the last one, cut to the columns.
+  /// Shows a text instead of the last one, cut to columns().
   void show(std::string_view text);
 
  private:

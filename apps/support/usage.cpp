@@ -31,7 +31,7 @@ std::string nearest(const std::string& word, const Names& names) {
   return std::string(nearest_word(word, views));
 }
 
-/// What is said of a word that nothing on the command line asked for.
+/// Message for an unexpected word on the command line.
 std::string stray(const CLI::App& app, const std::string& word) {
   if (word.starts_with('-')) {
     const std::string name = word.substr(0, word.find('='));
@@ -40,7 +40,7 @@ std::string stray(const CLI::App& app, const std::string& word) {
            (meant.empty() ? "" : ", did you mean '" + meant + "'?");
   }
   const Names commands = commands_of(app);
-  if (commands.empty()) return "nothing is expected where " + quote(word) + " stands";
+  if (commands.empty()) return "unexpected argument " + quote(word);
   const std::string meant = nearest(word, commands);
   return "unknown command " + quote(word) +
          (meant.empty() ? fmt::format(", there are: {}", fmt::join(commands, ", "))
@@ -59,7 +59,7 @@ std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error) {
 std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App* at = &app;
   std::string path = app.get_name();
-  for (;;) {  // down the commands that were named
+  for (;;) {  // descends to the innermost command given
     const Names left = at->remaining();
     const auto named = at->get_subcommands();
     if (!left.empty() || named.empty()) {

@@ -10,7 +10,7 @@ class ParseError;
 
 namespace microswarm::cli {
 
-/// What is wrong with a command line, in one line that says where help is.
+/// Error message of a command line, in one line that refers to the help.
 std::string usage_error(const CLI::App& app, const CLI::ParseError& error);
 
 }  // namespace microswarm::cli

@@ -263,8 +263,8 @@ TEST_F(RigOperation, ANoteComesAboveTheStatusLine) {
   sleep_ms(500);
   terminal.send(SIGINT);
   terminal.wait();
-  EXPECT_TRUE(
-      names(terminal.said(), "\r\x1b[Knote: the coils had been off by themselves; armed again\r\n"))
+  EXPECT_TRUE(names(terminal.said(),
+                    "\r\x1b[Knote: the coils had switched off by themselves; armed again\r\n"))
       << terminal.said();
 }
 

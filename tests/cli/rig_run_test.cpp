@@ -119,7 +119,7 @@ TEST_F(RigRun, ADeviceThatLosesItsCurrentsAgainAndAgainEndsIt) {
   write_rig(device);
   const Outcome outcome = run(arguments({"--seconds", "15"}));
   EXPECT_EQ(outcome.code, 4) << outcome.err;
-  EXPECT_TRUE(names(outcome.err, "had been off by themselves; armed again")) << outcome.err;
+  EXPECT_TRUE(names(outcome.err, "had switched off by themselves; armed again")) << outcome.err;
   EXPECT_TRUE(names(outcome.out + outcome.err, "2 times in 10 s, allowed 1")) << outcome.out;
 }
 

@@ -164,7 +164,7 @@ TEST_F(WholeRig, ADryRunSaysSoAndTheLogEndsWithZero) {
   const std::string scenario = MICROSWARM_SOURCE_DIR "/scenarios/papers/radar/single.yaml";
   const Outcome outcome = run({"rig", "run", scenario, "--rig", rig("vortex.yaml"), "--dry-run",
                                "--seconds", "0.5", "--out", "dry"});
-  EXPECT_NE(outcome.err.find("dry run: nothing goes to the coils"), std::string::npos);
+  EXPECT_NE(outcome.err.find("dry run: no current is sent to the coils"), std::string::npos);
   EXPECT_NE(read("dry/index.html").find(", dry run<"), std::string::npos);
   const std::string dry = read("dry/commands.csv");
   EXPECT_EQ(dry.find("driven"), std::string::npos);

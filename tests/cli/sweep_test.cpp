@@ -96,7 +96,8 @@ TEST_F(Sweeps, StoppedAndKilledItGoesOn) {
     const Outcome outcome = program.wait();
     if (outcome.code != 0) {  // it may have been done by then
       EXPECT_EQ(outcome.code, 3) << outcome.err;
-      EXPECT_NE(outcome.out.find("; the same command goes on\n"), std::string::npos) << outcome.out;
+      EXPECT_NE(outcome.out.find("; the same command resumes it\n"), std::string::npos)
+          << outcome.out;
       EXPECT_EQ(outcome.err, "");
     }
   }

@@ -56,7 +56,8 @@ TEST_F(LiveRigs, PicturesThatComeAgainAndAgainEndIt) {
 
 TEST_F(LiveRigs, ADeviceThatTripsAgainEndsIt) {
   const RunResult result = go(6, [&](LiveRig&) { coils->answer = DriveStatus::resumed; });
-  EXPECT_EQ(fault_of(result), "the coils had been off by themselves 2 times in 10 s, allowed 1");
+  EXPECT_EQ(fault_of(result),
+            "the coils had switched off by themselves 2 times in 10 s, allowed 1");
   EXPECT_EQ(timing.resumed, 2);
   EXPECT_LT(zero_after, patience * 0.1);
 }

@@ -25,7 +25,7 @@ struct GatherOptions {
   bool json = false;
 };
 
-/// Notes on stderr a given width that is far from the measured one.
+/// Warns on stderr if a given width is far from the measured one.
 void note_width(const GatherOptions& o, double measured) {
   constexpr double far = 5;
   if (!o.channel_width) return;

@@ -57,7 +57,7 @@ Check place_list() {
   }};
 }
 
-/// The parameters with which a tree was grown; changes by --set would not fit it.
+/// Parameters with which a tree was grown; --set must not change them.
 GlobalRrtParams parameters_of(const GlobalOptions& o, const GlobalTree& tree) {
   GlobalChoice choice;
   GlobalRrtParams grown;
@@ -145,7 +145,7 @@ void check_options(const GlobalOptions& o) {
   if (o.goals.empty() && !o.picture.empty()) throw InputError("global: --picture needs --goals");
 }
 
-/// The plan from a stored tree.
+/// Plans with a stored tree.
 GlobalAnswer ask_tree(const GlobalOptions& o, const LoadedMap& map, std::span<const Vec2> goals,
                       const Stop& stop) {
   const GlobalTree tree = read_global_tree(o.tree, map);
@@ -162,7 +162,7 @@ GlobalAnswer ask_tree(const GlobalOptions& o, const LoadedMap& map, std::span<co
   return found;
 }
 
-/// The plan by a planner, which grows a tree and saves it if requested.
+/// Plans with a planner, which grows a tree; saves the tree if requested.
 GlobalAnswer found_plan(const GlobalOptions& o, const LoadedMap& map, std::vector<Vec2> goals,
                         const Stop& stop) {
   if (!o.tree.empty()) return ask_tree(o, map, goals, stop);

@@ -34,7 +34,7 @@ struct LabOptions {
   bool no_open = false;
 };
 
-/// The shipped scenarios: of a checkout, of an installation, or none.
+/// Folders of the shipped scenarios: of a checkout, of an installation, or none.
 std::vector<fs::path> shipped_scenarios() {
   std::error_code error;
   const fs::path bin = fs::read_symlink("/proc/self/exe", error).parent_path();
@@ -43,14 +43,15 @@ std::vector<fs::path> shipped_scenarios() {
   return {};
 }
 
-/// Opens the address in the person's browser, if there are a display and a program that does it.
+/// Opens the address in the user's browser, if there are a display and a program for it.
 void open_in_browser(const std::string& url) {
   if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY")) return;
   const std::string command = "xdg-open '" + url + "' >/dev/null 2>&1 &";
   [[maybe_unused]] const int failed = std::system(command.c_str());  // the address was printed
 }
 
-/// What is shown first; opened once, so that what is wrong with it is told before anything listens.
+/// Content of the first page; opened once, so that its errors are reported before the server
+/// listens.
 std::optional<lab::Opening> opening_of(const LabOptions& o) {
   if (o.file.empty()) {
     if (!o.settings.empty())
@@ -62,7 +63,7 @@ std::optional<lab::Opening> opening_of(const LabOptions& o) {
   lab::Opening opening{
       .file = lab::present_record(o.file),
       .options = {.settings = o.settings, .rig = o.rig, .rig_settings = o.rig_settings}};
-  if (report_options(o.photo).photo)  // so that it can be read
+  if (report_options(o.photo).photo)  // reports an unreadable photograph
     opening.photo = lab::BackgroundPhoto{.file = o.photo.file, .um_per_px = *o.photo.um_per_px};
   if (o.rig.empty() || o.simulate) {
     note_each(reading([&] { return open_session(opening.file, opening.options); })->notes());
@@ -103,8 +104,8 @@ int lab_command(const LabOptions& o, const Context& context) {
                  context.stop);
   if (keys && keys->are_there()) note("space, e or Esc: coils to zero at once, as on the page\n");
   const bool has_ended = server.run(context.stop);
-  // A session that still reads a large file has nothing to lose, and its reading cannot be stopped.
-  // One with a rig is waited for.
+  // A session that still reads a large file has nothing to lose and cannot be stopped. A session
+  // with a rig is waited for.
   if (!has_ended && !is_live) std::_Exit(ok);
   return complete;
 }

@@ -53,7 +53,7 @@ int write_video(const ReportCommand& o, const Record& record, const ReportOption
   return video.stopped ? ok : complete;
 }
 
-/// The report, unless only a video is asked for.
+/// Writes the report, and the video if requested; with --video alone only the video.
 int report_command(const ReportCommand& o, const Context& context) {
   const Record record = read_record(o.file);
   const ReportOptions options = report_options(o.photo);

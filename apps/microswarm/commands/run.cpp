@@ -32,7 +32,7 @@ struct RunOptions {
   PhotoOptions photo;
 };
 
-/// A trial as in trials.csv.
+/// A row of trials.csv.
 struct TrialRow {
   int trial = 0;
   Status status = Status::stopped;

@@ -27,9 +27,9 @@ nlohmann::ordered_json to_json(const RunResult& result, const std::string& hash)
 
 namespace {
 
-/// Why a navigator held, by its state.
+/// Reason of a hold, by the navigator's state.
 std::string reason(std::string_view state) {
-  if (state == "stuck") return "it found no way";
+  if (state == "stuck") return "it found no path";
   if (state == "wait") return "it waited for a valve";
   if (state == "blind") return "it saw no swarm, or too late";
   if (state == "hold") return "no move was safe";
@@ -69,8 +69,8 @@ std::string robots_summary(const RunResult& result, const RobotSwarmParams& robo
       robots.goals.empty() ? "" : fmt::format("  planning  {} times\n", m.planning_events);
   return fmt::format("{} after {:.1f} s and {} commands\n  {} {:.1f} µm\n{}",
                      gathered ? "gathered" : ending(result), m.time, result.timing.steps.size(),
-                     robots.goals.empty() ? "goal      the mean way to it is"
-                                          : "goals     the robot farthest from its own is off by",
+                     robots.goals.empty() ? "goal      mean distance"
+                                          : "goals     largest distance of a robot from its goal",
                      m.goal_distance, planning);
 }
 
@@ -88,7 +88,7 @@ std::string summary(const RunResult& result) {
   std::string text = fmt::format("{} after {:.1f} s", ending(result), m.time);
   if (result.status != Status::solved)
     text += fmt::format(", {} from the goal", um(m.goal_distance));
-  text += fmt::format("\n  way       {:.0f} µm long, turned {:.0f}° in all, held for {:.1f} s\n",
+  text += fmt::format("\n  path      {:.0f} µm long, turned {:.0f}° in total, held for {:.1f} s\n",
                       m.length, degrees(m.turning), m.hold_time);
   text += fmt::format("  nearest   wall {}, moving obstacle {} (from the swarm's centre)\n",
                       um(m.walls.clearance), um(m.obstacles.clearance));
@@ -98,7 +98,7 @@ std::string summary(const RunResult& result) {
                             m.planning_events, 1e3 * p.mean, 1e3 * p.max);
 }
 
-/// Warns on stderr of ticks in which a swarm drives far.
+/// Warns on stderr if a swarm moves far within a tick.
 void note_tick(const Scenario& scenario) {
   if (scenario.robots) return;
   const SwarmLimits swarm = limits_of(scenario.swarm);
@@ -110,7 +110,7 @@ void note_tick(const Scenario& scenario) {
       scenario.tick, way, 2 * swarm.radius);
 }
 
-/// Time for which the swarm was held at the goal, as a line; nothing without a hold.
+/// Line with the time of the hold at the goal; empty without a hold.
 std::string hold_text(const Record& record) {
   if (record.result.status != Status::solved || record.frames.empty()) return {};
   const double held = record.frames.back().t - record.result.metrics.time;

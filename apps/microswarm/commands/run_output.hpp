@@ -17,19 +17,19 @@ namespace microswarm::cli {
 
 /// Output options of a run.
 struct RunOutput {
-  std::string out;  ///< folder for run.h5 and the report; empty: none
+  std::string out;  ///< folder for run.h5 and the report; empty for none
   bool no_report = false;
   bool json = false;
-  std::function<nlohmann::ordered_json()> rig_timing{};  ///< of a real rig
+  std::function<nlohmann::ordered_json()> rig_timing{};  ///< timing of a real rig
 };
 
-/// Warns on stderr of what is unusual about a session before it runs.
+/// Warns on stderr of unusual settings before a session runs.
 void note_oddities(const Session& session);
-/// Warns on stderr, after the first tick, where the method divides a map of few regions.
+/// Warns on stderr, after the first tick, if the method divides a map with few regions.
 void note_regions(const Session& session);
 
-/// Keeps the record so far in `folder` while the session is stepped, for `microswarm lab`, which
-/// follows it; null without a folder.
+/// Writes the record so far into `folder` while the session is stepped, so that `microswarm lab`
+/// can follow it; null without a folder.
 std::unique_ptr<GrowingRecord> grow_record(Session& session, const std::string& folder);
 
 /// Steps a session to its end with a progress bar.

@@ -29,8 +29,8 @@ struct SweepOptions {
   bool json = false;
 };
 
-/// Progress with rate and remaining time: a bar on a terminal, otherwise occasional lines, as under
-/// mpirun.
+/// Progress with rate and remaining time: a bar on a terminal, otherwise, as under mpirun,
+/// occasional lines.
 class Meter {
  public:
   explicit Meter(bool lines) : lines_(lines), bar_("sweep") {}
@@ -150,7 +150,7 @@ void tell(const SweepOptions& o, const SweepProgress& progress) {
   }
   print("{}medians are of the trials that arrived\n", table(sweep, cells));
   print("{} of {} trials are in {}, {} of them new{}\n", there, there + progress.left, o.out,
-        progress.added, progress.left > 0 ? "; the same command goes on" : "");
+        progress.added, progress.left > 0 ? "; the same command resumes it" : "");
 }
 
 int sweep_command(SweepOptions o, const Context& context) {
@@ -158,7 +158,7 @@ int sweep_command(SweepOptions o, const Context& context) {
   if (o.jobs == 0 && ranks.count() > 1) o.jobs = 1;
   if (ranks.rank() > 0) {
     run_sweep_worker(ranks, o.sweep, o.jobs, context.stop);
-    return ok;  // mpirun ends all when one fails; the first rank tells how it went
+    return ok;  // mpirun ends all if one fails; rank 0 reports the result
   }
   RemoteWorkers workers(ranks);
   const std::filesystem::path file = o.sweep;

@@ -73,7 +73,7 @@ int track(const TrackOptions& o, const Context& context) {
   const TrackSettings settings = settings_of(o);
   const std::unique_ptr<FrameSource> source = open_frames(o.video, settings.rate, settings.depth);
   if (!source->rate())
-    note("note: {} tells no times, one picture a second is assumed: give --rate\n", o.video);
+    note("note: {} has no times, one picture a second is assumed: give --rate\n", o.video);
   const OutFolder hold(o.out);
   const std::filesystem::path folder = o.out;
   keep_track_input(folder, o.video);
@@ -85,8 +85,8 @@ int track(const TrackOptions& o, const Context& context) {
   if (const std::string why = source->why_ended(); !why.empty())
     note("note: the tracks end at picture {}: {}\n", result.frames, why);
   else if (!context.stop.requested() && result.frames + 1 < result.promised.value_or(0))
-    note("note: {} says that it has {} pictures, after {} no more could be read\n", o.video,
-         *result.promised, result.frames);
+    note("note: {} should have {} pictures, only {} could be read\n", o.video, *result.promised,
+         result.frames);
 
   note_noise(result);
   write_tracks(result, folder);

@@ -18,7 +18,7 @@
 namespace microswarm::cli {
 namespace {
 
-/// An event as in events.csv.
+/// A row of events.csv.
 struct EventRow {
   int frame = 0;
   double t = 0;

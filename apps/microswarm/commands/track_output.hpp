@@ -17,7 +17,7 @@ void write_tracks(const TrackResult& result, const std::filesystem::path& folder
 void keep_track_input(const std::filesystem::path& folder, const std::string& input);
 
 nlohmann::ordered_json to_json(const TrackResult& result);
-/// A summary of a few lines.
+/// Summary in a few lines.
 std::string track_summary(const TrackResult& result);
 
 }  // namespace microswarm::cli

@@ -17,7 +17,7 @@
 namespace microswarm::cli {
 namespace {
 
-constexpr int most_read = 200;         // pictures from the beginning of a video
+constexpr int most_read = 200;         // pictures read from the beginning of a video
 constexpr std::size_t most_used = 20;  // of these, evenly spread
 
 std::vector<Image> sample(FrameSource& source, VideoChannel channel, const Stop& stop) {
@@ -33,13 +33,13 @@ std::vector<Image> sample(FrameSource& source, VideoChannel channel, const Stop&
   return pictures;
 }
 
-/// Rounded to two digits, as it is typed.
+/// Rounded to two digits, as text.
 std::string typed(double mass) {
   const double unit = maths::pow(10, std::floor(maths::log10(mass)) - 1);
   return fmt::format("{:.6g}", std::round(mass / unit) * unit);
 }
 
-/// The suggested options; empty if the given settings stay.
+/// The suggested options; empty if the given settings are kept.
 std::string options_of(const ParticleSuggestion& s, const ParticleParams& given) {
   std::string text;
   const auto add = [&](const std::string& setting) {

@@ -22,14 +22,14 @@ struct CoilOptions {
 /// Adds --without-limits, --coils-cold and --other-stop.
 void add_coil_options(Command cmd, CoilOptions& o);
 
-/// Throws InputError if there is no terminal, so no emergency key, and no other emergency stop.
+/// Throws InputError without a terminal, so without an emergency key, unless --other-stop is given.
 void require_emergency_stop(const CoilOptions& o);
 
-/// Says on stderr how to stop: by keys, of which `keys` are further ones, or from elsewhere.
+/// Prints on stderr how to stop: by the emergency keys, with further `keys`, or from elsewhere.
 void note_how_to_stop(bool has_keys, const char* keys);
 
-/// The coils of a rig that are driven by hand. Throws InputError if nobody can stop them or limits
-/// are missing, HardwareError if the device fails.
+/// The coils of a rig for manual driving. Throws InputError if nobody can stop them or limits are
+/// missing, HardwareError if the device fails.
 struct Bench {
   Bench(const Rig& of, const CoilOptions& o);
 
@@ -40,8 +40,8 @@ struct Bench {
   bool said_how_to_stop = false;
 };
 
-/// Says it on stderr if the coils are not known to be at zero, or another than the driver that
-/// drove said so (CoilDriver::stop_trouble). Returns whether neither is so.
+/// Warns on stderr if zero currents are not confirmed, or a fallback driver confirmed them
+/// (CoilDriver::stop_trouble). Returns whether there was no reason to warn.
 bool note_zero(bool confirmed, const std::string& stop_trouble);
 
 }  // namespace microswarm::cli

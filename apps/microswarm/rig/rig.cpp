@@ -128,7 +128,7 @@ int field(const FieldOptions& o) {
           system.in_workspace(place) ? "" : ", outside of the calibrated workspace");
     const Eigen::Vector3d clean = made.unaryExpr([&](double b) { return tidy(b, made.norm()); });
     print("field {} mT, {:.6g} mT in all\n", triple_text(clean), made.norm());
-    // In T/m; entries negligible relative to the field over one metre are rounded to 0.
+    // [T/m]; entries negligible relative to the field over one metre are rounded to 0.
     const auto of_slope = [&](Eigen::Index i) { return tidy(slope[i], made.norm() / 1e3); };
     print(
         "gradients dBx/dx {:.6g}, dBx/dy {:.6g}, dBx/dz {:.6g}, dBy/dy {:.6g}, dBy/dz {:.6g} "

@@ -19,7 +19,7 @@ Check triple(const char* form, double most);
 /// The numbers of a text accepted by `triple`.
 Eigen::Vector3d triple_of(const std::string& text);
 
-/// "(1, 0, 0)".
+/// The vector as text: "(1, 0, 0)".
 std::string triple_text(const Eigen::Vector3d& v);
 
 /// Parses "1,0,0", one current for each coil. Throws InputError.
@@ -46,7 +46,7 @@ void add_rig_still(Command rig, Action& action);
 /// Adds `rig see`.
 void add_rig_see(Command rig, Action& action);
 
-/// Rounds to 0 what is only a rounding error relative to `whole`, the maximum magnitude.
+/// Rounds a rounding error, relative to the maximum magnitude `whole`, to 0.
 inline double tidy(double x, double whole) { return std::abs(x) < 1e-12 * whole ? 0.0 : x; }
 
 }  // namespace microswarm::cli

@@ -22,7 +22,7 @@ struct CheckOptions {
   bool json = false;
 };
 
-/// Collects the answers: printed at once, or all together as JSON.
+/// Prints the answers one by one, or all together as JSON.
 class Answers {
  public:
   explicit Answers(bool as_json) : as_json_(as_json) {}

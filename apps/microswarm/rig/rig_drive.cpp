@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `rig drive`: currents or a field by hand.
+// `rig drive` drives currents or a field manually.
 #include <fmt/ranges.h>
 
 #include <atomic>
@@ -45,7 +45,7 @@ std::string field_text(const Eigen::Vector3d& field) {
                      tidy(field[2], whole));
 }
 
-/// Says what the device's own limits left; with the field, unless that turns.
+/// Warns of currents reduced by the device's own limits; names the field unless it turns.
 void note_device_limits(const Rig& rig, const ManualCommand& command, const ManualResult& result) {
   const std::string left =
       std::visit(Overloaded{[](const microswarm::Command&) { return std::string(); },
@@ -60,7 +60,7 @@ void note_device_limits(const Rig& rig, const ManualCommand& command, const Manu
        left);
 }
 
-/// Throws InputError for currents that the amplifiers never make, however cold the coils are.
+/// Throws InputError for currents that the amplifiers cannot make at any coil temperature.
 void require_possible(const Eigen::VectorXd& currents, const CoilSystem& system,
                       std::string_view option) {
   constexpr double unlimited = 1e9;  // [A]
@@ -76,7 +76,7 @@ void require_possible(const Eigen::VectorXd& currents, const CoilSystem& system,
   }
 }
 
-/// Throws InputError for what the rig cannot do; the wanted field or currents are made otherwise.
+/// Throws InputError for a command that the rig cannot execute.
 void require_possible(const ManualCommand& command, const RigParams& rig,
                       const CoilSystem& system) {
   const auto check_currents = [&](const Eigen::VectorXd& currents) {
@@ -97,7 +97,7 @@ void require_possible(const ManualCommand& command, const RigParams& rig,
   std::visit(Overloaded{check_currents, check_field, check_steering}, command.wanted);
 }
 
-/// Drives and says how it ended. Returns the exit code.
+/// Drives the coils and reports the result. Returns the exit code.
 int drive(Bench& bench, const ManualCommand& command, const Context& context) {
   std::atomic<bool> pressed = false;
   const RigKeys keys([&] { pressed = true; }, {}, context.stop);
@@ -123,7 +123,7 @@ int drive(Bench& bench, const ManualCommand& command, const Context& context) {
   return result.status == Status::stopped ? not_reached : ok;
 }
 
-/// One coil after the other, so that a compass or a probe shows its polarity and its channel.
+/// Drives one coil after the other, so that a compass or a probe shows polarity and channel.
 int drive_each(Bench& bench, const DriveOptions& o, const Context& context) {
   const Actuation actuation = bench.rig.system.at(bench.rig.system.centre());
   for (std::size_t k = 0; k < bench.rig.system.size(); ++k) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `rig cameras`: the cameras that are there and what they offer.
+// `rig cameras` lists the connected cameras with their formats.
 #include <memory>
 #include <nlohmann/json.hpp>
 

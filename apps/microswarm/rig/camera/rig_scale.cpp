@@ -56,7 +56,7 @@ std::optional<Vec2> origin_of(const ScaleOptions& o) {
   return Vec2{v[0], v[1]};
 }
 
-/// A scale and, from a grid, what the lens does.
+/// A scale and, from a grid, the lens distortion.
 struct FoundScale {
   FittedScale fit;
   std::optional<LensDistortion> lens;

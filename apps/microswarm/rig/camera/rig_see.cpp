@@ -105,7 +105,7 @@ SeeSettings settings_of(const SeeOptions& o) {
   return settings;
 }
 
-/// A scenario and where the rig's camera sees it.
+/// A scenario and its position in the camera's picture.
 struct Overlay {
   Experiment experiment;
   CameraScale scale;
@@ -135,20 +135,20 @@ void draw_overlay(Image& shown, const Overlay& over) {
     note("note: {} of {} starts and goals are outside the picture\n", outside, places.size());
 }
 
-/// Where the scenario's swarm starts in the picture, if it is one body.
+/// Start of the scenario's swarm in the picture, if it is one body.
 std::optional<Vec2> start_of(const std::optional<Overlay>& over) {
   if (!over || !over->experiment.scenario().start) return std::nullopt;
   return over->scale.to_picture(over->experiment.scenario().start->position);
 }
 
-/// The size that a smooth swarm must have.
+/// Size that a smooth swarm must have.
 SwarmPrior prior_of(const std::optional<Overlay>& over) {
   if (!start_of(over)) return {};
   return expected_swarm(limits_of(over->experiment.scenario().swarm), over->perception,
                         over->scale);
 }
 
-/// What is told of a picture.
+/// Description of a picture's detections.
 struct Told {
   SeenScene scene;
   std::vector<NotSwarm> not_swarm;
@@ -156,7 +156,7 @@ struct Told {
   double um_per_px = 1;
   double contrast_limit = 0;
 
-  /// Distance from the start, as words.
+  /// Distance from the start, as text.
   std::string off(const Blob& b) const {
     if (!start_px) return {};
     const double off = distance(b.centre_px, *start_px);
@@ -202,7 +202,7 @@ void tell(const Told& told) {
     print("  {} {}\n", b.disc ? "disc" : "polygon", text_of(b.blob));
 }
 
-/// Note on stderr if a run would not take the swarm for its own where it is.
+/// Warns on stderr if a run would not accept the swarm at this position.
 void note_far(const Told& told, double jump) {
   if (!told.start_px || !told.scene.swarm.swarm) return;
   const double off = distance(told.scene.swarm.swarm->centre_px, *told.start_px);

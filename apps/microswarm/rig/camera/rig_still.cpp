@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `rig still`: a picture of a camera as it came.
+// `rig still` stores a picture of a camera, unprocessed.
 #include <memory>
 
 #include "microswarm/core/errors/error.hpp"

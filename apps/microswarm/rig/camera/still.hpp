@@ -9,22 +9,22 @@
 
 namespace microswarm::cli {
 
-/// How commands that take a picture or a camera name the latter.
+/// Description of a camera in the help of commands that take a picture or a camera.
 inline constexpr const char* camera_names = "camera such as /dev/video0 or genicam:ID";
 
-/// Whether a source of pictures is a camera: "/dev/video0", "genicam:ID", "genicam:" for the first
-/// one that is found.
+/// Whether a source of pictures is a camera: "/dev/video0", "genicam:ID", or "genicam:" for the
+/// first one found.
 bool is_camera(const std::string& source);
 
-/// The settings with which a source is opened: `given`, if they are those of its kind of camera,
-/// else the defaults of this kind. For a file they are `given`.
+/// Settings to open a source: `given` if they are for its kind of camera or the source is a file,
+/// otherwise the defaults of its kind.
 AnyCameraParams camera_for(const std::string& source, const AnyCameraParams& given);
 
-/// The same with the camera of a rig file, if one is named, and settings of its own, as of --set.
+/// The same with the camera of a rig file, if one is named, and settings by --set.
 AnyCameraParams camera_of(const std::string& source, const std::string& rig,
                           const std::vector<std::string>& settings = {});
 
-/// Picture of a file, or of a camera with these settings after one second of settling. Throws
+/// Picture from a file, or from a camera with these settings after settling for one second. Throws
 /// InputError or HardwareError.
 Image picture_of(const std::string& source, const AnyCameraParams& camera);
 

@@ -15,7 +15,7 @@ namespace {
 constexpr char kill_line = '\x15';        // Ctrl-U
 constexpr std::size_t max_answer = 1000;  // [bytes]
 
-/// Shows what is typed; a terminal that is gone is noticed elsewhere.
+/// Echoes typed text; a terminal that is gone is detected elsewhere.
 void echo(std::string_view text) {
   if (::write(STDERR_FILENO, text.data(), text.size()) < 0) return;
 }
@@ -26,7 +26,7 @@ AnswerLine::AnswerLine(bool any_stop_key) : any_stop_key_(any_stop_key) {}
 
 AnswerLine::~AnswerLine() { terminal_.restore(); }
 
-/// Reads what is there.
+/// Reads the available input.
 void AnswerLine::read_more() {
   if (ended_ || (is_terminal() && !terminal_.prepare())) return;
   const std::optional<std::string> got = input_within(0);
@@ -40,7 +40,7 @@ void AnswerLine::read_more() {
 void AnswerLine::take_key(char key) {
   if (key == '\x1b' || (any_stop_key_ && is_emergency({.character = key})))
     throw HardwareError("the emergency key was pressed");
-  if (complete_) return;  // an answer to a question that is not asked yet
+  if (complete_) return;  // it answers a later question
   if (key == '\r' || key == '\n') {
     complete_ = true;
     echo("\n");

@@ -9,10 +9,10 @@
 
 namespace microswarm::cli {
 
-/// Lines that a person types at the terminal, or that come through a pipe, without waiting for
-/// them, so that coils can be driven meanwhile. At a terminal Esc is an emergency stop at any time,
-/// with `any_stop_key` also space and e; the line is edited with backspace and Ctrl-U. The terminal
-/// is restored at the end.
+/// Non-blocking reader of lines that a user types at the terminal or a pipe delivers, so that coils
+/// can be driven meanwhile. At a terminal Esc is an emergency stop at any time, with `any_stop_key`
+/// also space and e; the line is edited with backspace and Ctrl-U. The destructor restores the
+/// terminal.
 class AnswerLine {
  public:
   explicit AnswerLine(bool any_stop_key);
@@ -21,14 +21,14 @@ class AnswerLine {
   AnswerLine& operator=(const AnswerLine&) = delete;
 
   bool is_terminal() const { return terminal_.is_there(); }
-  /// Asks on stderr. What was typed before at a terminal is no answer.
+  /// Asks on stderr. Input typed at the terminal before is discarded.
   void ask(std::string_view question);
-  /// The line, if it is complete by now. Throws HardwareError if an emergency key was pressed.
+  /// The line, if it is complete. Throws HardwareError if an emergency key was pressed.
   std::optional<std::string> poll();
-  /// Looks for the emergency key only; other keys are forgotten, what comes through a pipe waits.
-  /// Errors as above.
+  /// Checks for the emergency key only; other keys are discarded, a pipe's input is kept. Errors as
+  /// above.
   void watch();
-  /// Nothing more can come.
+  /// Whether the input has ended.
   bool ended() const { return ended_; }
 
  private:
@@ -38,7 +38,7 @@ class AnswerLine {
   bool any_stop_key_;
   KeyTerminal terminal_;
   bool ended_ = false;
-  std::string typed_;  // at a terminal the line so far; of a pipe, what was read and not used
+  std::string typed_;  // at a terminal the line so far; from a pipe the unused input
   bool complete_ = false;
 };
 

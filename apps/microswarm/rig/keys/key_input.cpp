@@ -24,7 +24,7 @@ Key key_of(char final) {
   }
 }
 
-/// What begins with ESC: its length and key; the length is 0 if it is incomplete.
+/// A sequence that begins with ESC: length and key; the length is 0 if it is incomplete.
 struct Sequence {
   std::size_t length = 0;
   Key key{};
@@ -32,7 +32,7 @@ struct Sequence {
 
 constexpr Sequence lone_escape{1, {Key::Kind::escape}};
 
-/// ESC [ parameters final, or ESC O final.
+/// Parses ESC [ parameters final, or ESC O final.
 Sequence sequence_of(std::string_view text) {
   constexpr std::size_t longest = 32;
   if (text.size() < 2) return {};
@@ -72,7 +72,7 @@ bool is_emergency(const Key& key) {
 }
 
 std::vector<Key> meant(const std::vector<Key>& keys) {
-  constexpr std::size_t most = 3;  // different keys that fingers press at once
+  constexpr std::size_t most = 3;  // different keys pressed at the same time
   std::vector<Key> different;
   for (const Key& key : keys)
     if (std::ranges::find(different, key) == different.end()) different.push_back(key);

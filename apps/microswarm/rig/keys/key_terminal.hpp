@@ -8,22 +8,22 @@
 
 namespace microswarm::cli {
 
-/// Whether the program has the keys of a terminal: it is not in the background.
+/// Whether the program receives a terminal's keys, so is not in the background.
 bool has_keys();
 
-/// What stdin has within `ms`, empty if there is nothing; none at its end.
+/// Input of stdin within `ms`, possibly empty; nothing at its end.
 std::optional<std::string> input_within(int ms);
 
-/// The terminal at stdin, if there is one, that gives each key at once and does not show it. In the
-/// background its settings are left alone.
+/// The terminal at stdin, if any, in unbuffered mode without echo. In the background its settings
+/// are unchanged.
 class KeyTerminal {
  public:
   KeyTerminal();
   bool is_there() const { return is_there_; }
-  /// To be called before each reading, because a shell resets the terminal when the program is
-  /// suspended and resumed. False in the background, where a reading would stop the program.
+  /// To be called before each read, since a shell resets the terminal when the program is suspended
+  /// and resumed. False in the background, where a read would stop the program.
   bool prepare() const;
-  /// Gives it back as it was.
+  /// Restores the terminal's settings.
   void restore() const;
 
  private:

@@ -29,7 +29,7 @@ void RigKeys::listen() {
   terminal_.restore();
 }
 
-/// Waits for keys, 20 ms at most. False if the terminal is gone.
+/// Waits up to 20 ms for keys. False if the terminal is gone.
 bool RigKeys::read_keys(std::string& input) {
   const std::optional<std::string> got = input_within(20);
   if (!got) return false;

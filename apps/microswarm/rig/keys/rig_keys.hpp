@@ -13,11 +13,11 @@
 namespace microswarm::cli {
 
 /// Calls `stop` when an emergency key is pressed, and `other` for other keys, if the program has a
-/// terminal. A lone Esc is known 20 ms after it. The terminal settings are restored when the
+/// terminal. A single Esc is recognised after 20 ms. The terminal's settings are restored when the
 /// program is asked to end.
 class RigKeys {
  public:
-  /// Both are called in a thread of its own.
+  /// Both functions are called in the reader's own thread.
   RigKeys(std::function<void()> stop, std::function<void(const Key&)> other, const Stop& ended);
   ~RigKeys();
   RigKeys(const RigKeys&) = delete;

@@ -6,17 +6,17 @@
 
 namespace microswarm::cli {
 
-/// Operates a session by keys: p pauses and resumes, m takes over and gives back, arrows or w, a,
-/// s, d steer, + and - set the speed, q ends.
+/// Operates a session by keys: p pauses and resumes, m toggles manual steering, arrows or w, a, s,
+/// d steer, + and - set the speed, q ends.
 class RigOperator {
  public:
-  /// What note_how_to_stop() says of them.
+  /// Description of the keys for note_how_to_stop().
   static constexpr const char* keys =
       "; q: end, p: pause, m: by hand with the arrow keys, + and -: speed";
 
-  /// The session must outlive it.
+  /// The session must outlive the operator.
   explicit RigOperator(LiveSession& session);
-  /// Called in any one thread.
+  /// To be called from one thread.
   void press(const Key& key);
 
  private:
@@ -24,7 +24,7 @@ class RigOperator {
   void steer(double degrees);
 
   Operation& operation_;
-  double share_ = 0.5;  // of the swarm's speed
+  double share_ = 0.5;  // share of the swarm's maximum speed
 };
 
 }  // namespace microswarm::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `rig run`: a scenario on a rig, in real time.
+// `rig run` runs a scenario on a rig in real time.
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -38,9 +38,11 @@ void tell(const RigTiming& t) {
     print("  robots were unseen in {} frames, at most {} of them\n", t.unseen_frames,
           t.most_unseen);
   if (t.direction)
-    print("  the swarm went {:.0f} % of its commanded way, {:+.1f} ± {:.1f}° from it\n",
-          100 * t.direction->share, degrees(t.direction->angle), degrees(t.direction->sd));
-  if (t.resumed > 0) print("  the coils had been off by themselves {} times\n", t.resumed);
+    print(
+        "  the swarm moved {:.0f} % of the commanded distance, {:+.1f} ± {:.1f}° off its "
+        "direction\n",
+        100 * t.direction->share, degrees(t.direction->angle), degrees(t.direction->sd));
+  if (t.resumed > 0) print("  the coils had switched off by themselves {} times\n", t.resumed);
 }
 
 nlohmann::ordered_json timing_json(const RigTiming& t, const std::optional<RecordedVideo>& video) {
@@ -80,7 +82,7 @@ nlohmann::ordered_json timing_json(const RigTiming& t, const std::optional<Recor
   return json;
 }
 
-/// Notes on stderr if the connection or the computer is too slow for the field.
+/// Warns on stderr if the connection or the computer is too slow for the field.
 void note_pace(const RigTiming& t, double seconds, const RigParams& rig) {
   const double rate = static_cast<double>(t.round_trip.count()) / std::max(seconds, 1e-3);
   if (seconds < 1 || rate >= 0.8 * rig.drive_rate) return;
@@ -90,7 +92,7 @@ void note_pace(const RigTiming& t, double seconds, const RigParams& rig) {
       rate, rig.drive_rate, rig.field.frequency);
 }
 
-/// Note on stderr if the swarm goes in another direction than its commands.
+/// Warns on stderr if the swarm moves in another direction than commanded.
 void note_direction(const RigTiming& t) {
   constexpr double turned = 8 * pi / 180;  // smaller angles are corrected by the navigator
   constexpr double certain = 3;            // standard deviations
@@ -98,35 +100,37 @@ void note_direction(const RigTiming& t) {
       std::abs(t.direction->angle) < certain * t.direction->sd)
     return;
   note(
-      "note: the swarm goes {:.0f} ± {:.0f}° {} of its commands: is the camera turned against the "
+      "note: the swarm moves {:.0f} ± {:.0f}° {} of its commands: is the camera turned against the "
       "coils (scale.rotation_deg)?\n",
       std::abs(degrees(t.direction->angle)), degrees(t.direction->sd),
       t.direction->angle > 0 ? "left" : "right");
 }
 
-/// Notes on stderr if the limits of the coils or of the device weakened the field.
+/// Warns on stderr if the limits of the coils or of the device weakened the field.
 void note_limits(const RigTiming& t) {
   if (t.unmade > 0)
     note(
-        "note: these coils cannot make the field in {} of {} sendings, see `microswarm rig "
+        "note: these coils cannot make the field in {} of {} outputs, see `microswarm rig "
         "check`\n",
         t.unmade, t.round_trip.count());
   if (t.limited > 0)
-    note("note: the coils' limits weakened the field in {} of {} sendings, to {:.0f} % at least\n",
-         t.limited, t.round_trip.count(), 100 * t.min_scale);
+    note(
+        "note: the coils' limits weakened the field in {} of {} outputs, to a minimum of {:.0f} "
+        "%\n",
+        t.limited, t.round_trip.count(), 100 * t.min_scale);
   if (t.scaled > 0)
-    note("note: the device weakened the currents in {} of {} sendings, to {:.3g} % at least\n",
+    note("note: the device weakened the currents in {} of {} outputs, to a minimum of {:.3g} %\n",
          t.scaled, t.round_trip.count(), 100 * t.min_device_scale);
 }
 
-/// Says it as it happens when the coils had been off by themselves, or the device weakens their
-/// currents; the latter not again while it lasts or soon comes again.
+/// Reports during the run that the coils had switched off by themselves or that the device weakens
+/// their currents; the latter once as long as it lasts or soon recurs.
 class DeviceNotes : public RunListener {
  public:
   explicit DeviceNotes(const LiveSession& session) : session_(session) {}
   void on_tick(const Tick& tick) override {
     const int resumed = session_.resumed();
-    if (resumed > resumed_) note("note: the coils had been off by themselves; armed again\n");
+    if (resumed > resumed_) note("note: the coils had switched off by themselves; armed again\n");
     resumed_ = resumed;
     const int weakened = session_.weakened();
     if (weakened == weakened_) return;
@@ -138,7 +142,7 @@ class DeviceNotes : public RunListener {
   }
 
  private:
-  static constexpr double quiet = 10;  // [s] without, after which it is said again
+  static constexpr double quiet = 10;  // [s] without weakening, after which it is reported again
 
   const LiveSession& session_;
   int resumed_ = 0;
@@ -146,8 +150,7 @@ class DeviceNotes : public RunListener {
   double weakened_at_ = -infinity;  // [s]
 };
 
-/// Throws InputError if the folder has an experiment, also one that was killed, or there is a
-/// video.
+/// Throws InputError if the folder has an experiment, even a killed one, or the video exists.
 void require_new(const std::filesystem::path& folder, const std::filesystem::path& video) {
   std::vector<std::filesystem::path> files;
   if (!folder.empty())
@@ -175,7 +178,7 @@ void note_virtual_obstacles(const RigExperiment& on) {
     note("note: {} obstacles of the scenario count only where the camera sees them\n", count);
 }
 
-/// Steps a session to its end with its status in a line.
+/// Steps a session to its end with a status line.
 void drive(LiveSession& session, const Stop& stop) {
   DeviceNotes notes(session);
   session.listen(notes);
@@ -205,7 +208,7 @@ struct RigRunOptions {
   bool json = false;
 };
 
-/// Throws InputError unless a person knows what the coils are driven for and can stop them.
+/// Throws InputError unless driving the coils is intended and somebody can stop them.
 void require_person(const Rig& rig, const RigRunOptions& o) {
   if (o.dry_run || !has_coil_device(rig)) return;
   require_emergency_stop(o.coils);
@@ -215,7 +218,7 @@ void require_person(const Rig& rig, const RigRunOptions& o) {
                          "driven for a drawn swarm; for a test, run with --drawn-swarm");
 }
 
-/// Runs a session to its end while a person may operate it by keys. Returns what was lost, see
+/// Runs a session to its end, operated by keys. Returns which data was lost, see
 /// LiveSession::close().
 std::string operate(LiveSession& session, bool drives_coils, std::optional<double> seconds,
                     const Context& context) {
@@ -247,7 +250,7 @@ int rig_run(const RigRunOptions& o, const Context& context) {
   LiveSession& session = *opened;
   note_each(session.warnings());
   note_virtual_obstacles(on);
-  if (o.dry_run) note("dry run: nothing goes to the coils\n");
+  if (o.dry_run) note("dry run: no current is sent to the coils\n");
   const auto growing = grow_record(session, o.out);
   std::string lost = operate(session, has_coil_device(on.rig) && !o.dry_run, o.seconds, context);
   const std::optional<RecordedVideo> video = session.video();

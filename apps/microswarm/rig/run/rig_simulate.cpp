@@ -23,11 +23,11 @@ namespace {
 struct Pair {
   std::string scenario;
   std::string rig;
-  std::vector<std::string> settings{};  ///< of the scenario
+  std::vector<std::string> settings{};  ///< settings of the scenario
   std::vector<std::string> rig_settings{};
 };
 
-/// Default scenarios: every kind of navigator, scenarios of the papers.
+/// Default scenarios: every kind of navigator, in the papers' scenarios.
 std::vector<Pair> usual_pairs() {
   const std::string papers = (scenario_folder() / "papers").string() + "/";
   const std::string rigs = (scenario_folder() / "rigs").string() + "/";

@@ -13,7 +13,7 @@
 namespace microswarm::cli {
 namespace {
 
-/// A part of the line; the one of the highest rank is left out first.
+/// A part of the line; the part with the highest rank is omitted first.
 struct Part {
   int rank = 0;
   std::string text;

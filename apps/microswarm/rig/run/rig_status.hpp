@@ -9,15 +9,15 @@
 
 namespace microswarm::cli {
 
-/// A run's status in one line of at most `columns`; what matters least is left out first.
+/// Status of a run in one line of at most `columns`; the least important parts are omitted first.
 std::string status_text(const LiveStatus& status, std::size_t columns);
 
-/// The status of a live session as a line on stderr, renewed five times a second at most.
+/// Status of a live session as a line on stderr, updated at most five times a second.
 class RigStatusLine {
  public:
-  /// The session must outlive it.
+  /// The session must outlive the line.
   explicit RigStatusLine(const LiveSession& session) : session_(session) {}
-  /// Called after each tick.
+  /// To be called after each tick.
   void update();
 
  private:

@@ -27,7 +27,7 @@ class Trips {
     std::erase_if(times_, [&](double before) { return before < t - limits_.trip_window; });
     times_.push_back(t);
     if (std::ssize(times_) <= limits_.max_trips) return {};
-    return fmt::format("the coils had been off by themselves {} times in {:g} s, allowed {}",
+    return fmt::format("the coils had switched off by themselves {} times in {:g} s, allowed {}",
                        times_.size(), limits_.trip_window, limits_.max_trips);
   }
 

@@ -83,7 +83,7 @@ class Watch {
     const std::string limited = limits_.take(moment.t, moment.output);
     misses_ = status == DriveStatus::no_answer ? misses_ + 1 : 0;
     if (misses_ >= max_missed_answers) return trouble_of(driver, status);
-    if (status == DriveStatus::resumed) return "the coils had been off by themselves";
+    if (status == DriveStatus::resumed) return "the coils had switched off by themselves";
     return trouble_of(status).empty() ? limited : trouble_of(driver, status);
   }
 

@@ -154,8 +154,8 @@ std::vector<RigCheck> check_driver(CoilDriver& driver, const Rig& rig, double se
                    "p99)",
                    times.count(), failures, quantiles(times))});
   if (resumed > 0)
-    checks.push_back(
-        {"driver", false, fmt::format("the coils had been off by themselves {} times", resumed)});
+    checks.push_back({"driver", false,
+                      fmt::format("the coils had switched off by themselves {} times", resumed)});
   const std::string stopped = driver.stop_trouble();
   checks.push_back({"stop", zero && stopped.empty(),
                     !zero             ? "not confirmed"
