@@ -29,8 +29,8 @@ using Cycles = std::vector<std::vector<double>>;
 
 constexpr int cycles_a_turn = 5;
 
-/// What every language is given: a file of the observations, as many numbers a line as the next.
-/// Each prints the time of each step, a cycle a line.
+/// Step programs. Each reads a file of observations, with equally many numbers in every line, and
+/// prints the time of each step, a cycle a line.
 constexpr const char* python_steps = R"(
 import sys, time
 import numpy as np
@@ -201,7 +201,7 @@ std::vector<double> medians(const Cycles& cycles) {
   return all;
 }
 
-/// What a step takes longer than in C++: the median over the steps of the difference.
+/// Additional time of a step compared with C++: median of the differences.
 double more_than(const Cycles& cpp, const Cycles& other) {
   const std::vector<double> plain = medians(cpp);
   std::vector<double> more = medians(other);

@@ -32,7 +32,7 @@ void require_solved(bool solved) {
   if (!solved) throw std::runtime_error("bench: a query was not solved");
 }
 
-/// Times [ms] of exact queries that begin anew.
+/// Times [ms] of exact queries without kept tangents.
 std::vector<double> anew_times(const Map& map, double clearance,
                                const std::vector<PathQuery>& queries, const Stop& stop) {
   std::vector<double> ms;
@@ -93,7 +93,7 @@ std::vector<Vec2> points_along(const std::vector<Vec2>& path, double step) {
   return points;
 }
 
-/// Times [ms] in which a tree tells the lengths from these places, where there is a path.
+/// Times [ms] of a tree's length queries from these positions, if there is a path.
 std::vector<double> tree_times(ShortestPathTree& tree, std::span<const Vec2> places,
                                const Stop& stop) {
   std::vector<double> ms;

@@ -28,10 +28,10 @@ namespace {
 
 using CountedTimes = std::vector<std::pair<double, double>>;  ///< by a number of things
 
-/// How times grow with the number of things.
+/// Growth of times with a number of objects.
 struct Growth {
   std::string name;
-  std::string of;  ///< what is counted
+  std::string of;  ///< the objects counted
   std::string unit;
   std::string peer;
   double aim = 1;  ///< the exponent, at most
@@ -174,7 +174,7 @@ Growth of_vertices(bool quick, const Stop& stop) {
   return growth;
 }
 
-/// What is asked of maps that grow by as many shapes.
+/// Growth of map queries with the number of shapes.
 std::vector<Growth> of_shapes(bool quick, const Stop& stop) {
   constexpr double clearance = 10;
   Growth loads{.name = "a map made", .of = "shapes", .unit = "ms", .peer = {}, .aim = 1.1};

@@ -44,7 +44,7 @@ class RunningLab {
   std::thread thread_;
 };
 
-/// What clients got while a session played.
+/// Messages that clients received while a session played.
 struct Watched {
   double share = 0;    ///< of a core, for the server beside the simulation
   double slowest = 0;  ///< frames a second of the client with the fewest

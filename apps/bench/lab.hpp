@@ -10,11 +10,11 @@
 
 namespace microswarm::bench {
 
-/// Benchmarks the lab: its server with clients of its own, and its page in a browser, if there are
-/// Node.js, Chromium and the packages of web/; `scenarios` is the folder of the shipped ones.
+/// Benchmarks the lab: its server with simulated clients, and its page in a browser, if Node.js,
+/// Chromium and the packages of web/ are available; `scenarios` is the folder of the shipped ones.
 std::vector<BenchRow> lab(const std::filesystem::path& scenarios, bool quick, const Stop& stop);
 
-/// What web/bench.mjs measures; empty, and a note on stderr, where there is no browser.
+/// Rows measured by web/bench.mjs; empty, with a note on stderr, without a browser.
 std::vector<BenchRow> lab_in_browser(const std::filesystem::path& checkout, bool quick);
 
 }  // namespace microswarm::bench

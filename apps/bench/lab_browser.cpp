@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a program prints; empty if it fails.
+/// Output of a program; empty if it fails.
 std::string output_of(const std::string& command) {
   std::string text;
   FILE* const pipe = ::popen(command.c_str(), "r");

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Latency of a run of `seconds` as its record tells it.
+/// Latency of a run of `seconds`, from its record.
 RigLatency latency_of_run(const fs::path& scenarios, const fs::path& program, int seconds) {
   const TemporaryFolder folder;
   const std::string command = fmt::format(

@@ -17,7 +17,7 @@ struct Type;
 using Notes = std::vector<std::string>;
 
 /// Renames the former keys in a parsed document of this type and moves the keys listed in `moved`.
-/// Lines and columns stay. A former key beside its present one is left alone and becomes an error.
+/// Lines and columns stay. A former key next to its current one is kept and becomes an error.
 void use_present_keys(const Type& type, YamlNode& document, std::string_view name,
                       std::span<const MovedKey> moved, Notes& notes);
 

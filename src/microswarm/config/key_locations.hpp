@@ -19,8 +19,8 @@ namespace microswarm {
 /// Positions of the keys of a parameter file, for issues found after reading.
 class KeyLocations {
  public:
-  /// What to look up: the location of a key or anything in it; the location to report something
-  /// missing in it; the key itself, only if it is given.
+  /// Kind of location: of a key or anything in it; for reporting something missing in it; of the
+  /// key itself, only if it is given.
   enum class Seek { all_of_it, missing_in_it, itself };
   /// Location that a message begins with: "flight.yaml:12:3"; nothing for a key that is not given.
   using Find = std::function<std::optional<std::string>(std::string_view key, Seek seek)>;

@@ -54,7 +54,7 @@ void enter_key(Place& place, const YamlNode& word, const ValueReader& reader) {
   place = {field->type, field->info, field->key, field->in(place.value)};
 }
 
-/// Enters the part of that name or index; returns its present name.
+/// Enters the part of that name or index; returns its current name.
 std::string enter(Place& place, std::string_view word, const ValueReader& reader) {
   const YamlNode node = word_node(word);
   enter_content(place);

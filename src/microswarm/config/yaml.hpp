@@ -21,7 +21,7 @@ namespace microswarm {
 
 inline constexpr std::size_t max_yaml_bytes = 16 << 20;
 
-/// Reads YAML text into the value and returns the document with its present keys. Values not given
+/// Reads YAML text into the value and returns the document with its current keys. Values not given
 /// by the text are kept. Throws InputError for text that is no YAML. Mistakes in keys and values go
 /// into `mistakes`; the overload without it throws them, one line each. A value with a mistake is
 /// unchanged or partly read.
@@ -65,7 +65,7 @@ T read_yaml_file(const std::filesystem::path& path) {
 /// dots, list entries by index, then a value as in a file (text needs no quotes). Setting a
 /// variant's `type` to another alternative resets it to that alternative's defaults; its other keys
 /// can only be set once it is chosen. Errors are as in a file, after "--set planner.stpe_um: ", and
-/// leave `value` unchanged. Returns the assignment with its present keys; nothing for a key that no
+/// leave `value` unchanged. Returns the assignment with its current keys; nothing for a key that no
 /// longer has a meaning.
 template <HasFields T>
 std::optional<std::string> set_value(T& value, std::string_view assignment, std::string_view option,

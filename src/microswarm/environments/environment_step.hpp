@@ -3,7 +3,7 @@
 
 namespace microswarm {
 
-/// What a step of an environment for learning brought.
+/// Result of a step of an environment for learning.
 struct EnvironmentStep {
   double reward = 0;
   bool terminated = false;  ///< the episode has come to its own end

@@ -22,8 +22,8 @@ struct Interval {
   double to;
 };
 
-/// Where two circles cross. Counter-clockwise from `first` to `last`, circle a is within b; from
-/// `last` to `first`, b is within a.
+/// Crossing points of two circles. Counter-clockwise from `first` to `last`, circle a is within b;
+/// from `last` to `first`, b is within a.
 struct CirclesCross {
   Vec2 first;
   Vec2 last;
@@ -77,7 +77,7 @@ class ArcSum {
 
  private:
   static constexpr std::uint32_t query = ~std::uint32_t{0};
-  /// Where an edge crosses a circle, and the change of the polygons' winding number there,
+  /// Crossing of an edge and a circle, with the change of the polygons' winding number there,
   /// counter-clockwise.
   struct Crossing {
     std::uint32_t circle;

@@ -25,7 +25,7 @@ class EdgeGrid {
            double cell = 0) {
     assign(edges, body_of, cell);
   }
-  /// Same as constructing anew, but reuses the memory.
+  /// Same as constructing, but reuses the memory.
   void assign(std::span<const Segment> edges, std::span<const std::uint32_t> body_of,
               double cell = 0);
 

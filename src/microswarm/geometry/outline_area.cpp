@@ -65,7 +65,7 @@ class Outline {
     double from;
     double to;
   };
-  /// Where an edge crosses a disc's outline, and the change of the winding number of the polygons
+  /// Crossing of an edge and a disc's outline, with the change of the polygons' winding number
   /// there, counter-clockwise.
   struct Crossing {
     std::uint32_t disc;

@@ -11,7 +11,7 @@ namespace microswarm {
 
 /// Growing set of points in the plane with exact nearest-neighbour and radius queries. It is a
 /// bucket quadtree: cells are split where points are dense, so empty regions and clusters cost
-/// little, whatever the order of insertion. A point's index is its position in the order of
+/// little, independent of the order of insertion. A point's index is its position in the order of
 /// insertion. Ties go to the lower index, so answers do not depend on the grid. Queries are
 /// thread-safe.
 class PointGrid {

@@ -120,7 +120,7 @@ class RayView {
             .doubt2 = doubt_ / std::sqrt(apart2),
             .exist = true};
   }
-  /// What is above a ray is to its left, or to its right for one who looks to the left.
+  /// Sides of an end: above a ray is its left, or its right if the rays point to the left.
   Sides sides(const Limits& end, const RayBounds& bounds) const {
     if (!end.exist) return {true, true};
     const bool is_above = bounds.hold(end.below, end.doubt2);

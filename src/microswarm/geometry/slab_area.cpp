@@ -317,12 +317,12 @@ class Slabs {
   const Stop& stop_;
   std::pmr::vector<double> events_;
   std::pmr::vector<Piece> pieces_;        ///< by where they begin
-  std::pmr::vector<std::uint32_t> near_;  ///< of them, at the present x
+  std::pmr::vector<std::uint32_t> near_;  ///< of these, at the current x
   std::pmr::vector<std::uint32_t> polygons_;
   std::pmr::vector<Curve> curves_;
   std::pmr::vector<std::uint32_t> waiting_;  ///< curves by where they begin
   std::size_t next_ = 0;                     ///< of them
-  std::pmr::vector<Crossed> order_;          ///< in the present slab, upwards
+  std::pmr::vector<Crossed> order_;          ///< in the current slab, upwards
   std::pmr::vector<LevelEdge> level_edges_;
   std::pmr::vector<int> windings_;
 };

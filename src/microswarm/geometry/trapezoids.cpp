@@ -87,7 +87,7 @@ class Trapezoids::Sweep {
     close(lower, point);
     for (auto it = first; it != last; ++it) {
       close(upper = it->cell, point);
-      // One that only touches the point goes on behind it.
+      // A segment that only touches the point continues behind it.
       if (made_.segments_[it->segment].b != p) begins_.push_back(it->segment);
     }
     const std::uint32_t top = cells[upper].top;
@@ -248,8 +248,8 @@ void Trapezoids::Look::begin(const Trapezoids& cells, Vec2 from, Vec2 to, double
   put_off(here, false);
 }
 
-/// What is beyond is seen through the cone across the wall at x, and a way ends at most `keep` from
-/// it. The shortest way to the goal over the wall goes straight, or is reflected in it.
+/// Space beyond the wall at x is visible through the cone, and a path passes it at most `keep`
+/// away. The shortest path to the goal over the wall is straight, or reflected in it.
 double Trapezoids::Look::length_over(const Cone& cone, bool rightwards) const {
   const Cell& cell = cells_->cells_[cone.cell];
   const Vec2 s = rays_.centre;

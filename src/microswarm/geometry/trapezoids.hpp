@@ -52,7 +52,7 @@ class Trapezoids {
   /// Looks along the rays from a place or an end of segments, with a circle in which there is
   /// nothing else: calls point(number, sides) for every end that may be passed closely, and
   /// cell(number, sides_of) for every cell that is passed, for some repeatedly. sides_of(disc)
-  /// tells on which sides a disc in the cell may be passed closely. Rays that differ by less than
+  /// returns on which sides a disc in the cell may be passed closely. Rays that differ by less than
   /// 1e-9 rad are the same.
   template <class OnPoint, class OnCell>
   void look_around(const Rays& rays, OnPoint&& point, OnCell&& on_cell) const;
@@ -71,7 +71,7 @@ class Trapezoids {
  private:
   class Sweep;
 
-  /// What is seen of a cell from a place: the directions between those to two points.
+  /// Visible part of a cell from a point: the directions between those to two points.
   struct Cone {
     std::uint32_t cell;
     std::uint32_t lower = none;  ///< point; none: straight down
@@ -111,7 +111,7 @@ class Trapezoids {
 /// Order from left to right, of equal x from below.
 inline bool is_left_of(Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
 
-/// What is seen of a cell from a disc: the rays within the bounds.
+/// Visible part of a cell from a disc: the rays within the bounds.
 struct Trapezoids::Beam {
   std::uint32_t cell;
   bool goes_back = false;  ///< some of its rays, as far as they are seen

@@ -18,7 +18,7 @@ namespace microswarm {
 
 /// HDF5 file built in memory from plain one-dimensional datasets, which every HDF5 reader accepts.
 /// The same calls give the same bytes. Groups are created with their contents. Several
-/// threads may use writers and readers of their own; HDF5 works for one of them at a time.
+/// threads may each use their writers and readers; HDF5 serves one of them at a time.
 class Hdf5Writer {
  public:
   virtual ~Hdf5Writer() = default;
@@ -70,7 +70,7 @@ class Hdf5Reader {
   std::string name_;
 };
 
-/// What the module does. Its functions may be called from several threads at once.
+/// Interface of the module. Thread-safe.
 class Hdf5 {
  public:
   virtual ~Hdf5() = default;

@@ -33,10 +33,10 @@ Eigen::Matrix<double, 3, 5> field_of_gradients(const Eigen::Vector3d& off) {
   return m;
 }
 
-/// What is measured as a linear function of what is fitted. Without gradients the axes are apart:
-/// a row for each measurement, a column for each source, three right-hand sides. With them a
-/// measurement has three rows, a source 3 + 5 columns, and there is one right-hand side. A source
-/// is a coil or the field at zero current; all columns are scaled to be at most about 1.
+/// Design matrix of the linear fit. Without gradients the axes are independent: a row for each
+/// measurement, a column for each source, three right-hand sides. With gradients a measurement has
+/// three rows, a source 3 + 5 columns, and there is one right-hand side. A source is a coil or the
+/// field at zero current; all columns are scaled to at most about 1.
 class Design {
  public:
   Design(const FieldMeasurements& measured, const FitOptions& options)

@@ -9,11 +9,11 @@
 
 namespace microswarm {
 
-/// What is fitted besides the actuation matrix.
+/// Quantities to fit besides the actuation matrix.
 struct FitOptions {
   bool offset = false;     ///< the field at zero current, with `gradients` also its gradients
   bool gradients = false;  ///< the five independent gradients of each coil in free space
-  /// Where the matrix holds if there are gradients [µm]; empty: the middle of the positions.
+  /// Position of the matrix if gradients are fitted [µm]; default: the middle of the positions.
   std::optional<Eigen::Vector3d> centre{};
 };
 

@@ -43,7 +43,7 @@ class CoilController {
 
   /// Sets the current command.
   void command(const Command& command) { generator_.command(command); }
-  /// Sets the present temperatures of the coils [°C].
+  /// Sets the temperatures of the coils [°C].
   void warm(const Eigen::VectorXd& temperatures) { drive_.warm(temperatures); }
   const Eigen::VectorXd& temperatures() const { return drive_.temperatures(); }  ///< [°C]
   /// Sets the position at which the field is produced [µm].

@@ -15,7 +15,7 @@ struct FieldMeasurement {
   Eigen::Vector3d place;     ///< [µm]
   Eigen::Vector3d field;     ///< measured by the probe [mT]
   int line = 0;              ///< line in the file
-  /// What was commanded [A], which a device may have limited; empty if it is not known.
+  /// Commanded currents [A], which a device may have limited; empty if unknown.
   Eigen::VectorXd planned{};
 };
 

@@ -18,8 +18,8 @@ struct FieldReading {
 /// Mean and spread of readings, at least one.
 FieldReading reading_of(const std::vector<Eigen::Vector3d>& readings);
 
-/// A file of measurements that grows. It is complete after each one, whatever ends the program, and
-/// goes on where it ended before. `read_measurements` reads it.
+/// A growing file of measurements, complete after each one even if the program is killed. An
+/// existing file is continued. `read_measurements` reads it.
 class MeasurementLog {
  public:
   /// Reads the file if it is there. Throws InputError if it is damaged, or its columns are not

@@ -58,7 +58,7 @@ void attempt(Issues& issues, std::string_view key, Read&& read) {
 /// Whether `key` is `outer` or lies within it.
 bool is_in_key(std::string_view key, std::string_view outer);
 
-/// Tells whether a key is given explicitly rather than left at its default.
+/// Returns whether a key is given explicitly rather than left at its default.
 using IsGiven = std::function<bool(std::string_view key)>;
 
 /// The same for keys relative to `key`.

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where the file may be, in the order of search.
+/// Candidate paths of the file, in the order of search.
 std::vector<fs::path> places(const std::string& file_name) {
   std::vector<fs::path> all;
   const auto beside = [&](const fs::path& folder) {

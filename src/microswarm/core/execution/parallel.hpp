@@ -42,7 +42,7 @@ class ThreadTeam {
   std::vector<std::jthread> helpers_;
 };
 
-/// The same with threads of its own. `jobs` is the number of threads, 0: one per core.
+/// The same with temporary threads. `jobs` is the number of threads, 0: one per core.
 void for_each_index(std::size_t count, int jobs, const std::function<void(std::size_t)>& body);
 
 }  // namespace microswarm

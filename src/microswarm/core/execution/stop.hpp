@@ -25,7 +25,7 @@ class Stop {
   /// Whether the deadline has passed.
   bool expired() const { return deadline_ && Clock::now() >= *deadline_; }
   bool operator()() const { return requested() || expired(); }
-  /// What ends work now: `stopped`, `time_limit` or nothing.
+  /// Reason to end work now: `stopped`, `time_limit` or nothing.
   std::optional<Status> status() const {
     if (requested()) return Status::stopped;
     if (expired()) return Status::time_limit;

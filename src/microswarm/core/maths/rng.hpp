@@ -9,8 +9,7 @@
 
 namespace microswarm {
 
-/// Purpose of a random stream. Streams of different purposes never share numbers, whatever the
-/// seed.
+/// Purpose of a random stream. Streams of different purposes never share numbers, for any seed.
 enum class Purpose : std::uint32_t {
   planner = 1,
   plant,

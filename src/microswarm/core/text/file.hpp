@@ -10,7 +10,7 @@
 
 namespace microswarm {
 
-/// What a symbolic link at a file's place is good for. The links of its folder always count.
+/// Handling of a symbolic link at the target path. Links in the folder's path are always followed.
 enum class LinkAtFile {
   followed,
   refused,  ///< for reading an error; a written file takes its place

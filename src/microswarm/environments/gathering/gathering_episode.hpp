@@ -72,7 +72,7 @@ class GatheringEpisode {
   std::vector<std::uint8_t> background_;  ///< of the channel of the particles
   std::optional<MazeCosts> own_costs_;
   double length_estimate_ = 1;
-  double start_total_ = 0;  ///< what totals are measured by
+  double start_total_ = 0;  ///< reference of the totals
   double last_total_ = 0;
   double last_max_ = 0;
   int steps_ = 0;

@@ -9,7 +9,7 @@
 
 namespace microswarm {
 
-/// How particles follow an input.
+/// Motion of particles under an input.
 enum class ParticlePhysics {
   algorithmic,  ///< one cell in its direction, unless that cell is a wall
   fuzzy,        ///< the same with random errors, alike for all particles in a cell
@@ -22,7 +22,7 @@ constexpr auto enum_names(ParticlePhysics) {
        {ParticlePhysics::physical, "physical"}}};
 }
 
-/// How many particles an episode has.
+/// Number of particles in an episode.
 enum class ParticleCount {
   fixed,   ///< always as many
   random,  ///< at least one, fewer than there are free cells and than 4,500

@@ -27,8 +27,7 @@ std::uint64_t threshold(double probability) {
 
 }  // namespace
 
-/// What a step needs and leaves nothing in. A thread has one, so that many gatherings fit into its
-/// caches.
+/// Temporary memory of a step. Each thread has one, so that many gatherings fit into its caches.
 struct ParticleMotion::Scratch {
   std::vector<std::uint32_t> aims;    ///< cells into which the particles would come
   std::vector<std::uint8_t> moves;    ///< whether they do

@@ -39,7 +39,7 @@ double free_distance(const Snapshot& world, Vec2 from, Vec2 direction, double ra
 
 }  // namespace
 
-/// Commands what it is told to.
+/// Navigator that returns the agent's action.
 class NavigationEpisode::Agent final : public Navigator {
  public:
   Command command;

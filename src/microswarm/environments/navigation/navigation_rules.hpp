@@ -7,7 +7,7 @@
 
 namespace microswarm {
 
-/// What an agent that steers a swarm sees, and what it is rewarded for.
+/// Observations and rewards of an agent that steers a swarm.
 struct NavigationRules {
   static constexpr std::string_view type_name = "navigation";
   int rays = 8;

@@ -26,7 +26,7 @@ class Playback {
   std::size_t seek(std::size_t frame);
 
   const Record& record() const { return record_; }
-  /// The scenario with all changes up to the present frame.
+  /// The scenario with all changes up to the current frame.
   const Scenario& scenario() const { return scenario_; }
   const World& world() const { return world_; }
 

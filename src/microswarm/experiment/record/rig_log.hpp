@@ -13,8 +13,8 @@
 
 namespace microswarm {
 
-/// How long pictures waited for their currents on a rig: from when a picture reached the program to
-/// when the driver had the first currents that answer it.
+/// Latency of a rig: time from the arrival of a picture in the program to the driver's
+/// acknowledgement of the first currents that answer it.
 struct RigLatency {
   double median = 0;
   double p99 = 0;
@@ -35,16 +35,15 @@ struct RigLatency {
   }
 };
 
-/// What a record keeps of a run on a rig beside the run itself: under which circumstances, what
-/// went to the coils, and what the camera showed. Times are those of the record's frames [s]. No
-/// part of it is in the record's hash.
+/// Part of a record that describes the rig: circumstances of the run, currents, and detections of
+/// the camera. Times are those of the record's frames [s]. It is not part of the record's hash.
 struct RigLog {
   std::string began;                  ///< date and local time, ISO 8601
   std::string note;                   ///< of the operator
   std::string rig_file;               ///< all parameters of the rig, its scale included, as YAML
   std::string coils_file;             ///< text of the coil system's file: the calibration
   std::vector<std::string> coils;     ///< names
-  std::vector<double> driven_at;      ///< times of the sendings [s]
+  std::vector<double> driven_at;      ///< times of the outputs [s]
   std::vector<double> answered_at;    ///< when the driver had them [s]
   std::vector<double> pictured_at;    ///< when the pictures came that they answer [s]
   std::vector<double> currents;       ///< acknowledged: of all coils at the first sending, … [A]

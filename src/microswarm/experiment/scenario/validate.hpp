@@ -9,7 +9,7 @@ namespace microswarm {
 /// Issues that make a run pointless: the start or the goal in a wall ("start is 12 µm inside wall
 /// 3"), a swarm wider than every passage, a goal cut off from the start, no path with the
 /// navigator's margin, or a navigator that could never move. Robots and their goals are checked
-/// one by one. `is_given` tells which keys the scenario sets.
+/// one by one. `is_given` returns whether the scenario sets a key.
 Issues validate(const Scenario& scenario, const World& world, const IsGiven& is_given = {});
 
 /// The path check alone: an issue if a swarm of `radius` [µm] cannot get from one free point of a

@@ -18,7 +18,7 @@ class LinkedHdf5 : public Hdf5 {
 }  // namespace
 }  // namespace microswarm
 
-/// What write_hdf5 and read_hdf5 look up.
+/// Symbol that write_hdf5 and read_hdf5 look up.
 extern "C" const microswarm::Hdf5* microswarm_hdf5() {
   static const microswarm::LinkedHdf5 only;
   return &only;

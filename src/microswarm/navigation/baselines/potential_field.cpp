@@ -98,7 +98,7 @@ Vec2 PotentialFieldNavigator::push_of_walls(const Map& map, Vec2 p) const {
 
 /// −∇ of ½ k g₀ (g₀ / g − 1)² with g = gap − reaction time · closing speed: away from the nearest
 /// point, and sideways in the direction in which the two already pass each other. `wanted` is the
-/// swarm's velocity without obstacles. Using its present velocity, it would oscillate in front of
+/// swarm's velocity without obstacles. Using its current velocity, it would oscillate in front of
 /// resting obstacles.
 Vec2 PotentialFieldNavigator::push_of(const Body& body, const TrackedBody& motion, Vec2 p,
                                       Vec2 wanted) const {

@@ -5,7 +5,7 @@
 
 namespace microswarm {
 
-/// Constants of PotentialFieldNavigator that seldom need a change.
+/// Constants of PotentialFieldNavigator that rarely need a change.
 struct PotentialFieldTuning {
   double max_proximity = 20;
   double stencil = 5;

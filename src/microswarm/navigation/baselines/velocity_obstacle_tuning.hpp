@@ -5,7 +5,7 @@
 
 namespace microswarm {
 
-/// Constants of VelocityObstacleNavigator that seldom need a change.
+/// Constants of VelocityObstacleNavigator that rarely need a change.
 struct VelocityObstacleTuning {
   double growth_time = 1;
   double route_reach = 400;

@@ -20,8 +20,8 @@ Issues validate(const AggregationParams& params);
 class AggregationNavigator : public Navigator {
  public:
   /// `robots`: their known properties; `tick` [s] between two commands. It continues until the mean
-  /// path length to the goal is at most half of `goal_tolerance` [µm], whatever measure the task
-  /// uses.
+  /// path length to the goal is at most half of `goal_tolerance` [µm], independent of the task's
+  /// measure.
   AggregationNavigator(const AggregationParams& params, const RobotSwarmParams& robots, Vec2 goal,
                        double goal_tolerance, double tick, Rng rng,
                        double frame_timeout = default_frame_timeout);

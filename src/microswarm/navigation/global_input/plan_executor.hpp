@@ -26,7 +26,7 @@ class PlanExecutor : public Navigator {
   void overruled(double now, const Command& command) override { steering_.overruled(now, command); }
   NavigatorView view() const override { return steering_.view(); }
 
-  /// Executes this plan instead of one of its own, as long as it leads to the goals.
+  /// Executes a given plan instead of planning, as long as it leads to the goals.
   void play(GlobalPlan plan) { plan_ = std::move(plan); }
 
  private:

@@ -52,7 +52,7 @@ class HierarchicalNavigator : public Navigator {
   bool replan_in_time(const Snapshot& seen, double clearance, const Stop& stop);
   void plan_to(const Snapshot& world, Vec2 target, double clearance, const Stop& stop);
   Vec2 towards();
-  /// How far ahead the route is looked along, and the goal is headed for itself if in sight [µm].
+  /// Look-ahead along the route [µm]; within it a visible goal is the target.
   double ahead() const { return 1.5 * params_.target.base_distance; }
   /// Simulates `steer(pose, seconds) → command` for the horizon.
   template <class Steer, class Visit>
@@ -89,7 +89,7 @@ class HierarchicalNavigator : public Navigator {
   Rng rng_;
   SteeringCycle steering_;
   DistanceField route_;
-  std::optional<Vec2> via_;  ///< point of the route ahead of the present pose, once asked for
+  std::optional<Vec2> via_;  ///< point of the route ahead of the current pose, computed on demand
   double slack_ = 1;         ///< kept besides the clearance, for what happens within a tick [µm]
   double period_ = 0.1;      ///< between the last two commands [s]
 

@@ -8,7 +8,7 @@
 
 namespace microswarm {
 
-/// Constants of HierarchicalNavigator that seldom need a change.
+/// Constants of HierarchicalNavigator that rarely need a change.
 struct HierarchicalTuning {
   std::vector<double> speed_shares{1, 0.5, 0.25};
   double check_step = 0.1;

@@ -12,13 +12,13 @@ namespace microswarm {
 
 /// Input of the target selection among predicted obstacles.
 struct PredictedTargetQuery {
-  Pose2 swarm;                           ///< where it will be when the command takes effect
+  Pose2 swarm;                           ///< predicted pose when the command takes effect
   double delay = 0;                      ///< from the frame until then [s]
   double speed = 0;                      ///< [µm/s]
   Vec2 goal;                             ///< free with the clearance
   Vec2 towards;                          ///< the goal, or a point of the route to it, in sight
   double reach = 0;                      ///< farthest target [µm]
-  double min_reach = 0;                  ///< nearest target, but for the goal [µm]
+  double min_reach = 0;                  ///< minimum distance of a target other than the goal [µm]
   double angle_step = 0;                 ///< between directions [rad]
   double turn_weight = 0;                ///< cost of turning [µm/rad]
   double clearance = 0;                  ///< [µm]

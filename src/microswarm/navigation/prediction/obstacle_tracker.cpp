@@ -147,7 +147,7 @@ void ObstacleTracker::extend(Trail& trail, const Body& body, Disc within) const 
 }
 
 // Compares with an outline a few frames old, since one frame's noise would be a large speed.
-// Outlines traced anew in every image have different vertices each time, so a vertex is compared
+// Outlines are traced again in every image, with different vertices, so a vertex is compared
 // with the old solid, not with an old vertex.
 void ObstacleTracker::compare_outline(Trail& trail, const Polygon& polygon, Vec2 centre) const {
   auto& [older, newer] = trail.past;

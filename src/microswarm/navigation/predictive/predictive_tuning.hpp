@@ -8,7 +8,7 @@
 
 namespace microswarm {
 
-/// Constants of PredictiveNavigator that seldom need a change.
+/// Constants of PredictiveNavigator that rarely need a change.
 struct PredictiveTuning {
   double wall_contact_cost = 200;
   double wall_proximity_cost = 1.5;

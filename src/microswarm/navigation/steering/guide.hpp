@@ -19,11 +19,11 @@ class GoalGuide {
   /// Makes the routes to `goal`: one that keeps `clearance` [µm], and one that keeps `least` for
   /// positions from which the first has no path.
   void prepare(const std::shared_ptr<const Map>& map, Vec2 goal, double clearance, double least);
-  /// What tells that a search for the route is to end.
+  /// Sets the stop that ends a search for the route.
   void stop_with(const Stop& stop) {
     for (Way& way : ways_) way.route.stop_with(stop);
   }
-  /// What to head for from `from`: the goal or a point of the route that is in sight.
+  /// Target from `from`: the goal, or a visible point of the route.
   Vec2 target(const Map& map, Vec2 from);
 
  private:

@@ -10,7 +10,7 @@
 
 namespace microswarm {
 
-/// What a navigator decides in a step.
+/// Decision of a navigator in a step.
 struct Decision {
   Command command;
   NavigatorState state = NavigatorState::hold;

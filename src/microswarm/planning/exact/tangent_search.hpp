@@ -17,7 +17,7 @@ namespace microswarm {
 ///
 /// The tangents of a circle are computed when a search first reaches it, tested when they are the
 /// best open line, and kept for later searches, which changes no result. Tangents of moving bodies
-/// are computed anew by each search. Not thread-safe.
+/// are computed by each search. Not thread-safe.
 class TangentSearch {
  public:
   static constexpr std::uint32_t none = ~0u;
@@ -29,7 +29,7 @@ class TangentSearch {
     Vec2 from;         ///< start of the line [µm]
     double leave = 0;  ///< angle of the normal at which it leaves the parent's wheel [rad]
     double arrive = 0;
-    std::uint32_t wheel = none;  ///< where it arrives; none: the goal
+    std::uint32_t wheel = none;  ///< wheel of its end; none: the goal
     std::uint16_t arc = 0;
     std::uint32_t parent = none;
     std::uint32_t next = none;  ///< next label of the same wheel

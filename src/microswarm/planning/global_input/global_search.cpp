@@ -39,7 +39,7 @@ struct Node {
   Held held;
 };
 
-/// What all rounds share.
+/// Data shared by all rounds.
 struct Problem {
   const Map& map;
   RobotStepper stepper;
@@ -79,8 +79,8 @@ struct Problem {
   Vec2 position(PointF p) const {
     return map.bounds().centre() + Vec2{static_cast<double>(p.x), static_cast<double>(p.y)};
   }
-  /// How wrong the robots stand to each other, and the way they have to go together: straight, or
-  /// where there are `fields`, the mean of their ways around the walls.
+  /// Error of the robots' relative positions, plus the common distance to move: straight, or with
+  /// `fields` the mean of their path lengths around the walls.
   double cost(HeldPlaces c, std::span<DistanceField> fields) const {
     Vec2 sum;
     double squares = 0;
@@ -179,7 +179,7 @@ class Round {
     }
   }
 
-  /// What happened in one step of all robots.
+  /// Result of one step of all robots.
   struct Advance {
     std::uint64_t hindered = 0;  ///< a bit for each robot that a wall held back
     bool is_moving = false;

@@ -9,7 +9,7 @@
 
 namespace microswarm {
 
-/// How a plan's inputs are executed, and what it must reach.
+/// Execution of a plan's inputs, and its goals.
 struct GlobalPlay {
   double robostep = 5;
   ContactRule contact = ContactRule::slide;

@@ -58,7 +58,7 @@ struct GoalAnswer {
 };
 
 /// Queries a grown tree: the node whose worst robot is nearest to its goal, the first among equals.
-/// The goals are reached if every robot is within `tolerance` [µm] of its own. Throws InputError
+/// The goals are reached if every robot is within `tolerance` [µm] of its goal. Throws InputError
 /// unless there are as many goals as robots.
 GoalAnswer ask(const GlobalTree& tree, std::span<const Vec2> goals, double tolerance);
 

@@ -32,7 +32,7 @@ class SteppedSearch : public GridSearch<SteppedSearch, SteppedCell> {
   using GridSearch::GridSearch;
 
   bool settle(Place, const SteppedCell&) const { return true; }
-  /// With an origin of its own also straight on to the target, from a place around it.
+  /// With an explicit origin, a node near the target is also joined to it by a straight line.
   std::optional<Place> arrive(Place p) {
     if (is_at_goal(p)) return p;
     const double reach = std::numbers::sqrt2 * params_.cell;

@@ -30,7 +30,7 @@ constexpr Place operator-(Place a, Place b) { return {a.column - b.column, a.row
 inline constexpr std::array<Place, 8> grid_moves{
     {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
 
-/// What is known of the place of a cell.
+/// Knowledge about a cell's position.
 enum class Mark : std::uint8_t { unknown, blocked, free, closed };
 
 /// Grid cells in tiles that are allocated on first use. One more cell stands for a start that is
@@ -252,8 +252,8 @@ class GridSearch {
   PlanCounts counts_;
 };
 
-/// Plan of `search(params, target)` on ever finer grids, as GridParams tells; `target` is a free
-/// place at the goal. `search` says no_path of a grid without a path.
+/// Plan by `search(params, target)` on successively finer grids, see GridParams; `target` is a free
+/// position at the goal. `search` returns no_path for a grid without a path.
 template <class Params, class Search>
 Plan plan_on_grids(const Snapshot& world, Pose2 start, Vec2 goal, Params params, Rng& rng,
                    const Stop& stop, Search&& search) {

@@ -14,7 +14,7 @@ namespace microswarm {
 /// from the size of the map in steps. Neither the clearance nor a turn's radius is changed, which
 /// are the swarm's, and the tolerance only falls. Where the map's corners lie on a lattice, grids
 /// and samples follow it (corner_lattice.hpp). A map without free space changes nothing.
-/// `is_given` tells which of the planner's keys are.
+/// `is_given` returns whether a key of the planner is given.
 PlannerParams fit_to_map(PlannerParams params, const Map& map, const IsGiven& is_given);
 
 /// The limit that ended a search with the status node_limit: "planner.max_nodes is 5000".

@@ -11,7 +11,7 @@
 
 namespace microswarm {
 
-/// Any planner, selected at run time by its `type`; the first unless told otherwise.
+/// Any planner, selected at run time by its `type`; the first is the default.
 using PlannerParams =
     std::variant<ExactParams, DrrtStarParams, RrtStarParams, UniformRrtStarParams, RrtParams,
                  RrtConnectParams, AStarParams, ThetaStarParams, FmtStarParams>;

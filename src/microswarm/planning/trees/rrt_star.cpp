@@ -8,7 +8,7 @@
 namespace microswarm {
 namespace {
 
-/// RRT*; `accepts(growth, p)` tells whether a node may be added at p.
+/// RRT*; `accepts(growth, p)` returns whether a node may be added at p.
 template <class Accepts>
 Plan grow_rrt_star(TreeGrowth growth, const RrtStarParams& params, Accepts&& accepts) {
   while (growth.goes_on()) {

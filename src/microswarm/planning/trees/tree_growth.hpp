@@ -75,7 +75,7 @@ class TreeGrowth {
   std::vector<HeapEntry<double>> candidates_;
 };
 
-/// Random point of the box, as TreeParams tells; one of a lattice may lie just outside.
+/// Random point of the box by TreeParams; one of a lattice may lie just outside.
 template <class Params>
 Vec2 sample_in(const Box& box, const Params& params, Rng& rng) {
   constexpr double on_lattice = 0.9;  // of the samples

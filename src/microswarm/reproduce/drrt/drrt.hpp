@@ -21,7 +21,7 @@ inline double percent_less(double ours, double theirs) {
   return theirs == 0 ? 0 : 100 * (1 - ours / theirs);
 }
 
-// The figures of [drrt], each in a file of its own.
+// The figures of [drrt], one in each file.
 
 /// The S-channel: D-RRT* as published and ours, compared with RRT*, uniform RRT* and A*.
 std::vector<ReproduceRow> drrt_fig3(const ReproduceOptions& options, const Stop& stop);

@@ -115,7 +115,7 @@ constexpr double less_turning_than_rrt = 55.1, less_turning_than_a = 75.4;  // [
 double length_median(const Outcome& o) { return median(o.length); }
 double turning_median(const Outcome& o) { return median(o.turning); }
 
-/// What every planner is held against: the shortest path, and whether one was found.
+/// Rows common to all planners: the shortest path, and whether one was found.
 void common_rows(const Outcome& o, std::vector<ReproduceRow>& rows) {
   rows.push_back(row_without_aim("", figure3, o.name + ": length over the shortest, median", "%",
                                  {}, median(o.excess)));

@@ -157,7 +157,7 @@ CameraKind camera_kind(const RigParams& rig);
 std::optional<AnyCameraParams> device_camera(const RigParams& rig);
 /// Whether the camera shows a swarm that is not there: a simulated camera, also Aravis's.
 bool shows_drawn_swarm(const RigParams& rig);
-/// How a silent, frozen or black camera of the rig is noticed.
+/// Detection of a silent, frozen or black camera of the rig.
 NewestFrameParams camera_watch(const RigParams& rig);
 
 /// Name of the rig in records.

@@ -32,10 +32,10 @@ struct Detections {
   /// "split" into parts, "merged" with another one, or too few "robots".
   std::string_view trouble;
   std::vector<double> parts;  ///< radii of what it split into or merged from [µm]
-  int unseen = 0;             ///< robots without a spot of their own or of a pile that they joined
+  int unseen = 0;             ///< robots without a spot, neither their own nor that of a pile
   double commanded_way = 0;   ///< that the command drives since the last picture [µm]
   double followed_way = 0;  ///< part of it that was seen [µm]; negative in the opposite direction
-  double across_way = 0;    ///< what was seen to its left [µm]
+  double across_way = 0;    ///< observed displacement to its left [µm]
 };
 
 /// Interface of a rig's image processing, picture by picture, in world coordinates. Walls are those

@@ -108,7 +108,7 @@ void RobotPerception::pair(double reach) {
                                edges_, reach * reach);
 }
 
-/// How far from its expected position a robot can be that was last seen some time ago.
+/// Maximum distance from its expected position of a robot that was not seen for some time [µm].
 double RobotPerception::reach_of(std::size_t robot, double t) const {
   return diameter_ + speed_margin * max_speed_ * (t - seen_at_[robot]);
 }
@@ -152,7 +152,7 @@ void RobotPerception::place_the_unpaired(double t, double reach) {
   }
 }
 
-/// Compares the motion of the robots that have spots of their own with the expected one.
+/// Compares the motion of the robots with separate spots with the expected one.
 void RobotPerception::measure_following() {
   double count = 0;
   for (std::size_t r = 0; r < before_.size(); ++r) {

@@ -83,7 +83,7 @@ SeenScene SwarmPerception::find(const Image& picture, double t) {
   return scene;
 }
 
-/// Whatever is not the swarm is a wall then.
+/// Finds the swarm; everything else is a wall.
 SwarmSighting SwarmPerception::find_beside_walls(const Image& picture,
                                                  const SwarmFinderParams& params) {
   const double radius = radii_px_.empty() ? params.look.max_radius : median(radii_px_);
@@ -100,7 +100,8 @@ std::vector<Ring> SwarmPerception::expected_discs(double t) const {
   return discs;
 }
 
-/// What is smaller than the smallest obstacle may be dirt, or an obstacle that has shrunk.
+/// Whether a region is an obstacle: a region smaller than the smallest one may be dirt, or a known
+/// obstacle that has shrunk.
 bool SwarmPerception::is_large_or_known(const SeenObstacle& seen,
                                         const std::vector<Ring>& expected) const {
   const double usual = params_.scene.obstacles.min_radius;
@@ -110,7 +111,7 @@ bool SwarmPerception::is_large_or_known(const SeenObstacle& seen,
          });
 }
 
-/// How the swarm is searched: where it can have come, and without texture if it had none.
+/// Parameters of the search for the swarm: within its reach, and without texture if it had none.
 SceneParams SwarmPerception::search(double t) const {
   SceneParams params = params_.scene;
   params.swarm.jump = reach_px(t);
@@ -194,7 +195,7 @@ double SwarmPerception::follow_distance() const {
   return radii_px_.empty() ? infinity : follow_radii * median(radii_px_) * scale_.um_per_px;
 }
 
-/// How far from its last position the swarm can be.
+/// Maximum distance of the swarm from its last position [px].
 double SwarmPerception::reach_px(double t) const {
   const double jump = params_.scene.swarm.jump;
   if (!found_) return jump;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double substep = 0.01;    // maximum integration step [s]
 constexpr double max_ripples = 2;   // standard deviations
-constexpr double min_share = 1e-3;  // of the radius, whatever the ripple
+constexpr double min_share = 1e-3;  // of the radius, for any ripple
 
 }  // namespace
 

@@ -322,7 +322,7 @@ void set_pieces(Block& b, float reach, bool is_first) {
 }
 
 /// Moves by the pieces up to the contacts, as ContactMoves::slid does, and puts the robots where
-/// they are then. Those whose move goes on stay in the block.
+/// they are then. Robots whose move continues stay in the block.
 void slide_on(Block& b, float guard, float waves, float* xs, float* ys) {
   const RobotTag d;
   const hn::RebindToSigned<RobotTag> di;

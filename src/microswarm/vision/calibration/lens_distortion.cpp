@@ -16,7 +16,7 @@ class Lens {
   Lens(int width, int height)
       : middle_{0.5 * (width - 1), 0.5 * (height - 1)}, radius_(norm(middle_ + Vec2{0.5, 0.5})) {}
   double radius() const { return radius_; }
-  /// Where a point would be seen without the distortion.
+  /// Position of a point without the distortion.
   Vec2 straightened(Vec2 at_px, double k1) const {
     const Vec2 way = at_px - middle_;
     return at_px + k1 * squared_norm(way) / (radius_ * radius_) * way;

@@ -8,8 +8,8 @@
 
 namespace microswarm {
 
-/// How much a lens bends a picture: what is seen at distance r from the picture's middle would be
-/// seen at r (1 + k1 r²) without it, where r is 1 in the corners.
+/// Radial distortion of a lens: a point at distance r from the picture's centre would be at
+/// r (1 + k1 r²) without it, where r is 1 in the corners.
 struct LensDistortion {
   double k1 = 0;            ///< above 0: barrel, below 0: pincushion
   double shift_px = 0;      ///< by which it moves the corners

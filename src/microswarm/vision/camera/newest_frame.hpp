@@ -70,7 +70,7 @@ struct CameraStatus {
   std::string why;  ///< reason in one line if silent, failed or ended early
 };
 
-/// Fetches frames in a thread of its own and keeps the newest; older ones are dropped and counted.
+/// Fetches frames in its own thread and keeps the newest; older ones are dropped and counted.
 /// Thread-safe.
 class NewestFrame {
  public:

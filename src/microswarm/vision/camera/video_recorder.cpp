@@ -118,7 +118,7 @@ struct VideoRecorder::Shared {
   }
 };
 
-/// Writes the queue in a thread of its own.
+/// Writes the queue in its own thread.
 class VideoRecorder::Writer {
  public:
   Writer(std::shared_ptr<Shared> shared, const fs::path& file, double rate)

@@ -18,7 +18,7 @@ struct RecordedVideo {
 };
 
 /// Records pictures without loss, grey as FFV1 and colour as HuffYUV, in a Matroska or AVI file,
-/// and beside it a CSV with the time of each frame. A thread of its own writes; frames that arrive
+/// and beside it a CSV with the time of each frame. Its own thread writes; frames that arrive
 /// while its queue is full are dropped and counted. During the recording both files are named
 /// NAME.part.EXTENSION.
 class VideoRecorder {

@@ -36,8 +36,8 @@ cv::Mat grown(const cv::Mat& set, double radius);
 /// lie left of it and above it; beyond the border is 0.
 cv::Mat highest_around(const cv::Mat& values, int side);
 
-/// Where two pixels hold together by a corner alone, one of the other two is set too, so that what
-/// moves in the set need not squeeze through a point.
+/// Sets one more pixel wherever two set pixels are connected by a corner only, so that nothing has
+/// to pass through a point.
 void widen_corners(cv::Mat& set);
 
 /// Distance [px] of each set pixel to the nearest unset one: radii of the largest inscribed discs.

@@ -38,7 +38,7 @@ struct Tile {
   double grey;
 };
 
-/// How often each grey occurs.
+/// Frequency of each grey value.
 using Histogram = std::array<int, 256>;
 
 /// In every other row, and every `step`th column; returns the number of pixels.

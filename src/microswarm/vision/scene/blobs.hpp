@@ -46,7 +46,7 @@ struct Blob {
   double semi_major_px = 0;  ///< of the ellipse with equal second moments
   double semi_minor_px = 0;
   double angle = 0;  ///< of the major axis [rad], from x towards y: clockwise as displayed
-  std::vector<Vec2> outline_px;  ///< where the contrast is half that of the middle
+  std::vector<Vec2> outline_px;  ///< contour of half the contrast of the centre
   double contrast = 0;           ///< median difference from the background [grey]
   double texture = 0;            ///< standard deviation of the greys inside, minus the noise [grey]
   bool is_cut = false;           ///< it extends beyond the picture or behind a wall

@@ -17,7 +17,7 @@ struct DiscSeparation {
 
 /// The discs whose images have joined in one outline: circles fitted to its points by least
 /// squares, near where they are expected and about of the expected sizes. A disc with hardly any
-/// outline of its own stays where it is expected. Empty if the circles do not explain the outline.
+/// visible outline keeps its expected position. Empty if the circles do not explain the outline.
 std::vector<Ring> separated_discs(std::span<const Vec2> outline, std::span<const Ring> expected,
                                   const DiscSeparation& limits);
 

@@ -43,10 +43,10 @@ struct SeenObstacle {
   std::variant<Disc, Polygon> shape(const CameraScale& scale) const;
 };
 
-/// What is known of the swarm before a picture is searched.
+/// Prior knowledge of the swarm in a picture.
 struct SwarmPrior {
   std::optional<Vec2> at_px{};  ///< its last position: what is farther than `jump` is not the swarm
-  double around_px = 0;         ///< from it, within which other blobs are told too
+  double around_px = 0;         ///< radius around it within which other blobs are reported too
   double min_radius_px = 0;     ///< of a smooth blob that can be the swarm
   double max_radius_px = infinity;
 };
@@ -62,7 +62,7 @@ bool fits(const Blob& smooth, const SceneParams& params, const SwarmPrior& prior
 
 /// Finds the swarm and the obstacles in a picture. Obstacles are all other regions that differ from
 /// the background, including those that touch the swarm. Where several of the `expected` discs have
-/// joined in one region, each is an obstacle of its own. `walls` and errors as in `find_swarm`.
+/// joined in one region, each is a separate obstacle. `walls` and errors as in `find_swarm`.
 SeenScene find_scene(const Image& picture, const SceneParams& params = {},
                      const SwarmPrior& prior = {}, const Mask* walls = nullptr,
                      std::span<const Ring> expected = {});

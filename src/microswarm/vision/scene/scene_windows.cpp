@@ -132,7 +132,7 @@ void WindowSearch::place_windows(const SceneParams& params) {
   }
 }
 
-/// What the windows show; if something continues beyond one, what the whole picture shows.
+/// Blobs in the windows; of the whole picture if a blob continues beyond its window.
 std::vector<Blob> WindowSearch::search(const BlobParams& look, const Mask* hidden,
                                        const std::vector<Window>& windows) const {
   std::optional<std::vector<Blob>> blobs = search_within(look, hidden, windows);

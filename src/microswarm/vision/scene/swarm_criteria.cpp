@@ -17,7 +17,7 @@ bool lies_in(const Blob& blob, const Blob& other) {
   return distance(blob.centre_px, other.centre_px) < std::max(blob.radius_px, other.radius_px);
 }
 
-/// What keeps a blob that is too small, too large or too smooth from being the swarm.
+/// Criterion that excludes a blob that is too small, too large or too smooth.
 NotSwarm refused(Blob blob, const SceneParams& params, const SwarmPrior& prior, bool smooth_count) {
   const BlobParams& look = params.swarm.look;
   NotSwarm no{.blob = std::move(blob)};

@@ -11,7 +11,7 @@
 
 namespace microswarm {
 
-/// What a blob must fulfil to be the swarm.
+/// Criteria of a swarm.
 enum class SwarmCriterion {
   min_radius,
   max_radius,

@@ -46,8 +46,8 @@ struct WallsBesideSwarm {
   std::vector<Polygon> shapes;  ///< their smooth outlines [µm]
 };
 
-/// Segments walls that may move, anew in each picture. `fixed` (the picture's size) are walls in
-/// any case. What is much darker than the walls, or lies apart from them within `reach_px` of
+/// Segments walls that may move, independently in each picture. `fixed` (the picture's size) marks
+/// known walls. A region much darker than the walls, or separate from them within `reach_px` of
 /// `swarm_px`, is the swarm. The result is without walls if the picture has only one grey.
 WallsBesideSwarm find_walls_beside(const Image& picture, const WallParams& params,
                                    const Mask& fixed, Vec2 swarm_px, double reach_px,

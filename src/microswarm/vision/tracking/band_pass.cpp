@@ -75,7 +75,7 @@ MICROSWARM_EACH_CPU void move_down(const std::uint8_t* enters, const std::uint8_
   for (int x = 0; x < count; ++x) sums[x] += enters[x] - leaves[x];
 }
 
-/// What rises from the ground by at least `least`; else 0.
+/// Contrast to the background if it is at least `least`; else 0.
 MICROSWARM_EACH_CPU void subtract(const std::int32_t* ground, int count, float top, float sign,
                                   float least, float* out) {
   for (int x = 0; x < count; ++x) {

@@ -9,12 +9,12 @@ namespace microswarm {
 
 /// A gap in the distribution of the masses of features, between noise and robots.
 struct MassGap {
-  double noise_to = 0;      ///< where the noise ends
-  double robots_from = 0;   ///< where the robots begin
+  double noise_to = 0;      ///< upper end of the noise
+  double robots_from = 0;   ///< lower end of the robots
   double min_mass() const;  ///< between them, as far from both by ratio
 };
 
-/// What the masses of all features say about noise and robots.
+/// Classification of the features' masses into noise and robots.
 struct MassKinds {
   std::optional<MassGap> gap;
   bool has_noise = false;  ///< features of both tones are as frequent: some or all are noise

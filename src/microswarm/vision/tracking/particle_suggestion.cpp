@@ -79,7 +79,7 @@ Profile profile_of(std::span<const Image> pictures, const Features& features, do
   return profile;
 }
 
-/// Diameter of a robot: where the mean grey comes back to that of the background for good.
+/// Diameter of a robot: from where on the mean grey remains that of the background.
 std::optional<int> diameter_of(const Profile& profile) {
   const std::size_t rings = profile.grey.size();
   if (rings < 6) return std::nullopt;

@@ -23,7 +23,7 @@ constexpr auto enum_names(ParticleTone) {
       {{ParticleTone::dark, "dark"}, {ParticleTone::bright, "bright"}}};
 }
 
-/// How a particle is measured.
+/// Method of measuring a particle.
 enum class ParticleShape {
   spot,  ///< centroid of its greys
   ring,  ///< circle of the opposite tone around it, as in bright field

@@ -45,7 +45,7 @@ const std::vector<TrackRow>& VideoTracker::step(const VideoFrame& frame) {
 }
 
 bool looks_like_noise(const TrackSummary& s) {
-  constexpr int min_frames = 5;  // fewer tell nothing
+  constexpr int min_frames = 5;  // fewer are not significant
   return s.frames >= min_frames && s.tracks > 10 && 2 * s.single_tracks > s.tracks;
 }
 

@@ -25,7 +25,7 @@ struct TrackResult {
 /// Receives each picture and the robots seen in it.
 using OnTracked = std::function<void(const VideoFrame&, const std::vector<TrackRow>&)>;
 
-/// Tracks picture by picture to the end of `frames`, or until `stop`. A source that tells no rate
+/// Tracks picture by picture to the end of `frames`, or until `stop`. A source without a rate
 /// has one picture a second. `source` is its name in the result. Throws InputError for inconsistent
 /// settings, and like FrameSource::next.
 TrackResult track_video(FrameSource& frames, const std::string& source,

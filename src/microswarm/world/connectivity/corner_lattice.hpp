@@ -14,7 +14,7 @@ struct CornerLattice {
 };
 
 /// The coarsest lattice on which the corners of a map's walls lie, as they do in maps made of cells
-/// or pixels: found from the corners, whatever their origin. Nothing if its pitch would be below
+/// or pixels. It is derived from the corners only. Nothing if its pitch would be below
 /// `least_pitch` [µm], which must be positive; corners count as on it within a thousandth of that,
 /// and a hundredth of them may lie elsewhere. Discs do not count.
 std::optional<CornerLattice> corner_lattice(const Map& map, double least_pitch);

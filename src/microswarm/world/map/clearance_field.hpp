@@ -47,7 +47,7 @@ class ClearanceField {
   std::size_t decide(std::span<const Vec2> places, double r, std::span<std::uint8_t> free,
                      std::span<std::uint32_t> undecided) const;
 
-  /// What `decide` needs to find a place's cell, as cell_at does, and its bounds.
+  /// Data with which `decide` finds a position's cell, as cell_at does, and its bounds.
   struct Grid {
     Vec2 origin;
     double per_cell, last_column, last_row;

@@ -129,8 +129,8 @@ void Corners::for_each_cell_at(std::span<const std::uint32_t> discs, Visit&& vis
   }
 }
 
-/// Where the discs are. Those that stand apart are around the cells like a wall; others are in
-/// the cells, where no wall hides them.
+/// Index of the discs. Separate discs bound cells as walls do; others are listed in the cells where
+/// no wall hides them.
 void Corners::index_discs(std::span<const std::uint32_t> standing,
                           std::span<const std::uint32_t> overlapping) {
   Pairs around;

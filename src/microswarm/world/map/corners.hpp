@@ -12,7 +12,7 @@
 
 namespace microswarm {
 
-/// Where a shortest path can bend: at a convex corner of a wall, or around a disc. A path with
+/// Possible bend of a shortest path: a convex corner of a wall, or a disc. A path with
 /// clearance c bends along the circle of radius `radius` + c around `centre`.
 struct Corner {
   Vec2 centre;
@@ -40,9 +40,9 @@ class Corners {
   const Trapezoids& cells() const { return cells_; }
 
   /// Calls visit(number, sides) for the corners that a path from corner `i` may lead to straight,
-  /// and for some more, for some repeatedly; sides() tells where the path may have them. It keeps
-  /// `clearance` [µm], touches a circle of radius `radius` around the corner, a little more than
-  /// that from its disc, and has it on its left.
+  /// and for some more, for some repeatedly; sides() returns on which side the path may have them.
+  /// It keeps `clearance` [µm], touches a circle of radius `radius` around the corner, a little
+  /// more than that from its disc, and has it on its left.
   template <class Visit>
   void seen_from(std::uint32_t i, double radius, double clearance, bool left, Visit&& visit) const;
   /// The same from a place, step by step, what is near the way to a goal first: see

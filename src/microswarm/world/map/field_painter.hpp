@@ -33,7 +33,7 @@ class FieldPainter {
   };
   /// Whether a block is in a polygon.
   enum class Solid { unknown, no, yes };
-  /// Where the candidates of a block begin on the stacks.
+  /// Start of a block's candidates on the stacks.
   struct Start {
     std::size_t edges, discs;
   };

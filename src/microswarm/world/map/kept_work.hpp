@@ -10,9 +10,9 @@
 
 namespace microswarm {
 
-/// What algorithms found out about a map and keep for their next query, such as tangents for one
-/// clearance. It is taken out while in use, so each user has its own; it must change no result.
-/// For several threads.
+/// Cache of algorithms for later queries on a map, such as tangents for one clearance. An entry is
+/// taken out while in use, so that each user has its own; it must not change any result.
+/// Thread-safe.
 class KeptWork {
  public:
   static constexpr std::size_t most = 4;  ///< kept at a time, the latest

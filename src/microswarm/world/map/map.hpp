@@ -30,9 +30,9 @@ class Map {
   const Box& bounds() const { return bounds_; }
   const BodySet& walls() const { return walls_; }
   const ClearanceField& field() const { return field_; }
-  /// Where shortest paths can bend. Found by the first call, about 1 µs a corner, and kept.
+  /// Possible bends of shortest paths, computed by the first call, about 1 µs a corner, and kept.
   const Corners& corners() const;
-  /// What algorithms keep for further queries on this map and its copies.
+  /// Cache of algorithms for later queries on this map and its copies.
   KeptWork& kept() const;
   /// Number of connected wall pieces.
   int pieces() const { return pieces_; }
@@ -55,7 +55,7 @@ class Map {
   /// free, else 0. `free` is as long as `places`.
   void are_free(std::span<const Vec2> places, double r, std::span<std::uint8_t> free) const;
   /// One bit for each of up to 32 places, from the lowest on: 0 if it is not free, 1 if it is or
-  /// only `is_free` can tell. Quicker than asking for each, since nothing depends on the answers.
+  /// undecided without `is_free`. Faster than single queries, since there are no branches.
   unsigned may_be_free(std::span<const Vec2> places, double r) const {
     unsigned bits = 0;
     for (std::size_t i = 0; i < places.size(); ++i) {

@@ -40,7 +40,7 @@ double BodySet::clearance(Segment s, double limit) const {
   return d > 0 && polygons_.holds(s.a) ? 0 : d;
 }
 
-// Most points that are not free are in a body, which one cell tells.
+// Most points that are not free are in a body, which one cell decides.
 bool BodySet::is_free(Vec2 p, double r) const {
   return (polygons_.empty() || !polygons_.holds(p)) && is_free_from_outside({p, p}, r);
 }

@@ -14,7 +14,7 @@
 
 namespace microswarm {
 
-/// How robots move under one input.
+/// Motion of robots under one input.
 enum class MoveRule {
   any_direction,  ///< in any direction up to a step, until they meet a wall [gather]
   cells,  ///< to a neighbouring cell, one of eight, if that is free; past corners too. Cells are a

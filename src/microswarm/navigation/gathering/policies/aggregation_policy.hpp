@@ -19,9 +19,9 @@ namespace microswarm {
 
 /// Gathers robots at the goal with one input for all: Alg 3 and 5 [gather] and dynamic shortest
 /// path. Each step chooses a leader and leads it towards the goal, or to another robot. All
-/// algorithms may be caught in a livelock, in which
-/// robots are handed to and fro: from then on random robots lead (LivelockGuard), so that no
-/// sequence of moves repeats for ever. `gather` has a limit of steps.
+/// algorithms may enter a livelock, in which robots move to and fro: from then on random robots
+/// lead (LivelockGuard), so that no sequence of moves repeats without end. `gather` limits the
+/// steps.
 class AggregationPolicy {
  public:
   /// The map must outlive it. The method `rollout` is taken as divide_and_conquer.

@@ -17,7 +17,7 @@ namespace microswarm {
 /// Dynamic shortest path of Becker, Fekete, Huang, Keldenich, Kleist, Krupke, Rieck and Schmidt,
 /// "Targeted Drug Delivery: Algorithmic Methods for Collecting a Swarm of Particles with Uniform
 /// External Forces", ICRA 2020. Of the two robots that are farthest apart by shortest path, the one
-/// farther from the goal follows the shortest path to the present place of the other, until they
+/// farther from the goal follows the shortest path to the current position of the other, until they
 /// meet; then the next two, until all robots are together. Distances are those between the cells of
 /// the map's cell rule or, without one, cells two steps wide.
 class DynamicShortestPath {

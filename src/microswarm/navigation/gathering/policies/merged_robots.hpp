@@ -34,7 +34,7 @@ class MergedRobots {
   std::span<const std::uint32_t> merge_coincident(double cell = 0);
   /// Merges cells, doubling their size from `cell` [µm], until at most `most` positions remain.
   void coarsen(std::size_t most, double cell);
-  /// The positions as robots of their own, with their counts.
+  /// The distinct positions as robots, with their counts.
   MergedRobots condensed() const;
   /// Positions of the original robots, in their order.
   Robots robots() const;

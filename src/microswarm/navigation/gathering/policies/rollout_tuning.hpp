@@ -7,7 +7,7 @@
 
 namespace microswarm {
 
-/// Constants of the rollout policy that seldom need a change.
+/// Constants of the rollout policy that rarely need a change.
 struct RolloutTuning {
   std::vector<int> change_lengths{5, 10, 20, 40, 80};
   int replan_representatives = 64;

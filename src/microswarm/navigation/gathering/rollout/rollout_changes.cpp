@@ -45,7 +45,7 @@ void go_in_one_direction(PartialPlan& partial, std::size_t steps, std::size_t mo
   simulator.follow(partial, std::vector<Vec2>(steps, move), most);
 }
 
-/// Makes the change at the present step.
+/// Makes the change at the current step.
 void change(Trial& trial, const RolloutExecution& plan, RolloutSimulator& simulator) {
   Rng& rng = trial.rng;
   PartialPlan& partial = trial.partial;

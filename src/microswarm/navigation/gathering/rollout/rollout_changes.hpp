@@ -24,10 +24,10 @@ VerifiedPlan verified(std::size_t from, std::span<const Vec2> moves, const Rollo
                       RolloutSimulator& simulator);
 
 /// The shortest of `count` plans that each have one random change in the moves left; nothing if
-/// none is shorter than the plan. Some moves are left out or replaced: by the straight way, by one
-/// robot that leads, or by one direction; or another policy takes over. All begin at one checkpoint
-/// with the same few representative robots. The half of them with less work left after equally many
-/// steps goes on to the end (sequential halving). What is shorter is simulated with all robots.
+/// none is shorter than the plan. Some moves are removed or replaced: by the straight line, by one
+/// leading robot, or by one direction; or another policy takes over. All begin at one checkpoint
+/// with the same few representative robots. The half with less remaining work after equally many
+/// steps continues (sequential halving). Shorter plans are then simulated with all robots.
 std::optional<PartialPlan> best_change(const RolloutExecution& plan, RolloutSimulator& simulator,
                                        std::size_t count, Rng& rng);
 

@@ -18,7 +18,7 @@ class RolloutExecution {
   void start(const Robots& robots, RolloutPlan&& plan);
   /// Executes the next move [µm]: moves the expected robots by the rule "stop".
   Vec2 advance(const CommonInput& input);
-  /// Replaces the steps after `partial.from` if that makes the plan shorter, and tells whether it
+  /// Replaces the steps after `partial.from` if that makes the plan shorter; returns whether it
   /// does. `partial` must have kept its checkpoints and begin after the executed moves.
   bool shorten(PartialPlan&& partial);
 

@@ -32,7 +32,7 @@ inline double mean_trial(const RolloutParams& params) {
 /// number of them.
 class RolloutLayers {
  public:
-  /// Of a state, whatever work is left.
+  /// Minimum number of trials of a state, independent of the remaining work.
   static constexpr double fewest_trials = 2;
 
   /// Starts at a checkpoint of the plan, with representative robots; the plan's own states are

@@ -50,7 +50,7 @@ class RolloutSimulator {
   void follow_until_gathered(PartialPlan& partial, std::span<const Vec2> moves, std::size_t most);
   /// The robots at one position lead to the goal, for at most `steps` steps.
   void lead(PartialPlan& partial, std::size_t place, std::size_t steps, std::size_t most);
-  /// How far a policy came.
+  /// Progress of a policy.
   enum class Pursuit { gathered, paused, too_long };
   /// Applies a policy until the robots are gathered, until that takes too many steps, or until
   /// `pause` steps, a multiple of checkpoint_interval.
@@ -61,7 +61,7 @@ class RolloutSimulator {
   /// Some random moves: one robot leads to the goal, at `first` the farthest one, or all go in one
   /// direction. Ends when all are gathered. Keeps checkpoints.
   void try_moves(PartialPlan& partial, bool first, std::size_t most, Rng& rng);
-  /// Representatives of the robots, as robots of their own with weights.
+  /// Representatives of the robots, as weighted robots.
   MergedRobots representatives(const MergedRobots& merged) const;
 
   /// The base policy.
