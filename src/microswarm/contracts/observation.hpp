@@ -36,9 +36,10 @@ struct Observation {
   double seen = 0;  ///< capture time of the frame [s]
   std::optional<SwarmPose> swarm;
   std::span<const Vec2> robots;  ///< [µm]
-  int unseen = 0;                ///< of the robots, which are where they are expected
+  int unseen = 0;                ///< number of robots not detected, at expected positions
   std::shared_ptr<const Snapshot> world;
 
+  /// Age of the frame [s].
   double age() const { return now - seen; }
 };
 

@@ -81,7 +81,7 @@ inline double path_length(const Plan& plan) {
 /// Total turning angle [rad]: Σ|Δheading| over its vertices, including the turn from
 /// `start_heading` into the first edge.
 double path_turning(std::span<const Vec2> path, double start_heading);
-/// The same without the turn at the start.
+/// The same [rad] without the turn at the start.
 double path_turning(std::span<const Vec2> path);
 /// Path from the root to `node`.
 std::vector<Vec2> path_to(std::span<const TreeNode> tree, std::uint32_t node);

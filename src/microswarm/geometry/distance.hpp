@@ -5,7 +5,7 @@
 
 namespace microswarm {
 
-/// Distance [µm] between closed sets; 0 if they share a point.
+/// Squared distance [µm²] and distance [µm] between closed sets; 0 if they share a point.
 inline double squared_distance(Vec2 p, Segment s) {
   const Vec2 along = s.b - s.a;
   const Vec2 to_p = p - s.a;
@@ -25,7 +25,7 @@ inline double distance(Vec2 p, Disc d) { return std::max(0.0, distance(p, d.cent
 inline double distance(Segment s, Disc d) {
   return std::max(0.0, distance(d.centre, s) - d.radius);
 }
-/// Distance to the boundary, negative inside.
+/// Distance to the boundary [µm], negative inside.
 double signed_distance(Vec2 p, const Polygon& polygon);
 
 /// Point of the segment nearest to `p`.

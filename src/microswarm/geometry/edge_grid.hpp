@@ -37,7 +37,7 @@ class EdgeGrid {
   /// Side of a cell [µm].
   double cell() const { return cell_; }
 
-  /// Distance from `p` to the nearest edge, or `limit` if none is nearer.
+  /// Distance [µm] from `p` to the nearest edge, or `limit` if none is nearer.
   double distance(Vec2 p, double limit) const;
   /// Index of the nearest edge within `limit`, the lowest among equals; size() if there is none.
   std::size_t nearest(Vec2 p, double limit) const;
@@ -49,7 +49,7 @@ class EdgeGrid {
   /// Whether the capsule of radius r around s is clear of every edge (distance >= r; not touching
   /// if r = 0). Exact.
   bool capsule_free(Segment s, double r) const;
-  /// Distance from the segment to the nearest edge, or `limit` if none is nearer.
+  /// Distance [µm] from the segment to the nearest edge, or `limit` if none is nearer.
   double distance(Segment s, double limit) const;
   /// Calls visit(edge index) once for every edge that may meet `box`.
   template <class Visit>

@@ -27,6 +27,7 @@ struct Box {
   Vec2 lo{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   Vec2 hi{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
 
+  /// Sides [µm].
   double width() const { return hi.x - lo.x; }
   double height() const { return hi.y - lo.y; }
   Vec2 centre() const { return 0.5 * (lo + hi); }

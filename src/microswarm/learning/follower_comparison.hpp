@@ -79,6 +79,7 @@ FollowerTask unseen_task(const ComparisonOptions& options, std::uint32_t number)
 struct LookaheadTuning {
   std::vector<double> lookahead;  ///< [s]
   std::vector<double> rms_off;    ///< [µm]
+  /// Lookahead with the smallest distance [s].
   double best() const;
 };
 LookaheadTuning tune_lookahead(const ComparisonOptions& options, const FollowerParams& follower,

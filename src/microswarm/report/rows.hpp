@@ -43,6 +43,7 @@ struct BenchRow {
 
   bool has_verdict() const { return aim || peer; }
   bool ok() const { return (!aim || reaches(*aim)) && (!peer || reaches(*peer)); }
+  /// Ratio to the peer, above 1 if ours is better; nothing without a peer.
   std::optional<double> ratio() const;
 
  private:

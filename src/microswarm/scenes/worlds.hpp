@@ -19,7 +19,7 @@ struct RawWorld {
   double field_cell = 5;  ///< coarse: fast to build, and exercises the exact queries
 
   Snapshot snapshot() const;
-  /// Distance from the segment to the nearest shape or border, by brute force.
+  /// Distance [µm] from the segment to the nearest shape or border, by brute force.
   double clearance(Segment s) const;
   double clearance(Vec2 p) const { return clearance(Segment{p, p}); }
 };

@@ -17,6 +17,7 @@ struct CellSummary {
   /// column; absent when none arrived.
   std::map<std::string, double> medians;
 
+  /// Share of the trials that arrived; 0 without trials.
   double share_arrived() const {
     return trials ? static_cast<double>(arrived) / static_cast<double>(trials) : 0;
   }

@@ -23,6 +23,7 @@ class Snapshot {
     return Snapshot(std::shared_ptr<const Map>(std::shared_ptr<void>(), &map));
   }
 
+  /// Time of the snapshot [s].
   double time() const { return time_; }
   const Map& map() const { return *map_; }
   const std::shared_ptr<const Map>& shared_map() const { return map_; }

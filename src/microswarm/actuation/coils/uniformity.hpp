@@ -36,9 +36,11 @@ struct UniformityMap {
   std::vector<double> deviation;       ///< |B − B0| / |B0|
 
   Eigen::Vector3d place(int column, int row) const;  ///< [µm]
+  /// Relative deviation at a point of the grid.
   double at(int column, int row) const {
     return deviation[static_cast<std::size_t>(row) * grid.points + column];
   }
+  /// Largest relative deviation.
   double largest() const;
   /// Distance from the centre of the farthest point inside which all points deviate by at most
   /// `share` [µm]; at most the half width.

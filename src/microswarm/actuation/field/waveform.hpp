@@ -72,6 +72,7 @@ class Waveform {
   Waveform(double amplitude, std::vector<WaveformPiece> pieces)
       : amplitude_(amplitude), pieces_(std::move(pieces)) {}
 
+  /// Time from the first piece to the end of the last [s].
   double duration() const {
     return pieces_.empty() ? 0 : pieces_.back().start + pieces_.back().duration;
   }

@@ -23,6 +23,7 @@ class NavigationTask {
   const Scenario& scenario() const { return experiment_.scenario(); }
   const World& world() const { return experiment_.world; }
   const NavigationRules& rules() const { return rules_; }
+  /// Maximum speed of the swarm [µm/s].
   double max_speed() const { return max_speed_; }
   /// Numbers of an observation: goal_x, goal_y from the swarm [µm], cosine and sine of the heading,
   /// speed [µm/s], radius [µm]; the free distance in each direction from the first, along x,
@@ -60,6 +61,7 @@ class NavigationEpisode {
   /// One tick of the scenario. After the end of an episode nothing moves.
   EnvironmentStep step(const NavigationAction& action);
 
+  /// Time since the start of the episode [s].
   double time() const { return time_; }
   const Pose2& pose() const { return pose_; }
   Vec2 goal() const { return goal_; }

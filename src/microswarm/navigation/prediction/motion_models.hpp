@@ -20,6 +20,7 @@ struct ArcSwing {
   double radius = 0;  ///< [µm]
   Oscillation way;    ///< x: arc length from heading 0 [µm]
 
+  /// Heading from the centre at `t` [rad].
   double angle(double t) const { return way.at(t).x / radius; }
   Vec2 at(double t) const { return centre + radius * unit_vector(angle(t)); }
 };

@@ -35,8 +35,9 @@ class TimeField {
   TimeField(double speed, double horizon, double step);
 
   int steps() const { return steps_; }
+  /// Duration of a step [s].
   double step() const { return step_; }
-  /// Midpoints of the half steps at which obstacles are sampled: `sample` is 0 … 2 steps() − 1.
+  /// Time of a sample [s], the midpoint of a half step; `sample` is 0 … 2 steps() − 1.
   double time_of(int sample) const { return 0.5 * step_ * (sample + 0.5); }
 
   /// Starts a field around `centre`. If the goal is smaller than a cell, the cells next to it count

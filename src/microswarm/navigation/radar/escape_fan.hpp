@@ -21,6 +21,7 @@ struct LeastGap {
   double start = 0;  ///< [µm]
   double rate = 0;   ///< [µm/s]
   double floor = 0;  ///< [µm]
+  /// Required gap at time `t` [µm].
   double at(double t) const { return std::max(start + rate * t, floor); }
 };
 

@@ -25,9 +25,9 @@ struct RadarLook {
   std::optional<Vec2> course;  ///< unit vector of the last commanded direction
   double min_cosine = -1;      ///< of the angle to it, if there is a choice
 
-  /// Distance that a predictive swarm's centre keeps from obstacles: r_s + d_f + `approach`.
+  /// Distance [µm] that a predictive swarm's centre keeps from obstacles: r_s + d_f + `approach`.
   double obstacle_reach() const { return circles.safety - step + approach; }
-  /// The same for walls and border.
+  /// The same for walls and border [µm].
   double wall_reach() const { return radius + wall_distance; }
 };
 

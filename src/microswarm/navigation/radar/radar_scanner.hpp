@@ -49,7 +49,7 @@ class RadarScanner {
   struct Outcome {
     double on_way = 0;  ///< minimum along the path
     double at_end = 0;
-    double worth() const { return on_way + at_end; }
+    double worth() const { return on_way + at_end; }  ///< [µm]
   };
 
   void note(RadarContact contact);

@@ -37,6 +37,7 @@ class RobotSteeringCycle {
   void overruled(double now, const Command& command) { compensator_->note(now, command); }
 
   const RobotSwarmParams& robots() const { return robots_; }
+  /// Time between two commands [s].
   double tick() const { return tick_; }
   /// Maximum move in a tick [µm].
   double max_move() const { return robots_.max_speed * tick_; }

@@ -62,6 +62,7 @@ class Grid {
 
   /// Whether the directory of tiles has a reasonable size.
   bool fits() const { return fits_; }
+  /// Spacing of the grid [µm].
   double cell() const { return cell_; }
   Place start() const { return start_; }
   bool holds(Place p) const {

@@ -18,13 +18,13 @@ struct PathCost {
   double per_turn = 0;     ///< λ_s [µm/rad]
   double turn_radius = 0;  ///< edges are TurnEdges of this radius [µm]; 0: straight, with corners
 
-  /// Cost of the edge from `node` to `p`.
+  /// Cost of the edge from `node` to `p` [µm].
   double edge(const TreeNode& node, Vec2 p) const {
     if (turn_radius > 0) return turned_edge(node, p);
     const double length = per_length * distance(node.position, p);
     return per_turn == 0 ? length : length + per_turn * turn(node, p);
   }
-  /// The same, given the heading at `p` on the edge, which saves finding it.
+  /// The same [µm], given the heading at `p` on the edge, which saves computing it.
   double edge(const TreeNode& node, Vec2 p, double heading) const {
     if (turn_radius > 0) return turned_edge(node, p);
     const double length = per_length * distance(node.position, p);
@@ -51,7 +51,7 @@ class SearchTree {
   std::uint32_t nearest(Vec2 p) const { return points_.nearest(p); }
   /// Replaces `out` by all nodes within `radius` of `p`, ascending.
   void near(Vec2 p, double radius, std::vector<std::uint32_t>& out) const;
-  /// Cost from the root to `p` through `node`.
+  /// Cost from the root to `p` through `node` [µm].
   double cost_via(std::uint32_t node, Vec2 p) const {
     return nodes_[node].cost + cost_.edge(nodes_[node], p);
   }

@@ -17,7 +17,7 @@ void draw_plan(const ReproduceOptions& options, const std::string& name, const s
                const Map& map, const GlobalPlan& plan, std::span<const Vec2> goals,
                double tolerance = 20);
 
-/// Minimum distance between two robots at the ends of a plan's inputs.
+/// Minimum distance [µm] between two robots at the ends of a plan's inputs.
 double min_distance(const GlobalPlan& plan);
 
 /// Solves a task by our search (beyond the paper) with several seeds; the plan of the first is

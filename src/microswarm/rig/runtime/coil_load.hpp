@@ -30,6 +30,7 @@ class RecentPeak {
     }
     peaks_[1] = std::max(peaks_[1], value);
   }
+  /// The maximum, in the unit of the values.
   double value() const { return std::max(peaks_[0], peaks_[1]); }
 
  private:

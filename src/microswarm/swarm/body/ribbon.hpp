@@ -22,6 +22,7 @@ class Ribbon {
   Ribbon(const RibbonParams& params, Pose2 start);
 
   const Pose2& pose() const { return pose_; }
+  /// Radius [µm] and commanded speed [µm/s].
   double radius() const { return params_.radius; }
   double speed() const { return active_.speed; }
   /// Advances time by `dt` seconds under `command`, which takes effect exactly `response_lag`

@@ -27,6 +27,7 @@ class Vortex {
   Vortex(const VortexParams& params, Pose2 start);
 
   const Pose2& pose() const { return pose_; }
+  /// Current radius [µm] and commanded speed [µm/s].
   double radius() const { return radius_; }
   double speed() const { return active_.speed; }
   /// Advances time by `dt` seconds under `command`, which takes effect exactly `response_lag`

@@ -25,6 +25,7 @@ class ClearanceField {
   /// cells. A cell size that gives more than 4 million cells is increased.
   ClearanceField(const Box& bounds, const BodySet& bodies, double cell = 0);
 
+  /// Side of a cell [µm].
   double cell() const { return cell_; }
   /// Width of the bracket [µm]: the cell's diagonal plus an allowance for rounding.
   double spread() const { return spread_; }

@@ -27,6 +27,7 @@ class NodeLattice {
     first_ = box.centre() - 0.5 * spacing_ * Vec2{columns_ - 1.0, rows_ - 1.0};
   }
 
+  /// Distance between neighbouring nodes [µm].
   double spacing() const { return spacing_; }
   std::uint32_t size() const { return static_cast<std::uint32_t>(columns_ * rows_); }
   Vec2 operator[](std::uint32_t node) const {

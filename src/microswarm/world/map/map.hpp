@@ -39,7 +39,7 @@ class Map {
 
   /// Distance [µm] to the nearest wall or border, 0 in a wall or outside the bounds. Exact.
   double clearance(Vec2 p) const;
-  /// The same without the border; infinity if there are no walls.
+  /// The same [µm] without the border; infinity without walls.
   double wall_clearance(Vec2 p) const;
   /// Distance [µm] from the segment to the nearest wall or border, 0 if they meet, at most `limit`.
   /// Exact.

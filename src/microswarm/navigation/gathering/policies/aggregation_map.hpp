@@ -56,6 +56,7 @@ struct RobotsOnMap {
   std::vector<std::uint32_t> nodes;   ///< nearest node of each position
   std::vector<double> ways;           ///< path length to the goal from each position [µm]
 
+  /// Number of robots at a position.
   double count(std::size_t i) const { return counts.empty() ? 1 : static_cast<double>(counts[i]); }
 };
 

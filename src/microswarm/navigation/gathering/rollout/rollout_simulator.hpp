@@ -72,9 +72,9 @@ class RolloutSimulator {
   /// The distance [µm] that must fall below σ.
   double distance_left(const MergedRobots& merged) const;
   bool gathered(const MergedRobots& merged) const { return distance_left(merged) < params_.sigma; }
-  /// Estimate of the remaining work, to compare states after equally many steps.
+  /// Estimate of the remaining work [robot-steps], to compare states after equally many steps.
   double left_to_do(MergedRobots merged) const;
-  /// Robot-steps so far.
+  /// Work so far [robot-steps].
   double work() const { return static_cast<double>(work_.load()); }
 
  private:
