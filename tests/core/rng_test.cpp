@@ -50,7 +50,7 @@ TEST(Rng, StreamIsTheCounterUnderTheKey) {
 TEST(Rng, NumbersAheadAreThoseDrawn) {
   Rng which(1, Purpose::test), plain(2, Purpose::test), ahead(2, Purpose::test);
   for (int i = 0; i < 10'000; ++i) {
-    const std::size_t count = which.below(Rng::most_ahead + 1);
+    const std::size_t count = which.below(Rng::max_ahead + 1);
     const auto seen = ahead.ahead(count);
     ASSERT_EQ(seen.size(), count);
     Rng copy = plain;

@@ -50,11 +50,11 @@ TEST(UniformIn, PointsAheadAreThoseDrawn) {
   const Box box{{-3, 7}, {11, 8}};
   Rng rng(1, Purpose::test);
   for (std::size_t i = 0; i < 1000; ++i) {
-    std::array<Vec2, Rng::most_ahead / 2> ahead;
+    std::array<Vec2, Rng::max_ahead / 2> ahead;
     look_ahead(box, rng, ahead);
     Rng copy = rng;
     for (const Vec2 p : ahead) ASSERT_EQ(p, uniform_in(box, copy));
-    rng.skip(i % (Rng::most_ahead + 1));
+    rng.skip(i % (Rng::max_ahead + 1));
   }
 }
 

@@ -112,7 +112,7 @@ TEST_P(GridMaps, ExactPathsAreNoLonger) {
 
 /// In cells of 1 µm, for a swarm that keeps 0.4 µm: a door of one cell leaves 0.2 µm.
 template <class Params>
-void expect_fitted_near_shortest(const GridMap& grid, double most_excess) {
+void expect_fitted_near_shortest(const GridMap& grid, double max_excess) {
   Params params;
   params.clearance = 0.4;
   params = std::get<Params>(
@@ -131,7 +131,7 @@ void expect_fitted_near_shortest(const GridMap& grid, double most_excess) {
     EXPECT_LE(path_length(found.path), 1.25 * shortest + 2);
     excess.push_back((path_length(found.path) + distance(found.path.back(), goal)) / shortest);
   });
-  EXPECT_LE(quantile(excess, 0.5), most_excess);
+  EXPECT_LE(quantile(excess, 0.5), max_excess);
 }
 
 TEST_P(GridMaps, FittedPathsAreNearTheShortest) {

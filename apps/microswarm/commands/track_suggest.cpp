@@ -17,16 +17,16 @@
 namespace microswarm::cli {
 namespace {
 
-constexpr int most_read = 200;         // pictures read from the beginning of a video
-constexpr std::size_t most_used = 20;  // of these, evenly spread
+constexpr int max_read = 200;         // pictures read from the beginning of a video
+constexpr std::size_t max_used = 20;  // of these, evenly spread
 
 std::vector<Image> sample(FrameSource& source, VideoChannel channel, const Stop& stop) {
-  const int all = std::min(source.count().value_or(most_read), most_read);
-  const int step = std::max(1, all / static_cast<int>(most_used));
+  const int all = std::min(source.count().value_or(max_read), max_read);
+  const int step = std::max(1, all / static_cast<int>(max_used));
   std::vector<Image> pictures;
   VideoFrame frame;
   int read = 0;
-  for (; !stop() && pictures.size() < most_used && source.next(frame); ++read)
+  for (; !stop() && pictures.size() < max_used && source.next(frame); ++read)
     if (frame.index % step == 0) take_channel(frame.picture, channel, pictures.emplace_back());
   if (const std::string why = source.why_ended(); !why.empty())
     note("note: the pictures end at picture {}: {}\n", read, why);

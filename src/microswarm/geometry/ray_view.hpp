@@ -28,61 +28,61 @@ struct Sides {
 /// by, a ray may have come to its own end before it comes past the other.
 class RayBounds {
  public:
-  /// Of rays that pass an end: the least direction above it, the most below it, and how closely
-  /// those pass it that have these directions.
+  /// Bounds of rays that pass an end: the lowest direction above it, the highest one below it, and
+  /// how closely rays of these directions pass it.
   struct Limits {
     double above = -infinite, below = infinite;
     double doubt2 = 0;  ///< squared
     bool exist = false;
   };
 
-  /// At x.
+  /// Applies the pending bounds at x.
   void reach(double x) {
-    if (x >= least_from_) least_ = std::max(least_, std::exchange(next_least_, -infinite));
-    if (x >= most_from_) most_ = std::min(most_, std::exchange(next_most_, infinite));
+    if (x >= lower_from_) lower_ = std::max(lower_, std::exchange(next_lower_, -infinite));
+    if (x >= upper_from_) upper_ = std::min(upper_, std::exchange(next_upper_, infinite));
   }
   void pass_above(const Limits& end, double from) {
-    if (end.above > next_least_) next_least_ = end.above, least_from_ = from;
+    if (end.above > next_lower_) next_lower_ = end.above, lower_from_ = from;
   }
   void pass_below(const Limits& end, double from) {
-    if (end.below < next_most_) next_most_ = end.below, most_from_ = from;
+    if (end.below < next_upper_) next_upper_ = end.below, upper_from_ = from;
   }
-  /// Leaves out what goes back.
-  void go_on() {
-    least_ = std::max(least_, -1.0);
-    most_ = std::min(most_, 1.0);
+  /// Excludes rays that point back.
+  void only_forward() {
+    lower_ = std::max(lower_, -1.0);
+    upper_ = std::min(upper_, 1.0);
   }
-  /// By the distance that is kept on the wrong side of the end. Holds for rays that do not go back.
+  /// Bounds by the distance kept on the wrong side of the end, for rays that do not point back.
   void pass_nearly_above(const Limits& end) {
-    if (end.exist) least_ = std::max(least_, end.below);
+    if (end.exist) lower_ = std::max(lower_, end.below);
   }
   void pass_nearly_below(const Limits& end) {
-    if (end.exist) most_ = std::min(most_, end.above);
+    if (end.exist) upper_ = std::min(upper_, end.above);
   }
   bool hold(double direction, double doubt2) const {
-    const double beyond = std::max(least_ - direction, direction - most_) - same_ray;
+    const double beyond = std::max(lower_ - direction, direction - upper_) - same_ray;
     return beyond <= 0 || beyond * beyond <= doubt2;
   }
-  bool are_empty() const { return least_ > most_ + same_ray; }
-  bool begin_before(const RayBounds& o) const { return least_ < o.least_; }
-  bool overlap(const RayBounds& above) const { return above.least_ <= most_; }
+  bool are_empty() const { return lower_ > upper_ + same_ray; }
+  bool begin_before(const RayBounds& o) const { return lower_ < o.lower_; }
+  bool overlap(const RayBounds& above) const { return above.lower_ <= upper_; }
   /// Both, and what is between them.
   void join(const RayBounds& o) {
-    least_ = std::min(least_, o.least_);
-    most_ = std::max(most_, o.most_);
-    next_least_ = std::min(next_least_, o.next_least_);
-    next_most_ = std::max(next_most_, o.next_most_);
-    least_from_ = std::max(least_from_, o.least_from_);
-    most_from_ = std::max(most_from_, o.most_from_);
+    lower_ = std::min(lower_, o.lower_);
+    upper_ = std::max(upper_, o.upper_);
+    next_lower_ = std::min(next_lower_, o.next_lower_);
+    next_upper_ = std::max(next_upper_, o.next_upper_);
+    lower_from_ = std::max(lower_from_, o.lower_from_);
+    upper_from_ = std::max(upper_from_, o.upper_from_);
   }
 
  private:
   static constexpr double infinite = std::numeric_limits<double>::infinity();
   static constexpr double same_ray = 1e-9;
 
-  double least_ = -infinite, most_ = infinite;
-  double next_least_ = -infinite, next_most_ = infinite;
-  double least_from_ = -infinite, most_from_ = -infinite;
+  double lower_ = -infinite, upper_ = infinite;
+  double next_lower_ = -infinite, next_upper_ = infinite;
+  double lower_from_ = -infinite, upper_from_ = -infinite;
 };
 
 /// Rays to one side, seen so that they go to the right.

@@ -305,7 +305,7 @@ void Trapezoids::look_from(const Rays& rays, std::span<const std::uint32_t> cell
   const RayView<rightwards> view(rays);
   Front<rightwards> front(cells_);
   RayBounds ahead;
-  ahead.go_on();
+  ahead.only_forward();
   for (const std::uint32_t cell : cells) {
     front.push({cell, false, ahead});
     front.push({cell, true, {}});

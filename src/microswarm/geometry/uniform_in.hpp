@@ -15,7 +15,7 @@ inline Vec2 uniform_in(const Box& box, Rng& rng) {
 }
 
 /// The points that the next calls of `uniform_in` will give, as many as `ahead` has room for, at
-/// most half of Rng::most_ahead, without drawing them; each takes two numbers.
+/// most half of Rng::max_ahead, without drawing them; each takes two numbers.
 inline void look_ahead(const Box& box, Rng& rng, std::span<Vec2> ahead) {
   const auto bits = rng.ahead(2 * ahead.size());
   for (std::size_t i = 0; i < ahead.size(); ++i)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Point } from '../protocol';
-import { isGround, leastRadius } from './layers/obstacles';
+import { isGround, minRadius } from './layers/obstacles';
 import type { Moment } from './motion';
 import type { Grip } from './pointer';
 import type { Place } from './scenario';
@@ -31,7 +31,7 @@ export function hitObstacle(now: Moment, view: View, screen: Point): Grip | unde
   const near = view.um(slack);
   const { discs, solids } = now;
   for (let i = discs.length - 4; i >= 0; i -= 4) {
-    const radius = Math.max(discs[i + 2]!, view.um(leastRadius));
+    const radius = Math.max(discs[i + 2]!, view.um(minRadius));
     if (Math.hypot(x - discs[i]!, y - discs[i + 1]!) <= radius + near)
       return { kind: 'obstacle', index: discs[i + 3]! };
   }

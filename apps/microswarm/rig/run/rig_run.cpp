@@ -35,8 +35,7 @@ void tell(const RigTiming& t) {
     print("  {} of {} frames had their currents more than a tick later\n", t.late_currents,
           t.camera_to_current.count());
   if (t.unseen_frames > 0)
-    print("  robots were unseen in {} frames, at most {} of them\n", t.unseen_frames,
-          t.most_unseen);
+    print("  robots were unseen in {} frames, at most {} of them\n", t.unseen_frames, t.max_unseen);
   if (t.direction)
     print(
         "  the swarm moved {:.0f} % of the commanded distance, {:+.1f} ± {:.1f}° off its "
@@ -64,7 +63,7 @@ nlohmann::ordered_json timing_json(const RigTiming& t, const std::optional<Recor
                               {"frames_read", t.frames},
                               {"frames_dropped", t.dropped_frames},
                               {"frames_with_unseen_robots", t.unseen_frames},
-                              {"max_unseen_robots", t.most_unseen},
+                              {"max_unseen_robots", t.max_unseen},
                               {"fields_not_made", t.unmade},
                               {"fields_weakened", t.limited},
                               {"least_field_share", t.min_scale},

@@ -309,7 +309,7 @@ DrivenCurrents CoilDrive::step(const Eigen::VectorXd& wanted, double dt) {
 
 double CoilDrive::turn(const TurningCurrents& wanted, double dt) {
   assert(wanted.constant.size() == currents_.size() && dt > 0);
-  const double most = most_of_turn(wanted, dt);
+  const double most = max_turn_scale(wanted, dt);
   TurningCurrents to = wanted;
   for (Eigen::VectorXd* part : {&to.constant, &to.cosine, &to.sine}) *part *= most;
   const double share = share_of_change(to, dt);
@@ -333,7 +333,7 @@ double CoilDrive::turn(const TurningCurrents& wanted, double dt) {
 
 /// Largest scale at which a turn keeps all limits and the coils stay below their maximum
 /// temperature for some steps.
-double CoilDrive::most_of_turn(const TurningCurrents& wanted, double dt) const {
+double CoilDrive::max_turn_scale(const TurningCurrents& wanted, double dt) const {
   constexpr double steps_ahead = 10;
   const double omega = 2 * pi * std::max(std::abs(wanted.frequency), wanted.max_frequency);
   double most = 1;

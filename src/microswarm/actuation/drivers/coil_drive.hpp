@@ -87,7 +87,7 @@ class CoilDrive {
   const TurningCurrents& turning() const { return turning_; }
 
  private:
-  double most_of_turn(const TurningCurrents& wanted, double dt) const;
+  double max_turn_scale(const TurningCurrents& wanted, double dt) const;
   double share_of_change(const TurningCurrents& to, double dt) const;
 
   struct Bounds {

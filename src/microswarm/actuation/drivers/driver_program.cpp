@@ -167,9 +167,9 @@ class DriverProgram final : public LineConnection {
   /// Reads its stderr, so that it does not block on writing.
   void hear() {
     constexpr std::size_t longest = 400;
-    constexpr int most_reads = 64;
+    constexpr int max_reads = 64;
     std::array<char, 4096> bytes;
-    for (int k = 0; k < most_reads; ++k) {
+    for (int k = 0; k < max_reads; ++k) {
       const ssize_t n = ::read(err_.get(), bytes.data(), bytes.size());
       if (n == 0) end_line();
       if (n <= 0) return;

@@ -19,13 +19,13 @@ Rng::Rng(std::uint64_t seed, Purpose purpose, std::uint32_t trial)
     : key_{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)},
       counter_{0, 0, trial, static_cast<std::uint32_t>(purpose)} {}
 
-/// Makes `most_ahead` numbers more; fewer than that may be left.
+/// Makes `max_ahead` numbers more; fewer than that may be left.
 void Rng::refill() {
   std::copy(numbers_.begin() + next_, numbers_.begin() + end_, numbers_.begin());
   end_ -= next_;
   next_ = 0;
   const philox4x32_key_t key{{key_[0], key_[1]}};
-  for (const std::size_t last = end_ + most_ahead; end_ < last; end_ += 2) {
+  for (const std::size_t last = end_ + max_ahead; end_ < last; end_ += 2) {
     const philox4x32_ctr_t counter{{counter_[0], counter_[1], counter_[2], counter_[3]}};
     const philox4x32_ctr_t r = philox4x32(counter, key);
     numbers_[end_] = r.v[0] | static_cast<std::uint64_t>(r.v[1]) << 32;

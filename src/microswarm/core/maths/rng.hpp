@@ -33,13 +33,13 @@ class Rng {
     if (next_ == end_) refill();
     return numbers_[next_++];
   }
-  /// The bits that the next `count` <= most_ahead calls of `bits` will give, without drawing them.
+  /// The bits that the next `count` <= max_ahead calls of `bits` will give, without drawing them.
   std::span<const std::uint64_t> ahead(std::size_t count) {
-    assert(count <= most_ahead);
+    assert(count <= max_ahead);
     if (end_ - next_ < count) refill();
     return {numbers_.data() + next_, count};
   }
-  static constexpr std::size_t most_ahead = 8;
+  static constexpr std::size_t max_ahead = 8;
   /// Draws `count` numbers that were looked at.
   void skip(std::size_t count) {
     assert(count <= end_ - next_);
@@ -61,7 +61,7 @@ class Rng {
 
   std::array<std::uint32_t, 2> key_;
   std::array<std::uint32_t, 4> counter_;
-  std::array<std::uint64_t, 2 * most_ahead> numbers_{};  ///< made and not drawn: [next_, end_)
+  std::array<std::uint64_t, 2 * max_ahead> numbers_{};  ///< made and not drawn: [next_, end_)
   std::size_t next_ = 0;
   std::size_t end_ = 0;
 };

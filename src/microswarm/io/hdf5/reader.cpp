@@ -37,7 +37,7 @@ class ImageReader : public Hdf5Reader {
   mutable std::uint64_t claimed_bytes_ = 0;
 };
 
-constexpr hsize_t most_deflated = 1032;  // bytes in one, the most that deflate can do
+constexpr hsize_t max_deflation = 1032;  // bytes in one, the most that deflate can do
 
 herr_t refuse_other_file(const char*, const char*, const char*, const char*, unsigned*, hid_t,
                          void* asked) {
@@ -107,7 +107,7 @@ Id open_column(const ImageReader& reader, hid_t file, const std::string& path, h
   if (count > max_values) reader.fail(path + " has more than 100,000,000 values");
   const hsize_t stored = H5Dget_storage_size(set);
   reader.claim(path, stored);
-  if (count * sizeof(double) / most_deflated > stored || (count > 0 && stored == 0))
+  if (count * sizeof(double) / max_deflation > stored || (count > 0 && stored == 0))
     reader.fail(path + " has fewer values than rows");
   return set;
 }

@@ -361,7 +361,7 @@ Decision HierarchicalNavigator::escape(const Observation& seen) {
   const double goal_heading = heading_of(aim().position - pose_.position);
   Command best{pose_.heading, 0};
   double best_score = -1;
-  double best_least = 0;
+  double best_clearance = 0;
   const auto consider = [&](const Command& first, const Command& second) {
     const Rollout o = look_ahead(
         seen, best_score - params_.tuning.final_weight * far_enough(),
@@ -369,7 +369,7 @@ Decision HierarchicalNavigator::escape(const Observation& seen) {
     const double score = o.least + params_.tuning.final_weight * o.last;
     if (score <= best_score + 1e-9) return;
     best_score = score;
-    best_least = o.least;
+    best_clearance = o.least;
     best = first;
   };
   const auto leg = [&](int k, double ease = 1) {
@@ -377,10 +377,10 @@ Decision HierarchicalNavigator::escape(const Observation& seen) {
   };
   consider(best, best);
   for (int i = 0; i < directions; ++i) consider(leg(i), leg(i));
-  if (best_least < params_.clearance + slack_)  // a slow turn comes less near
+  if (best_clearance < params_.clearance + slack_)  // a slow turn comes less near
     for (int i = 0; i < directions; ++i)
       for (const double ease : {0.25, 0.1}) consider(leg(i, ease), leg(i));
-  if (best_least < params_.clearance + slack_)
+  if (best_clearance < params_.clearance + slack_)
     for (int i = 0; i < directions; ++i)
       for (int j = 0; j < directions; ++j)
         if (i != j) consider(leg(i), leg(j));

@@ -92,9 +92,9 @@ void EscapeSearch::prefer(double time, double gap) {
 }
 
 /// Follows the trajectory until a wall, or until it cannot become the best, given that its final
-/// gap is at most `most_last` if it is free.
+/// gap is at most `max_last_gap` if it is free.
 void EscapeSearch::follow(Trace& trace, const EscapeWay& way,
-                          std::span<const Foresight::Instant> instants, double most_last) const {
+                          std::span<const Foresight::Instant> instants, double max_last_gap) const {
   if (trace.blocked || instants.empty()) return;
   const Vec2 start = seen_.start().place;
   EscapeOutcome& out = trace.outcome;
@@ -112,16 +112,16 @@ void EscapeSearch::follow(Trace& trace, const EscapeWay& way,
     out.least = std::min(out.least, out.last);
     trace.touched = trace.touched || is_contact(out.last, i.t);
     if (!trace.touched) out.until_contact = i.t;
-    trace.is_hopeless = is_hopeless(trace, most_last);
+    trace.is_hopeless = is_hopeless(trace, max_last_gap);
     if (trace.is_hopeless) return;
   }
 }
 
-bool EscapeSearch::is_hopeless(const Trace& trace, double most_last) const {
+bool EscapeSearch::is_hopeless(const Trace& trace, double max_last_gap) const {
   const EscapeOutcome& out = trace.outcome;
   const double longest = trace.touched || trace.blocked ? out.until_contact : seen_.end();
   if (longest != outcome_.until_contact) return longest < outcome_.until_contact;
-  return out.least + most_last <= bar();
+  return out.least + max_last_gap <= bar();
 }
 
 }  // namespace microswarm

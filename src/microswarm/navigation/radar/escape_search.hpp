@@ -64,8 +64,8 @@ class EscapeSearch {
     return {.outcome = {.until_contact = 0, .least = tuning_.counted_gap, .last = 0}};
   }
   void follow(Trace& trace, const EscapeWay& way, std::span<const Foresight::Instant> instants,
-              double most_last) const;
-  bool is_hopeless(const Trace& trace, double most_last) const;
+              double max_last_gap) const;
+  bool is_hopeless(const Trace& trace, double max_last_gap) const;
   /// Whether no trajectory can be free for longer than the best.
   bool only_gaps_count() const { return outcome_.until_contact >= seen_.end(); }
   bool is_contact(double gap, double t) const {

@@ -14,7 +14,7 @@ namespace {
 /// Finds the shortest path with the tangents kept from earlier queries.
 ShortestPath find_kept(const Snapshot& world, double clearance, Vec2 start, Vec2 goal,
                        const Stop& stop) {
-  constexpr std::size_t most_bytes = 256u << 20;
+  constexpr std::size_t max_bytes = 256u << 20;
   const Map& map = world.map();
   auto paths = map.kept().take<ShortestPaths>(clearance);
   if (paths)
@@ -22,7 +22,7 @@ ShortestPath find_kept(const Snapshot& world, double clearance, Vec2 start, Vec2
   else
     paths = std::make_unique<ShortestPaths>(map, clearance);
   ShortestPath found = paths->find(start, goal, world.moving(), stop);
-  if (paths->bytes() <= most_bytes) map.kept().keep(clearance, std::move(paths));
+  if (paths->bytes() <= max_bytes) map.kept().keep(clearance, std::move(paths));
   return found;
 }
 

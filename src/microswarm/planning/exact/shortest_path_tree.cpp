@@ -46,7 +46,7 @@ ShortestPathTree::Best ShortestPathTree::best_from(Vec2 p) {
   constexpr double near = 0.02;
   if (growth_ == Growth::towards_queries && distance(p, headed_for_) > near * straight &&
       search_->reached() - distance(p, headed_for_) < best.length) {
-    if (search_->bytes() > most_bytes_) {
+    if (search_->bytes() > max_bytes_) {
       begin();
       best = {};
       for (const std::uint32_t wheel : seen_) seen_in_[wheel] = query_;

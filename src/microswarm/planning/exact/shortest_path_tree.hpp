@@ -34,7 +34,7 @@ class ShortestPathTree {
   bool was_stopped() const { return was_stopped_; }
 
   /// Size [B] above which a query that needs growth starts a new tree; 256 MB by default.
-  void limit_bytes(std::size_t most) { most_bytes_ = most; }
+  void limit_bytes(std::size_t most) { max_bytes_ = most; }
 
   /// Length of the shortest path from `p` to the goal [µm]; infinity without one, and if `p` or
   /// the goal lacks the clearance.
@@ -66,7 +66,7 @@ class ShortestPathTree {
   Vec2 goal_;
   double clearance_;
   Growth growth_;
-  std::size_t most_bytes_ = 256u << 20;
+  std::size_t max_bytes_ = 256u << 20;
   bool has_root_;
   Stop stop_;
   bool was_stopped_ = false;

@@ -28,8 +28,8 @@ double nodes_for(const Map& map, double step) {
 /// The lattice through the middle of the passages, if the corners of the map lie on one and the map
 /// is not many of its cells.
 std::optional<CornerLattice> passage_lattice(const Map& map, double clearance) {
-  constexpr double most_cells = 300e3;
-  const double least = std::sqrt(map.bounds().width() * map.bounds().height() / most_cells);
+  constexpr double max_cells = 300e3;
+  const double least = std::sqrt(map.bounds().width() * map.bounds().height() / max_cells);
   const auto corners = corner_lattice(map, least);
   if (!corners) return std::nullopt;
   return through_narrowest_passage(*corners, clearance);

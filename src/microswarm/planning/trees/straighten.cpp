@@ -52,8 +52,8 @@ class Straightener {
     Vec2 place;
     double length_left = 0;  ///< times its cost
     double heading_left = 0;
-    std::size_t first_edge = 0;    ///< of those that end at it
-    double least_cost = infinity;  ///< of them
+    std::size_t first_edge = 0;  ///< of those that end at it
+    double min_cost = infinity;  ///< of them
   };
   static std::size_t first(std::size_t j) { return j > window ? j - window : 0; }
   std::span<const Edge> edges_to(std::size_t i) const {
@@ -95,7 +95,7 @@ void Straightener::lay_out(std::span<const Vec2> points) {
 Straightener::Edge Straightener::reach(std::size_t i, std::size_t j, double known) const {
   const Point &a = points_[i], &b = points_[j];
   const double length = cost_.per_length * distance(a.place, b.place);
-  const double least = i == 0 ? length : a.least_cost + length;
+  const double least = i == 0 ? length : a.min_cost + length;
   if (!(least + b.length_left <= known)) return {};
   Edge to{.from = i, .heading = heading_of(b.place - a.place)};
   if (i == 0) to.cost = length + cost_.per_turn * turn_between(start_heading_, to.heading);
@@ -135,7 +135,7 @@ std::vector<Vec2> Straightener::cheapest_chain(std::span<const Vec2> points, dou
       ++checks_;
       if (!is_part(i, j) && !is_free(points_[i].place, points_[j].place)) continue;
       edges_.push_back(e);
-      points_[j].least_cost = std::min(points_[j].least_cost, e.cost);
+      points_[j].min_cost = std::min(points_[j].min_cost, e.cost);
     }
   }
   const auto best = std::ranges::min_element(edges_to(last), {}, &Edge::cost);

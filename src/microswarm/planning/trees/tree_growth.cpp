@@ -74,7 +74,7 @@ std::optional<Vec2> TreeGrowth::draw_free(Draw&& draw) {
 std::optional<Vec2> TreeGrowth::draw_free_uniform() {
   const Vec2 first = uniform_in(sampled_, rng_);
   if (world_.is_free(first, params_.clearance)) return first;
-  std::array<Vec2, Rng::most_ahead / 2> some;
+  std::array<Vec2, Rng::max_ahead / 2> some;
   for (std::size_t drawn = 1; drawn < max_sample_draws; drawn += some.size()) {
     const auto places = std::span(some).first(std::min(some.size(), max_sample_draws - drawn));
     look_ahead(sampled_, rng_, places);

@@ -65,7 +65,7 @@ struct RunRow {
   double straight = 0;
   double delta = 0;
   double turning = 0;
-  double least_gap = 0;
+  double min_gap = 0;
   double hold = 0;
   std::uint64_t contacts = 0;
   int avoidable = 0;
@@ -81,7 +81,7 @@ struct RunRow {
     visit(self.straight, s("straight", "Time of the straight path."));
     visit(self.delta, plain("delta", "Mean avoidance cost."));
     visit(self.turning, deg("turning", "Total turning."));
-    visit(self.least_gap, um("least_gap", "Smallest gap."));
+    visit(self.min_gap, um("least_gap", "Smallest gap."));
     visit(self.hold, s("hold", "Time in hold."));
     visit(self.contacts, plain("contacts", "Contacts."));
     visit(self.avoidable, plain("avoidable", "Avoidable contacts."));
@@ -164,7 +164,7 @@ std::string runs_csv(const std::vector<CourseResult>& results) {
                                  .straight = c.straight,
                                  .delta = c.delta,
                                  .turning = c.turning,
-                                 .least_gap = c.min_gap,
+                                 .min_gap = c.min_gap,
                                  .hold = c.hold_time,
                                  .contacts = c.contacts.size(),
                                  .avoidable = c.avoidable()});

@@ -178,7 +178,7 @@ void LiveRig::read_frame() {
   timing_.vision.add(took);
   timing_.direction = angle_.direction();
   timing_.unseen_frames += detections_->unseen > 0;
-  timing_.most_unseen = std::max(timing_.most_unseen, detections_->unseen);
+  timing_.max_unseen = std::max(timing_.max_unseen, detections_->unseen);
 }
 
 void LiveRig::look_for_faults(double now) {

@@ -40,7 +40,7 @@ struct RigTiming {
   int frames = 0;               ///< frames processed
   int dropped_frames = 0;       ///< frames received but not processed
   int unseen_frames = 0;        ///< frames processed in which robots were unseen
-  int most_unseen = 0;          ///< maximum number of unseen robots in a frame
+  int max_unseen = 0;           ///< maximum number of unseen robots in a frame
   std::optional<FollowDirection> direction{};  ///< of the swarm relative to its commands
 };
 

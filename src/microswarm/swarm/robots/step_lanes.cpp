@@ -309,7 +309,7 @@ void set_pieces(Block& b, float reach, bool is_first) {
   const RobotTag d;
   using V = hn::Vec<RobotTag>;
   const V r = hn::Set(d, reach);
-  const V most_contacts = hn::Set(d, static_cast<float>(max_slide_contacts));
+  const V max_contacts = hn::Set(d, static_cast<float>(max_slide_contacts));
   for (std::size_t i = 0; i < b.count; i += hn::Lanes(d)) {
     const V x = hn::Load(d, &b.left_x[i]), y = hn::Load(d, &b.left_y[i]);
     const V far = hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
@@ -317,7 +317,7 @@ void set_pieces(Block& b, float reach, bool is_first) {
     hn::Store(share, d, &b.share[i]);
     hn::Store(hn::Add(hn::Mul(share, x), hn::Load(d, &b.lean_x[i])), d, &b.piece_x[i]);
     hn::Store(hn::Add(hn::Mul(share, y), hn::Load(d, &b.lean_y[i])), d, &b.piece_y[i]);
-    if (is_first) hn::Store(hn::Add(hn::Ceil(hn::Div(far, r)), most_contacts), d, &b.pieces[i]);
+    if (is_first) hn::Store(hn::Add(hn::Ceil(hn::Div(far, r)), max_contacts), d, &b.pieces[i]);
   }
 }
 

@@ -32,7 +32,7 @@ cv::Mat rise_of(const cv::Mat& grey, const cv::Mat& seen, cv::Mat ground, bool d
 double ground_spread(const cv::Mat& foreground, const cv::Mat& seen);
 
 /// The least difference from the background that counts, for this spread of it.
-float least_rise(const BlobParams& params, double spread);
+float min_foreground(const BlobParams& params, double spread);
 
 /// Data of the search: the picture, the searched pixels and the foreground, the latter two in
 /// working pixels.

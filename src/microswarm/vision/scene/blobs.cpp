@@ -296,7 +296,7 @@ Issues validate(const BlobParams& p) {
   return issues;
 }
 
-float least_rise(const BlobParams& p, double spread) {
+float min_foreground(const BlobParams& p, double spread) {
   return static_cast<float>(std::max(p.min_contrast, noise_limit * spread));
 }
 
@@ -373,8 +373,8 @@ BlobContext context_of(const Image& grey, const BlobParams& p, const Mask* walls
   return field;
 }
 
-float least_contrast(const BlobContext& field, const BlobParams& p) {
-  return least_rise(p, ground_spread(field.foreground, field.seen));
+float min_foreground(const BlobContext& field, const BlobParams& p) {
+  return min_foreground(p, ground_spread(field.foreground, field.seen));
 }
 
 }  // namespace
@@ -382,7 +382,7 @@ float least_contrast(const BlobContext& field, const BlobParams& p) {
 double contrast_limit(const Image& picture, const BlobParams& params, const Mask* walls) {
   if (picture.pixels.empty()) return params.min_contrast;
   const Image one = picture.channels == 1 ? Image{} : to_grey(picture);
-  return least_contrast(context_of(picture.channels == 1 ? picture : one, params, walls), params);
+  return min_foreground(context_of(picture.channels == 1 ? picture : one, params, walls), params);
 }
 
 std::vector<Blob> find_blobs(const Image& picture, const BlobParams& p, const Mask* walls,
@@ -391,7 +391,7 @@ std::vector<Blob> find_blobs(const Image& picture, const BlobParams& p, const Ma
   if (picture.pixels.empty()) return {};
   const Image one = picture.channels == 1 ? Image{} : to_grey(picture);
   const BlobContext field = context_of(picture.channels == 1 ? picture : one, p, walls);
-  const float least = least_contrast(field, p);
+  const float least = min_foreground(field, p);
   const cv::Mat high = field.foreground > least;
   const cv::Mat ground = field.seen.empty() ? cv::Mat(~high) : cv::Mat(~high & field.seen);
   const double noise = roughness(field, {0, 0, ground.cols, ground.rows}, ground, ground_rows);

@@ -102,7 +102,7 @@ void WindowSearch::look_coarsely(const SceneParams& params) {
   const double spread = ground_spread(off, coarse_seen_);
   differs_ = cv::Mat::zeros(grey.size(), CV_8U);
   for (const BlobParams& look : {params.swarm.look, params.obstacles}) {
-    const double least = coarse_share * least_rise(look, spread);
+    const double least = coarse_share * min_foreground(look, spread);
     differs_ |= look.tone == ParticleTone::dark ? off < -least : off > least;
   }
 }
@@ -193,7 +193,7 @@ Backdrop WindowSearch::backdrop(const BlobParams& look) const {
   cv::vconcat(rises, field.foreground);
   cv::vconcat(seens, field.seen);
   cv::vconcat(fines, field.fine);
-  const float least = least_rise(look, ground_spread(field.foreground, field.seen));
+  const float least = min_foreground(look, ground_spread(field.foreground, field.seen));
   const cv::Mat behind = ~(field.foreground > least) & field.seen;
   return {least, roughness(field, {0, 0, behind.cols, behind.rows}, behind, 1)};
 }

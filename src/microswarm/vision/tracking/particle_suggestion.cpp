@@ -12,11 +12,11 @@
 namespace microswarm {
 namespace {
 
-constexpr int most_rounds = 6;      // until the diameter fits itself
+constexpr int max_rounds = 6;       // until the diameter fits itself
 constexpr double edge_level = 0.1;  // of the strongest contrast, at the edge of a robot
 constexpr double certain = 5;       // of a contrast, in standard errors
 constexpr double heavier = 1.5;     // mass of robots of the other tone, if they are the robots
-constexpr std::size_t most_robots = 2000;  // from which the mean picture is taken
+constexpr std::size_t max_robots = 2000;  // from which the mean picture is taken
 
 struct Features {
   std::vector<double> masses;
@@ -56,7 +56,7 @@ Profile profile_of(std::span<const Image> pictures, const Features& features, do
     const int x = static_cast<int>(std::lround(particle.at_px.x));
     const int y = static_cast<int>(std::lround(particle.at_px.y));
     if (particle.mass <= min_mass || x < reach || y < reach || x >= picture.width - reach ||
-        y >= picture.height - reach || ++robots > most_robots)
+        y >= picture.height - reach || ++robots > max_robots)
       continue;
     for (int dy = -reach; dy <= reach; ++dy)
       for (int dx = -reach; dx <= reach; ++dx) {
@@ -124,7 +124,7 @@ ParticleSuggestion suggest_particles(std::span<const Image> pictures,
   best.pictures = static_cast<int>(pictures.size());
   if (pictures.empty()) return best;
   const int largest = std::min(pictures[0].width, pictures[0].height) / 4;
-  for (int round = 0; round < most_rounds; ++round) {
+  for (int round = 0; round < max_rounds; ++round) {
     ParticleParams reverse = best.params;
     reverse.tone = other(reverse.tone);
     Features features = features_of(pictures, best.params);
@@ -145,7 +145,7 @@ ParticleSuggestion suggest_particles(std::span<const Image> pictures,
     best.knows_diameter = seen.has_value();
     const int next = seen.value_or(2 * now - 1);
     if (seen && std::abs(next - now) <= 2) return best;
-    if (next > largest || round + 1 == most_rounds) break;
+    if (next > largest || round + 1 == max_rounds) break;
     best.params.diameter = next;
   }
   // No diameter fits itself: the given one is kept.

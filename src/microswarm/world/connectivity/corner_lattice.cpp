@@ -87,10 +87,10 @@ bool is_on(const Axis& axis, double pitch, double error) {
 
 }  // namespace
 
-std::optional<CornerLattice> corner_lattice(const Map& map, double least_pitch) {
+std::optional<CornerLattice> corner_lattice(const Map& map, double min_pitch) {
   const std::array<Axis, 2> axes = axes_of(map);
-  const double error = 1e-3 * least_pitch;
-  const double pitch = common_divisor(distances(axes), least_pitch, error);
+  const double error = 1e-3 * min_pitch;
+  const double pitch = common_divisor(distances(axes), min_pitch, error);
   if (pitch == 0 || !is_on(axes[0], pitch, error) || !is_on(axes[1], pitch, error))
     return std::nullopt;
   return CornerLattice{{axes[0].anchor, axes[1].anchor}, pitch};

@@ -15,9 +15,9 @@ struct CornerLattice {
 
 /// The coarsest lattice on which the corners of a map's walls lie, as they do in maps made of cells
 /// or pixels. It is derived from the corners only. Nothing if its pitch would be below
-/// `least_pitch` [µm], which must be positive; corners count as on it within a thousandth of that,
+/// `min_pitch` [µm], which must be positive; corners count as on it within a thousandth of that,
 /// and a hundredth of them may lie elsewhere. Discs do not count.
-std::optional<CornerLattice> corner_lattice(const Map& map, double least_pitch);
+std::optional<CornerLattice> corner_lattice(const Map& map, double min_pitch);
 
 /// The lattice that leads through the middle of the narrowest straight passage, between walls on
 /// `corners`, that a swarm with this clearance [µm] fits. A wider passage is wider by a pitch, so

@@ -140,13 +140,13 @@ HWY_EXPORT(copy_rivals_here);
 namespace {
 
 /// Vectors may reach this far beyond the last candidate.
-constexpr std::size_t most_lanes = 8;
+constexpr std::size_t max_lanes = 8;
 
 }  // namespace
 
 void WallCandidates::reserve(std::size_t n) {
-  if (n + most_lanes <= wall_.size()) return;
-  const std::size_t more = 2 * n + most_lanes;
+  if (n + max_lanes <= wall_.size()) return;
+  const std::size_t more = 2 * n + max_lanes;
   for (auto* values : {&x_, &y_, &u_, &v_, &per_length2_, &radius_, &measure_})
     values->resize(more);
   wall_.resize(more);

@@ -6,7 +6,7 @@ import { type Rings, fill, outline, ringsOf } from '../draw';
 import { type Drawing, Layer } from '../layer';
 import type { View } from '../view';
 
-export const leastRadius = 3; // smaller ones would be invisible [px]
+export const minRadius = 3; // smaller ones would be invisible [px]
 const largest = 0.6; // share of the map; larger bodies are moving walls
 
 /** Current positions of all moving bodies except the swarm. */
@@ -25,7 +25,7 @@ export class Obstacles extends Layer {
     const isLarge = ({ rings }: { rings: Rings }) => isGround(rings[0]!, view);
     const grounds = ringsOf(none, now.solids.filter(isLarge), view);
     const others = now.solids.filter((solid) => !isLarge(solid));
-    const bodies = ringsOf(now.discs, others, view, view.um(leastRadius));
+    const bodies = ringsOf(now.discs, others, view, view.um(minRadius));
     this.bodies.clear();
     if (grounds.length > 0) {
       fill(this.bodies, grounds, mixed(wall, obstacle, 0.22));

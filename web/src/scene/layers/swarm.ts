@@ -5,7 +5,7 @@ import { Pin, arc, polyline } from '../draw';
 import { type Drawing, Layer } from '../layer';
 import { swarmType } from '../scenario';
 
-const leastRadius = 5; // [px]
+const minRadius = 5; // [px]
 const quarter = Math.PI / 2;
 
 /** The swarm's disc and heading: a ribbon lies along it, a vortex turns. */
@@ -27,7 +27,7 @@ export class Swarm extends Layer {
   draw({ view, now: { swarm }, colours }: Drawing): void {
     this.pin.visible = swarm !== undefined;
     if (!swarm) return;
-    const radius = Math.max(swarm.radius * view.scale, leastRadius);
+    const radius = Math.max(swarm.radius * view.scale, minRadius);
     const drawn = `${this.type} ${radius.toFixed(1)} ${colours.swarm}`;
     if (drawn === this.drawn) return;
     this.drawn = drawn;

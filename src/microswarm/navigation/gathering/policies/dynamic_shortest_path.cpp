@@ -58,9 +58,9 @@ void DynamicShortestPath::choose(const Robots& robots, const RobotsOnMap& on_map
 }
 
 void DynamicShortestPath::note_progress(std::size_t cells, std::uint32_t distance) {
-  if (std::pair(cells, distance) >= std::pair(fewest_cells_, least_distance_)) return;
-  fewest_cells_ = cells;
-  least_distance_ = distance;
+  if (std::pair(cells, distance) >= std::pair(min_cells_, min_distance_)) return;
+  min_cells_ = cells;
+  min_distance_ = distance;
   since_progress_ = 0;
 }
 

@@ -49,8 +49,8 @@ class DynamicShortestPath {
   std::shared_ptr<const CellGraph> cells_;
   double step_;
   double patience_;
-  std::size_t fewest_cells_ = ~std::size_t{0};  ///< that held all robots when a pair was chosen
-  std::uint32_t least_distance_ = 0;            ///< of a pair, with as few cells
+  std::size_t min_cells_ = ~std::size_t{0};  ///< that held all robots when a pair was chosen
+  std::uint32_t min_distance_ = 0;           ///< of a pair, with as few cells
   int since_progress_ = 0;
   bool gave_up_ = false;
   bool has_pair_ = false;

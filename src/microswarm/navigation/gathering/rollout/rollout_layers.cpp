@@ -76,7 +76,7 @@ std::size_t RolloutLayers::affordable_trials(std::span<const std::uint32_t> stat
     once += mean_trial(params) * (static_cast<double>(states_[state].robots->places().size()) +
                                   params.tuning.step_overhead);
   return static_cast<std::size_t>(
-      std::clamp(work / (layers * once), std::min(fewest_trials, all), all));
+      std::clamp(work / (layers * once), std::min(min_trials, all), all));
 }
 
 // Continuations of these states of a layer, equally many of each.

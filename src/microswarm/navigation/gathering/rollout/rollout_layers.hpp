@@ -33,7 +33,7 @@ inline double mean_trial(const RolloutParams& params) {
 class RolloutLayers {
  public:
   /// Minimum number of trials of a state, independent of the remaining work.
-  static constexpr double fewest_trials = 2;
+  static constexpr double min_trials = 2;
 
   /// Starts at a checkpoint of the plan, with representative robots; the plan's own states are
   /// filed too.

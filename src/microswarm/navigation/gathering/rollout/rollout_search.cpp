@@ -110,12 +110,12 @@ void RolloutSearch::take(const LayerPath& path, RolloutExecution& plan,
 
 // Tries random changes, as many at once as the budget allows.
 void RolloutSearch::perturb(RolloutExecution& plan, RolloutSimulator& simulator, double budget) {
-  constexpr double most_at_once = 16;
+  constexpr double max_at_once = 16;
   constexpr double usual_steps = 150;
   const RolloutParams& params = simulator.params().rollout;
   const double work = std::min(usual_steps, 0.5 * static_cast<double>(plan.left())) *
                       (params.representatives + params.tuning.step_overhead);
-  const auto count = static_cast<std::size_t>(std::clamp(budget / work, 1.0, most_at_once));
+  const auto count = static_cast<std::size_t>(std::clamp(budget / work, 1.0, max_at_once));
   if (auto shorter = best_change(plan, simulator, count, rng_))
     improvements_ += plan.shorten(*std::move(shorter));
 }
