@@ -10,7 +10,7 @@
 namespace microswarm::lab {
 namespace {
 
-/// Takes as long for a wrong text as for the right one.
+/// Compares two secrets in constant time.
 bool is_same_secret(std::string_view a, std::string_view b) {
   if (a.size() != b.size()) return false;
   unsigned char difference = 0;

@@ -7,25 +7,25 @@
 
 namespace microswarm::lab {
 
-/// What a request says about its origin. Empty where the header is missing.
+/// Headers of a request about its origin; a missing header is empty.
 struct Origins {
   std::string_view host;
   std::string_view origin;
   std::string_view cookie;
-  std::string_view token;  ///< of the query
-  std::string_view local;  ///< address at which it arrived, as in a URL: "192.168.1.4", "[::1]"
+  std::string_view token;  ///< token in the query
+  std::string_view local;  ///< address of arrival, as in a URL: "192.168.1.4", "[::1]"
 };
 
-/// Who may talk to a lab: pages of this lab, in browsers that were given its token. Host must be
-/// an address of this computer, never a name that was bound to it, and Origin must be the same
-/// host, so that no page of another site reaches the lab.
+/// Access control of a lab: only its own pages in browsers that have its token. Host must be an
+/// address of this computer, never a name bound to it, and Origin must be the same host, so that no
+/// page of another site can use the lab.
 class Access {
  public:
-  /// `port` is that of the lab; another one may be forwarded to it.
+  /// `port`: port of the lab; another one may be forwarded to it.
   Access(std::string token, std::uint16_t port);
 
   const std::string& token() const { return token_; }
-  /// Cookie that carries the token from the first page on.
+  /// Cookie with the token, set by the first page.
   std::string cookie() const;
   /// Why a request is refused; empty if it is allowed.
   std::string refusal(const Origins& from) const;
@@ -35,7 +35,7 @@ class Access {
   std::string cookie_name_;
 };
 
-/// 128 random bits as hexadecimal digits, from the system.
+/// 128 random bits from the system, as hexadecimal digits.
 std::string new_token();
 
 }  // namespace microswarm::lab

@@ -6,7 +6,7 @@
 
 namespace microswarm::lab {
 
-/// A file of the browser client, which the program contains.
+/// A file of the browser client, embedded in the program.
 struct Asset {
   std::string_view bytes;
   std::string_view media_type;

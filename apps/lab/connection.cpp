@@ -28,7 +28,7 @@ using Json = nlohmann::json;
 constexpr std::uint32_t max_header = 16 * 1024;    // bytes
 constexpr std::uint64_t slowest_reader = 100'000;  // bytes a second
 constexpr std::uint64_t max_body = max_request_size;
-constexpr std::size_t scrap = 64 * 1024;  // bytes that are read to be thrown away
+constexpr std::size_t scrap = 64 * 1024;  // bytes read and discarded at a time
 constexpr std::string_view uploads_path = "/api/uploads";
 constexpr std::string_view sessions_path = "/api/sessions/";
 constexpr std::string_view stream_path = "/api/stream/";
@@ -40,7 +40,7 @@ std::optional<std::uint64_t> number_in(std::string_view text) {
   return number;
 }
 
-/// Requests of one connection, one after the other.
+/// Handles the requests of one connection in sequence.
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
  public:
   HttpConnection(Tcp::socket socket, const Shared& shared)
@@ -68,7 +68,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   }
 
  private:
-  /// A file may be large, if who sends it has the token.
+  /// Reads the body; a file may be large if the sender has the token.
   void read_body() {
     const auto& header = parser_->get();
     const bool is_upload = header.method() == http::verb::post &&
@@ -78,7 +78,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
       stream_.expires_after(shared_.hub.limits().patience +
                             std::chrono::seconds(max_upload / slowest_reader));
     } else {
-      // The parser compares a length that is told with its limit only before this.
+      // The parser compares Content-Length with its limit only before this.
       if (parser_->content_length().value_or(0) > max_body)
         return take(make_error_code(http::error::body_limit));
       parser_->body_limit(max_body);
@@ -162,7 +162,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     write(std::move(response));
   }
 
-  /// Answers with what `make` returns, which is called in another thread.
+  /// Answers with the result of `make`, which is called in another thread.
   void later(std::function<HttpResponse()> make) {
     stream_.expires_never();
     shared_.work([self = shared_from_this(), make = std::move(make)]() mutable {
@@ -229,7 +229,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     });
   }
 
-  /// POST {"file": …, "settings": […]}; without a file what the program was started with.
+  /// POST {"file": …, "settings": […]}; without a file the experiment of the command line.
   void open() {
     const OpenRequest asked = read_open_request(request_.body());
     Opening opening;
@@ -294,7 +294,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     });
   }
 
-  /// Copies the record in the session's thread, and makes the video or picture in another.
+  /// Copies the record in the session's thread, and makes the video or picture in another one.
   void export_run(std::uint64_t session, const std::string& name, const RunExport& wanted) {
     stream_.expires_never();
     shared_.hub.fetch<std::shared_ptr<const Record>>(
@@ -312,7 +312,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
                 } catch (const std::exception& error) {
                   made->trouble = error.what();
                 }
-                // The connection ends in the thread of input and output, never in this one.
+                // The connection must be destroyed in the thread of input and output.
                 const auto post = self->shared_.post;
                 post([self = std::move(self), name, made] {
                   if (!made->trouble.empty())
@@ -375,8 +375,8 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
                       });
   }
 
-  /// Reads what is still on its way: a connection that is closed before would be reset, and who
-  /// sends would not get the answer.
+  /// Reads the rest of a request: a connection closed earlier would be reset, and the sender would
+  /// not get the answer.
   void drain(std::size_t most) {
     buffer_.clear();
     stream_.async_read_some(buffer_.prepare(scrap), [self = shared_from_this(), most](

@@ -13,20 +13,19 @@
 
 namespace microswarm::lab {
 
-/// What connections share; it outlives them.
+/// Data shared by connections; it outlives them.
 struct Shared {
   const Access& access;
   Hub& hub;
   const Library& library;
-  Thumbnails& thumbnails;  ///< of the worker
-  Uploads& uploads;        ///< of the worker
+  Thumbnails& thumbnails;  ///< used by the worker
+  Uploads& uploads;        ///< used by the worker
   const std::optional<Opening>& opening;
-  std::size_t& connections;  ///< that are open, beside streams
-  /// Runs work that may take a while in another thread; post() brings what it made back.
+  std::size_t& connections;  ///< number of open connections, without streams
+  /// Runs long work in another thread, which returns its result by post().
   std::function<void(std::function<void()>)> work;
   std::function<void(std::function<void()>)> post;
-  /// Runs an export, one after the other in a thread of their own, which is told to stop at the
-  /// end.
+  /// Runs exports one by one in a separate thread, which is stopped at the end.
   std::function<void(std::function<void(const Stop&)>)> export_;
 };
 

@@ -62,7 +62,7 @@ TemporaryFile::~TemporaryFile() {
 }
 
 void remove_left_folders() {
-  constexpr std::chrono::minutes young(1);  // one that is being made is not locked yet
+  constexpr std::chrono::minutes young(1);  // a new folder may not be locked yet
   const std::size_t length = folder_prefix.size() + 6;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(fs::temp_directory_path(error), error)) {

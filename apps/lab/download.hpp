@@ -13,8 +13,8 @@
 
 namespace microswarm::lab {
 
-/// A file in a folder of its own, readable by this user alone, both removed with this object. The
-/// folder is locked, which tells it from one that a killed program left.
+/// A file in a separate folder, readable by this user alone; the destructor removes both. The
+/// folder is locked, which distinguishes it from leftovers of killed programs.
 class TemporaryFile {
  public:
   explicit TemporaryFile(std::string_view name);
@@ -29,21 +29,21 @@ class TemporaryFile {
   Descriptor lock_;  ///< the open folder
 };
 
-/// Removes the folders of temporary files that killed programs of this user left.
+/// Removes leftover folders of this user's killed programs.
 void remove_left_folders();
 
-/// Throws the error again, with the file named as a page knows it.
+/// Rethrows the error with the file's name for pages.
 [[noreturn]] void throw_renamed(const InputError& error, const std::filesystem::path& file,
                                 std::string_view name);
 
-/// Contents of a file for a page: bytes, or a temporary file.
+/// Content of a download: bytes, or a temporary file.
 struct Download {
   std::string bytes;
   std::unique_ptr<TemporaryFile> file;
 };
 
-/// How a session becomes the download of that name: record.h5 (so far), scenario.yaml (the initial
-/// one, with absolute names of its files), frames.csv, events.csv. `folder` is the scenario's.
+/// Function that makes the download of that name from a session: record.h5 (so far), scenario.yaml
+/// (the initial one, with absolute file names), frames.csv, events.csv. `folder` is the scenario's.
 /// Empty for another name.
 std::function<Download(const Session&)> download(std::string_view name,
                                                  const std::filesystem::path& folder);

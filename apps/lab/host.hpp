@@ -19,51 +19,52 @@
 
 namespace microswarm::lab {
 
-/// How the coils of a rig may be driven in real time, as by the options of `rig run`.
+/// Options for driving the coils of a rig in real time, as those of `rig run`.
 struct RigOpening {
-  std::filesystem::path out{};  ///< gets a folder for each run that drives the coils; empty: none
+  std::filesystem::path
+      out{};  ///< parent of the folders of runs that drive the coils; empty for none
   bool without_limits = false;
   bool coils_cold = false;
   bool drawn_swarm = false;
 };
 
-/// What a session is opened from.
+/// Source of a session.
 struct Opening {
   std::filesystem::path file;  ///< scenario or record
   SessionOptions options{};
-  /// Throws InputError for settings that a page may not make.
+  /// Throws InputError for settings that are not allowed to a page.
   std::function<void(const std::vector<std::string>& settings)> check{};
   std::optional<BackgroundPhoto> photo{};
-  std::optional<RigOpening> live{};  ///< on the rig in real time; else in simulated time
+  std::optional<RigOpening> live{};  ///< options for real time; without them in simulated time
 };
 Source source_of(const Opening& opening);
 
-/// A session in a thread of its own. Every function may be called from any thread; the callbacks
-/// are called in the session's.
+/// A session in its own thread. Every function may be called from any thread; callbacks are called
+/// in the session's thread.
 class Host {
  public:
   struct Callbacks {
-    /// It was opened, or why it was not: one line for each issue.
+    /// Called after opening; `trouble` is empty, or has a line for each issue.
     std::function<void(const std::string& trouble)> opened;
-    /// A message for one page, or for all (0). The first one for a page is its hello.
+    /// Sends a message to one page, or to all (0). The first one for a page is its hello.
     Publisher::Send send;
   };
   virtual ~Host() = default;
   Host(const Host&) = delete;
   Host& operator=(const Host&) = delete;
 
-  /// Asks it to end; the step that is being made is told to stop.
+  /// Requests the end and stops the step in progress.
   virtual void end();
   bool has_ended() const { return has_ended_; }
   const Opening& opening() const { return opening_; }
 
-  /// Sends the page what it needs once.
+  /// Sends the full state to a new page.
   virtual void join(std::uint64_t page);
   virtual void leave(std::uint64_t page);
   virtual void ask(std::uint64_t page, Request request);
-  /// Whether it drives the coils of a rig, and has no time for anything else.
+  /// Whether it drives the coils of a rig, and must not be delayed.
   virtual bool drives() const { return false; }
-  /// Sets the coils of a rig to zero, if it drives some.
+  /// Sets the coils of its rig to zero, if any.
   virtual void stop(const std::string& why);
   /// Calls `work` with the session between two ticks, in the session's thread.
   void with(std::function<void(Session&)> work);
@@ -72,34 +73,34 @@ class Host {
   using Clock = Stop::Clock;
 
   Host(Opening opening, Callbacks callbacks);
-  /// Begins the thread; the last act of a constructor.
+  /// Starts the thread; to be called at the end of a constructor.
   void begin();
-  /// Ends it and waits for that; the first act of a destructor.
+  /// Ends the thread and waits for it; to be called at the start of a destructor.
   void finish();
   /// Calls `work` in the session's thread.
   void later(std::function<void()> work);
-  /// Does what was asked for until then, at once if it is past. Waits for more if there is no time.
+  /// Runs queued work until `latest`; without a deadline, waits for work.
   void work_until(std::optional<Clock::time_point> latest);
   void answer(std::uint64_t page, const Request& request);
-  /// Puts the operation of a person into effect.
+  /// Applies a request for manual operation.
   void operate(const Request& request, Issues& issues);
 
-  // In the session's thread.
+  // Called in the session's thread.
   virtual void open() = 0;
-  /// What was asked and the tick that is due.
+  /// Handles requests and the tick that is due.
   virtual void serve() = 0;
   virtual Session& session() = 0;
   virtual void welcome(std::uint64_t page) = 0;
   virtual void obey(std::uint64_t page, const Request& request, Issues& issues) = 0;
-  /// A step threw an exception.
+  /// Handles an exception of a step.
   virtual void fail(const std::string& why);
-  /// The thread is about to end.
+  /// Called before the thread ends.
   virtual void close() {}
-  /// Shows an earlier frame; the session stands meanwhile, unless it is a record.
+  /// Shows an earlier frame; the session is paused meanwhile, unless it is a record.
   void look_back(double frame, Issues& issues);
   void look_at_newest();
   bool looks_back() const { return past_ != nullptr; }
-  /// What is looked at.
+  /// Session that is shown.
   const Session& shown() { return past_ ? *past_ : session(); }
 
   Opening opening_;
@@ -114,11 +115,12 @@ class Host {
   std::condition_variable wake_;
   std::vector<std::function<void()>> work_;  ///< guarded
   std::atomic<bool> has_ended_ = false;
-  std::unique_ptr<Session> past_;  ///< of what was recorded so far, while one looks back
+  std::unique_ptr<Session>
+      past_;  ///< playback of the record so far, while an earlier frame is shown
   std::thread thread_;
 };
 
-/// Opens it in its thread.
+/// Creates a host, which opens the session in its thread.
 std::unique_ptr<Host> make_host(Opening opening, Host::Callbacks callbacks);
 
 }  // namespace microswarm::lab

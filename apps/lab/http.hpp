@@ -16,22 +16,22 @@ inline std::string_view view(boost::beast::string_view text) { return {text.data
 
 /// Path of a target such as "/api/thumbnail?file=a.yaml".
 std::string_view path_of(std::string_view target);
-/// Value of a key of a target's query, decoded; empty if there is none.
+/// Decoded value of a key in a target's query; empty without it.
 std::string query_of(std::string_view target, std::string_view key);
-/// Text whose bytes may be spelled "%20", and spaces "+". What is spelled wrongly stays as it is.
+/// Decodes "%20" and "+". Invalid sequences are kept.
 std::string percent_decoded(std::string_view text);
 
 /// An address as the host of a URL: "192.168.1.4", "[::1]".
 std::string url_host(const boost::asio::ip::address& address);
 
-/// Headers that every response has: what a page may load, nothing from elsewhere; nothing is kept.
+/// Sets the headers of every response: nothing from other sites may be loaded, nothing is cached.
 void set_headers(boost::beast::http::fields& headers, std::string_view media_type);
 
 HttpResponse respond(const HttpRequest& request, boost::beast::http::status status,
                      std::string_view media_type, std::string body);
 HttpResponse respond(const HttpRequest& request, const nlohmann::json& json,
                      boost::beast::http::status status = boost::beast::http::status::ok);
-/// {"error": why}
+/// Response {"error": why}.
 HttpResponse refuse(const HttpRequest& request, boost::beast::http::status status,
                     const std::string& why);
 

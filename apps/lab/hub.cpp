@@ -20,7 +20,7 @@ void Hub::open(Opening opening, std::function<void(const Outcome<std::uint64_t>&
       if (running.host->opening().live)
         return opened(
             {.value = number, .trouble = running.is_open ? "" : "the rig is being opened"});
-  // Its devices are there for one at a time.
+  // The devices serve one session at a time.
   if (opening.live && std::ranges::any_of(closing_, [](const auto& host) {
         return host->opening().live && !host->has_ended();
       }))
@@ -105,7 +105,7 @@ void Hub::ask(std::uint64_t page, Request request) {
 }
 
 void Hub::deliver(std::uint64_t session, std::uint64_t page, const MessagePtr& message) {
-  std::vector<std::shared_ptr<Page>> to;  // one may leave while it is sent to
+  std::vector<std::shared_ptr<Page>> to;  // a page may leave during the call
   for (auto& [number, seat] : pages_) {
     if (page == number) seat.is_welcome = true;
     if (seat.session == session && (page == number || (page == 0 && seat.is_welcome)))
@@ -128,7 +128,7 @@ bool Hub::is_watched(std::uint64_t session) const {
                              [&](const auto& page) { return page.second.session == session; });
 }
 
-/// Closes the oldest session that nobody watches, never one on a rig.
+/// Closes the oldest unwatched session, never one on a rig.
 void Hub::close_unwatched() {
   const auto found = std::ranges::find_if(sessions_, [this](const auto& one) {
     const auto& [number, running] = one;

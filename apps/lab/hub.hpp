@@ -13,16 +13,16 @@
 
 namespace microswarm::lab {
 
-/// A page that watches a session, as the hub sees it.
+/// Interface of a page that watches a session.
 class Page {
  public:
   virtual ~Page() = default;
   virtual void send(const MessagePtr& message) = 0;
-  /// Its session is closed.
+  /// Called when its session is closed.
   virtual void close() = 0;
 };
 
-/// What was computed from a session, or why it was not.
+/// A result computed from a session, or the reason of a failure.
 template <class T>
 struct Outcome {
   T value{};
@@ -30,7 +30,7 @@ struct Outcome {
 };
 
 /// The open sessions and the pages that watch them. All functions are called in the thread of input
-/// and output; `post` brings the sessions' messages there. None waits for a session.
+/// and output, to which `post` brings the sessions' messages. No function waits for a session.
 class Hub {
  public:
   using Post = std::function<void(std::function<void()>)>;
@@ -38,11 +38,11 @@ class Hub {
 
   const Limits& limits() const { return limits_; }
 
-  /// Opens a session; `opened` gets its number. A rig has one, which is joined if it is open. If
-  /// there are too many, the oldest that nobody watches is closed.
+  /// Opens a session; `opened` gets its number. The session of a rig is joined if it is open. If
+  /// there are too many, the oldest unwatched one is closed.
   void open(Opening opening, std::function<void(const Outcome<std::uint64_t>&)> opened);
   bool has(std::uint64_t session) const;
-  /// What an open session was opened from.
+  /// Source of an open session.
   const Opening& opening_of(std::uint64_t session) const {
     return sessions_.at(session).host->opening();
   }
@@ -51,13 +51,13 @@ class Hub {
   /// Ends the session and closes its pages.
   void close(std::uint64_t session);
   /// Calls `make` with the session in its thread, between two ticks, then `done` with the result.
-  /// An InputError that it throws is the trouble, as is the end of the session.
+  /// An InputError of `make` and the end of the session are failures.
   template <class T>
   void fetch(std::uint64_t session, std::function<T(const Session&)> make,
              std::function<void(Outcome<T>)> done);
 
   bool is_full() const { return pages_.size() >= limits_.pages; }
-  /// Number of the page, for leave() and ask(). The page is kept until it leaves.
+  /// Adds a page; returns its number for leave() and ask(). The page is kept until it leaves.
   std::uint64_t join(std::uint64_t session, std::shared_ptr<Page> page);
   void leave(std::uint64_t page);
   void ask(std::uint64_t page, Request request);
@@ -65,11 +65,11 @@ class Hub {
   /// Sets the coils of every rig to zero.
   void stop(const std::string& why);
 
-  /// Closes sessions that nobody has watched since the call before the last one.
+  /// Closes sessions that were unwatched since the call before the last one.
   void sweep();
-  /// Frees what has ended.
+  /// Frees ended sessions.
   void reap();
-  /// Asks all sessions to end, and lets go of pages and of whoever waits.
+  /// Requests the end of all sessions, and releases pages and waiting callers.
   void end();
   /// Whether all sessions have ended.
   bool has_ended() const;
@@ -78,12 +78,12 @@ class Hub {
   struct Seat {
     std::uint64_t session;
     std::shared_ptr<Page> page;
-    bool is_welcome = false;  ///< got its hello, and gets messages for all from then on
+    bool is_welcome = false;  ///< whether it got its hello; only then it gets messages for all
   };
   struct Running {
     std::unique_ptr<Host> host;
     bool is_open = false;
-    int unwatched = 0;  ///< sweeps
+    int unwatched = 0;  ///< number of sweeps
   };
   struct Waiting {
     std::uint64_t session;

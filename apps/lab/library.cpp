@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t max_entries = 2000;
-constexpr int max_visited = 50'000;  ///< files and folders
+constexpr int max_visited = 50'000;  ///< number of files and folders
 constexpr int deepest_folder = 6;
 constexpr std::uint64_t max_listed_bytes = 1 << 20;
 

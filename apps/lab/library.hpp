@@ -12,7 +12,7 @@ namespace microswarm::lab {
 
 /// A scenario or record that can be opened.
 struct Entry {
-  std::string file;  ///< its name for open requests
+  std::string file;  ///< its name in open requests
   std::string name;
   std::string description;
 };
@@ -20,17 +20,18 @@ struct Entry {
 /// Names of the files that a scenario reads: map, tracks, model; relative to its own folder.
 std::vector<std::string*> files_of(Scenario& scenario);
 
-/// The folders whose files the lab lists and opens. A file elsewhere does not exist for it.
+/// The folders whose files the lab lists and opens. Other files are not accessible.
 class Library {
  public:
   explicit Library(const std::vector<std::filesystem::path>& folders);
 
   /// The scenarios (.yaml with a map) and records (.h5), sorted by name of file.
   std::vector<Entry> entries() const;
-  /// The file of that name. Throws InputError if it is not in one of the folders, links followed.
+  /// Path of the file of that name. Throws InputError if it is outside of the folders, links
+  /// resolved.
   std::filesystem::path find(std::string_view file) const;
   /// Throws InputError if a scenario with `settings` names a file outside of the folders (map,
-  /// track, model) that it does not name with the `trusted` settings. A record has none.
+  /// track, model), unless it does so with the `trusted` settings. A record names no files.
   void check(const std::filesystem::path& scenario, const std::vector<std::string>& settings,
              const std::vector<std::string>& trusted = {}) const;
 

@@ -6,15 +6,16 @@
 
 namespace microswarm::lab {
 
-/// What a lab bears.
+/// Resource limits of the lab server.
 struct Limits {
   std::size_t sessions = 8;
-  std::size_t pages = 64;                      ///< streams
-  std::size_t connections = 256;               ///< beside streams
-  std::size_t unread = 128 * 1024 * 1024;      ///< bytes that a page may leave
-  std::size_t unanswered = 64;                 ///< requests of a page; further ones are not read
-  std::chrono::milliseconds patience{30'000};  ///< with a request, or a page that is silent
-  std::chrono::milliseconds sweep_period{10'000};  ///< a session unwatched for two is closed
+  std::size_t pages = 64;                  ///< number of streams
+  std::size_t connections = 256;           ///< number of connections, without streams
+  std::size_t unread = 128 * 1024 * 1024;  ///< bytes that a page may leave unread unread
+  std::size_t unanswered = 64;  ///< pending requests of a page; further ones are not read
+  std::chrono::milliseconds patience{30'000};  ///< timeout of a request, and of a silent page
+  std::chrono::milliseconds sweep_period{
+      10'000};  ///< a session unwatched for two periods is closed
 };
 
 }  // namespace microswarm::lab

@@ -8,12 +8,12 @@
 namespace microswarm::lab {
 
 /// One message to a page: a CBOR map whose key `type` names it; docs/reference/lab-protocol.md
-/// lists them. Positions are byte strings of little-endian floats, x and y in turn [µm].
+/// lists them. Positions are byte strings of little-endian floats, alternating x and y [µm].
 struct Message {
   enum class Kind { hello, frame, standing, picture, rig, answer, other };
   std::string bytes;
   Kind kind = Kind::other;
-  /// A newer one of its kind tells all that this one does.
+  /// Whether a newer message of its kind supersedes this one.
   bool is_latest_only() const {
     return kind == Kind::frame || kind == Kind::standing || kind == Kind::picture ||
            kind == Kind::rig;

@@ -8,15 +8,14 @@
 
 namespace microswarm::lab {
 
-/// Messages that wait to be written to a page, in order. A newer frame or standing takes the place
-/// of one that still waits, so that a slow page loses frames and never another message; a hello
-/// makes earlier frames obsolete.
+/// Queue of messages to a page. A newer frame or standing replaces one that is still queued, so
+/// that a slow page loses frames but no other message; a hello makes earlier frames obsolete.
 class Outbox {
  public:
   void add(const MessagePtr& message);
-  /// The next one; null if there is none.
+  /// The next message; null without one.
   MessagePtr take();
-  /// Of all that waits [bytes].
+  /// Size of the queue [B].
   std::size_t size() const { return size_; }
 
  private:

@@ -18,8 +18,8 @@ using namespace std::chrono_literals;
 
 constexpr auto handshake = 10s;
 
-/// A page's stream. A page that leaves too much unread is closed. Its requests are read as fast as
-/// their answers leave.
+/// A page's stream. A page that leaves too much unread is closed. Requests are read at the rate at
+/// which their answers are written.
 class PageStream : public Page, public std::enable_shared_from_this<PageStream> {
  public:
   PageStream(Tcp::socket socket, Hub& hub, std::uint64_t session)
@@ -100,9 +100,9 @@ class PageStream : public Page, public std::enable_shared_from_this<PageStream> 
   std::uint64_t number_ = 0;
   beast::flat_buffer buffer_;
   Outbox outbox_;
-  MessagePtr written_;  ///< being written
+  MessagePtr written_;  ///< message being written
   bool reads_ = false;
-  std::size_t unanswered_ = 0;  ///< requests
+  std::size_t unanswered_ = 0;  ///< number of requests
 };
 
 }  // namespace

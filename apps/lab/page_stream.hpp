@@ -9,8 +9,8 @@
 
 namespace microswarm::lab {
 
-/// Answers a page's request to upgrade, and gives it the session's stream from then on. The hub
-/// keeps the stream until it ends.
+/// Accepts a page's request to upgrade and connects it to the session's stream. The hub keeps the
+/// stream until it ends.
 void serve_stream(boost::asio::ip::tcp::socket socket, const HttpRequest& request, Hub& hub,
                   std::uint64_t session);
 

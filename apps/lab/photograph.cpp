@@ -32,7 +32,7 @@ VesselSegmentation searched(const Image& photo, const PhotoRequest& request) {
   return segment_vessels(photo, params);
 }
 
-/// The nearest place with this clearance. Throws InputError if there is none nearby.
+/// Nearest position with this clearance. Throws InputError if there is none nearby.
 Vec2 free_place(const Map& map, std::array<double, 2> wanted, double clearance, double width,
                 const char* what) {
   const Vec2 at{wanted[0], wanted[1]};
@@ -95,7 +95,7 @@ std::filesystem::path make_photo_scenario(const std::filesystem::path& photograp
   }
   const std::filesystem::path made = uploads.new_file(".yaml");
   write_file_atomically(made, scenario_text(scenario));
-  open_experiment(made);  // what does not fit is told here
+  open_experiment(made);  // reports inconsistent values
   return made;
 }
 

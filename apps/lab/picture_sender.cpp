@@ -42,7 +42,7 @@ void PictureSender::run() {
     try {
       made = picture_message(offer.picture, offer.scale, offer.t);
     } catch (const std::exception&) {
-      // A picture that cannot be compressed is not shown; the next one may be.
+      // A picture that cannot be compressed is skipped.
     }
     lock.lock();
     if (!made) continue;

@@ -13,8 +13,8 @@
 
 namespace microswarm::lab {
 
-/// Sends a camera's pictures to the pages, at most 15 a second. They are compressed in a thread of
-/// its own; whoever offers one only copies it.
+/// Sends a camera's pictures to the pages, at most 15 a second. They are compressed in a separate
+/// thread; offer() only copies a picture.
 class PictureSender {
  public:
   explicit PictureSender(Publisher::Send send)

@@ -56,7 +56,7 @@ void Publisher::set(Session& session, const Request& request, Issues& issues) {
   std::erase_if(standing.changes,
                 [&](const std::string& one) { return one.starts_with(request.key + "="); });
   standing.changes.push_back(request.key + "=" + request.value);
-  tell_standing(session);  // first: who knows the new scenario also knows what was changed
+  tell_standing(session);  // first, so that a page with the new scenario also has the changes
   send_(0, scenario_message(session.scenario()));
   is_fresh_ = true;
 }

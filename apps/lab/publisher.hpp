@@ -11,46 +11,46 @@
 
 namespace microswarm::lab {
 
-/// Tells pages of a session: it keeps every tick's numbers, and knows what was told so far.
+/// Sends a session's state to pages. It keeps every tick's numbers and the state sent so far.
 class Publisher {
  public:
-  /// For one page, or for all (0).
+  /// Sends a message to one page, or to all (0).
   using Send = std::function<void(std::uint64_t page, MessagePtr)>;
   static constexpr std::chrono::milliseconds frame_period{33};
 
   explicit Publisher(Send send) : send_(std::move(send)) {}
 
-  /// Forgets all but the speed: a session was opened anew.
+  /// Resets everything except the speed, for a reopened session.
   void clear();
-  /// Takes the frames and events of a record that was opened.
+  /// Takes the frames and events of an opened record.
   void take(const Record& record);
-  /// Takes those that it has got since.
+  /// Takes the frames and events added since.
   void take_more(const Record& record);
   void take(const Tick& tick);
-  /// There is a frame to show.
+  /// Marks that a new frame can be sent.
   void freshen() { is_fresh_ = true; }
   bool is_fresh() const { return is_fresh_; }
-  /// How the session stands is to be told.
+  /// Marks that the standing has to be sent.
   void changed() { has_changed_ = true; }
   bool has_rows() const { return !rows_.empty(); }
   std::size_t rows() const { return rows_.size(); }
-  /// When a frame may be told again.
+  /// Earliest time of the next frame message.
   Stop::Clock::time_point next_frame() const { return published_ + frame_period; }
 
-  /// Tells a page all. `shown` is looked at; the session itself, or what was recorded so far.
+  /// Sends the full state to one page. `shown` is the session itself, or the playback shown.
   void welcome(std::uint64_t page, const MessagePtr& hello, Session& session, const Session& shown,
                const SessionView& view);
-  /// Tells all pages what is new, when it is time to.
+  /// Sends news to all pages, when due.
   template <class View>
   void publish(Session& session, const Session& shown, View&& view) {
     if (is_fresh_ && Stop::Clock::now() >= next_frame()) tell_frame(session, shown, view());
     if (has_changed_) tell_standing(session);
   }
-  /// Sets a scenario value and tells all pages.
+  /// Sets a scenario value and informs all pages.
   void set(Session& session, const Request& request, Issues& issues);
 
   void tell_standing(Session& session);
-  /// Tells all pages where the session stands, and the numbers of every tick until then.
+  /// Sends the standing and the numbers of every tick so far to all pages.
   void tell_all(Session& session) {
     tell_rows();
     tell_standing(session);
@@ -71,7 +71,7 @@ class Publisher {
   bool told_aggregation_ = false;
   bool is_fresh_ = false;
   bool has_changed_ = false;
-  Stop::Clock::time_point published_{};  ///< when a frame was sent last
+  Stop::Clock::time_point published_{};  ///< time of the last frame message
 };
 
 }  // namespace microswarm::lab

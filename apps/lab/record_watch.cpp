@@ -21,7 +21,7 @@ bool is_there(const fs::path& file) {
   return fs::is_regular_file(file, error);
 }
 
-/// Whether a command writes to the folder: it holds a lock on it.
+/// Whether a command writes to the folder, so holds its lock.
 bool is_written_to(const fs::path& folder) {
   const std::string name = folder.empty() ? "." : folder.string();
   const Descriptor open = open_descriptor(name, O_RDONLY | O_DIRECTORY);

@@ -7,21 +7,20 @@
 
 namespace microswarm::lab {
 
-/// The file to open for a record: itself, or if it is not there yet the part that its run writes.
+/// File to open for a record: the record, or the part that its run writes if it does not exist yet.
 std::filesystem::path present_record(const std::filesystem::path& record);
 
-/// Watches a record that its run is still writing: a part file (microswarm::part_of), which is
-/// replaced again and again, and removed when the whole record is there. Another file never
-/// changes.
+/// Watches a record that a run is still writing: a part file (microswarm::part_of), which is
+/// replaced repeatedly, and removed when the record is complete. Other files never change.
 class RecordWatch {
  public:
   explicit RecordWatch(std::filesystem::path file);
 
-  /// What is to be read now: the part while it is there, then the whole.
+  /// File to read now: the part while it exists, then the complete record.
   std::filesystem::path file() const;
   /// Whether a run is still writing it.
   bool is_growing() const;
-  /// Whether the file was replaced since the last call, or is looked at for the first time.
+  /// Whether the file was replaced since the last call; true at the first call.
   bool has_changed();
 
  private:
@@ -32,7 +31,7 @@ class RecordWatch {
     off_t size = 0;
   };
   std::filesystem::path part_;
-  std::filesystem::path whole_;  ///< empty: it is not a part
+  std::filesystem::path whole_;  ///< empty unless the file is a part
   Version last_;
 };
 

@@ -11,26 +11,26 @@
 
 namespace microswarm::lab {
 
-/// What a page asks of a session.
+/// Kind of a page's request to a session.
 enum class Ask {
-  play,       ///< goes on; `number`: until this time [s], unless it is 0
-  pause,      ///< stands
+  play,       ///< continues, until the time `number` [s] unless it is 0
+  pause,      ///< pauses
   step,       ///< one tick
   speed,      ///< `number`: simulated seconds per second; 0: as fast as possible
-  seek,       ///< `number`: frame to look at
-  live,       ///< looks at the newest frame again
+  seek,       ///< shows the frame `number`
+  live,       ///< shows the newest frame again
   set,        ///< `key`, `value`: a scenario value, from the next tick on
-  restart,    ///< opens the experiment anew with `settings`
-  hold,       ///< `on`: the swarm holds, time goes on
-  manual,     ///< `on`: a person steers
-  steer,      ///< `heading` [rad], `speed` [µm/s]: by hand
-  end,        ///< ends the run in order
+  restart,    ///< restarts the experiment with `settings`
+  hold,       ///< `on`: the swarm holds while time continues
+  manual,     ///< `on`: manual steering
+  steer,      ///< manual command: `heading` [rad], `speed` [µm/s]
+  end,        ///< ends the run
   clearance,  ///< sends the map's clearance to this page
-  beat,       ///< the page with the controls of a rig is there; not answered
+  beat,       ///< sign of life of the page with a rig's controls; no answer
   stop,       ///< sets the coils of a rig to zero
   control,    ///< takes the controls of a rig, if no page has them
-  arm,        ///< opens the rig anew and drives its coils
-  dry         ///< opens the rig anew and drives nothing
+  arm,        ///< reopens the rig and drives its coils
+  dry         ///< reopens the rig without driving its coils
 };
 constexpr auto enum_names(Ask) {
   return std::array<std::pair<Ask, std::string_view>, 18>{{{Ask::play, "play"},
@@ -55,7 +55,7 @@ constexpr auto enum_names(Ask) {
 
 /// One message of a page.
 struct Request {
-  std::uint64_t id = 0;  ///< given back in the answer
+  std::uint64_t id = 0;  ///< repeated in the answer
   Ask ask = Ask::pause;
   double number = 0;
   double heading = 0;
@@ -66,34 +66,34 @@ struct Request {
   std::vector<std::string> settings;  ///< KEY=VALUE
 };
 
-/// What a page asks to open.
+/// A page's request to open a session.
 struct OpenRequest {
-  std::optional<std::string> file;    ///< of the listing; else what the lab was started with
+  std::optional<std::string> file;    ///< in the listing; default: the command line's experiment
   std::vector<std::string> settings;  ///< KEY=VALUE
-  std::optional<std::string> photo;   ///< beneath the map; of the listing or an upload
+  std::optional<std::string> photo;   ///< background of the map, in the listing or uploaded
   double um_per_px = 0;               ///< of the photo
 };
 
-/// What a page asks of a photograph: its vessels, and an experiment in them.
+/// A page's request for the vessels of a photograph and an experiment in them.
 struct PhotoRequest {
-  std::string file;                   ///< of an upload
+  std::string file;                   ///< uploaded photograph
   std::vector<std::string> settings;  ///< KEY=VALUE of the search
   double um_per_px = 0;
-  std::optional<std::array<double, 2>> start;  ///< of a swarm [µm]; else robots gather
+  std::optional<std::array<double, 2>> start;  ///< start of a swarm [µm]; without it robots gather
   std::optional<std::array<double, 2>> goal;   ///< [µm]
   int robots = 0;
 };
 
-/// Longest message that is read [bytes].
+/// Maximum size of a message [B].
 inline constexpr std::size_t max_request_size = 256 * 1024;
 
-/// Most settings in a message.
+/// Maximum number of settings in a message.
 inline constexpr std::size_t max_settings = 1000;
 
 /// Reads a JSON object such as {"id": 3, "do": "set", "key": "goal_um", "value": "[1, 2]"}. Throws
-/// InputError in one line if it is not one, has another key, or a value of another type.
+/// a one-line InputError for another text, an unknown key, or a value of another type.
 Request read_request(std::string_view text);
-/// The id in a message that read_request refuses, for the answer; 0 if it has none.
+/// Id in a message that read_request refuses, for the answer; 0 without one.
 std::uint64_t id_in(std::string_view text);
 
 /// Reads a JSON object such as {"file": "scenarios/a.yaml", "settings": ["seed=3"]}, strict as

@@ -43,7 +43,7 @@ void RigGuard::watch(std::shared_ptr<LiveSession> session, bool listens, std::ui
   const std::lock_guard lock(mutex_);
   session_ = std::move(session);
   listens_ = listens;
-  if (listens) heard_ = Clock::now();  // nothing was driven so far
+  if (listens) heard_ = Clock::now();  // no current was sent so far
   if (stops_ != stops) why_ = "it was stopped while it was opened";
   changed_.notify_all();
 }
@@ -71,7 +71,7 @@ void RigGuard::run() {
       is_stopping_ = true;
       lock.unlock();
       session->stop(why);
-      session.reset();  // the last hold on its devices is not here
+      session.reset();  // not the last owner of its devices
       lock.lock();
       is_stopping_ = false;
       changed_.notify_all();

@@ -13,14 +13,13 @@
 
 namespace microswarm::lab {
 
-/// Sets the coils of a rig to zero when it is told to, or when the page that has the controls says
-/// nothing for too long. It has a thread of its own, since a tick, a slow page or a slow driver
-/// must not delay it. Every function may be called from any thread and returns at once, but
-/// release().
+/// Sets the coils of a rig to zero on request, or when the page with the controls is silent for too
+/// long. It has its own thread, since a tick, a slow page or a slow driver must not delay it. Every
+/// function may be called from any thread and, except release(), returns at once.
 class RigGuard {
  public:
   using Clock = std::chrono::steady_clock;
-  /// Longest silence of the page while the coils are driven.
+  /// Maximum silence of the page while the coils are driven.
   static constexpr std::chrono::milliseconds patience{400};
 
   RigGuard() : thread_([this] { run(); }) {}
@@ -28,18 +27,18 @@ class RigGuard {
   RigGuard(const RigGuard&) = delete;
   RigGuard& operator=(const RigGuard&) = delete;
 
-  /// The page said something.
+  /// Takes a sign of life of the page.
   void beat();
-  /// It said something lately.
+  /// Whether the last sign of life is recent.
   bool hears() const;
-  /// Sets the coils to zero, also those of a session that is only being opened.
+  /// Sets the coils to zero, also of a session that is still being opened.
   void stop(const std::string& why);
-  /// How often it was told to stop so far.
+  /// Number of stop requests so far.
   std::uint64_t stops() const;
-  /// Guards a session that was opened after so many stops; one that came since then stops it. With
+  /// Guards a session whose opening began after `stops` stop requests; a later one stops it. With
   /// `listens` the page must not be silent.
   void watch(std::shared_ptr<LiveSession> session, bool listens, std::uint64_t stops);
-  /// Lets go of the session, after the stop that is being made, if any.
+  /// Releases the session, after a stop in progress, if any.
   void release();
 
  private:
@@ -52,7 +51,7 @@ class RigGuard {
   bool is_stopping_ = false;
   bool ends_ = false;
   std::uint64_t stops_ = 0;
-  std::string why_;  ///< of a stop that is still to be made
+  std::string why_;  ///< reason of a pending stop
   Clock::time_point heard_{};
   std::thread thread_;
 };

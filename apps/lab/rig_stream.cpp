@@ -25,7 +25,7 @@ Json quantiles_ms(const Durations& d) {
   return json;
 }
 
-/// Means of squares of `factor` pixels.
+/// Reduces a picture by averaging squares of `factor` pixels.
 Image shrunk(const Image& picture, int factor) {
   Image small{.width = picture.width / factor, .height = picture.height / factor};
   small.pixels.resize(small.index(0, small.height));

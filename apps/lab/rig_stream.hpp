@@ -11,10 +11,10 @@
 
 namespace microswarm::lab {
 
-/// What a rig does in real time.
+/// State of a rig in real time.
 enum class RigState {
-  dry,      ///< runs, and nothing goes to the coils
-  opening,  ///< its devices are being opened
+  dry,      ///< runs without current
+  opening,  ///< opening its devices
   armed,    ///< runs and drives the coils
   ended     ///< the coils are at zero
 };
@@ -25,23 +25,24 @@ constexpr auto enum_names(RigState) {
                                                                {RigState::ended, "ended"}}};
 }
 
-/// How a rig stands.
+/// Standing of a rig, for its pages.
 struct RigStanding {
   RigState state = RigState::opening;
-  std::string why;                        ///< the coils are at zero; empty while they are driven
-  std::optional<bool> zero_is_confirmed;  ///< by the device, after a run that drove them
-  std::string stop_trouble;               ///< CoilDriver::stop_trouble
-  std::string folder;                     ///< of the run's files; empty: none
+  std::string why;  ///< reason of zero currents; empty while the coils are driven
+  std::optional<bool>
+      zero_is_confirmed;     ///< whether the device confirmed it; set after a run that drove them
+  std::string stop_trouble;  ///< CoilDriver::stop_trouble
+  std::string folder;        ///< folder of the run's files; empty for none
 };
 
-/// The hello of a session on a rig in real time, with what the rig is.
+/// Hello of a session on a rig in real time, with the rig's properties.
 MessagePtr rig_hello_message(const Session& session, const Source& source, const Rig& rig,
                              const std::vector<std::string>& warnings);
-/// The rig's present numbers; those of the run are missing while none is open.
+/// Current numbers of the rig; without those of a run if none is open.
 MessagePtr rig_message(const RigStanding& standing, const LiveSession* run);
-/// Whether a page holds the controls, and whether nobody does.
+/// Whether a page holds the controls, and whether they are free.
 MessagePtr controls_message(bool holds, bool are_free, std::size_t pages);
-/// A grey picture, at most 1280 pixels wide, as JPEG with its place in the world.
+/// A grey picture, at most 1280 pixels wide, as JPEG with its scale and position.
 MessagePtr picture_message(const Image& picture, const CameraScale& scale, double t);
 
 }  // namespace microswarm::lab

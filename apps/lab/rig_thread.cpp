@@ -20,7 +20,7 @@ using namespace std::chrono_literals;
 constexpr auto rig_period = 100ms;
 constexpr const char* record_name = "run.h5";
 
-/// A dry run goes on while somebody looks for the swarm, the light or the focus.
+/// Relaxes limits for a dry run, so that it continues while light and focus are adjusted.
 void be_patient(SafetyParams& safety) {
   constexpr double long_time = 100;  // [s]
   safety.lost_swarm = safety.max_frame_age = safety.max_pause = safety.deadman = long_time;
@@ -91,7 +91,7 @@ void RigThread::ask(std::uint64_t page, Request request) {
     Host::ask(page, std::move(request));
 }
 
-/// The run of the present session, or what was recorded of the one before.
+/// The current run, or the record of the previous one.
 Session& RigThread::session() {
   if (live_) return *live_;
   if (!last_) throw InputError("the rig is not open");
@@ -100,7 +100,7 @@ Session& RigThread::session() {
 
 void RigThread::open() { begin_run(true, guard_.stops()); }
 
-/// The devices are free for another session before this one is gone.
+/// Releases the devices before the session is destroyed.
 void RigThread::close() {
   guard_.stop("the session was closed");
   if (runs()) end_run();
@@ -108,7 +108,7 @@ void RigThread::close() {
   live_.reset();
 }
 
-/// Opens the rig anew.
+/// Reopens the rig.
 void RigThread::begin_run(bool dry, std::uint64_t stops) {
   const SessionOptions& o = opening_.options;
   if (opening_.check) opening_.check(o.settings);
@@ -142,7 +142,7 @@ void RigThread::begin_run(bool dry, std::uint64_t stops) {
   pictures_.offer(live_->picture(), live_->camera_scale(), 0);
 }
 
-/// Closes the devices, and keeps what was recorded.
+/// Closes the devices, and keeps the record.
 void RigThread::keep_last() {
   look_at_newest();
   if (!live_) return;
@@ -152,7 +152,7 @@ void RigThread::keep_last() {
   live_.reset();
 }
 
-/// A folder that is named by date and time, and new.
+/// A new folder named by date and time.
 std::filesystem::path RigThread::new_folder() const {
   if (opening_.live->out.empty()) return {};
   const auto now = fmt::format("{:%Y-%m-%d_%H%M%S}", fmt::localtime(std::time(nullptr)));
@@ -187,7 +187,7 @@ void RigThread::step() {
   }
 }
 
-/// Sets the coils to zero and keeps what was measured.
+/// Sets the coils to zero and keeps the record.
 void RigThread::end_run() {
   Standing& standing = publisher_.standing;
   const bool drove = standing_.state == RigState::armed;
@@ -327,7 +327,7 @@ void RigThread::obey(std::uint64_t page, const Request& request, Issues& issues)
     case Ask::arm:
     case Ask::beat:
     case Ask::clearance:
-      break;  // done where it was asked, or answered by a message
+      break;  // handled by the caller, or answered by a message
   }
 }
 

@@ -14,8 +14,8 @@
 
 namespace microswarm::lab {
 
-/// A session on a rig in real time. It begins as a dry run, which drives nothing; to arm it opens
-/// the rig anew and drives the coils. One page has the controls; the others watch, and may stop it.
+/// A session on a rig in real time. It starts as a dry run without currents; arming reopens the rig
+/// and drives the coils. One page has the controls; the others watch and may stop the rig.
 class RigThread : public Host {
  public:
   RigThread(Opening opening, Callbacks callbacks);
@@ -51,18 +51,18 @@ class RigThread : public Host {
   std::filesystem::path new_folder() const;
 
   mutable std::mutex seats_mutex_;
-  std::set<std::uint64_t> seats_;     ///< pages; guarded
+  std::set<std::uint64_t> seats_;     ///< numbers of the pages; guarded
   std::uint64_t holder_ = 0;          ///< page with the controls; guarded
-  std::atomic<bool> drives_ = false;  ///< the coils, or is about to
+  std::atomic<bool> drives_ = false;  ///< whether the coils are or will soon be driven
 
-  // Of the session's thread.
+  // State of the session's thread.
   std::shared_ptr<LiveSession> live_;
-  std::unique_ptr<GrowingRecord> growing_;  ///< of a run that is kept
-  std::unique_ptr<Session> last_;           ///< the run before, while none is open
+  std::unique_ptr<GrowingRecord> growing_;  ///< of a run with a folder
+  std::unique_ptr<Session> last_;           ///< previous run, while none is open
   RigStanding standing_;
   std::vector<std::string> warnings_;
-  std::set<std::uint64_t> welcomed_;  ///< pages
-  Clock::time_point told_{};          ///< of the rig
+  std::set<std::uint64_t> welcomed_;  ///< pages that got their hello
+  Clock::time_point told_{};          ///< time of the last rig message
   PictureSender pictures_;
   RigGuard guard_;
 };

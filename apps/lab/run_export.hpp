@@ -12,20 +12,20 @@
 
 namespace microswarm::lab {
 
-/// A video or a picture of a run, which takes longer to make than other downloads.
+/// A video or a picture of a run, which takes longer than other downloads.
 struct RunExport {
   enum class Kind { video, gif, picture };
   Kind kind = Kind::picture;
   RunVideoOptions options{};
   std::optional<BackgroundPhoto> photo{};
-  double t = 0;  ///< of a picture [s]
+  double t = 0;  ///< time of a picture [s]
 };
 
-/// What run.mp4 or run.gif?from=&to=&speed=&width= or picture.svg?t=&width= asks for; nothing for
-/// another name. Throws InputError for a number that is none or out of range.
+/// Parses run.mp4 or run.gif?from=&to=&speed=&width= or picture.svg?t=&width=; nothing for another
+/// name. Throws InputError for an invalid number.
 std::optional<RunExport> read_run_export(std::string_view name, std::string_view target);
 
-/// Makes it; InputError if it cannot be made or was stopped.
+/// Makes the export. Throws InputError if it fails or was stopped.
 Download make_run_export(const RunExport& wanted, const Record& record, const Stop& stop);
 
 }  // namespace microswarm::lab

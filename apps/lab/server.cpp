@@ -99,7 +99,7 @@ class Server::Impl {
     try {
       listen_at("::1");
     } catch (const InputError&) {
-      // A computer without IPv6 is reached by the other address.
+      // Without IPv6 the other address is used.
     }
   }
 
@@ -126,7 +126,7 @@ class Server::Impl {
   void accept(Tcp::acceptor& acceptor) {
     acceptor.async_accept([this, &acceptor](boost::system::error_code error, Tcp::socket socket) {
       if (error) {
-        refused_.push_back(&acceptor);  // too many open files: the next tick tries again
+        refused_.push_back(&acceptor);  // too many open files; retried at the next tick
         return;
       }
       serve_connection(std::move(socket), shared());
@@ -174,7 +174,7 @@ class Server::Impl {
     });
   }
 
-  // What connections use, and they are destroyed with `io_`, stands before it.
+  // Members used by connections must precede `io_`, with which connections are destroyed.
   ServerOptions options_;
   Uploads uploads_;  ///< of the worker
   Library library_;

@@ -15,18 +15,18 @@
 namespace microswarm::lab {
 
 struct ServerOptions {
-  std::vector<std::filesystem::path> folders;  ///< whose files may be listed and opened
-  std::optional<Opening> opening{};            ///< shown first
-  std::string listen{};                        ///< address; empty: this computer alone
-  std::uint16_t port = 0;                      ///< 0: any that is free
+  std::vector<std::filesystem::path> folders;  ///< folders whose files may be listed and opened
+  std::optional<Opening> opening{};            ///< experiment shown first
+  std::string listen{};                        ///< address; empty for this computer alone
+  std::uint16_t port = 0;                      ///< 0 for any free port
   Limits limits{};
 };
 
 /// Serves the lab's page and its sessions by HTTP and WebSocket; docs/reference/lab-protocol.md
-/// describes both. Input and output have one thread, each session one of its own.
+/// describes both. Input and output use one thread, each session another one.
 class Server {
  public:
-  /// Begins to listen. Throws InputError if the address or the port cannot be had.
+  /// Starts listening. Throws InputError if the address or the port is not available.
   explicit Server(ServerOptions options);
   ~Server();
   Server(const Server&) = delete;
@@ -34,8 +34,8 @@ class Server {
 
   /// Address of the page with its token.
   std::string url() const;
-  /// Serves until the stop is requested. Whether all sessions and other work ended at once too; one
-  /// that still reads a large file does not, and the destructor waits for it.
+  /// Serves until the stop is requested. Returns whether all sessions and other work ended at once;
+  /// the destructor waits for one that still reads a large file.
   bool run(const Stop& stop);
   /// Sets the coils of every rig to zero; callable from any thread while it runs.
   void stop_rigs(const std::string& why);

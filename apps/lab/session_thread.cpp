@@ -13,9 +13,10 @@ namespace {
 using Clock = Stop::Clock;
 using namespace std::chrono_literals;
 
-constexpr auto longest_lag = 250ms;  ///< of simulated time; what is more is not made up for
-constexpr auto look_period = 1s;     ///< for more of a record that grows
-constexpr double max_speed = 1e6;    ///< simulated seconds per second
+constexpr auto longest_lag =
+    250ms;  ///< maximum lag of simulated time; a larger lag is not made up for
+constexpr auto look_period = 1s;   ///< period of checks for more of a growing record
+constexpr double max_speed = 1e6;  ///< simulated seconds per second
 
 Clock::duration wall_time(double seconds) {
   return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
@@ -23,7 +24,7 @@ Clock::duration wall_time(double seconds) {
 
 }  // namespace
 
-/// What was asked, the tick that is due, and what they changed.
+/// Handles requests and the tick that is due, and publishes the changes.
 void SessionThread::serve() {
   const Standing& standing = publisher_.standing;
   work_until(next_act(standing.plays && !standing.ended));
@@ -32,7 +33,7 @@ void SessionThread::serve() {
   publisher_.publish(*session_, shown(), [this] { return present_view(); });
 }
 
-/// When the next tick is due, a frame that waits may be published or a record may have grown.
+/// Time of the next tick, of the next possible frame message, or of the next check of a record.
 std::optional<Stop::Clock::time_point> SessionThread::next_act(bool is_due) const {
   const Standing& standing = publisher_.standing;
   std::optional<Clock::time_point> next;
@@ -66,15 +67,15 @@ void SessionThread::look_for_more() {
     standing.growing = watch_.is_growing();
     if (watch_.has_changed()) grow();
   } catch (const InputError&) {
-    standing.growing = true;  // it was replaced meanwhile: the next look finds another
+    standing.growing = true;  // it was replaced meanwhile; the next check finds the new file
   }
   if (standing.growing != was_growing) publisher_.changed();
 }
 
-/// Goes on with what the record is now. Whoever looks at its newest frame sees the new one.
+/// Continues with the grown record. A page at the newest frame gets the new one.
 void SessionThread::grow() {
   auto longer = open_session(watch_.file(), opening_.options);
-  if (longer->record().frames.size() < publisher_.rows()) {  // of another run
+  if (longer->record().frames.size() < publisher_.rows()) {  // it belongs to another run
     open();
     welcome(0);
     return;
@@ -89,8 +90,8 @@ void SessionThread::grow() {
   publisher_.freshen();
 }
 
-/// The frame that is shown. In a simulation the obstacles are those of the scenario as it is now,
-/// so that they are seen before the first tick and after a change.
+/// The shown frame. In a simulation the obstacles are those of the current scenario, so that they
+/// are visible before the first tick and after a change.
 SessionView SessionThread::present_view() {
   SessionView view = shown().view();
   if (looks_back() || session_->is_playback() || !opening_.options.rig.empty()) return view;
@@ -116,7 +117,7 @@ void SessionThread::obey(std::uint64_t, const Request& request, Issues& issues) 
       break;
     case Ask::pause:
       standing.plays = false;
-      publisher_.tell_all(*session_);  // before the answer: who asked knows then where it stands
+      publisher_.tell_all(*session_);  // before the answer, so that the sender has the standing
       break;
     case Ask::step:
       standing.plays = false;
@@ -161,7 +162,7 @@ void SessionThread::obey(std::uint64_t, const Request& request, Issues& issues) 
   }
 }
 
-/// A record that was played to its end begins again.
+/// Plays; a record at its end starts again.
 void SessionThread::play(double until) {
   Standing& standing = publisher_.standing;
   look_at_newest();
@@ -174,7 +175,7 @@ void SessionThread::play(double until) {
   due_ = Clock::now();
 }
 
-/// Whether the time is reached until which it plays.
+/// Whether the time until which it plays is reached.
 bool SessionThread::is_there() {
   if (until_ <= 0) return false;
   const SessionView view = session_->view();

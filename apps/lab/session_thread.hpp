@@ -8,8 +8,8 @@
 
 namespace microswarm::lab {
 
-/// A session in simulated time: steps it at its speed, looks back, restarts. Follows a record that
-/// its run still writes.
+/// A session in simulated time: steps at its speed, shows earlier frames, restarts. Follows a
+/// record that a run still writes.
 class SessionThread : public Host {
  public:
   SessionThread(Opening opening, Callbacks callbacks)
@@ -37,10 +37,10 @@ class SessionThread : public Host {
   void grow();
 
   std::unique_ptr<Session> session_;
-  Clock::time_point due_{};  ///< of the next tick
-  double until_ = 0;         ///< time at which it stands [s]; 0: at the end
+  Clock::time_point due_{};  ///< time of the next tick
+  double until_ = 0;         ///< time at which it pauses [s]; 0 for the end
   RecordWatch watch_;
-  Clock::time_point looks_{};  ///< for more of a record that grows
+  Clock::time_point looks_{};  ///< period of checks for more of a growing record
 };
 
 }  // namespace microswarm::lab

@@ -56,7 +56,7 @@ Json polygon(const Polygon& shape) {
   return {{"outer", points(shape.outer)}, {"holes", std::move(holes)}};
 }
 
-/// Discs as x, y, radius and number each, and polygons.
+/// Discs as x, y, radius and number, and polygons.
 Json bodies(std::span<const Body> list) {
   Floats discs;
   Json polygons = Json::array();
@@ -77,7 +77,7 @@ Json bodies(std::span<const Body> list) {
 
 Json described(const std::string& json) { return Json::parse(json); }
 
-/// A word of a command line for a POSIX shell.
+/// Quotes a word for a POSIX shell.
 std::string shell_word(const std::string& text) {
   const auto is_plain = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 ||

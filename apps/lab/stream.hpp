@@ -16,7 +16,7 @@
 
 namespace microswarm::lab {
 
-/// A tick's numbers for plots, kept of every tick.
+/// Numbers of a tick for plots, kept for every tick.
 struct Row {
   double t = 0;              ///< [s]
   Vec2 position;             ///< of the swarm, or the robots' mean [µm]
@@ -30,39 +30,39 @@ struct Row {
 };
 Row row_of(const Tick& tick);
 
-/// How a session stands.
+/// Standing of a session, for its pages.
 struct Standing {
   bool plays = false;
   double speed = 1;         ///< simulated seconds per second; 0: as fast as possible
-  bool looks_back = false;  ///< at an earlier frame
+  bool looks_back = false;  ///< whether an earlier frame is shown
   std::uint64_t frame = 0;  ///< number of the shown frame
   std::uint64_t frames = 0;
   bool ended = false;
-  bool growing = false;  ///< a record that its run still writes
+  bool growing = false;  ///< whether it is a record that a run still writes
   OperatingMode mode = OperatingMode::autonomous;
-  std::vector<std::string> changes;  ///< since the start, KEY=VALUE; the last of each key
-  std::string trouble;               ///< why it could not go on; empty otherwise
+  std::vector<std::string> changes;  ///< since the start, KEY=VALUE, one for each key
+  std::string trouble;               ///< why it could not continue; empty otherwise
 };
 
-/// What a session was opened from.
-/// A photograph beneath the map, its lower left corner at the origin.
+/// A photograph as background of the map, lower left corner at the origin.
 struct BackgroundPhoto {
   std::filesystem::path file;
   double um_per_px = 1;
 };
 
+/// Source of a session, as the command line names it.
 struct Source {
   std::string file;
-  std::string rig;  ///< empty: none
+  std::string rig;  ///< empty for none
   std::vector<std::string> settings{};
   std::vector<std::string> rig_settings{};
-  bool live = false;  ///< on the rig in real time; else the rig is simulated
+  bool live = false;  ///< whether the rig runs in real time; otherwise it is simulated
   std::optional<BackgroundPhoto> photo{};
 };
-/// The command line that repeats it, for a shell.
+/// Shell command that repeats the session.
 std::string command_of(const Source& source, bool is_record);
 
-/// What a page needs once: scenario, map, what can be changed while it runs.
+/// Hello of a session: scenario, map, keys that can be changed during the run.
 MessagePtr hello_message(const Session& session, const Source& source);
 nlohmann::json hello_json(const Session& session, const Source& source);
 /// The scenario after a change.
@@ -74,7 +74,7 @@ MessagePtr aggregation_message(const AggregationView& view);
 MessagePtr clearance_message(const Map& map);
 MessagePtr rows_message(std::span<const Row> rows, std::span<const RunEvent> events, bool anew);
 MessagePtr standing_message(const Standing& standing, const RunResult& result);
-/// The answer to a request; the issues say why it was not done.
+/// Answer to a request; with issues it was refused.
 MessagePtr answer_message(std::uint64_t id, const Issues& issues);
 
 }  // namespace microswarm::lab

@@ -17,9 +17,9 @@ namespace {
 constexpr double max_width = 320;           // px
 constexpr double max_height = 240;          // px
 constexpr double finest = 0.5;              // px
-constexpr std::size_t max_bytes = 200'000;  // a drawing that is larger is made coarser
+constexpr std::size_t max_bytes = 200'000;  // a larger drawing is made coarser
 constexpr std::size_t max_drawings = 2000;
-constexpr std::size_t max_robots = 500;  // that are drawn
+constexpr std::size_t max_robots = 500;  // maximum number of robots drawn
 constexpr double mark_radius = 5;        // px
 
 std::string hex(const Colour& colour) {
@@ -64,7 +64,7 @@ class Drawing {
  private:
   Vec2 at(Vec2 p) const { return {(p.x - view_.lo.x) * scale_, (view_.hi.y - p.y) * scale_}; }
 
-  /// Without points that are nearer to the one before than the tolerance.
+  /// Draws a ring without points nearer to the previous one than the tolerance.
   void ring(const std::vector<Vec2>& points, std::string& path) const {
     const Box box = bounding_box(std::span<const Vec2>(points));
     if (std::max(box.width(), box.height()) * scale_ < tolerance_) return;

@@ -8,11 +8,11 @@
 namespace microswarm::lab {
 
 /// A small drawing (SVG, at most 320 × 240 pixels) of a scenario's walls, its obstacles at t = 0,
-/// starts and goals; transparent where the world is free. What would be smaller than half a pixel
-/// is left out. Throws InputError like open_session.
+/// starts and goals; transparent where the world is free. Details smaller than half a pixel are
+/// omitted. Throws InputError like open_session.
 std::string thumbnail(const std::filesystem::path& scenario);
 
-/// Drawings by file, made anew when the file has changed. Use it from one thread.
+/// Cache of drawings by file, renewed after a change of the file. Not thread-safe.
 class Thumbnails {
  public:
   const std::string& of(const std::filesystem::path& scenario);

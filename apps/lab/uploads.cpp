@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 constexpr int max_files = 200;
 constexpr std::size_t max_total = 512 * 1024 * 1024;
 
-/// Removes the file unless it is kept.
+/// Removes a file in its destructor unless it is kept.
 class Trial {
  public:
   explicit Trial(fs::path file) : file_(std::move(file)) {}

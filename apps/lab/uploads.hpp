@@ -12,10 +12,10 @@
 
 namespace microswarm::lab {
 
-/// What an upload became.
+/// Result of an upload.
 struct Upload {
   enum class Kind { photograph, scenario, record };
-  std::string file;  ///< its name for open requests
+  std::string file;  ///< its name in open requests
   Kind kind = Kind::record;
   int width = 0;  ///< of a photograph [px]
   int height = 0;
@@ -27,27 +27,27 @@ constexpr auto enum_names(Upload::Kind) {
        {Upload::Kind::record, "record"}}};
 }
 
-/// Largest upload [bytes].
+/// Maximum size of an upload [B].
 inline constexpr std::size_t max_upload = 64 * 1024 * 1024;
 
-/// Files that pages sent, in a folder of this lab, which is removed at its end. They are named by
-/// number, so that a page chooses no path.
+/// Uploaded files, in a folder of this lab that is removed at its end. They are named by numbers,
+/// so that a page cannot choose a path.
 class Uploads {
  public:
   Uploads() : place_("uploads") {}
 
   std::filesystem::path folder() const { return place_.path().parent_path(); }
-  /// Keeps a file; the ending of `name` says what it should be: a photograph, a scenario whose
-  /// files are in `library`, or a record. Throws InputError if it is none or there are too many;
-  /// then nothing is kept.
+  /// Keeps a file whose kind follows from the extension of `name`: a photograph, a scenario whose
+  /// files are in `library`, or a record. Throws InputError, and keeps nothing, if it is invalid or
+  /// there are too many.
   Upload keep(std::string_view name, const std::string& bytes, const Library& library);
-  /// A new file of this ending.
+  /// Path of a new file with this extension.
   std::filesystem::path new_file(std::string_view extension);
 
  private:
   TemporaryFile place_;
   int count_ = 0;
-  std::size_t size_ = 0;  ///< of all [bytes]
+  std::size_t size_ = 0;  ///< total size [B]
 };
 
 }  // namespace microswarm::lab

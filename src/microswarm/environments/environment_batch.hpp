@@ -15,9 +15,9 @@
 
 namespace microswarm {
 
-/// Environments of the same task, stepped together on several threads. What they do does not depend
-/// on the number of threads: environment i of a batch with a seed s is that of a batch of one with
-/// the seed s + i. Each writes its observation of `size` numbers into the batch's.
+/// Environments of the same task, stepped together on several threads. Results do not depend on the
+/// number of threads: environment i of a batch with seed s equals a batch of one with seed s + i.
+/// Each writes its observation of `size` numbers into the batch's.
 template <class Episode, class Number>
 class EnvironmentBatch {
  public:
@@ -33,7 +33,7 @@ class EnvironmentBatch {
       episodes_.emplace_back(task, seed + i, std::span(*observations_).subspan(i * size, size));
   }
 
-  /// Begins an episode each: the first of the seeds s + i, or the next. After a stop nothing but a
+  /// Begins an episode in each: the first of the seeds s + i, or the next. After a stop only a
   /// reset is allowed.
   void reset(std::optional<std::uint64_t> seed = {}, const Stop& stop = {}) {
     for_each(stop, [&](std::size_t i) {
@@ -44,9 +44,9 @@ class EnvironmentBatch {
       has_ended_[i] = 0;
     });
   }
-  /// An input for each environment, `action(i)`. One whose episode ended with the step before
-  /// begins the next one instead, with a reward of 0. The spans have count() values; `copy` is
-  /// empty or as long as the observations, which are copied there while they are at hand. Throws
+  /// Steps each environment with the input `action(i)`. An environment whose episode ended with the
+  /// previous step begins the next episode instead, with a reward of 0. The spans have count()
+  /// values; `copy` is empty or has the size of the observations, which are copied into it. Throws
   /// InputError after a call that was stopped.
   template <class Action>
   void step(Action&& action, std::span<double> rewards, std::span<std::uint8_t> terminated,
@@ -70,13 +70,13 @@ class EnvironmentBatch {
 
   std::size_t count() const { return episodes_.size(); }
   Episode& episode(std::size_t index) { return episodes_[index]; }
-  /// Observations, one after the other; they may outlive this.
+  /// Observations in sequence; they may outlive this object.
   const std::shared_ptr<std::vector<Number>>& observations() const { return observations_; }
 
  private:
   template <class Body>
   void for_each(const Stop& stop, Body&& body) {
-    was_stopped_ = true;                  // also after an exception
+    was_stopped_ = true;                  // remains set after an exception
     constexpr std::size_t together = 16;  // environments that a thread takes at once
     const std::size_t blocks = (count() + together - 1) / together;
     threads_.for_each_index(blocks, [&](std::size_t block) {

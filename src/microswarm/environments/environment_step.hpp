@@ -6,8 +6,8 @@ namespace microswarm {
 /// Result of a step of an environment for learning.
 struct EnvironmentStep {
   double reward = 0;
-  bool terminated = false;  ///< the episode has come to its own end
-  bool truncated = false;   ///< its time has run out
+  bool terminated = false;  ///< whether the episode has ended by its rules
+  bool truncated = false;   ///< whether its time limit is reached
 };
 
 }  // namespace microswarm

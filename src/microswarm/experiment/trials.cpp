@@ -37,7 +37,7 @@ std::vector<TrialResult> run_trials(const Scenario& scenario, const World& world
   for_each_index(results.size(), options.jobs, [&](std::size_t i) {
     if (stop()) return;
     TrialResult trial = run_trial(scene, world, static_cast<std::uint32_t>(i), options, stop);
-    if (trial.result.status == Status::stopped) return;  // cut short, it is no trial
+    if (trial.result.status == Status::stopped) return;  // an interrupted trial does not count
     results[i] = std::move(trial);
     const std::lock_guard lock(mutex);
     ++done;

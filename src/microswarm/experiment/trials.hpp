@@ -11,7 +11,7 @@ namespace microswarm {
 /// Result of one trial.
 struct TrialResult {
   bool ran = false;  ///< false if the caller stopped before it
-  std::string hash;  ///< of all physical data, as Record::hash()
+  std::string hash;  ///< see Record::hash()
   RunResult result;
 };
 

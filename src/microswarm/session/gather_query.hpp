@@ -13,27 +13,27 @@
 
 namespace microswarm {
 
-/// Robots that shall gather in a map under one input.
+/// Query for gathering robots in a map under one input.
 struct GatherQuery {
   Vec2 goal;
-  int robots = 256;                       ///< at random starts, unless `starts` are given
-  std::vector<Vec2> starts{};             ///< of each robot [µm]
-  std::optional<double> channel_width{};  ///< scales all lengths [µm]; none: measured
+  int robots = 256;                       ///< number, at random starts unless `starts` is given
+  std::vector<Vec2> starts{};             ///< start of each robot [µm]
+  std::optional<double> channel_width{};  ///< scales all lengths [µm]; default: measured
   int max_steps = 100'000;
-  std::vector<std::string> settings{};  ///< KEY=VALUE of the scenario, as from --set
+  std::vector<std::string> settings{};  ///< KEY=VALUE of the scenario, as for --set
   std::uint64_t seed = 1;
 };
 
-/// The experiment that simulates it.
+/// The experiment that answers a GatherQuery.
 struct GatherExperiment {
   Experiment experiment;
   double measured_width = 0;  ///< typical width of the map's channels [µm]
-  Notes notes{};              ///< one for each outdated key in the settings
+  Notes notes{};              ///< one for each former key in the settings
 };
 
 /// Prepares the simulation with the lengths and the speed of fit_gathering, then applies the
-/// settings. `spec` is where the map's parts come from, as the scenario says it, and `name` stands
-/// for it in messages. Throws InputError with a line for each issue.
+/// settings. `spec` is the source of the map's parts for the scenario, `name` its name in messages.
+/// Throws InputError with a line for each issue.
 GatherExperiment open_gathering(MapParts map, MapSpec spec, const GatherQuery& query,
                                 const std::string& name);
 

@@ -12,9 +12,9 @@
 namespace microswarm {
 namespace {
 
-constexpr double copies_share = 0.02;  ///< of the session's time
-constexpr double first_cost = 2e-7;    ///< of copying a frame [s], before it is measured
-constexpr int writes_share = 10;       ///< of a core's, one part
+constexpr double copies_share = 0.02;  ///< share of the session's time
+constexpr double first_cost = 2e-7;  ///< assumed time of copying a frame [s], before it is measured
+constexpr int writes_share = 10;     ///< inverse share of a core
 constexpr std::string_view part_mark = ".part";
 
 double seconds(std::chrono::steady_clock::duration time) {
@@ -31,7 +31,7 @@ void for_growing(A& a, B& b, const Act& act) {
   act(a.changes, b.changes);
 }
 
-/// This thread gives way to all others, also where the session's has real-time priority.
+/// Gives this thread the lowest priority, even if the session's has a real-time one.
 void yield_to_others() {
   const sched_param none{};
   ::sched_setscheduler(0, SCHED_OTHER, &none);
@@ -84,7 +84,7 @@ void GrowingRecord::on_tick(const Tick& tick) {
   if (began < due_ || tick.end) return;
   const double expected = copied_ + new_frames_ * frame_cost_;
   if (expected > copies_share * seconds(began - begun_)) {
-    // A copy that was interrupted took long for its few frames: that is forgotten by and by.
+    // An interrupted copy took long for its few frames; the estimate recovers gradually.
     frame_cost_ = std::max(first_cost, 0.5 * frame_cost_);
     due_ = began + 5 * period_;
     return;
@@ -106,7 +106,7 @@ bool GrowingRecord::can_write() {
   return !writes_ && !news_ && Clock::now() >= rests_until_;
 }
 
-/// What the record has got since the last time, and the parts that change as a whole.
+/// Additions to the record since the last time, and the parts that change as a whole.
 std::unique_ptr<Record> GrowingRecord::take_news() {
   const Record& record = session_.record();
   auto news = std::make_unique<Record>();
@@ -139,7 +139,7 @@ void GrowingRecord::write_all() {
     try {
       write_record(whole_, part_);
     } catch (const std::exception&) {
-      // The run's own record says what is wrong with the folder.
+      // Writing the run's record will report the error of the folder.
     }
     const auto ended = Clock::now();
     lock.lock();

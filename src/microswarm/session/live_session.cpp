@@ -16,7 +16,7 @@ namespace microswarm {
 
 namespace {
 
-/// A swarm cannot follow if nothing goes to the coils or a video plays.
+/// Disables the following check if no current is sent to the coils or a video plays.
 RigExperiment without_following(RigExperiment on, bool dry) {
   if (dry || camera_kind(on.rig.params) == CameraKind::video)
     on.rig.params.safety.min_follow_share = 0;
@@ -33,7 +33,7 @@ std::string date_now() {
   return {text.data(), size};
 }
 
-/// What is known of an experiment before it begins.
+/// Log of a rig at the start of an experiment.
 RigLog log_of(const Rig& rig, const std::string& note) {
   RigLog log;
   log.began = date_now();
@@ -92,7 +92,8 @@ class LiveSession::LivePlant : public Plant {
   LiveRig& rig() { return rig_; }
   const RigExperiment& on() const { return on_; }
   CommandLog& log() { return log_; }
-  /// What is logged, beside the coils' thread only before the first command and after the stop.
+  /// The log; to be used outside of the coils' thread only before the first command and after the
+  /// stop.
   RigLog& kept() { return kept_; }
   VideoRecorder* video() { return video_.get(); }
   const std::vector<std::string>& warnings() const { return warnings_; }
@@ -133,7 +134,7 @@ class LiveSession::LivePlant : public Plant {
     if (!temperatures_->known()) warnings_.push_back(temperatures_->why_hot());
   }
 
-  /// What a new picture showed, the swarm and other bodies.
+  /// Logs the detections of a new picture: the swarm and other bodies.
   void keep_sight(double t) {
     if (t <= seen_ || kept_.seen_at.size() >= max_logged) return;
     seen_ = t;
@@ -159,7 +160,7 @@ class LiveSession::LivePlant : public Plant {
 
   RigExperiment on_;
   Devices devices_;
-  RigLog kept_;  // currents by the coils' thread, the rest by the run's
+  RigLog kept_;  // currents are written by the coils' thread, the rest by the run's
   double seen_ = -1;
   CommandLog log_;
   std::unique_ptr<VideoRecorder> video_;

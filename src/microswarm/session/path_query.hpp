@@ -14,32 +14,32 @@
 
 namespace microswarm {
 
-/// A path that is asked for in a map.
+/// Path query in a map.
 struct PathQuery {
   Pose2 start;
   Vec2 goal;
-  /// `planner.KEY=VALUE`, as from --set. What is not set is fitted to the map, see fit_to_map.
+  /// `planner.KEY=VALUE`, as for --set. Other values are fitted to the map, see fit_to_map.
   std::vector<std::string> settings{};
   std::uint64_t seed = 1;
 };
 
-/// What the settings of a query may change.
+/// Values that the settings of a query may change.
 const Type& path_settings();
 
-/// The answer to a query: the plan, and how it was made.
+/// Answer to a query: the plan, and the planner's parameters and time.
 struct PathAnswer {
   Plan plan;
-  PlannerParams planner;  ///< with the values that were used
-  double seconds = 0;     ///< that the planner took
-  Notes notes{};          ///< one for each outdated key in the settings
+  PlannerParams planner;  ///< parameters that were used
+  double seconds = 0;     ///< computing time of the planner [s]
+  Notes notes{};          ///< one for each former key in the settings
 
-  /// Why there is no path, in words, with the limit that ended the search; empty with a path.
+  /// Why there is no path, as text, with the limit that ended the search; empty with a path.
   std::string why_none() const;
 };
 
-/// Plans a path with the planner of the settings, or the shortest one. `name` stands for the map in
-/// messages. Throws InputError for numbers that are not finite, mistakes in the settings, and where
-/// no path can exist: a blocked start or goal, a swarm too wide, or a goal that is cut off.
+/// Plans a path with the planner of the settings, by default the shortest one. `name` is the map's
+/// name in messages. Throws InputError for numbers that are not finite, mistakes in the settings,
+/// and if no path can exist: a blocked start or goal, a swarm too wide, or a goal that is cut off.
 PathAnswer answer(const Snapshot& world, const PathQuery& query, const std::string& name,
                   const Stop& stop = {});
 

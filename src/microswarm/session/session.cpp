@@ -31,7 +31,7 @@ class OwnedRig : public Plant {
   SimulatedRig plant_;
 };
 
-/// Whether the file begins as an HDF5 file does, or is named like one.
+/// Whether the file has the signature or the name of an HDF5 file.
 bool is_hdf5(const std::filesystem::path& file) {
   constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
   std::array<char, signature.size()> begin{};

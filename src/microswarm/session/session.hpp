@@ -21,16 +21,16 @@ namespace microswarm {
 
 /// Options for opening a scenario.
 struct SessionOptions {
-  std::vector<std::string> settings{};  ///< KEY=VALUE of the scenario, as from --set
-  std::optional<std::uint64_t> seed{};  ///< replaces the scenario's seed
+  std::vector<std::string> settings{};  ///< KEY=VALUE of the scenario, as for --set
+  std::optional<std::uint64_t> seed{};  ///< overrides the scenario's seed
   std::uint32_t trial = 0;              ///< selects the random streams
-  std::filesystem::path rig{};          ///< rig file, simulated; empty: no rig
+  std::filesystem::path rig{};          ///< file of a rig to simulate; empty for none
   std::vector<std::string> rig_settings{};
 };
 
 /// An open experiment: the common interface of command line, lab, Python and C. It advances only
-/// when stepped, and records every step. Use one session from one thread at a time; several
-/// sessions may run in threads of their own.
+/// when stepped, and records every step. Use a session from one thread at a time; several sessions
+/// may run in separate threads.
 ///
 ///     const auto session = open_session("scenario.yaml");
 ///     while (session->step()) draw(session->view());
@@ -60,28 +60,28 @@ class Session {
   /// there are any, nothing changes. See OpenRun::change for the settable values. A record cannot
   /// be changed.
   Issues set(const std::string& key, const std::string& value);
-  /// How a person operates the experiment: pause, steer by hand, end; usable from any thread. Null
-  /// for a record.
+  /// Manual operation of the experiment: pause, steer, end; usable from any thread. Null for a
+  /// record.
   Operation* operation();
-  /// Goes to a frame of a record, at most to its last: view() shows it, step() gives the next one.
+  /// Seeks a frame of a record, at most its last: view() shows it, step() returns the next one.
   /// False if the session is not a record, or has no frames.
   bool seek(std::size_t frame);
 
-  /// One line for each outdated key in the files and settings.
+  /// One line for each former key in the files and settings.
   const Notes& notes() const { return notes_; }
 
   bool is_playback() const { return std::holds_alternative<Playback>(source_); }
-  /// The present scenario with all changes.
+  /// The current scenario with all changes.
   const Scenario& scenario() const;
   const Map& map() const;
-  /// Present state; before the first tick only a frame at t = 0.
+  /// Current state; before the first tick only a frame at t = 0.
   SessionView view() const;
   /// Aggregation tree and map segmentation; empty for other navigators, before the first tick and
   /// for records.
   std::optional<AggregationView> aggregation() const;
   /// Result so far, with status `running` before the last tick.
   const RunResult& result() const;
-  /// Record so far, which replays as far; complete after the last tick.
+  /// Record so far, which can be replayed; complete after the last tick.
   const Record& record() const;
   /// Writes the record. Throws InputError like write_record.
   void record_to(const std::filesystem::path& file) const { write_record(record(), file); }
@@ -89,7 +89,7 @@ class Session {
  protected:
   /// The newest tick; null before the first.
   const Tick* newest() const { return tick_; }
-  /// What a rig logs into the record of a running session.
+  /// Log of a rig in the record of a running session.
   RigLog& rig_log() { return std::get<0>(source_)->recorder.rig_log(); }
 
  private:

@@ -21,7 +21,7 @@ constexpr double max_radius = 1e6;  // [µm]
 constexpr std::size_t max_bodies = 5'000;
 constexpr std::size_t max_corners = 100'000;  // of all outlines
 
-/// How far [µm] a body is looked for from where it is expected: as in a picture of the map.
+/// Maximum distance [µm] of a body from its expected position: as in a picture of the map.
 double reach_in(const Map& map) {
   constexpr double share = 0.05;
   return share * std::max(map.bounds().width(), map.bounds().height());
@@ -97,7 +97,7 @@ void StandaloneNavigator::check(const ExternalObservation& given) const {
 
 Command StandaloneNavigator::step(const ExternalObservation& given, const Stop& stop) {
   check(given);
-  if (!is_prepared_) {  // before anything changes: it may throw
+  if (!is_prepared_) {  // first, since it may throw
     navigator_->prepare(Snapshot(experiment_.world.map, given.seen, given.obstacles), stop);
     if (stop()) return {};
     is_prepared_ = true;

@@ -13,23 +13,23 @@
 
 namespace microswarm {
 
-/// What a loop outside of this library sees at one time.
+/// Observation supplied by an external control loop.
 struct ExternalObservation {
-  double now = 0;                  ///< the present [s]
-  double seen = 0;                 ///< when the picture was taken [s], at most `now`
-  std::optional<SwarmPose> swarm;  ///< nothing if no swarm was found, and for robots
-  std::vector<Body> obstacles;     ///< as the picture shows them
-  /// Whether `Body::obstacle` tells which obstacles are the same in all pictures. Otherwise they
-  /// are matched with those of the pictures before, by distance.
+  double now = 0;                  ///< current time [s]
+  double seen = 0;                 ///< capture time of the picture [s], at most `now`
+  std::optional<SwarmPose> swarm;  ///< nothing if no swarm was detected, and for robots
+  std::vector<Body> obstacles;     ///< as detected in the picture
+  /// Whether `Body::obstacle` identifies obstacles over all pictures. Otherwise they are matched
+  /// with those of earlier pictures by distance.
   bool are_numbered = false;
-  /// Robot i is the same in every picture [µm]; none if they were not found.
+  /// Index i is the same robot in every picture [µm]; empty if they were not detected.
   std::vector<Vec2> robots;
-  int unseen = 0;  ///< of the robots, which are where they are expected
+  int unseen = 0;  ///< number of robots not detected, at expected positions
 };
 
-/// The navigator of a scenario in a loop of the caller's own: in go what its camera sees, out comes
-/// the command for its coils. Of the scenario it uses map, swarm or robots, goal, navigator, tick,
-/// the memory of obstacles and the seed; its obstacles are not used.
+/// The navigator of a scenario in the caller's loop: it maps the detections of a camera to the
+/// command for the coils. It uses map, swarm or robots, goal, navigator, tick, the memory of
+/// obstacles and the seed of the scenario, but not its obstacles.
 ///
 ///     StandaloneNavigator navigator(open_experiment("chip.yaml"));
 ///     for (;;) drive(navigator.step(look()));
@@ -38,12 +38,12 @@ class StandaloneNavigator {
   explicit StandaloneNavigator(Experiment experiment, std::uint32_t trial = 0);
 
   /// The command from `given.now` on. The first step prepares the navigator, which may take longer.
-  /// Throws InputError, and is as it was, for a number that is not finite or outside of its range,
-  /// for a time before that of the step before, and for another number of robots.
+  /// Throws InputError and remains unchanged for a number that is not finite or out of range, for a
+  /// time before that of the previous step, and for another number of robots.
   Command step(const ExternalObservation& given, const Stop& stop = {});
   /// Whether the first step was made.
   bool is_prepared() const { return is_prepared_; }
-  /// What the navigator heads for, and how it is; valid until the next step.
+  /// Target and state of the navigator; valid until the next step.
   NavigatorView view() const { return navigator_->view(); }
   const Scenario& scenario() const { return experiment_.scenario(); }
   const Map& map() const { return *experiment_.world.map; }
@@ -56,7 +56,7 @@ class StandaloneNavigator {
   BodyNumbers numbers_;
   ObstacleMemory memory_;
   std::optional<double> last_;  ///< time of the last step [s]
-  Command command_;             ///< of the last step
+  Command command_;             ///< command of the last step
   std::size_t robots_ = 0;
   bool is_prepared_ = false;
 };

@@ -23,10 +23,10 @@ struct SessionView {
   Frame frame;                 ///< pose, radius, command, distances, state
   std::uint64_t number = 0;    ///< number of the frame, from 0
   std::optional<Status> end;   ///< set for the last frame
-  bool holding = false;        ///< the goal was reached, and the swarm is held there
+  bool holding = false;        ///< whether the swarm is held at the goal
   std::vector<Body> bodies;    ///< the obstacles at the frame's time
   std::vector<Vec2> robots;    ///< positions [µm] of individually tracked robots
-  std::vector<Vec2> path;      ///< followed by the navigator
+  std::vector<Vec2> path;      ///< path followed by the navigator [µm]
   std::optional<Vec2> target;  ///< local target of the navigator
   std::uint64_t plans = 0;     ///< number of planning events so far; it changes with the tree
   std::vector<TreeNode> tree;  ///< of the newest plan

@@ -28,23 +28,23 @@ struct GatheringTask {
   int channels() const;
   /// Bytes of a picture: height × width × channels.
   std::size_t picture_size() const;
-  /// Memory that an episode takes beside its picture, at most about.
+  /// Approximate upper bound of an episode's memory besides its picture [B].
   std::size_t episode_bytes() const;
   /// Index of a cell in a picture of one channel.
   std::size_t pixel(std::uint32_t cell) const { return pixels[cell]; }
   std::vector<std::uint32_t> pixels;
 };
 
-/// Episodes of a gathering, one after the other, with their picture. A seed gives the same episodes
-/// everywhere.
+/// Sequence of episodes of a gathering, with their picture. Equal seeds give equal episodes on
+/// every machine.
 class GatheringEpisode {
  public:
-  /// `picture` has picture_size() bytes; it and the task must outlive this.
+  /// `picture` has picture_size() bytes; it and the task must outlive this object.
   GatheringEpisode(const GatheringTask& task, std::uint64_t seed, std::span<std::uint8_t> picture);
 
   /// Begins the first episode of a seed.
   void reset(std::uint64_t seed);
-  /// Begins the next one.
+  /// Begins the next episode.
   void reset();
   /// Sends one of the eight inputs to all particles and draws the picture.
   EnvironmentStep step(std::size_t action);

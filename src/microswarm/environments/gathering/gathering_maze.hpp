@@ -10,7 +10,7 @@
 
 namespace microswarm {
 
-/// A place as row and column from the upper left.
+/// A position as row and column from the upper left.
 struct MazePlace {
   int row = 0;
   int column = 0;

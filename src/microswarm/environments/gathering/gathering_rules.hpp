@@ -12,7 +12,7 @@ namespace microswarm {
 /// Motion of particles under an input.
 enum class ParticlePhysics {
   algorithmic,  ///< one cell in its direction, unless that cell is a wall
-  fuzzy,        ///< the same with random errors, alike for all particles in a cell
+  fuzzy,        ///< the same with random errors, equal for all particles in a cell
   physical,     ///< with mass, drag and contacts between particles
 };
 constexpr auto enum_names(ParticlePhysics) {
@@ -48,7 +48,7 @@ constexpr auto enum_names(GatheringObservation) {
 
 /// Rules of the learning benchmark gym-gathering (Konitzny, Lu, Leclerc, Fekete and Becker,
 /// "Gathering Physical Particles with a Global Magnetic Field Using Reinforcement Learning", IROS
-/// 2022); names and defaults are its own. Lengths are cells, times steps.
+/// 2022); names and defaults are the benchmark's. Lengths are cells, times steps.
 struct GatheringRules {
   static constexpr std::string_view type_name = "gathering";
   ParticlePhysics physics = ParticlePhysics::algorithmic;

@@ -29,7 +29,7 @@ std::uint64_t threshold(double probability) {
 
 /// Temporary memory of a step. Each thread has one, so that many gatherings fit into its caches.
 struct ParticleMotion::Scratch {
-  std::vector<std::uint32_t> aims;    ///< cells into which the particles would come
+  std::vector<std::uint32_t> aims;    ///< cells into which the particles would move
   std::vector<std::uint8_t> moves;    ///< whether they do
   std::vector<double> shares;         ///< 1 for those that do, 0 for those that are stopped
   std::vector<std::uint32_t> movers;  ///< those that change their cell
@@ -106,7 +106,8 @@ void ParticleMotion::merge_groups() {
 void ParticleMotion::step_algorithmic(MazePlace move) {
   const auto offset = static_cast<std::uint32_t>(move.row * maze_.stride() + move.column);
   for (std::uint32_t& cell : cells_)
-    cell += maze_.is_free(cell + offset) ? offset : 0;  // no branch, which would be a guess
+    cell += maze_.is_free(cell + offset) ? offset
+                                         : 0;  // without a branch, which could not be predicted
 }
 
 void ParticleMotion::step_fuzzy(MazePlace move, std::uint64_t key) {
@@ -159,7 +160,7 @@ void ParticleMotion::accelerate(Axis& axis, int direction) {
   for (std::size_t i = 0; i < cells_.size(); ++i) axis.speed[i] += direction * accelerations_[i];
 }
 
-// Without a branch, so that several particles are done at once.
+// Without a branch, so that it is vectorised.
 void ParticleMotion::advance(Axis& axis, const Scratch& scratch) {
   constexpr double slowest = 0.01;
   const double drag = rules_.drag;
@@ -177,8 +178,8 @@ void ParticleMotion::advance(Axis& axis, const Scratch& scratch) {
   }
 }
 
-// Those that would come into a cell with too many stay, until no cell has more than fit. All of a
-// round are judged by the same counts; each round but the last stops at least one.
+// Particles that would enter an overfull cell stay, until no cell holds more than its capacity. All
+// particles of a round are judged by the same counts; each round except the last stops one or more.
 void ParticleMotion::block_full_cells(Scratch& scratch) {
   const std::vector<std::uint32_t>& aims = scratch.aims;
   std::vector<std::uint8_t>& moves = scratch.moves;

@@ -10,18 +10,18 @@
 
 namespace microswarm {
 
-/// Particles in a maze, and what moves them. Particles in one cell move alike unless they are
-/// physical, so from then on they are one group.
+/// Particles in a maze and their motion. Particles in one cell move equally unless they are
+/// physical, so they form one group from then on.
 class ParticleMotion {
  public:
   ParticleMotion(const GatheringMaze& maze, const GatheringRules& rules);
 
   /// Puts particles into these cells, at rest, with new weights.
   void place(std::vector<std::uint32_t> cells, Rng& rng);
-  /// One input, 0 to 7.
+  /// Applies an input, 0 to 7.
   void step(std::size_t action, Rng& rng);
 
-  /// Cell of each group, and how many particles it is.
+  /// Cell of each group, and its number of particles.
   std::span<const std::uint32_t> cells() const { return cells_; }
   std::span<const std::uint32_t> counts() const { return counts_; }
   /// Weights of the particles; empty unless they are physical.

@@ -24,7 +24,8 @@ Vec2 random_place(const Map& map, double clearance, Rng& rng) {
   throw InputError("the map has no free place for a random start or goal");
 }
 
-/// Goes from `from` as far as bodies and walls leave room, at most `range`, to within 0.1 µm.
+/// Free distance from `from` in a direction to bodies and walls [µm], at most `range`, within 0.1
+/// µm.
 double free_distance(const Snapshot& world, Vec2 from, Vec2 direction, double range) {
   constexpr double near = 0.1;
   constexpr int steps = 64;
@@ -112,7 +113,7 @@ EnvironmentStep NavigationEpisode::step(const NavigationAction& action) {
   const double before = distance_;
   const Scenario& scenario = run_->scenario();
   const Tick* tick = run_->step();
-  if (tick && tick->end) {  // held for too long, or no step is left
+  if (tick && tick->end) {  // the hold limit or the number of steps is reached
     status_ = *tick->end;
     made.truncated = true;
     return made;
@@ -143,7 +144,7 @@ void NavigationEpisode::look(const Tick* tick) {
   const GroundTruth truth = *run_->plant().ground_truth();
   pose_ = truth.swarm.pose;
   double radius = truth.swarm.radius;
-  if (tick && !tick->trajectory.empty()) {  // it ends with a contact or the arrival
+  if (tick && !tick->trajectory.empty()) {  // it may end with a contact or the arrival
     pose_ = tick->trajectory.back().pose;
     radius = tick->trajectory.back().radius;
   }

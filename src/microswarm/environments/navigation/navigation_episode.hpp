@@ -30,7 +30,7 @@ class NavigationTask {
   /// counter-clockwise [µm]; of each of the nearest obstacles x, y from the swarm, radius [µm],
   /// velocity in x and y [µm/s], zeros where there are fewer.
   std::size_t observation_size() const;
-  /// Memory that an episode takes beside its observation, at most about.
+  /// Approximate upper bound of an episode's memory besides its observation [B].
   std::size_t episode_bytes() const { return 20'000 + 1000 * scenario().obstacles.size(); }
   static constexpr std::size_t own_numbers = 6;
   static constexpr std::size_t obstacle_numbers = 5;
@@ -48,7 +48,7 @@ using NavigationAction = Command;
 /// random streams of trial k.
 class NavigationEpisode {
  public:
-  /// `observation` has observation_size() numbers; it and the task must outlive this.
+  /// `observation` has observation_size() numbers; it and the task must outlive this object.
   NavigationEpisode(const NavigationTask& task, std::uint64_t seed, std::span<float> observation);
   ~NavigationEpisode();
   NavigationEpisode(NavigationEpisode&&) noexcept;
@@ -58,14 +58,14 @@ class NavigationEpisode {
 
   void reset(std::uint64_t seed);
   void reset();
-  /// One tick of the scenario. After the end of an episode nothing moves.
+  /// Advances one tick of the scenario; has no effect after the end of an episode.
   EnvironmentStep step(const NavigationAction& action);
 
   /// Time since the start of the episode [s].
   double time() const { return time_; }
   const Pose2& pose() const { return pose_; }
   Vec2 goal() const { return goal_; }
-  /// "running", or how the episode ended.
+  /// `running`, or the final status of the episode.
   Status status() const { return status_; }
 
  private:

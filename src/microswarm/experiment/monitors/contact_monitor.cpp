@@ -33,7 +33,7 @@ double top_growth_of(std::span<const PoseStamped> way) {
   return growth;
 }
 
-/// The least a distance can have been between two moments when it changes by `reach` at most.
+/// Minimum of a distance between two moments if it changes by at most `reach`.
 double min_between(double at_first, double at_last, double reach) {
   const double sum = at_first + at_last;
   return sum < infinity ? (sum - reach) / 2 : std::min(at_first, at_last) - reach;

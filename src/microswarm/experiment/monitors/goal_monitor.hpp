@@ -10,13 +10,14 @@
 
 namespace microswarm {
 
-/// Measures what is left to the goal of a scenario: of a swarm, or of individually tracked robots.
+/// Measures the remaining distance to a scenario's goal, of a swarm or of individually tracked
+/// robots.
 class GoalMonitor {
  public:
   /// The scenario must outlive the monitor.
   explicit GoalMonitor(const Scenario& scenario) : scenario_(&scenario) {}
 
-  /// Takes the goal of the scenario, after a change too; `from` is the swarm's position.
+  /// Takes the scenario's goal, also after a change; `from` is the swarm's position.
   void take_goal(Vec2 from);
   /// Measures robots from now on if the scenario has any; true at the first call after
   /// `take_goal`. The map must outlive the monitor.
@@ -28,13 +29,13 @@ class GoalMonitor {
   bool reached(double left) const { return left <= scenario_->goal_tolerance; }
   /// First time within the tolerance [s, on the clock of `trajectory`]; empty if never.
   std::optional<double> first_arrival(std::span<const PoseStamped> trajectory) const;
-  /// Distance to the goal where it was taken [µm].
+  /// Distance to the goal when it was taken [µm].
   double start_distance() const { return start_distance_; }
   bool has_robots() const { return task_.has_value(); }
 
  private:
   const Scenario* scenario_;
-  std::optional<Vec2> goal_;  ///< at the time its distance was measured
+  std::optional<Vec2> goal_;  ///< goal at the time its distance was measured
   double start_distance_ = 0;
   std::optional<RobotTask> task_;
 };

@@ -32,7 +32,7 @@ class RobotTask {
 
   std::vector<Vec2> goals_;
   std::optional<DistanceField> field_;
-  std::vector<Known> known_;  // robots that rest, or were pushed together, are asked for again
+  std::vector<Known> known_;  // cache, since robots that rest or have merged are queried repeatedly
 };
 
 }  // namespace microswarm

@@ -6,8 +6,8 @@
 
 namespace microswarm {
 
-/// Commands what a record's navigator commanded at the same times: stands in for a navigator that
-/// is not of this library when its run is replayed.
+/// Repeats the commands of a record's navigator at the same times. It replaces an external
+/// navigator when its run is replayed.
 class PlayedNavigator final : public Navigator {
  public:
   /// `record` must outlive it.
@@ -19,9 +19,9 @@ class PlayedNavigator final : public Navigator {
  private:
   const Record& record_;
   std::size_t frame_ = 0;
-  std::size_t path_ = 0;  ///< paths that were followed by then
-  std::size_t plan_ = 0;  ///< planning events by then
-  std::size_t goal_ = 0;  ///< phased goals by then
+  std::size_t path_ = 0;  ///< number of paths followed so far
+  std::size_t plan_ = 0;  ///< number of planning events so far
+  std::size_t goal_ = 0;  ///< number of phased goals so far
   NavigatorView view_;
 };
 

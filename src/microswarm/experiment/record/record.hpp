@@ -13,13 +13,13 @@
 
 namespace microswarm {
 
-/// Everything kept of a run: enough to repeat, measure and draw it.
+/// Record of a run, sufficient to repeat, measure and draw it.
 struct Record {
   std::string version;  ///< library version of the run
-  Scene scene;          ///< includes the world: a record needs no other file
+  Scene scene;          ///< includes the world, so that a record needs no other file
   std::uint32_t trial = 0;
   std::string rig;  ///< name of the rig; empty for a simulation. Runs on a rig have no replay
-  /// "external" if the run's navigator was not the scenario's; a replay commands what it commanded.
+  /// "external" if the run's navigator was not the scenario's; a replay repeats its commands.
   std::string navigator;
   RunResult result;
   std::vector<Frame> frames;  ///< one per tick, and one for the end with state "end"
@@ -62,7 +62,7 @@ class Recorder : public RunListener {
   /// Sets the result so far of a run that has not ended.
   void keep(const RunResult& result) { record_.result = result; }
 
-  /// For what a rig logs beside the run.
+  /// Log of a rig.
   RigLog& rig_log() { return record_.rig_log; }
   const Record& record() const { return record_; }
   Record take() { return std::move(record_); }
@@ -77,8 +77,8 @@ class Recorder : public RunListener {
 };
 
 /// Writes an HDF5 file with the layout in docs/reference/record.md, atomically through a temporary
-/// file. A symbolic link is replaced; what it points to stays. Throws InputError "FILE: cannot
-/// write: REASON" and leaves nothing behind; what a killed process left is removed.
+/// file. A symbolic link is replaced, its target is kept. Throws InputError "FILE: cannot write:
+/// REASON" and leaves no file behind; leftovers of killed processes are removed.
 void write_record(const Record& record, const std::filesystem::path& file);
 
 /// Reads a record. Throws InputError if the file is not a record, is damaged or is inconsistent.

@@ -81,7 +81,7 @@ std::vector<Change> read_changes(const Hdf5Reader& in) {
   return changes;
 }
 
-/// Part of a record that only that of an external navigator has.
+/// Part of a record that exists only for an external navigator.
 struct ExternalPart {
   std::vector<PhasedGoal> phased_goals;
   template <class Self, class V>
@@ -130,7 +130,7 @@ void write_record(const Record& record, const std::filesystem::path& file) {
               "Wall-clock time of the navigator's step, one a tick.");
   write_times(out, "/timing/planning_s", record.result.timing.planning,
               "Wall-clock time of the steps in which it planned.");
-  // A process that was killed while it wrote here left its part.
+  // Leftovers of a process that was killed while it wrote here.
   clear_staged(file.has_parent_path() ? file.parent_path() : ".");
   write_file_atomically(file, out.finish());
 }

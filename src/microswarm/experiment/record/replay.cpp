@@ -110,7 +110,7 @@ class Ending : public RunListener {
   std::atomic<bool> over_;
 };
 
-/// Applies the record's changes at their frames, and operates the run as it was.
+/// Applies the record's changes at their frames, and repeats its manual operation.
 class Changes : public RunListener {
  public:
   Changes(const Record& record, OpenRun& open) : record_(record), open_(open) {

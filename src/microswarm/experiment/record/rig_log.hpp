@@ -40,18 +40,18 @@ struct RigLatency {
 struct RigLog {
   std::string began;                  ///< date and local time, ISO 8601
   std::string note;                   ///< of the operator
-  std::string rig_file;               ///< all parameters of the rig, its scale included, as YAML
-  std::string coils_file;             ///< text of the coil system's file: the calibration
+  std::string rig_file;               ///< all parameters of the rig as YAML, its scale included
+  std::string coils_file;             ///< text of the coil system's file, with the calibration
   std::vector<std::string> coils;     ///< names
   std::vector<double> driven_at;      ///< times of the outputs [s]
-  std::vector<double> answered_at;    ///< when the driver had them [s]
-  std::vector<double> pictured_at;    ///< when the pictures came that they answer [s]
-  std::vector<double> currents;       ///< acknowledged: of all coils at the first sending, … [A]
+  std::vector<double> answered_at;    ///< times of the driver's acknowledgements [s]
+  std::vector<double> pictured_at;    ///< arrival of the pictures that they answer [s]
+  std::vector<double> currents;       ///< acknowledged currents of all coils, output by output [A]
   std::vector<double> seen_at;        ///< times of the pictures, one entry a body [s]
   std::vector<std::int64_t> bodies;   ///< -1 for the swarm, otherwise an obstacle's number
-  std::vector<Vec2> places;           ///< of the bodies' centres [µm]
+  std::vector<Vec2> places;           ///< centres of the bodies [µm]
   std::vector<double> radii;          ///< of circles around the bodies [µm]
-  std::optional<RigLatency> latency;  ///< of the whole run, once it is over
+  std::optional<RigLatency> latency;  ///< of the whole run, set at its end
 
   bool empty() const { return began.empty(); }
   void see(double t, std::int64_t body, Vec2 place, double radius);
@@ -60,7 +60,7 @@ struct RigLog {
 /// Writes the group /rig, nothing for an empty log.
 void write_rig_log(Hdf5Writer& out, const RigLog& log);
 
-/// Reads it; empty if there is none. Throws InputError if the columns do not fit together.
+/// Reads the log; empty if there is none. Throws InputError if the columns do not fit together.
 RigLog read_rig_log(const Hdf5Reader& in);
 
 }  // namespace microswarm

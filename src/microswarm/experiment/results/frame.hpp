@@ -132,7 +132,7 @@ constexpr auto enum_names(EventKind) {
        {EventKind::robots_unseen, "robots_unseen"}}};
 }
 
-/// An event at its own time between ticks.
+/// An event with its time between ticks.
 struct RunEvent {
   double t = 0;  ///< [s]
   EventKind kind = EventKind::goal_reached;

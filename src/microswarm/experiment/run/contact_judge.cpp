@@ -83,7 +83,7 @@ bool touches(const World& world, const State& state) {
   return !world.at(state.t).is_free(swarm.pose.position, swarm.radius);
 }
 
-/// The world without the obstacles that cannot reach the swarm between two times, whatever it does.
+/// The world without the obstacles that cannot reach the swarm between two times for any command.
 World within_reach(const World& world, const State& from, double until, const SwarmLimits& swarm) {
   World near{world.map, {}};
   const double time = until - from.t;

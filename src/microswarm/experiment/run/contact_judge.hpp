@@ -25,7 +25,7 @@ struct JudgeParams {
   }
 };
 
-/// Records what a judge needs of a run: every command, and the contacts.
+/// Records a run for a judge: every command, and the contacts.
 class ContactLog : public RunListener {
  public:
   void on_tick(const Tick& tick) override;
@@ -38,7 +38,7 @@ class ContactLog : public RunListener {
   std::vector<RunEvent> contacts_;
 };
 
-/// Verdict on one contact: whether it was avoidable, and how.
+/// Verdict on one contact: whether it was avoidable, and by which manoeuvre.
 struct ContactVerdict {
   RunEvent contact;
   bool avoidable = false;

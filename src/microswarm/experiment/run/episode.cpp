@@ -64,7 +64,7 @@ const Tick* Episode::step(const Stop& stop) {
   return &tick_;
 }
 
-/// Ends it if the time is up, which does not run in a pause.
+/// Ends the episode at its time limit; pauses do not count.
 void Episode::take_time() {
   if (mode_ == OperatingMode::paused) return;
   const auto ticks = [&](double time) { return std::ceil(time / scenario_.tick - 1e-9); };
@@ -141,7 +141,8 @@ Command Episode::decide(const Observation& seen, const Stop& stop) {
   return command;
 }
 
-/// Robots that a rig does not see may be anywhere. The truth of a simulation knows all of them.
+/// Notes the robots that a rig does not detect; they may be anywhere. A simulation's ground truth
+/// has all of them.
 void Episode::note_unseen(const Observation& seen) {
   if (plant_.ground_truth() || seen.unseen == unseen_) return;
   unseen_ = seen.unseen;
@@ -196,7 +197,7 @@ std::optional<Status> Episode::follow(const GroundTruth& ground_truth) {
   if (!is_there || (ends && touches.front().t <= t0 + arrival))
     return ends ? std::optional(Status::collided) : std::nullopt;
   const std::optional<Status> ending = arrive();
-  if (!ending) {  // within the tick, which goes on
+  if (!ending) {  // within the tick, which continues
     events_.back().t = t0 + arrival;
     events_.back().position = moment_on(trajectory_, arrival).pose.position;
     std::ranges::stable_sort(events_, {}, &RunEvent::t);
@@ -204,7 +205,7 @@ std::optional<Status> Episode::follow(const GroundTruth& ground_truth) {
   return ends ? Status::collided : ending;
 }
 
-/// The swarm is at the goal: the end, unless it is to be held there.
+/// The swarm is at the goal: ends the episode, unless the swarm is to be held there.
 std::optional<Status> Episode::arrive() {
   note(EventKind::goal_reached);
   if (scenario_.hold_at_goal <= 0) return Status::solved;
@@ -226,7 +227,7 @@ void Episode::end() {
   tick_.fault = fault_;
 }
 
-/// Fills the tick with the present state of the world.
+/// Fills the tick with the current state of the world.
 void Episode::fill(const Observation& seen) {
   const auto ground_truth = plant_.ground_truth();
   world_ = ground_truth ? ground_truth->world->at(present_.t) : *seen.world;

@@ -21,14 +21,14 @@ namespace microswarm {
 
 /// Runs an experiment tick by tick: observe, decide, apply. Contacts and arrival are detected in
 /// continuous time. For individually tracked robots the goal is tested once per tick, and walls are
-/// not contacts. After the arrival it goes on for the scenario's `hold_at_goal`: the navigator
-/// keeps the swarm there, and takes it back if it drifts away.
+/// not contacts. After the arrival it continues for the scenario's `hold_at_goal`: the navigator
+/// keeps the swarm at the goal, and returns it if it drifts away.
 ///
 ///     Episode episode(scenario, plant, navigator);
 ///     while (const Tick* tick = episode.step()) listener.on_tick(*tick);
 class Episode {
  public:
-  /// All arguments must outlive the episode. `operation` is that of a person, if any.
+  /// All arguments must outlive the episode. `operation`: manual operation, if any.
   Episode(const Scenario& scenario, Plant& plant, Navigator& navigator,
           Operation* operation = nullptr);
 
@@ -36,18 +36,18 @@ class Episode {
   /// (held for the scenario's hold limit, or until its time limit), `time_limit`, `stopped`, or
   /// `fault`.
   const Tick* step(const Stop& stop = {});
-  /// The last tick was taken.
+  /// Whether the last tick was taken.
   bool over() const { return tick_.end.has_value(); }
 
-  /// Continues with the current state of the scenario and of the plant's obstacles, and with this
-  /// navigator, which may be the present one. `setting` is reported with the next tick.
+  /// Continues with the current state of the scenario and of the plant's obstacles, and with
+  /// `navigator`, which may be the current one. `setting` is reported with the next tick.
   void change(const std::string& setting, Navigator& navigator);
 
   /// Pose of the swarm, or the last observed one.
   const Pose2& pose() const { return present_.pose; }
 
  private:
-  /// Present state of the swarm: the ground truth if the plant provides it, else the last
+  /// Current state of the swarm: the ground truth if the plant provides it, else the last
   /// observation.
   struct Present {
     double t = 0;
@@ -81,10 +81,10 @@ class Episode {
   HoldMonitor hold_;
   std::optional<ContactMonitor> contacts_;
   Present present_;
-  bool was_seen_ = false;  ///< the swarm, at least once
-  int unseen_ = 0;         ///< robots
+  bool was_seen_ = false;  ///< whether the swarm was seen at least once
+  int unseen_ = 0;         ///< number of robots not detected
   double done_ = 0;        ///< number of ticks that count for the time limit
-  bool at_goal_ = false;   ///< it was reached, and the swarm is held there
+  bool at_goal_ = false;   ///< whether the swarm is held at the goal
   double held_ = 0;        ///< number of ticks since then
   bool touched_ = false;
   bool prepared_ = false;         ///< navigator_->prepare() was called

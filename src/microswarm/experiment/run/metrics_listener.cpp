@@ -36,7 +36,7 @@ void MetricsListener::on_tick(const Tick& tick) {
   if (const RunEvent* arrival = arrival_of(tick)) result_.metrics.time = arrival->t;
 }
 
-/// The swarm is held at the goal: the metrics are those of the way there.
+/// Stops counting while the swarm is held at the goal: metrics end with the arrival.
 void MetricsListener::hold(const Tick& tick) {
   if (!is_held_) result_.metrics.goal_distance = tick.frame.goal_distance;
   is_held_ = true;

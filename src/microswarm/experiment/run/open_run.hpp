@@ -17,7 +17,7 @@
 
 namespace microswarm {
 
-/// Keys of a scenario that OpenRun::change sets, with all that is within them.
+/// Keys of a scenario that can be changed during a run, with all keys within them.
 std::span<const std::string_view> changeable_keys();
 
 /// One trial of a scenario in progress: plant, navigator and episode. It advances only when
@@ -44,15 +44,15 @@ class OpenRun {
   /// contact.
   Issues change(const std::string& setting);
 
-  /// How a person operates it: pause, steer by hand, end.
+  /// Manual operation: pause, steer, end.
   Operation& operation() { return operation_; }
 
-  /// The present scenario with all changes.
+  /// The current scenario with all changes.
   const Scenario& scenario() const { return scenario_; }
   const World& world() const { return world_; }
   Plant& plant() { return *plant_; }
   const Navigator& navigator() const { return *navigator_; }
-  /// Whether it is not the scenario's.
+  /// Whether the navigator is not the scenario's.
   bool has_external_navigator() const { return has_external_navigator_; }
 
  private:
@@ -64,7 +64,7 @@ class OpenRun {
   std::unique_ptr<Plant> plant_;
   bool has_external_navigator_;
   std::unique_ptr<Navigator> navigator_;
-  std::unique_ptr<Navigator> last_navigator_;  ///< its plan is in the last tick
+  std::unique_ptr<Navigator> last_navigator_;  ///< owner of the plan in the last tick
   Operation operation_;
   Episode episode_;
 };

@@ -7,34 +7,34 @@
 
 namespace microswarm {
 
-/// Who decides in a tick: the experiment's navigator, a person, or nobody: the swarm holds.
+/// Source of a tick's command: the experiment's navigator, manual steering, or a hold.
 enum class OperatingMode { autonomous, manual, paused };
 
-/// How a person operates a running experiment. Every function may be called from any thread and
-/// counts from the next tick on. The record shows each tick's mode by its state, and a replay
-/// repeats it.
+/// Manual operation of a running experiment. Every function may be called from any thread and takes
+/// effect at the next tick. The record holds each tick's mode in its state, and a replay repeats
+/// it.
 class Operation {
  public:
   /// `max_speed` [µm/s] of the swarm.
   explicit Operation(double max_speed) : by_hand_(max_speed) {}
 
-  /// Holds the swarm until it is resumed. The time limit of the scenario does not run meanwhile;
-  /// faults end the run as ever.
+  /// Holds the swarm until it is resumed. The scenario's time limit is suspended meanwhile; faults
+  /// still end the run.
   void pause(bool paused = true) {
     by_hand_.release();
     paused_ = paused;
   }
-  /// Whether steer() commands the swarm, in place of the navigator. Its goal is then not reached.
+  /// Selects whether steer() commands the swarm instead of the navigator; then no goal is reached.
   void manual(bool manual = true) {
     by_hand_.release();
     manual_ = manual;
   }
-  /// Commands the swarm for half a second (ManualNavigator), if it is steered by hand and not
-  /// paused; else nothing.
+  /// Commands the swarm for half a second (ManualNavigator) if it is steered manually and not
+  /// paused.
   void steer(const Command& command) {
     if (mode() == OperatingMode::manual) by_hand_.steer(command);
   }
-  /// Ends the run in order, as a stop: `solved` at the goal, else `stopped`.
+  /// Ends the run like a stop: `solved` at the goal, else `stopped`.
   void end() { ended_ = true; }
 
   /// Largest speed that steer() commands [µm/s].

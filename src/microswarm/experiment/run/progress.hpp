@@ -24,7 +24,7 @@ class ProgressListener : public RunListener {
   void on_tick(const Tick& tick) override;
 
  private:
-  std::optional<double> start_distance_;  // from the first frame on
+  std::optional<double> start_distance_;  // set by the first frame
   double time_limit_;
   std::function<void(const RunProgress&)> report_;
   double period_;

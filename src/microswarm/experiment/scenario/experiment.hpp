@@ -30,8 +30,8 @@ Experiment open_experiment(const std::filesystem::path& file,
                            const std::vector<std::string>& settings = {},
                            std::optional<std::uint64_t> seed = std::nullopt);
 
-/// The same from the text of a scenario file, at most 16 MB; `name` stands for the file in
-/// messages, and names of files in it are relative to `base`.
+/// The same from the text of a scenario file, at most 16 MB; `name` is its name in messages, and
+/// file names in it are relative to `base`.
 Experiment open_experiment_text(std::string_view text, const std::string& name,
                                 const std::filesystem::path& base,
                                 const std::vector<std::string>& settings = {},

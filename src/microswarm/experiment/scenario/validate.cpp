@@ -14,7 +14,7 @@
 namespace microswarm {
 namespace {
 
-// A navigator for which every observation is too old would hold forever.
+// A navigator for which every observation is too old would never move.
 Issues validate_sensing(const Scenario& scenario) {
   Issues issues;
   const double timeout = scenario.sensing.frame_timeout;
@@ -32,7 +32,7 @@ std::string goal_text(const std::string& why, const Scenario& scenario) {
                      aim_share * scenario.goal_tolerance);
 }
 
-/// Whether a path with the clearance exists; that there is none is proven.
+/// Whether a path with the clearance exists; false is a proof.
 bool leads_to(const Map& map, Vec2 start, Vec2 goal, double clearance) {
   return ShortestPaths(map, clearance).find(start, goal).status == Status::solved;
 }

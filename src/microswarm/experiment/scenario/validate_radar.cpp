@@ -40,9 +40,9 @@ Issues validate_legs(const std::vector<Stage>& stages, const Map& map) {
   return issues;
 }
 
-/// Why the valve in the zone would never let the swarm pass; empty if it does.
+/// Why the valve in the zone never lets the swarm pass; empty if it does.
 std::string never_opens(const WaitZone& area, const Valve& valve) {
-  const bool opens = valve.max_gap >= valve.span ||    // then nothing stands there
+  const bool opens = valve.max_gap >= valve.span ||    // then the valve is absent
                      valve.min_gap >= area.min_gap ||  // it is never too narrow
                      valve.max_gap > area.min_gap;
   if (opens) return {};

@@ -12,7 +12,7 @@ namespace microswarm {
 /// The part of `validate` for a scenario's robots: their number and the keys allowed with them.
 Issues validate_robots(const Scenario& scenario);
 
-/// The part for their positions.
+/// The part of `validate` for their positions.
 Issues validate_robot_positions(const Scenario& scenario, const Map& map);
 
 /// Issues that prevent robots from getting from `starts` to `goals`, one each: a start closer than

@@ -7,7 +7,7 @@
 namespace microswarm {
 
 /// Response of a simulated swarm to the field: the inverse of FieldGenerator. A field weaker than
-/// `min_amplitude` [mT] moves nothing.
+/// `min_amplitude` [mT] has no effect.
 struct FieldResponseParams {
   FieldKind kind = FieldKind::rotating;
   double frequency = 16;                     ///< of the field [Hz]

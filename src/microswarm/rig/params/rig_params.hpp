@@ -53,7 +53,7 @@ struct SimulatedCamera {
   }
 };
 
-/// A video played at its own pace in place of a camera, for tests.
+/// A video played at its own rate in place of a camera, for tests.
 struct VideoCamera {
   static constexpr std::string_view type_name = "video";
   std::string file;
@@ -133,7 +133,8 @@ struct Rig {
   CoilSystem system;
   std::filesystem::path folder;  ///< of the file
   KeyLocations keys;             ///< of the file
-  /// The coil system file limits the current of every coil, not only the driver's full scale.
+  /// Whether the coil system's file limits the current of every coil, apart from the driver's full
+  /// scale.
   bool limits_current = false;
 };
 
@@ -143,7 +144,7 @@ double full_scale_of(const RigParams& rig);
 /// Channels of the rig's driver, as many as the system has coils unless it says otherwise.
 int channels_of(const RigParams& rig, const CoilSystem& system);
 
-/// Whether the rig's driver is sent the field, see CoilDriver::takes_field.
+/// Whether the field is sent to the rig's driver, see CoilDriver::takes_field.
 bool takes_field(const RigParams& rig);
 
 /// Whether the rig's driver turns the field, see CoilDriver::makes_waveforms.
@@ -155,7 +156,7 @@ CameraKind camera_kind(const RigParams& rig);
 
 /// The rig's camera if it is a device; nothing for a simulated one or a video.
 std::optional<AnyCameraParams> device_camera(const RigParams& rig);
-/// Whether the camera shows a swarm that is not there: a simulated camera, also Aravis's.
+/// Whether the camera shows a simulated swarm: a simulated camera, Aravis's included.
 bool shows_drawn_swarm(const RigParams& rig);
 /// Detection of a silent, frozen or black camera of the rig.
 NewestFrameParams camera_watch(const RigParams& rig);

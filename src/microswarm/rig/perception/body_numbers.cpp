@@ -16,12 +16,12 @@ namespace {
 
 constexpr double memory = 1;       // [s] for which a hidden body is remembered
 constexpr double smoothing = 0.3;  // weight of the newest velocity
-/// Of more known bodies within reach of a body, only so many of the nearest may be the same one.
+/// Maximum number of known bodies within reach of a body that are considered, nearest first.
 constexpr std::size_t candidates = 64;
 constexpr double preference = 1e-12;  // of squared distances
 
-/// Adds the pairs of a body at `place`, row `row`, with the nearest of what is expected in reach,
-/// in ascending order.
+/// Adds the pairs of a body at `place`, row `row`, with the nearest expected bodies within reach,
+/// in ascending order of distance.
 class Pairing {
  public:
   Pairing(std::span<const Vec2> expected, double reach)
@@ -39,7 +39,7 @@ class Pairing {
     }
     if (edges.size() - first <= candidates) return;
     const auto begin = edges.begin() + static_cast<std::ptrdiff_t>(first);
-    // Where bodies lie on one another, each prefers another one.
+    // Of coinciding bodies each prefers another one.
     for (auto edge = begin; edge != edges.end(); ++edge)
       edge->cost += preference * reach_ * reach_ * std::abs(edge->column - row);
     std::nth_element(begin, begin + candidates, edges.end(), [](const auto& a, const auto& b) {
@@ -57,7 +57,7 @@ class Pairing {
       std::iota(near_.begin(), near_.end(), 0u);
       return;
     }
-    // The radius grows until there are enough in it, so that of a crowd few are looked at.
+    // The radius grows until it holds enough candidates, so that few are tested in a crowd.
     for (double share = 1.0 / 64; near_.size() < candidates; share *= 2) {
       near_.clear();
       grid_.within(place, std::min(share, 1.0) * reach_, near_);

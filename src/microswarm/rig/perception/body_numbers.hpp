@@ -17,10 +17,10 @@ class BodyNumbers {
   /// first number.
   explicit BodyNumbers(double reach, std::uint32_t first = 0) : reach_(reach), next_(first) {}
 
-  /// Numbers the bodies of the next picture, taken at `t` [s]. If stopped, some that are known get
+  /// Numbers the bodies of the next picture, taken at `t` [s]. If stopped, some known bodies get
   /// new numbers.
   void number(std::vector<Body>& bodies, double t, const Stop& stop = {});
-  /// Known bodies that were last seen as discs, where they are expected at `t` [s].
+  /// Known bodies that were last seen as discs, at their expected positions at `t` [s].
   std::vector<Disc> expected_discs(double t) const;
 
  private:

@@ -28,14 +28,14 @@ struct Detections {
   std::optional<SwarmPose> swarm;
   std::vector<Vec2> robots;  ///< individually tracked robots; the order never changes
   std::vector<Body> moving;  ///< obstacles with persistent numbers; leaves of a valve share one
-  /// Why no swarm was found: "none", "far" from where it can be, "several", of another "size",
-  /// "split" into parts, "merged" with another one, or too few "robots".
+  /// Why no swarm was found: "none", too "far" away, "several", of another "size", "split" into
+  /// parts, "merged" with another body, or too few "robots".
   std::string_view trouble;
-  std::vector<double> parts;  ///< radii of what it split into or merged from [µm]
+  std::vector<double> parts;  ///< radii of the parts after a split or before a merger [µm]
   int unseen = 0;             ///< robots without a spot, neither their own nor that of a pile
-  double commanded_way = 0;   ///< that the command drives since the last picture [µm]
-  double followed_way = 0;  ///< part of it that was seen [µm]; negative in the opposite direction
-  double across_way = 0;    ///< observed displacement to its left [µm]
+  double commanded_way = 0;   ///< commanded distance since the last picture [µm]
+  double followed_way = 0;    ///< observed displacement along it [µm]; negative: opposite
+  double across_way = 0;      ///< observed displacement to its left [µm]
 };
 
 /// Interface of a rig's image processing, picture by picture, in world coordinates. Walls are those
@@ -45,9 +45,9 @@ class Perception {
   virtual ~Perception() = default;
   /// Processes the next grey picture, taken at `t` [s]. Valid until the next call.
   virtual const Detections& process(const Image& picture, double t) = 0;
-  /// Reports the command that drives the swarm from time `t` on.
+  /// Takes the command that drives the swarm from time `t` [s] on.
   virtual void commanded(const Command& command, double t) = 0;
-  /// Commanded way over which it can be judged whether the swarm follows [µm].
+  /// Commanded distance over which following can be judged [µm].
   virtual double follow_distance() const = 0;
 };
 
@@ -56,8 +56,8 @@ Observation observation_of(const Detections& sight, std::shared_ptr<const Snapsh
                            double now, double seen);
 
 /// Creates the perception of a scenario: for one swarm among obstacles, or for robots. The
-/// scenario's obstacles are those that the camera shows: a deforming channel among them means that
-/// walls move, and leaves are joined where a valve stands.
+/// camera shows the scenario's obstacles: a deforming channel among them means that walls move, and
+/// leaves are joined at the positions of valves.
 std::unique_ptr<Perception> make_perception(const PerceptionParams& params,
                                             const Scenario& scenario, const Map& map,
                                             std::span<const Vec2> starts, const CameraView& view);

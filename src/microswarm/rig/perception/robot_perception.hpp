@@ -16,10 +16,10 @@ class BackgroundModel;
 
 /// Tracks a known number of robots. Each robot's position is predicted from the command and the
 /// walls of the map, and paired with a detected spot. An unpaired spot gets the nearest unpaired
-/// robot that can have come there. A robot left over joins a pile: it stays at its predicted
-/// position if it is dark there, or moves to a spot that it can have reached. If there is none, it
-/// is unseen and stays where it is expected; a robot that was unseen for a while needs a spot of
-/// its own to be seen again. There is no swarm if too few robots are seen.
+/// robot that can have reached it. A remaining robot joins a pile: it stays at its predicted
+/// position if it is dark there, or moves to a spot within its reach. Without one it is unseen and
+/// keeps its expected position; a robot that was unseen for a while needs a separate spot to be
+/// seen again. There is no swarm if too few robots are seen.
 class RobotPerception : public Perception {
  public:
   /// The robots start at `starts`; if empty, they are the spots of the first picture.

@@ -69,7 +69,7 @@ const Detections& SwarmPerception::process(const Image& picture, double t) {
   return detections_;
 }
 
-/// Looks for the swarm, and for the bodies around it.
+/// Searches for the swarm and the bodies around it.
 SeenScene SwarmPerception::find(const Image& picture, double t) {
   SceneParams params = search(t);
   if (params_.moving_walls)
@@ -144,8 +144,8 @@ void SwarmPerception::accept(const Blob& swarm, const SeenScene& scene, double t
   detections_.swarm = SwarmPose{{place, heading_}, radius * scale_.um_per_px};
 }
 
-/// Whether it lies in parts where it was whole: they have its area, and it is none of them. What
-/// was beside it before is no part.
+/// Whether the swarm has split into parts that have its area together. Bodies that were near it
+/// before are no parts.
 bool SwarmPerception::tell_split(const SwarmSighting& sighting) {
   if (sightings_ < min_radius_count) return false;
   const double usual = median(radii_px_);
@@ -169,8 +169,8 @@ bool SwarmPerception::tell_split(const SwarmSighting& sighting) {
   return true;
 }
 
-/// Whether a blob too large for the swarm is the swarm and something that was beside it, which is
-/// no longer seen there and has the area that it has grown by.
+/// Whether a blob too large for the swarm is the swarm merged with a body that was near it, is no
+/// longer seen separately and has the additional area.
 bool SwarmPerception::tell_merger(const Blob& whole, const SeenScene& scene) {
   const double usual = median(radii_px_);
   const double grown = whole.radius_px * whole.radius_px - usual * usual;

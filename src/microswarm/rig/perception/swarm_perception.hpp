@@ -13,16 +13,15 @@
 
 namespace microswarm {
 
-/// Size in the picture of a swarm with these limits: a smooth one must have it where it is seen for
-/// the first time.
+/// Expected size in the picture of a swarm with these limits; a smooth swarm must have it at its
+/// first detection.
 SwarmPrior expected_swarm(const SwarmLimits& limits, const PerceptionParams& params,
                           const CameraScale& scale);
 
-/// Detects one swarm among moving obstacles, where it can have come since it was last seen and of
-/// about the size that it had. Its place and radius are those of the smallest circle around its
-/// outline: nothing of it is beyond. Its heading is its last direction of motion. A swarm without
-/// texture is known at first by the start and by the size that the scenario gives it; a swarm that
-/// had texture is never replaced by something smooth.
+/// Detects one swarm among moving obstacles, within its reach since the last detection and with
+/// about its last size. Position and radius are those of the smallest circle around its outline.
+/// Its heading is its last direction of motion. A swarm without texture is recognised at first by
+/// the scenario's start and size; a swarm that had texture is never replaced by a smooth blob.
 class SwarmPerception : public Perception {
  public:
   /// The swarm starts at `start`; the camera shows the `obstacles` of the scenario.
@@ -60,11 +59,11 @@ class SwarmPerception : public Perception {
   double heading_;
   SwarmLimits limits_;
   std::optional<Vec2> before_px_;
-  std::optional<double> found_;   // when the swarm was last seen [s]
+  std::optional<double> found_;   // time of the last sighting [s]
   std::vector<double> radii_px_;  // of the last sightings, a ring
   std::size_t sightings_ = 0;     // so far
-  std::vector<Blob> beside_;      // what else was seen with the swarm at the last sighting
-  double texture_ = 0;            // of the swarm then
+  std::vector<Blob> beside_;      // other blobs at the last sighting
+  double texture_ = 0;            // texture of the swarm at that time
   Command command_;
   Detections detections_;
 };

@@ -11,18 +11,18 @@
 
 namespace microswarm {
 
-/// Knows the seen bodies that are leaves of a valve by where the scenario says that valves stand.
-/// A valve that moves is not known.
+/// Recognises detected bodies that are leaves of a valve by the scenario's positions of valves.
+/// Moving valves are not recognised.
 class ValveLeaves {
  public:
   /// `tolerance` [µm] is the maximum distance by which a leaf's image protrudes from its valve.
   ValveLeaves(std::span<const Obstacle> obstacles, double tolerance);
 
-  /// Number of valves that stand.
+  /// Number of standing valves.
   std::uint32_t count() const { return static_cast<std::uint32_t>(valves_.size()); }
-  /// Gives both leaves of the k-th valve the number k and puts them last, always in the same order.
-  /// A body across the middle of a valve is both leaves of a closed one, and is cut there. A leaf
-  /// seen alone keeps its number. Other bodies must have numbers from `count()` on.
+  /// Gives both leaves of the k-th valve the number k and moves them to the end, in a fixed order.
+  /// A body across the middle of a valve is a closed one, and is cut there. A leaf seen alone keeps
+  /// its number. Other bodies must have numbers from `count()` on.
   void join(std::vector<Body>& bodies) const;
 
  private:

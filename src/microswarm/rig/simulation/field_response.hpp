@@ -17,7 +17,7 @@ class FieldResponse {
  public:
   explicit FieldResponse(const FieldResponseParams& params) : params_(params) {}
 
-  /// Advances `dt` seconds to the present field [mT]. Returns the driven heading and speed.
+  /// Advances `dt` seconds to the current field [mT]. Returns the driven heading and speed.
   Command step(const Eigen::Vector3d& field, double dt);
 
  private:

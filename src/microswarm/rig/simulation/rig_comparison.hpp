@@ -37,7 +37,7 @@ struct RunSummary {
 /// Summary of one of the two results of each trial.
 RunSummary summarise(std::span<const ComparedTrial> trials, RunResult ComparedTrial::*plant);
 
-/// A run as in simulation.csv.
+/// A row of simulation.csv.
 struct ComparisonRow {
   std::string scenario;
   std::string settings;

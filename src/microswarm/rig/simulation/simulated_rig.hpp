@@ -16,8 +16,8 @@ namespace microswarm {
 /// microscope's picture.
 class SimulatedRig : public Plant {
  public:
-  /// `rig` and `driver` must outlive it; if `driver` is null, the coils are simulated. `trial`
-  /// selects the random streams. Throws InputError if rig and scenario do not fit.
+  /// `rig` and `driver` must outlive the plant; if `driver` is null, the coils are simulated.
+  /// `trial` selects the random streams. Throws InputError if rig and scenario do not fit.
   SimulatedRig(const Scenario& scenario, const World& world, const Rig& rig,
                std::uint32_t trial = 0, CoilDriver* driver = nullptr);
 
@@ -50,7 +50,7 @@ RunResult simulate_rig(const Scenario& scenario, const World& world, const Rig& 
                        std::uint32_t trial = 0, std::span<RunListener* const> listeners = {},
                        const Stop& stop = {});
 
-/// Simulated coils like those of the rig's driver, whatever its kind; opens no device.
+/// Simulated coils with the properties of the rig's driver, of any kind; opens no device.
 std::unique_ptr<CoilDriver> simulated_coils(const Rig& rig);
 
 }  // namespace microswarm
