@@ -1,16 +1,46 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Fails on a class, struct, enum or function in a public header without a docstring.
+"""Fails on a class, struct, enum or function in a header without a docstring, and on phrases that are no
+plain English in a comment.
 
-Looked at are declarations at namespace scope in src/**/*.hpp. A docstring `///` stands just before
-its declaration and covers what follows it without a blank line between, so that one sentence may
-serve a family of overloads. Forward declarations, variables, aliases, concepts, specialisations and
-namespaces called detail need none.
+Docstrings: declarations at namespace scope in the headers of src, apps and bindings. A docstring `///` stands just
+before its declaration and covers the declarations up to the next blank line, so that one sentence may serve a
+family of overloads. Forward declarations, variables, aliases, concepts, specialisations and namespaces called
+detail need none. A docstring in front of a blank line belongs to nothing and is refused.
+
+Phrases: comments of C++, C and TypeScript in src, apps, bindings and web/src, and docstrings of the Python package.
+PHRASES lists them, each with the words to use in its place.
 """
 
+import ast
+import io
 import re
 import sys
+import tokenize
 from pathlib import Path
+
+FOLDERS = ("src", "apps", "bindings")
+
+# What a comment must not say, and what to say in its place.
+PHRASES = [(re.compile(pattern, re.I), hint) for pattern, hint in (
+    (r"\bone's own\b", "'your own', 'user-supplied' or 'separate'"),
+    (r"\bfor ever\b|\bfor good\b", "'indefinitely' or 'permanently'"),
+    (r"\bbut for\b", "'except'"),
+    (r"\b(what|who|where)ever\b", "'any', 'for any' or 'independent of'"),
+    (r"\btold\b", "'given', 'sent' or 'reported'"),
+    (r"\btells?\b", "'returns', 'says' or 'reports'; 'returns whether'"),
+    (r"\bgo(es|ing)? on\b", "'continues'"),
+    (r"\bbears?\b", "the noun: 'limits', 'withstands'"),
+    (r"\banew\b", "'again', 'newly' or 'by each'"),
+    (r"\bseldom\b", "'rarely'"),
+    (r"\b(the|its) present\b", "'the current'"),
+    (r"\bforese(e|es|en|eing)\b", "'predict'"),
+    (r"\bso many (seconds|times|ticks)\b", "the name of the parameter"),
+    (r"\bof (its|their|your|his|the caller's) own\b", "'its own X' or 'a separate X'"),
+)]
+# How a docstring must not begin: it names what a thing is, or what a function does.
+OPENING = re.compile(r"(What|Where|How)\b")
+OPENING_HINT = "a noun or a verb: 'Result of', 'Position of', 'Number of', 'Returns'"
 
 # Comments, string and character literals, and preprocessor lines: blanked out, line by line. A
 # quote after a digit separates digits.
@@ -20,6 +50,12 @@ NOISE = re.compile(
     r"|(?<![0-9a-fA-F])'(?:\\.|[^'\\\n])+'"
     r"|^[ \t]*#(?:[^\n]*\\\n)*[^\n]*",
     re.DOTALL | re.MULTILINE,
+)
+COMMENT = re.compile(
+    r'(?P<comment>//[^\n]*|/\*.*?\*/)'
+    r'|R"(?P<tag>\w*)\(.*?\)(?P=tag)"|"(?:\\.|[^"\\\n])*"'
+    r"|(?<![0-9a-fA-F])'(?:\\.|[^'\\\n])+'|`(?:\\.|[^`\\])*`",
+    re.DOTALL,
 )
 NAMESPACE = re.compile(r"(?:inline\s+)?namespace\b\s*(?P<name>[\w:]*)$")
 TYPE = re.compile(r"(?:class|struct|union|enum(?:\s+class|\s+struct)?)\b")
@@ -110,13 +146,79 @@ def check_text(text):
     return missing
 
 
+def orphans(text):
+    """Lines of the last lines of docstrings that stand before a blank line."""
+    lines = text.splitlines()
+    return [number for number, (line, following) in enumerate(zip(lines, [*lines[1:], ""]), 1)
+            if re.match(r"\s*///(?!<)", line) and not following.strip()]
+
+
+def comments(text):
+    """[(line, whether it is a docstring, text)] of the comments of C++, C or TypeScript; those on successive lines
+    are one."""
+    joined = []
+    ended = None  # the line on which a comment that may continue ended
+    for match in COMMENT.finditer(text):
+        if not match["comment"]:
+            continue
+        first = text.count("\n", 0, match.start()) + 1
+        alone = not text[text.rfind("\n", 0, match.start()) + 1:match.start()].strip()
+        marks, words = re.match(r"(//[/<]*|/\*\**)(.*)", match["comment"], re.S).groups()
+        words = " ".join(word.strip("*/ ") for word in words.split("\n")).strip()
+        if alone and ended == first - 1 and joined[-1][3] == marks:
+            joined[-1] = (*joined[-1][:2], f"{joined[-1][2]} {words}", marks)
+        else:
+            joined.append((first, marks in ("///", "///<", "/**"), words, marks))
+        ended = first + match["comment"].count("\n") if alone else None
+    return [found[:3] for found in joined]
+
+
+def docstrings(text):
+    """The same of a Python module: its docstrings, and its comments."""
+    found = []
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef)) and ast.get_docstring(node):
+            found.append((node.body[0].lineno, True, " ".join(ast.get_docstring(node).split())))
+    for token in tokenize.generate_tokens(io.StringIO(text).readline):
+        if token.type == tokenize.COMMENT:
+            found.append((token.start[0], False, token.string.lstrip("# ")))
+    return sorted(found)
+
+
+def phrases(found):
+    """[(line, what is wrong)] of comments as of comments() or docstrings()."""
+    for line, is_docstring, words in found:
+        words = re.sub(r"`[^`]*`", "`", words)  # names
+        if is_docstring and OPENING.match(words):
+            yield line, f"a docstring begins with '{words.split()[0]}': begin with {OPENING_HINT}"
+        for pattern, hint in PHRASES:
+            for match in pattern.finditer(words):
+                yield line, f"'{match[0]}' in a comment: say {hint}"
+
+
 def check(root):
-    """All complaints about the public headers below `root`."""
+    """All complaints about the tree at `root`."""
+    root = Path(root)
     complaints = []
-    for path in sorted((Path(root) / "src").rglob("*.hpp")):
-        for line, declaration in check_text(path.read_text(encoding="utf-8")):
-            file = path.relative_to(root).as_posix()
-            complaints.append(f"{file}:{line}: no docstring: {declaration[:70]}")
+
+    def complain(path, line, what):
+        complaints.append(f"{path.relative_to(root).as_posix()}:{line}: {what}")
+
+    for folder in FOLDERS:
+        for path in sorted((root / folder).rglob("*.hpp")):
+            text = path.read_text(encoding="utf-8")
+            for line, declaration in check_text(text):
+                complain(path, line, f"no docstring: {declaration[:70]}")
+            for line in orphans(text):
+                complain(path, line, "a docstring of nothing: a blank line follows")
+    for folder in (*FOLDERS, "web/src"):
+        for path in sorted((root / folder).rglob("*.*")):
+            if path.suffix in (".hpp", ".cpp", ".h", ".c", ".ts"):
+                for line, what in phrases(comments(path.read_text(encoding="utf-8"))):
+                    complain(path, line, what)
+    for path in sorted((root / "bindings/python").rglob("*.py")):
+        for line, what in phrases(docstrings(path.read_text(encoding="utf-8"))):
+            complain(path, line, what)
     return complaints
 
 

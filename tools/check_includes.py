@@ -10,7 +10,7 @@ from pathlib import Path
 
 # Above the floors that CMakeLists.txt lists, lowest first. A file includes its own floor and those
 # before it, nothing else.
-ABOVE = ["bindings/c", "apps/support", "apps/lab", "apps/microswarm", "apps/bench", "tests"]
+ABOVE = ["bindings/c", "bindings/python", "apps/support", "apps/lab", "apps/microswarm", "apps/bench", "tests"]
 FLOOR = re.compile(r"^\s*add_subdirectory\((src/microswarm/\w+)\)", re.M)
 # These never see each other: only src/microswarm/rig and what is above it joins them.
 APART = {f"src/microswarm/{name}" for name in ("navigation", "actuation", "vision")}

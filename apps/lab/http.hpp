@@ -12,6 +12,7 @@ namespace microswarm::lab {
 using HttpRequest = boost::beast::http::request<boost::beast::http::string_body>;
 using HttpResponse = boost::beast::http::response<boost::beast::http::string_body>;
 
+/// Converts Boost's string view.
 inline std::string_view view(boost::beast::string_view text) { return {text.data(), text.size()}; }
 
 /// Path of a target such as "/api/thumbnail?file=a.yaml".
@@ -27,6 +28,7 @@ std::string url_host(const boost::asio::ip::address& address);
 /// Sets the headers of every response: nothing from other sites may be loaded, nothing is cached.
 void set_headers(boost::beast::http::fields& headers, std::string_view media_type);
 
+/// Response with a body, or with JSON.
 HttpResponse respond(const HttpRequest& request, boost::beast::http::status status,
                      std::string_view media_type, std::string body);
 HttpResponse respond(const HttpRequest& request, const nlohmann::json& json,

@@ -21,6 +21,7 @@ struct Message {
 };
 using MessagePtr = std::shared_ptr<const Message>;
 
+/// Encodes a message in CBOR.
 MessagePtr make_message(const nlohmann::json& json, Message::Kind kind = Message::Kind::other);
 
 }  // namespace microswarm::lab

@@ -14,6 +14,7 @@
 
 namespace microswarm::lab {
 
+/// Options of a Server.
 struct ServerOptions {
   std::vector<std::filesystem::path> folders;  ///< folders whose files may be listed and opened
   std::optional<Opening> opening{};            ///< experiment shown first

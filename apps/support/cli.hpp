@@ -69,6 +69,7 @@ void put(std::string_view text);
 /// Flushes output buffered by put(); errors as there.
 void flush_output();
 
+/// Formats and writes to stdout by put().
 template <class... Values>
 void print(fmt::format_string<Values...> format, Values&&... values) {
   put(fmt::format(format, std::forward<Values>(values)...));
@@ -78,6 +79,7 @@ void print(fmt::format_string<Values...> format, Values&&... values) {
 /// ignored.
 void say(std::string_view text) noexcept;
 
+/// Formats and writes to stderr by say().
 template <class... Values>
 void note(fmt::format_string<Values...> format, Values&&... values) {
   say(fmt::format(format, std::forward<Values>(values)...));

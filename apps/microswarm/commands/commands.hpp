@@ -6,6 +6,7 @@
 
 namespace microswarm::cli {
 
+/// Each adds the command of its name with its options; parsing it sets `action`.
 void add_run(Command app, Action& action);
 void add_plan(Command app, Action& action);
 void add_gather(Command app, Action& action);

@@ -38,6 +38,7 @@ void finish_run(Session& session, const Stop& stop);
 /// Writes the record and report of a finished session and prints its result. Returns the exit code.
 int tell_run(const Session& session, const RunOutput& output, const ReportOptions& report);
 
+/// Result of a run for --json, with the record's hash.
 nlohmann::ordered_json to_json(const RunResult& result, const std::string& hash);
 
 /// Describes the end of a run: "goal reached", "held: waited for a valve,".

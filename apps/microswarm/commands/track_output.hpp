@@ -16,6 +16,7 @@ void write_tracks(const TrackResult& result, const std::filesystem::path& folder
 /// Throws InputError if a file to be written is the input.
 void keep_track_input(const std::filesystem::path& folder, const std::string& input);
 
+/// Result for --json.
 nlohmann::ordered_json to_json(const TrackResult& result);
 /// Summary in a few lines.
 std::string track_summary(const TrackResult& result);

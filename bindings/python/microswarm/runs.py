@@ -40,7 +40,7 @@ def shown(progress: Progress) -> Iterator[Optional[Callable[[float], Any]]]:
 class Session(Drawable):
     """An open experiment, which advances when it is stepped and can be changed between steps.
 
-    Use a session from one thread at a time; several sessions may run in threads of their own. Only stop() may be called
+    Use a session from one thread at a time; several sessions may run in separate threads. Only stop() may be called
     from any thread.
     """
 

@@ -25,17 +25,17 @@
 namespace microswarm::cli {
 namespace {
 
-constexpr double max_settling = 10;      // beyond the ramp, until the currents are there [s]
-constexpr double max_arriving = 1;       // so long a device may report others [s]
+constexpr double max_settling = 10;      // after the ramp, until the currents are reached [s]
+constexpr double max_arriving = 1;       // time for which a device may report other currents [s]
 constexpr double probe_silence = 5;      // [s]
 constexpr double max_typed_field = 1e4;  // [mT]
 constexpr double weakened = 1 - 1e-6;
-constexpr int max_attempts = 5;         // in a row without a person, a measurement or an end
-constexpr double reversed_share = 0.1;  // of what is expected, with the other sign
+constexpr int max_attempts = 5;         // consecutive, without operator, measurement or end
+constexpr double reversed_share = 0.1;  // share of the expected field, with opposite sign
 constexpr double resolution =
-    2e-3;  // of the full scale, by which a device may differ from the plan
+    2e-3;  // share of the full scale by which a device may differ from the plan
 
-/// Throws InputError if what is planned would not determine the fit.
+/// Throws InputError if the planned measurements would not determine the fit.
 void require_determined(const std::vector<MeasurementStep>& steps, const CoilSystem& system,
                         const FitOptions& fit) {
   FieldMeasurements planned{.file = "--positions", .coils = system.coil_names()};
@@ -44,7 +44,7 @@ void require_determined(const std::vector<MeasurementStep>& steps, const CoilSys
   fit_matrix(planned, fit);
 }
 
-/// A field that was typed, or why it is none.
+/// Parses a typed field; on failure `why` is the reason.
 std::optional<Eigen::Vector3d> field_in(std::string line, std::string& why) {
   std::ranges::replace_if(
       line, [](char c) { return c == ',' || c == '\t'; }, ' ');
@@ -63,7 +63,7 @@ std::optional<Eigen::Vector3d> field_in(std::string line, std::string& why) {
   return std::nullopt;
 }
 
-/// What became of a step.
+/// Outcome of a step.
 enum class Outcome { measured, repeat, back, unanswered, weak, no_current, ended, failed };
 
 class Guide {
@@ -128,7 +128,7 @@ std::string Guide::words_for(const MeasurementStep& step) const {
   return parts.empty() ? "no current" : fmt::format("{}", fmt::join(parts, ", "));
 }
 
-/// The next line, with the coils at zero; nothing when it ends.
+/// Waits for the next line with the coils at zero; nothing at the end.
 std::optional<std::string> Guide::wait_for_line() {
   while (!stop_()) {
     if (auto line = answers_.poll()) return std::string(trimmed(*line));
@@ -181,7 +181,7 @@ void Guide::take_rows(double t) {
   if (!readings_.empty() && t - *settled_ >= o_.dwell) finish(Outcome::measured);
 }
 
-/// The field for the currents that flow, by the present file of the coils.
+/// Expected field of the flowing currents, by the coils' current file.
 std::optional<Eigen::Vector3d> Guide::expected() const {
   if (!rig_.system.in_workspace(step_->place)) return std::nullopt;
   const bool planned = (currents_ - step_->currents).cwiseAbs().maxCoeff() <= tolerance_;
@@ -207,7 +207,7 @@ void Guide::tell_limits() const {
   if (!limited.empty()) note("note: the device limits {}\n", fmt::join(limited, ", "));
 }
 
-/// A field along the main axis with the other sign than expected.
+/// Warns if the field along the main axis has the opposite sign of the expected one.
 void Guide::tell_reversal() const {
   const auto b = expected();
   if (!b || step_->currents.isZero(0)) return;
@@ -219,7 +219,7 @@ void Guide::tell_reversal() const {
          (*b)[k], got);
 }
 
-/// After the ramp, when the device reports the currents, or others for long enough.
+/// Detects settled currents after the ramp: as planned, or other ones for long enough.
 void Guide::settle(double t) {
   const bool there = (currents_ - step_->currents).cwiseAbs().maxCoeff() <= tolerance_;
   if (!there && t < o_.ramp + o_.settle + max_arriving) return;
@@ -233,7 +233,7 @@ void Guide::settle(double t) {
     answers_.ask(question());
 }
 
-/// After each output to the coils.
+/// Called after each output to the coils.
 void Guide::look(const ManualMoment& moment) {
   bench_->temperatures = moment.output.temperatures;
   if (bench_->kept) bench_->kept->take(bench_->temperatures);
@@ -256,7 +256,7 @@ void Guide::look(const ManualMoment& moment) {
     take_answer();
 }
 
-/// Holds the currents until there is an answer or the time is up.
+/// Holds the currents until the answer or a timeout.
 Outcome Guide::hold(const MeasurementStep& step, const std::string& what) {
   step_ = &step;
   what_ = what;
@@ -276,7 +276,7 @@ Outcome Guide::hold(const MeasurementStep& step, const std::string& what) {
   zero_confirmed_ = result.zero_confirmed;
   stop_trouble_ = result.stop_trouble;
   trouble_ = result.why;
-  // What was measured counts, also if something happens while the currents go.
+  // A measurement counts even if something fails while the currents ramp down.
   if (outcome_ == Outcome::measured) {
     tell_reversal();
     log_.add(currents_, step.currents, step.place, reading_of(readings_));

@@ -30,9 +30,9 @@ struct MeasureOptions {
 /// Adds these options to `rig calibrate`.
 void add_measure_options(Command cmd, MeasureOptions& o);
 
-/// Makes the measurements that the file does not have yet: drives each current, and holds it until
-/// the operator has typed the field or a probe's file has it. `fit` is refused before the first
-/// current if the positions would not determine it. Returns an exit code, `ok` if all are made.
+/// Makes the measurements missing in the file: drives each current and holds it until the operator
+/// has typed the field or a probe's file has it. `fit` is refused before the first current if the
+/// positions would not determine it. Returns an exit code, `ok` if all measurements are made.
 int measure(const Rig& rig, const MeasureOptions& o, const FitOptions& fit, const std::string& file,
             const Context& context);
 

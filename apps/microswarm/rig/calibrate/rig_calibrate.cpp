@@ -29,11 +29,11 @@ struct CalibrateOptions {
   MeasureOptions measure;
 };
 
-/// A fit with what it is compared with.
+/// A fit and the fits for comparison.
 struct Calibration {
   FieldMeasurements measured;
   FittedMatrix fit;
-  std::optional<FittedMatrix> uniform;       ///< without the gradients that `fit` has
+  std::optional<FittedMatrix> uniform;       ///< fit without gradients, if `fit` has them
   std::optional<double> rms_with_gradients;  ///< [mT], if `fit` has none and they are determined
 };
 
@@ -152,7 +152,7 @@ int calibrate(const CalibrateOptions& o, const Context& context) {
     if (const int code = measure(rig, o.measure, options, o.measured, context); code != ok)
       return code;
     if (!rig.system.name().empty()) system.name = rig.system.name();
-    // Those of the file: the rig's are limited by the driver's full scale, too.
+    // Drives of the file, since the rig's are limited by the driver's full scale too.
     system.drives = read_coil_system(coils).drives();
   }
   return fit_and_tell(o, options, std::move(system));

@@ -6,7 +6,7 @@
 
 namespace microswarm {
 
-/// Pixel sets as 8-bit matrices of 0 and 255. Pieces are 8-connected, holes 4-connected.
+// Pixel sets as 8-bit matrices of 0 and 255. Pieces are 8-connected, holes 4-connected.
 
 /// The piece with the most pixels; the first in reading order among equals.
 cv::Mat largest_piece(const cv::Mat& set);

@@ -10,7 +10,7 @@
 
 namespace microswarm {
 
-/// Steps of `find_blobs`, over a whole picture or a part of it.
+// Steps of `find_blobs`, over a whole picture or a part of it.
 
 /// Picture pixels per side of a working pixel. Coarser pixels reduce noise and time.
 int coarseness(const BlobParams& params);

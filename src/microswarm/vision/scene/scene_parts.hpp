@@ -9,7 +9,7 @@
 
 namespace microswarm {
 
-/// Steps of `find_scene`, for blobs found in any way.
+// Steps of `find_scene`, for blobs found in any way.
 
 /// The walls and the area of a blob, grown slightly.
 Mask hidden_by(const Blob& blob, const Image& picture, const Mask* walls, double margin);
