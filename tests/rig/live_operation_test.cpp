@@ -59,10 +59,10 @@ class LiveOperation : public testing::Test {
         scenarios);
     const Scenario& s = scene.scenario;
     const World world = build_world(scene);
-    RealtimeRigSimulator bench(s, world, rig, std::make_unique<SimulatedCoilDriver>(6, 20));
+    RealtimeRigSimulator simulator(s, world, rig, std::make_unique<SimulatedCoilDriver>(6, 20));
     LiveRig plant(s, world.map, rig,
-                  std::make_unique<FailingCamera>(bench.camera(40), freezes, loses),
-                  bench.view().scale, bench.coils());
+                  std::make_unique<FailingCamera>(simulator.camera(40), freezes, loses),
+                  simulator.view().scale, simulator.coils());
     const auto navigator = make_navigator(s.navigator, task_of(s), Rng(1, Purpose::planner, 0));
     std::thread person([&] {
       std::this_thread::sleep_for(std::chrono::milliseconds(500));
@@ -72,7 +72,7 @@ class LiveOperation : public testing::Test {
     const Stop stop{std::chrono::seconds(8)};
     const RunResult result = run(s, [&] { return episode.step(stop); });
     person.join();
-    for (const double current : bench.coils().currents()) EXPECT_EQ(current, 0);
+    for (const double current : simulator.coils().currents()) EXPECT_EQ(current, 0);
     return result;
   }
 

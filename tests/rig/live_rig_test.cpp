@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs in real time against a simulated bench, and what happens when something fails.
+// Runs in real time against a simulated simulator, and what happens when something fails.
 #include "tests/rig/live_rigs.hpp"
 
 #include <gtest/gtest.h>
@@ -197,8 +197,9 @@ class Slow : public Navigator {
 TEST_F(LiveRigs, ANavigatorThatHangsEndsIt) {
   rig->params.safety.deadman = 0.5;
   const Scenario& s = scene.scenario;
-  RealtimeRigSimulator bench(s, world, *rig, std::make_unique<WatchedCoils>(coils));
-  LiveRig plant(s, world.map, *rig, bench.camera(40), bench.view().scale, bench.coils());
+  RealtimeRigSimulator simulator(s, world, *rig, std::make_unique<WatchedCoils>(coils));
+  LiveRig plant(s, world.map, *rig, simulator.camera(40), simulator.view().scale,
+                simulator.coils());
   Slow slow;
   const RunResult result = run(s, plant, slow);
   EXPECT_EQ(result.status, Status::fault);
@@ -208,9 +209,9 @@ TEST_F(LiveRigs, ANavigatorThatHangsEndsIt) {
 
 TEST_F(LiveRigs, ALogThatCannotBeWrittenEndsIt) {
   const Scenario& s = scene.scenario;
-  RealtimeRigSimulator bench(s, world, *rig, std::make_unique<WatchedCoils>(coils));
+  RealtimeRigSimulator simulator(s, world, *rig, std::make_unique<WatchedCoils>(coils));
   int moments = 0;
-  LiveRig plant(s, world.map, *rig, bench.camera(40), bench.view().scale, bench.coils(),
+  LiveRig plant(s, world.map, *rig, simulator.camera(40), simulator.view().scale, simulator.coils(),
                 [&](const CoilMoment&) {
                   if (++moments > 50) throw InputError("commands.csv: cannot write: disk full");
                 });
@@ -232,11 +233,11 @@ TEST_F(LiveRigs, ADeadmanShorterThanATickIsRefused) {
 
 TEST_F(LiveRigs, AGoalOutsideThePictureIsRefused) {
   const Scenario& s = scene.scenario;
-  RealtimeRigSimulator bench(s, world, *rig, std::make_unique<WatchedCoils>(coils));
-  CameraScale near = bench.view().scale;
+  RealtimeRigSimulator simulator(s, world, *rig, std::make_unique<WatchedCoils>(coils));
+  CameraScale near = simulator.view().scale;
   near.um_per_px /= 2;
-  const std::string error =
-      test::error_of([&] { LiveRig(s, world.map, *rig, bench.camera(40), near, bench.coils()); });
+  const std::string error = test::error_of(
+      [&] { LiveRig(s, world.map, *rig, simulator.camera(40), near, simulator.coils()); });
   EXPECT_NE(error.find("µm of the scenario is at pixel ("), std::string::npos) << error;
   EXPECT_NE(error.find(", outside the picture of "), std::string::npos) << error;
   EXPECT_EQ(coils->drives, 0);
@@ -248,9 +249,11 @@ TEST_F(LiveRigs, ObstaclesOfTheScenarioAreVirtualBesideThoseOfARealCamera) {
   Scenario s = scene.scenario;
   Straight motion{.start = s.start->position + Vec2{400, 300}, .velocity = {0, -30}};
   s.obstacles = {{DiscShape{80}, motion}};
-  RealtimeRigSimulator bench(scene.scenario, world, *rig, std::make_unique<WatchedCoils>(coils));
+  RealtimeRigSimulator simulator(scene.scenario, world, *rig,
+                                 std::make_unique<WatchedCoils>(coils));
   {
-    LiveRig plant(s, world.map, bench_rig, bench.camera(40), bench.view().scale, bench.coils());
+    LiveRig plant(s, world.map, bench_rig, simulator.camera(40), simulator.view().scale,
+                  simulator.coils());
     const Observation first = plant.observe();
     ASSERT_EQ(first.world->moving().bodies().size(), 1u);
     const Body& body = first.world->moving().bodies()[0];
@@ -261,7 +264,8 @@ TEST_F(LiveRigs, ObstaclesOfTheScenarioAreVirtualBesideThoseOfARealCamera) {
     EXPECT_TRUE(plant.observe().world->moving().empty());
   }
   bench_rig.params.virtual_obstacles = false;
-  LiveRig plant(s, world.map, bench_rig, bench.camera(40), bench.view().scale, bench.coils());
+  LiveRig plant(s, world.map, bench_rig, simulator.camera(40), simulator.view().scale,
+                simulator.coils());
   EXPECT_TRUE(plant.observe().world->moving().empty());
   EXPECT_FALSE(plant.set_obstacles(s.obstacles));
 }
@@ -273,8 +277,10 @@ TEST_F(LiveRigs, AVirtualObstacleInTheWayIsAvoided) {
   const Vec2 ahead = *scene.scenario.goal - start.position;
   Scenario s = scene.scenario;
   s.obstacles = {{DiscShape{60}, Straight{.start = start.position + (220 / norm(ahead)) * ahead}}};
-  RealtimeRigSimulator bench(scene.scenario, world, *rig, std::make_unique<WatchedCoils>(coils));
-  LiveRig plant(s, world.map, bench_rig, bench.camera(40), bench.view().scale, bench.coils());
+  RealtimeRigSimulator simulator(scene.scenario, world, *rig,
+                                 std::make_unique<WatchedCoils>(coils));
+  LiveRig plant(s, world.map, bench_rig, simulator.camera(40), simulator.view().scale,
+                simulator.coils());
   const auto navigator = make_navigator(s.navigator, task_of(s), Rng(s.seed, Purpose::planner, 0));
   const RunResult result = run(s, plant, *navigator, {}, Stop(std::chrono::seconds(12)));
   EXPECT_EQ(result.status, Status::stopped) << result.state;
@@ -314,11 +320,12 @@ TEST_F(LiveRigs, AWaveformThatTheDeviceWeakensMovesTheSwarmAsItsFieldDoes) {
   const Scenario& s = scene.scenario;
   const Vec2 start = s.start->position;
   const auto way = [&](double share) {
-    RealtimeRigSimulator bench(s, world, *rig, std::make_unique<WeakenedCoils>(share));
-    LiveRig plant(s, world.map, *rig, bench.camera(40), bench.view().scale, bench.coils());
+    RealtimeRigSimulator simulator(s, world, *rig, std::make_unique<WeakenedCoils>(share));
+    LiveRig plant(s, world.map, *rig, simulator.camera(40), simulator.view().scale,
+                  simulator.coils());
     const auto navigator = make_navigator(s.navigator, task_of(s), Rng(1, Purpose::planner, 0));
     run(s, plant, *navigator, {}, Stop(std::chrono::seconds(2)));
-    return distance(bench.swarm().pose.position, start);
+    return distance(simulator.swarm().pose.position, start);
   };
   EXPECT_GT(way(0.5), 0.1 * 2 * limits_of(s.swarm).max_speed);  // 4 mT turn it as 8 do
   EXPECT_LT(way(0.03), 1);                                      // 0.24 mT turn nothing
@@ -343,12 +350,12 @@ class OnePicture : public FrameSource {
 
 TEST_F(LiveRigs, ACameraThatFailsAtTheStartEndsIt) {
   const Scenario& s = scene.scenario;
-  RealtimeRigSimulator bench(s, world, *rig, std::make_unique<WatchedCoils>(coils));
-  const auto camera = bench.camera(40);
+  RealtimeRigSimulator simulator(s, world, *rig, std::make_unique<WatchedCoils>(coils));
+  const auto camera = simulator.camera(40);
   VideoFrame first;
   ASSERT_TRUE(camera->next(first));
-  LiveRig plant(s, world.map, *rig, std::make_unique<OnePicture>(first.picture), bench.view().scale,
-                bench.coils());
+  LiveRig plant(s, world.map, *rig, std::make_unique<OnePicture>(first.picture),
+                simulator.view().scale, simulator.coils());
   const auto navigator = make_navigator(s.navigator, task_of(s), Rng(1, Purpose::planner, 0));
   const RunResult result = run(s, plant, *navigator);
   EXPECT_EQ(result.status, Status::fault);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A rig in real time against a simulated bench, with coils and a camera that can be made to fail.
+// A rig in real time against a simulated simulator, with coils and a camera that can be made to
+// fail.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -65,7 +66,7 @@ class WatchedCoils : public CoilDriver {
   std::array<double, 6> currents_{};
 };
 
-/// A camera between the bench and the rig that can be made to fail.
+/// A camera between the simulator and the rig that can be made to fail.
 class TroubledCamera : public FrameSource {
  public:
   struct Trouble {
@@ -155,9 +156,10 @@ class LiveRigs : public ::testing::Test {
   /// Runs until `seconds` have passed or it ends; `then` is called after 0.5 s.
   RunResult go(double seconds, const std::function<void(LiveRig&)>& then = {}) {
     const Scenario& s = scene.scenario;
-    RealtimeRigSimulator bench(s, world, *rig, std::make_unique<WatchedCoils>(coils));
-    LiveRig plant(s, world.map, *rig, std::make_unique<TroubledCamera>(bench.camera(40), trouble),
-                  turned(bench.view().scale), bench.coils());
+    RealtimeRigSimulator simulator(s, world, *rig, std::make_unique<WatchedCoils>(coils));
+    LiveRig plant(s, world.map, *rig,
+                  std::make_unique<TroubledCamera>(simulator.camera(40), trouble),
+                  turned(simulator.view().scale), simulator.coils());
     const auto navigator =
         make_navigator(s.navigator, task_of(s), Rng(s.seed, Purpose::planner, 0));
     std::atomic<bool> over = false;
@@ -175,7 +177,7 @@ class LiveRigs : public ::testing::Test {
                                      std::chrono::duration<double>(seconds))));
     timing = plant.timing();
     at_end = coils->strongest;
-    place = bench.swarm().pose.position;
+    place = simulator.swarm().pose.position;
     over = true;
     trouble_maker.join();
     if (then) std::printf("coils at zero after %.3f s\n", zero_after);

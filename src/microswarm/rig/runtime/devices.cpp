@@ -87,10 +87,10 @@ Devices open_devices(const RigExperiment& on, bool dry, bool idle) {
   Devices devices;
   devices.coils = dry ? simulated_coils(on.rig) : open_coils(on.rig);
   if (const auto* simulated = std::get_if<SimulatedCamera>(&rig.camera)) {
-    devices.bench = std::make_unique<RealtimeRigSimulator>(
+    devices.simulator = std::make_unique<RealtimeRigSimulator>(
         on.scenario(), on.experiment.world, on.rig, std::move(devices.coils), dry && idle);
-    devices.camera = devices.bench->camera(simulated->rate);
-    devices.scale = devices.bench->view().scale;
+    devices.camera = devices.simulator->camera(simulated->rate);
+    devices.scale = devices.simulator->view().scale;
     return devices;
   }
   if (!rig.scale)

@@ -10,13 +10,13 @@ namespace microswarm {
 
 /// Open devices of a rig.
 struct Devices {
-  std::unique_ptr<RealtimeRigSimulator> bench;  ///< set for a simulated camera
+  std::unique_ptr<RealtimeRigSimulator> simulator;  ///< set for a simulated camera
   std::unique_ptr<CoilDriver> coils;
   std::unique_ptr<FrameSource> camera;
   std::optional<double> camera_rate;  ///< [Hz]; empty if unknown
   CameraScale scale;
 
-  CoilDriver& driver() { return bench ? bench->coils() : *coils; }
+  CoilDriver& driver() { return simulator ? simulator->coils() : *coils; }
 };
 
 /// Opens camera and coils of a rig. With `dry`, nothing is sent to the coils; with `idle`, a

@@ -26,30 +26,30 @@ Scenario without_delay(Scenario scenario) {
 /// Wraps the driver and advances the simulation after each call.
 class RealtimeRigSimulator::Coils : public CoilDriver {
  public:
-  Coils(RealtimeRigSimulator& bench, std::unique_ptr<CoilDriver> driver)
-      : bench_(bench), driver_(std::move(driver)) {}
+  Coils(RealtimeRigSimulator& owner, std::unique_ptr<CoilDriver> driver)
+      : owner_(owner), driver_(std::move(driver)) {}
 
   int channels() const override { return driver_->channels(); }
   std::span<const double> currents() const override { return driver_->currents(); }
   DriveStatus drive(std::span<const double> currents) override {
-    const std::lock_guard lock(bench_.mutex_);
-    bench_.catch_up();
+    const std::lock_guard lock(owner_.mutex_);
+    owner_.catch_up();
     turning_.reset();
     return driver_->drive(currents);
   }
   bool takes_field() const override { return driver_->takes_field(); }
   DriveStatus drive_field(std::span<const double, 3> field,
                           std::span<const double> currents) override {
-    const std::lock_guard lock(bench_.mutex_);
-    bench_.catch_up();
+    const std::lock_guard lock(owner_.mutex_);
+    owner_.catch_up();
     turning_.reset();
     return driver_->drive_field(field, currents);
   }
   bool makes_waveforms() const override { return driver_->makes_waveforms(); }
   std::optional<double> phase() const override { return driver_->phase(); }
   DriveStatus drive_waveform(const CurrentWaveform& waveform) override {
-    const std::lock_guard lock(bench_.mutex_);
-    bench_.catch_up();
+    const std::lock_guard lock(owner_.mutex_);
+    owner_.catch_up();
     turning_.reset();
     const DriveStatus status = driver_->drive_waveform(waveform);
     const auto phase = driver_->phase();
@@ -77,7 +77,7 @@ class RealtimeRigSimulator::Coils : public CoilDriver {
     return {now_.data(), static_cast<std::size_t>(now_.size())};
   }
   bool stop() noexcept override {
-    const std::lock_guard lock(bench_.mutex_);
+    const std::lock_guard lock(owner_.mutex_);
     turning_.reset();
     return driver_
         ->stop();  // nothing may fail here; the simulation catches up later, without current
@@ -88,7 +88,7 @@ class RealtimeRigSimulator::Coils : public CoilDriver {
   std::string reason() const override { return driver_->reason(); }
 
  private:
-  RealtimeRigSimulator& bench_;
+  RealtimeRigSimulator& owner_;
   std::unique_ptr<CoilDriver> driver_;
   std::optional<TurningCurrents> turning_;  // acknowledged
   double told_at_ = 0;                      // time of that message [s], by steady_seconds()
@@ -97,15 +97,15 @@ class RealtimeRigSimulator::Coils : public CoilDriver {
 
 class RealtimeRigSimulator::Camera : public FrameSource {
  public:
-  Camera(RealtimeRigSimulator& bench, double rate)
-      : bench_(bench), rate_(rate), due_(steady_seconds()) {
-    const std::lock_guard lock(bench_.mutex_);
-    ++bench_.cameras_;
+  Camera(RealtimeRigSimulator& owner, double rate)
+      : owner_(owner), rate_(rate), due_(steady_seconds()) {
+    const std::lock_guard lock(owner_.mutex_);
+    ++owner_.cameras_;
   }
   ~Camera() override {
-    const std::lock_guard lock(bench_.mutex_);
-    --bench_.cameras_;
-    bench_.no_camera_.notify_all();
+    const std::lock_guard lock(owner_.mutex_);
+    --owner_.cameras_;
+    owner_.no_camera_.notify_all();
   }
   Camera(const Camera&) = delete;
   Camera& operator=(const Camera&) = delete;
@@ -113,20 +113,20 @@ class RealtimeRigSimulator::Camera : public FrameSource {
   bool next(VideoFrame& frame) override {
     due_ = std::max(due_ + 1 / rate_, steady_seconds());
     std::this_thread::sleep_for(std::chrono::duration<double>(due_ - steady_seconds()));
-    std::unique_lock lock(bench_.mutex_);
-    bench_.catch_up();
-    const RigSimulator::Shot shot = bench_.bench_.capture();
+    std::unique_lock lock(owner_.mutex_);
+    owner_.catch_up();
+    const RigSimulator::Shot shot = owner_.simulator_.capture();
     lock.unlock();
     frame.index = index_++;
     frame.t = shot.now;
-    frame.picture = bench_.bench_.render(shot);
+    frame.picture = owner_.simulator_.render(shot);
     return true;
   }
   std::optional<int> count() const override { return std::nullopt; }
   std::optional<double> rate() const override { return rate_; }
 
  private:
-  RealtimeRigSimulator& bench_;
+  RealtimeRigSimulator& owner_;
   double rate_;
   double due_;
   int index_ = 0;
@@ -136,7 +136,7 @@ RealtimeRigSimulator::RealtimeRigSimulator(const Scenario& scenario, const World
                                            const Rig& rig, std::unique_ptr<CoilDriver> driver,
                                            bool idle)
     : idle_(idle),
-      bench_(without_delay(scenario), world, rig),
+      simulator_(without_delay(scenario), world, rig),
       now_(steady_seconds()),
       coils_(std::make_unique<Coils>(*this, std::move(driver))) {}
 
@@ -154,16 +154,16 @@ CoilDriver& RealtimeRigSimulator::coils() { return *coils_; }
 SwarmPose RealtimeRigSimulator::swarm() {
   const std::lock_guard lock(mutex_);
   catch_up();
-  return bench_.ground_truth().swarm;
+  return simulator_.ground_truth().swarm;
 }
 
 void RealtimeRigSimulator::catch_up() {
   const double now = steady_seconds();
   const std::vector<double> off(static_cast<std::size_t>(idle_ ? coils_->channels() : 0));
-  bench_.start_trajectory();
+  simulator_.start_trajectory();
   while (now - now_ > 1e-6) {
     const double step = std::min(longest_step, now - now_);
-    bench_.pass(idle_ ? std::span<const double>(off) : coils_->currents_at(now_), step);
+    simulator_.pass(idle_ ? std::span<const double>(off) : coils_->currents_at(now_), step);
     now_ += step;
   }
 }

@@ -27,7 +27,7 @@ class RealtimeRigSimulator {
   /// Creates a camera at `rate` [Hz]; the simulator must outlive it.
   std::unique_ptr<FrameSource> camera(double rate);
   CoilDriver& coils();
-  CameraView view() const { return bench_.camera(); }
+  CameraView view() const { return simulator_.camera(); }
   /// Current pose of the swarm (ground truth).
   SwarmPose swarm();
 
@@ -41,7 +41,7 @@ class RealtimeRigSimulator {
   std::condition_variable no_camera_;
   int cameras_ = 0;
   const bool idle_;
-  RigSimulator bench_;
+  RigSimulator simulator_;
   double now_;  // [s], by steady_seconds()
   std::unique_ptr<Coils> coils_;
 };

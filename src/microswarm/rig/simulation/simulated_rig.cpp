@@ -14,14 +14,14 @@ SimulatedRig::SimulatedRig(const Scenario& scenario, const World& world, const R
       driver_(driver ? *driver : *simulated_coils_),
       controller_(rig.system, rig.params.field, driver_,
                   scenario.start ? scenario.start->heading : 0),
-      bench_(scenario, world, rig, trial),
+      simulator_(scenario, world, rig, trial),
       map_(world.map),
       perception_(make_perception(rig.params.perception, scenario, *map_,
-                                  bench_.ground_truth().robots, bench_.camera())) {}
+                                  simulator_.ground_truth().robots, simulator_.camera())) {}
 
 Observation SimulatedRig::observe() {
-  const RigSimulator::Shot shot = bench_.capture();
-  picture_ = &bench_.render(shot);
+  const RigSimulator::Shot shot = simulator_.capture();
+  picture_ = &simulator_.render(shot);
   detections_ = &perception_->process(*picture_, shot.seen);
   return observation_of(*detections_,
                         std::make_shared<const Snapshot>(map_, shot.seen, detections_->moving),
@@ -32,12 +32,12 @@ void SimulatedRig::apply(const Command& command, double dt) {
   const auto pieces = static_cast<int>(std::ceil(dt * rig_.params.drive_rate - 1e-9));
   const double piece = dt / pieces;
   controller_.command(command);
-  perception_->commanded(command, bench_.ground_truth().now);
-  bench_.start_trajectory();
+  perception_->commanded(command, simulator_.ground_truth().now);
+  simulator_.start_trajectory();
   for (int i = 0; i < pieces; ++i) {
-    controller_.aim(bench_.place());
+    controller_.aim(simulator_.place());
     controller_.advance(piece);
-    bench_.pass(driver_.currents(), piece);
+    simulator_.pass(driver_.currents(), piece);
   }
 }
 

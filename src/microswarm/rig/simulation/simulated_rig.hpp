@@ -24,9 +24,9 @@ class SimulatedRig : public Plant {
   Observation observe() override;
   void apply(const Command& command, double dt) override;
   bool set_obstacles(const std::vector<Obstacle>& obstacles) override {
-    return bench_.set_obstacles(obstacles);
+    return simulator_.set_obstacles(obstacles);
   }
-  std::optional<GroundTruth> ground_truth() const override { return bench_.ground_truth(); }
+  std::optional<GroundTruth> ground_truth() const override { return simulator_.ground_truth(); }
 
   /// The picture of the last observation.
   const Image& picture() const { return *picture_; }
@@ -38,7 +38,7 @@ class SimulatedRig : public Plant {
   std::unique_ptr<CoilDriver> simulated_coils_;
   CoilDriver& driver_;
   CoilController controller_;
-  RigSimulator bench_;
+  RigSimulator simulator_;
   std::shared_ptr<const Map> map_;
   std::unique_ptr<Perception> perception_;
   const Image* picture_ = nullptr;
