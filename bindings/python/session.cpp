@@ -151,8 +151,8 @@ py::dict finish(OpenSession& open, const py::object& report) {
       if (!tick) return false;
       const double left = tick->frame.goal_distance;
       if (std::isfinite(left)) start = std::max(start, left);
-      const double way = start > 0 ? 1 - left / start : 0;
-      done = std::clamp(std::max(way, tick->frame.t / limit), 0.0, 1.0);
+      const double share = start > 0 ? 1 - left / start : 0;
+      done = std::clamp(std::max(share, tick->frame.t / limit), 0.0, 1.0);
       return true;
     };
     if (open.has_own_navigator()) {

@@ -46,7 +46,7 @@ TEST(ContactJudge, OneThatDrivesIntoASwarmThatHoldsCouldHaveBeenLeft) {
   const auto verdicts = judged(s, hold);
   ASSERT_EQ(verdicts.size(), 1u);
   EXPECT_TRUE(verdicts[0].avoidable);
-  EXPECT_TRUE(verdicts[0].way.starts_with("retreat")) << verdicts[0].way;
+  EXPECT_TRUE(verdicts[0].manoeuvre.starts_with("retreat")) << verdicts[0].manoeuvre;
   EXPECT_LE(verdicts[0].decided, verdicts[0].contact.t - dead_time + 1e-9);
   EXPECT_GT(verdicts[0].decided, verdicts[0].contact.t - 0.5);
 }
@@ -57,7 +57,7 @@ TEST(ContactJudge, OneThatTheSwarmDroveIntoCouldHaveBeenHeldOffFrom) {
   const auto verdicts = judged(s, straight);
   ASSERT_EQ(verdicts.size(), 1u);
   EXPECT_TRUE(verdicts[0].avoidable);
-  EXPECT_EQ(verdicts[0].way, "hold");
+  EXPECT_EQ(verdicts[0].manoeuvre, "hold");
   EXPECT_LE(verdicts[0].decided, verdicts[0].contact.t - dead_time + 1e-9);
 }
 
@@ -68,7 +68,7 @@ TEST(ContactJudge, WallsThatCloseFromBothSidesCannotBeAvoided) {
   ASSERT_EQ(verdicts.size(), 2u);
   for (const ContactVerdict& verdict : verdicts) {
     EXPECT_FALSE(verdict.avoidable);
-    EXPECT_TRUE(verdict.way.empty());
+    EXPECT_TRUE(verdict.manoeuvre.empty());
   }
 }
 

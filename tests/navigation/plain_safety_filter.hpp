@@ -59,7 +59,7 @@ class PlainSafetyFilter {
     double widening = 0, speed = 0;
   };
   struct Committed {
-    EscapeWay way;
+    EscapeTrajectory trajectory;
     double time = 0;
   };
 
@@ -114,18 +114,18 @@ class PlainSafetyFilter {
   }
 
   template <class Visit>
-  void follow(const EscapeWay& way, Visit&& visit) const {
+  void follow(const EscapeTrajectory& trajectory, Visit&& visit) const {
     for (int s = 1; s <= samples_; ++s) {
       const double t = s * params_.step;
-      if (t - params_.step < way.until && way.until < t)
-        if (!visit(way.until, start_.place + way.at(way.until))) return;
-      if (!visit(t, start_.place + way.at(t))) return;
+      if (t - params_.step < trajectory.until && trajectory.until < t)
+        if (!visit(trajectory.until, start_.place + trajectory.at(trajectory.until))) return;
+      if (!visit(t, start_.place + trajectory.at(t))) return;
     }
   }
 
-  bool is_free(const Map& map, const EscapeWay& way) const {
+  bool is_free(const Map& map, const EscapeTrajectory& trajectory) const {
     bool free = true;
-    follow(way, [&, last = start_.place](double t, Vec2 p) mutable {
+    follow(trajectory, [&, last = start_.place](double t, Vec2 p) mutable {
       const double required = std::min(params_.gap, gap_now_ + params_.tuning.recovery_rate * t);
       const Vec2 from = std::exchange(last, p);
       free = gap(p, t, required + 1, params_.gap_rate) >= required &&
@@ -135,11 +135,11 @@ class PlainSafetyFilter {
     return free;
   }
 
-  EscapeOutcome outcome(const Map& map, const EscapeWay& way) const {
+  EscapeOutcome outcome(const Map& map, const EscapeTrajectory& trajectory) const {
     const SafetyFilterTuning& tuning = params_.tuning;
     EscapeOutcome out{.until_contact = 0, .least = tuning.counted_gap, .last = 0};
     bool touched = false;
-    follow(way, [&, last = start_.place](double t, Vec2 p) mutable {
+    follow(trajectory, [&, last = start_.place](double t, Vec2 p) mutable {
       const Vec2 from = std::exchange(last, p);
       if (p != from && !map.is_free(Segment{from, p}, wall_keep_)) return false;
       out.last = gap(p, t, tuning.counted_gap, 0);
@@ -187,42 +187,42 @@ class PlainSafetyFilter {
     return std::nullopt;
   }
 
-  std::vector<EscapeWay> manoeuvres() const {
+  std::vector<EscapeTrajectory> manoeuvres() const {
     const SafetyFilterTuning& tuning = params_.tuning;
-    std::vector<EscapeWay> ways;
-    for (const Vec2 v : velocities_) ways.push_back({{}, 0, v});
+    std::vector<EscapeTrajectory> trajectories;
+    for (const Vec2 v : velocities_) trajectories.push_back({{}, 0, v});
     for (const Vec2 v : velocities_) {
-      for (const double t : tuning.hold_times) ways.push_back({{}, t, v});
-      for (const double t : tuning.run_times) ways.push_back({v, t, {}});
+      for (const double t : tuning.hold_times) trajectories.push_back({{}, t, v});
+      for (const double t : tuning.run_times) trajectories.push_back({v, t, {}});
     }
     for (std::size_t i = 1; i < velocities_.size(); i += 2)
       for (std::size_t j = 1; j < velocities_.size(); j += 2)
         for (const double t : tuning.turn_times)
-          if (i != j) ways.push_back({velocities_[i], t, velocities_[j]});
-    return ways;
+          if (i != j) trajectories.push_back({velocities_[i], t, velocities_[j]});
+    return trajectories;
   }
 
   Command best_manoeuvre(const Map& map) {
     const SafetyFilterTuning& tuning = params_.tuning;
     EscapeOutcome best{-1, -std::numeric_limits<double>::infinity(), 0};
-    EscapeWay chosen;
-    const auto consider = [&](const EscapeWay& way) {
-      const EscapeOutcome o = outcome(map, way);
+    EscapeTrajectory chosen;
+    const auto consider = [&](const EscapeTrajectory& trajectory) {
+      const EscapeOutcome o = outcome(map, trajectory);
       if (o.until_contact != best.until_contact ? o.until_contact < best.until_contact
                                                 : o.worth() <= best.worth() + tuning.gap_tolerance)
         return;
       best = o;
-      chosen = way;
+      chosen = trajectory;
     };
     if (committed_) {
-      const double until = committed_->way.until - (start_.time - committed_->time);
-      consider({committed_->way.first, std::max(until, 0.0), committed_->way.second});
+      const double until = committed_->trajectory.until - (start_.time - committed_->time);
+      consider({committed_->trajectory.first, std::max(until, 0.0), committed_->trajectory.second});
       best.until_contact =
           std::min(best.until_contact + tuning.switch_time, samples_ * params_.step);
       best.least += tuning.switch_gap;
       best.last += tuning.switch_gap;
     }
-    for (const EscapeWay& way : manoeuvres()) consider(way);
+    for (const EscapeTrajectory& trajectory : manoeuvres()) consider(trajectory);
     committed_ = Committed{chosen, start_.time};
     const Vec2 begin = chosen.until > 0 ? chosen.first : chosen.second;
     const double speed = norm(begin);

@@ -348,21 +348,21 @@ TEST(SwarmPerception, MeasuresHowItFollows) {
   Followed f;
   f.perception.commanded({0, 40}, f.t);
   const Detections& along = f.see(f.place += Vec2{4, 0}, 60);
-  EXPECT_NEAR(along.commanded_way, 4, 1e-9);
-  EXPECT_NEAR(along.followed_way, 4, 2);
+  EXPECT_NEAR(along.commanded_distance, 4, 1e-9);
+  EXPECT_NEAR(along.followed_distance, 4, 2);
   double followed = 0;
   for (int i = 0; i < 20; ++i) {
     f.perception.commanded({0, 40}, f.t);
-    followed += f.see(f.place += Vec2{0, 4}, 60).followed_way;
+    followed += f.see(f.place += Vec2{0, 4}, 60).followed_distance;
   }
   EXPECT_NEAR(followed, 0, 5);  // of 80 µm
   EXPECT_NEAR(
       f.perception
           .process(f.microscope.look(Snapshot(f.map, f.t), SwarmPose{{f.place, 0}, 60}, {}), f.t)
-          .across_way,
+          .across_distance,
       0, 1e-9);  // no time has passed
   f.perception.commanded({0, 40}, f.t);
-  EXPECT_NEAR(f.see(f.place += Vec2{0, 4}, 60).across_way, 4, 2);
+  EXPECT_NEAR(f.see(f.place += Vec2{0, 4}, 60).across_distance, 4, 2);
 }
 
 TEST(FollowAngle, IsThatOfTheSeenWay) {

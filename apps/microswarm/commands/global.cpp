@@ -91,15 +91,15 @@ Json runs_of(const std::vector<Vec2>& inputs) {
   return runs;
 }
 
-Json ways_of(const GlobalPlan& plan) {
-  Json ways = Json::array();
+Json paths_of(const GlobalPlan& plan) {
+  Json paths = Json::array();
   for (std::size_t robot = 0; robot < plan.configurations.at(0).size(); ++robot) {
-    Json way = Json::array();
+    Json path = Json::array();
     for (const auto& places : plan.configurations)
-      way.push_back({places[robot].x, places[robot].y});
-    ways.push_back(way);
+      path.push_back({places[robot].x, places[robot].y});
+    paths.push_back(path);
   }
-  return ways;
+  return paths;
 }
 
 void show_json(const GlobalAnswer& found, bool has_goals) {
@@ -110,7 +110,7 @@ void show_json(const GlobalAnswer& found, bool has_goals) {
     json["input_count"] = found.plan.inputs.size();
     json["input_count_found"] = found.inputs_found;
     json["inputs"] = runs_of(found.plan.inputs);
-    json["ways_um"] = ways_of(found.plan);
+    json["ways_um"] = paths_of(found.plan);
   }
   print("{}\n", json.dump(2));
 }

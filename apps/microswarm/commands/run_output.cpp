@@ -102,12 +102,12 @@ std::string summary(const RunResult& result) {
 void note_tick(const Scenario& scenario) {
   if (scenario.robots) return;
   const SwarmLimits swarm = limits_of(scenario.swarm);
-  const double way = swarm.max_speed * scenario.tick;
-  if (way <= 2 * swarm.radius) return;
+  const double travel = swarm.max_speed * scenario.tick;
+  if (travel <= 2 * swarm.radius) return;
   note(
       "note: tick_s is {:.4g}: between two commands the swarm drives up to {:.4g} µm, more "
       "than it is wide, {:.4g} µm\n",
-      scenario.tick, way, 2 * swarm.radius);
+      scenario.tick, travel, 2 * swarm.radius);
 }
 
 /// Line with the time of the hold at the goal; empty without a hold.
@@ -150,7 +150,7 @@ void finish_run(Session& session, const Stop& stop) {
   const Scenario& scenario = session.scenario();
   ProgressBar bar(scenario.name.empty() ? "run" : scenario.name);
   ProgressListener progress(
-      scenario, [&](const RunProgress& p) { bar.update(std::max(p.way_done, p.time_spent)); });
+      scenario, [&](const RunProgress& p) { bar.update(std::max(p.distance_done, p.time_spent)); });
   bool began = false;
   while (const Tick* tick = session.step(stop)) {
     if (!std::exchange(began, true)) note_regions(session);

@@ -84,10 +84,10 @@ Json json_of(const LimitHit& hit, const CoilSystem& system) {
 
 std::string why_not(const CurrentsForField& found) {
   if (found.rank == 0) return "the coils make no field there";
-  std::string ways;
-  for (const Eigen::Vector3d way : found.missing.colwise())
-    ways += (ways.empty() ? "" : " and ") + triple_text(way);
-  return fmt::format("the coils make no field along {}: {:.6g} mT are missing", ways,
+  std::string directions;
+  for (const Eigen::Vector3d direction : found.missing.colwise())
+    directions += (directions.empty() ? "" : " and ") + triple_text(direction);
+  return fmt::format("the coils make no field along {}: {:.6g} mT are missing", directions,
                      found.short_by);
 }
 

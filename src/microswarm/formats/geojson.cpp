@@ -69,8 +69,8 @@ class GeoJsonReader {
   };
 
   [[noreturn]] void fail(const JsonPlace& place, const std::string& why) const {
-    const std::string way = place.text();
-    throw InputError(name_, line_of(text_, place), 0, way.empty() ? why : way + ": " + why);
+    const std::string where = place.text();
+    throw InputError(name_, line_of(text_, place), 0, where.empty() ? why : where + ": " + why);
   }
 
   const Json& member(const Json& parent, const JsonPlace& place, const char* key) const {

@@ -82,9 +82,9 @@ class Scanner {
 
 std::string JsonPlace::text() const {
   if (!parent) return {};
-  std::string way = parent->text();
-  if (key.empty()) return way + "[" + std::to_string(index) + "]";
-  return way.empty() ? std::string(key) : way + "." + std::string(key);
+  std::string path = parent->text();
+  if (key.empty()) return path + "[" + std::to_string(index) + "]";
+  return path.empty() ? std::string(key) : path + "." + std::string(key);
 }
 
 int line_of(std::string_view json, const JsonPlace& place) {

@@ -30,12 +30,12 @@ struct CirclesCross {
 };
 
 CirclesCross cross_circles(const Disc& a, const Disc& b) {
-  const Vec2 way = b.centre - a.centre;
-  const double distance2 = squared_norm(way);
+  const Vec2 offset = b.centre - a.centre;
+  const double distance2 = squared_norm(offset);
   const double share = 0.5 * (1 + (a.radius - b.radius) * (a.radius + b.radius) / distance2);
   const double half2 = a.radius * a.radius / distance2 - share * share;
-  const Vec2 middle = a.centre + share * way;
-  const Vec2 half = std::sqrt(std::max(0.0, half2)) * perpendicular(way);
+  const Vec2 middle = a.centre + share * offset;
+  const Vec2 half = std::sqrt(std::max(0.0, half2)) * perpendicular(offset);
   return {middle - half, middle + half};
 }
 

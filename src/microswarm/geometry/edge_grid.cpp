@@ -34,12 +34,12 @@ class Capsule {
     const Vec2 b = e.b - spine_.a;
     const double height_a = cross(along_, a);
     const double height_b = cross(along_, b);
-    const double way_a = dot(along_, a);
-    const double way_b = dot(along_, b);
+    const double along_a = dot(along_, a);
+    const double along_b = dot(along_, b);
     // One branch for all four sides: it is nearly always taken, whichever side applies.
-    const bool is_beside = (std::min(height_a, height_b) > beside_) |
-                           (std::max(height_a, height_b) < -beside_) |
-                           (std::min(way_a, way_b) > beyond_) | (std::max(way_a, way_b) < -beside_);
+    const bool is_beside =
+        (std::min(height_a, height_b) > beside_) | (std::max(height_a, height_b) < -beside_) |
+        (std::min(along_a, along_b) > beyond_) | (std::max(along_a, along_b) < -beside_);
     if (is_beside) return true;
     return !intersects(spine_, e) && squared_distance(e.a, spine_) >= squared_radius_ &&
            squared_distance(e.b, spine_) >= squared_radius_ &&

@@ -166,8 +166,8 @@ class Outline {
     int depth = 0;
     for (std::uint32_t i = 0; i < discs_.size(); ++i) {
       if (i == number) continue;
-      const Vec2 way = discs_[i].centre - disc.centre;
-      const double distance2 = squared_norm(way);
+      const Vec2 offset = discs_[i].centre - disc.centre;
+      const double distance2 = squared_norm(offset);
       const double other = discs_[i].radius;
       const double both = disc.radius + other;
       if (distance2 >= both * both) continue;
@@ -184,7 +184,7 @@ class Outline {
         return false;
       }
       if (!add_event(first, 1, disc, towards) || !add_event(last, -1, disc, towards)) return false;
-      const double beyond = squared_norm(begin - way) - other * other;
+      const double beyond = squared_norm(begin - offset) - other * other;
       if (std::abs(beyond) < too_near * other * other) return false;
       depth += beyond < 0;
     }
@@ -200,14 +200,14 @@ class Outline {
 
   /// The part of a's outline in b, counter-clockwise from `first` to `last`.
   static bool cross_discs(const Disc& a, const Disc& b, Vec2& first, Vec2& last) {
-    const Vec2 way = b.centre - a.centre;
-    const double distance2 = squared_norm(way);
+    const Vec2 offset = b.centre - a.centre;
+    const double distance2 = squared_norm(offset);
     if (distance2 < too_near * too_near * a.radius * a.radius) return false;
     const double share = 0.5 * (1 + (a.radius - b.radius) * (a.radius + b.radius) / distance2);
     const double half2 = a.radius * a.radius / distance2 - share * share;
     if (!(half2 > too_near * too_near)) return false;
-    const Vec2 middle = a.centre + share * way;
-    const Vec2 half = std::sqrt(half2) * perpendicular(way);
+    const Vec2 middle = a.centre + share * offset;
+    const Vec2 half = std::sqrt(half2) * perpendicular(offset);
     first = middle - half;
     last = middle + half;
     return true;

@@ -45,14 +45,14 @@ Command FollowerExpert::command(const Pose2& pose, double now) {
       {.now = now, .seen = now, .swarm = SwarmPose{pose, swarm_.radius}, .robots = {}});
   at_effect.position += swarm_.response_lag * swarm_.drift;
   place_ = nearest_place(path_, at_effect.position, place_);
-  std::array<Way, tried_lookaheads.size() * shares.size()> ways;
-  auto way = ways.begin();
+  std::array<Trial, tried_lookaheads.size() * shares.size()> trials;
+  auto trial = trials.begin();
   for (const double lookahead : tried_lookaheads)
-    for (const double share : shares) *way++ = play(at_effect, place_, lookahead, share);
-  const Way& best = *std::min_element(ways.begin(), ways.end(),
-                                      [](const Way& a, const Way& b) { return a.cost < b.cost; });
+    for (const double share : shares) *trial++ = play(at_effect, place_, lookahead, share);
+  const Trial& best = *std::min_element(
+      trials.begin(), trials.end(), [](const Trial& a, const Trial& b) { return a.cost < b.cost; });
   double sum = 0, off = 0, speed = 0;
-  for (const Way& w : ways) {
+  for (const Trial& w : trials) {
     const double weight = maths::exp((best.cost - w.cost) / softness);
     sum += weight;
     off += weight * wrap(w.first.heading - best.first.heading);
@@ -68,26 +68,26 @@ Pose2 FollowerExpert::moved(const Pose2& pose, const Command& command) const {
   return next;
 }
 
-FollowerExpert::Way FollowerExpert::play(Pose2 pose, PathPlace place, double lookahead,
-                                         double share) const {
+FollowerExpert::Trial FollowerExpert::play(Pose2 pose, PathPlace place, double lookahead,
+                                           double share) const {
   const double speed = share * speed_;
   const double unit = speed_ * speed_;
-  Way way{.cost = slow_weight * (1 - share) * (1 - share)};
+  Trial trial{.cost = slow_weight * (1 - share) * (1 - share)};
   double heading = last_.heading;
   for (int k = 0; k < ticks; ++k) {
     Command command = pursue_in_flow(path_, place, pose, lookahead * speed_,
                                      swarm_.speed_factor * speed, swarm_.drift);
     command.speed = speed;
-    if (k == 0) way.first = command;
+    if (k == 0) trial.first = command;
     const double turn = wrap(command.heading - heading);
     heading = command.heading;
     pose = moved(pose, command);
     if (remaining(path_, place) < tick * speed_) break;
     const PathPlace now = nearest_place(path_, pose.position, place);
     const double off2 = squared_norm(pose.position - point_ahead(path_, now, 0));
-    way.cost += (off2 / unit + turn_weight * turn * turn) / ticks;
+    trial.cost += (off2 / unit + turn_weight * turn * turn) / ticks;
   }
-  return way;
+  return trial;
 }
 
 }  // namespace microswarm

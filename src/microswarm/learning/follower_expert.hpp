@@ -25,11 +25,11 @@ class FollowerExpert {
   void note(double now, const Command& command);
 
  private:
-  struct Way {
+  struct Trial {
     Command first;
     double cost = 0;
   };
-  Way play(Pose2 pose, PathPlace place, double lookahead, double share) const;
+  Trial play(Pose2 pose, PathPlace place, double lookahead, double share) const;
   Pose2 moved(const Pose2& pose, const Command& command) const;
 
   RibbonParams swarm_;

@@ -19,9 +19,9 @@ std::vector<Vec2> with_cut_corners(const std::vector<Vec2>& path) {
   std::vector<Vec2> cut{path.front()};
   cut.reserve(2 * path.size());
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-    const Vec2 way = path[i + 1] - path[i];
-    if (i > 0) cut.push_back(path[i] + 0.25 * way);
-    if (i + 2 < path.size()) cut.push_back(path[i] + 0.75 * way);
+    const Vec2 edge = path[i + 1] - path[i];
+    if (i > 0) cut.push_back(path[i] + 0.25 * edge);
+    if (i + 2 < path.size()) cut.push_back(path[i] + 0.75 * edge);
   }
   cut.push_back(path.back());
   return cut;

@@ -38,10 +38,10 @@ void draw_plan(Picture& picture, const Record& record) {
     picture.disc({plan.path[k], dot_px * picture.um_per_px()}, planned);
 }
 
-void arrow(Picture& picture, Vec2 from, Vec2 way, Colour colour, double head) {
-  if (norm(way) < head) return;
-  const Vec2 tip = from + way;
-  const Vec2 back = (head / norm(way)) * way;
+void arrow(Picture& picture, Vec2 from, Vec2 offset, Colour colour, double head) {
+  if (norm(offset) < head) return;
+  const Vec2 tip = from + offset;
+  const Vec2 back = (head / norm(offset)) * offset;
   const Vec2 aside = 0.45 * Vec2{-back.y, back.x};
   picture.line(std::array{from, tip}, colour, 2.5);
   picture.line(std::array{tip - back + aside, tip, tip - back - aside}, colour, 2.5);
@@ -126,9 +126,9 @@ void draw_radar_view(Picture& picture, const Record& record, const World& world,
   draw_wait_zones(picture, params, 1.5);
   draw_plan(picture, record);
   draw_obstacles(picture, world.at(frame.t), {p, circles.detection});
-  std::vector<Vec2> way;
-  for (std::size_t i = 0; i <= number; ++i) way.push_back(record.frames[i].pose.position);
-  picture.line(way, colours::path, 2.5);
+  std::vector<Vec2> path;
+  for (std::size_t i = 0; i <= number; ++i) path.push_back(record.frames[i].pose.position);
+  picture.line(path, colours::path, 2.5);
   picture.mark(*record.scene.scenario.goal, "goal", colours::goal);
   picture.swarm(frame.pose, frame.radius);
   draw_radar_circles(picture, circles, p);

@@ -15,13 +15,13 @@ void draw_robots(const Map& map, const GlobalPlan& plan, std::span<const Vec2> g
   picture.walls(map);
   for (std::size_t robot = 0; robot < goals.size(); ++robot) {
     const Colour colour = colours::robots[robot % colours::robots.size()];
-    std::vector<Vec2> way;
-    for (const auto& places : plan.configurations) way.push_back(places[robot]);
+    std::vector<Vec2> path;
+    for (const auto& places : plan.configurations) path.push_back(places[robot]);
     picture.circle({goals[robot], tolerance}, colour, 2);
-    picture.line(way, colour, 2.5);
-    if (!way.empty()) {
-      picture.mark(way.front(), fmt::format("start {}", robot + 1), colour);
-      picture.mark(way.back(), "", colour);
+    picture.line(path, colour, 2.5);
+    if (!path.empty()) {
+      picture.mark(path.front(), fmt::format("start {}", robot + 1), colour);
+      picture.mark(path.back(), "", colour);
     }
     picture.legend(fmt::format("robot {}{}", robot + 1, robot == 0 ? ", goals dashed" : ""),
                    colour);

@@ -31,13 +31,13 @@ struct RobotsSubject {
 };
 
 /// Draws the paths of a few robots from the recorded moments.
-void draw_ways(Picture& picture, const RobotsSubject& s, double until) {
+void draw_paths(Picture& picture, const RobotsSubject& s, double until) {
   if (!s.few()) return;
   for (std::size_t i = 0; i < s.record.robots.front().places.size(); ++i) {
-    std::vector<Vec2> way;
+    std::vector<Vec2> path;
     for (const RobotMoment& m : s.record.robots)
-      if (m.t <= until) way.push_back(m.places[i]);
-    picture.line(way, robot_colour(*s.scenario().robots, i), 1.5);
+      if (m.t <= until) path.push_back(m.places[i]);
+    picture.line(path, robot_colour(*s.scenario().robots, i), 1.5);
   }
 }
 
@@ -88,7 +88,7 @@ std::unique_ptr<Picture> draw_robots_at(const Record& record, const ReportOption
       s.world.map->bounds(), fmt::format("{}: {}", s.title(), at ? moment_text(*at) : "start"));
   draw_ground(*picture, *s.world.map, options);
   if (at) {
-    draw_ways(*picture, s, at->t);
+    draw_paths(*picture, s, at->t);
     draw_robot_marks(*picture, s.scenario(), s.world.map->bounds(), at->places);
   }
   draw_robot_goals(*picture, scenario_at(record, at ? at->t : 0));

@@ -72,27 +72,27 @@ HarmonicArc random_arc(const Ground& ground, Rng& rng) {
 }
 
 Waypoints random_waypoints(const Ground& ground, Rng& rng) {
-  Waypoints way;
+  Waypoints waypoints;
   if (!ground.lanes.empty()) {
-    way.points = ground.lanes[rng.below(ground.lanes.size())];
-    if (rng.below(2) == 1) std::reverse(way.points.begin(), way.points.end());
-    return way;
+    waypoints.points = ground.lanes[rng.below(ground.lanes.size())];
+    if (rng.below(2) == 1) std::reverse(waypoints.points.begin(), waypoints.points.end());
+    return waypoints;
   }
   const std::size_t count = 2 + rng.below(4);
-  while (way.points.size() < count) way.points.push_back(random_place(ground, rng));
-  way.at_end = rng.below(2) == 0 ? AtEnd::back : AtEnd::loop;
-  return way;
+  while (waypoints.points.size() < count) waypoints.points.push_back(random_place(ground, rng));
+  waypoints.at_end = rng.below(2) == 0 ? AtEnd::back : AtEnd::loop;
+  return waypoints;
 }
 
 /// Passes near the straight path of the swarm at a time when the swarm may be there.
 Straight random_passage(const Ground& ground, const Crosser& swarm, double speed, Rng& rng) {
-  const Vec2 way = ground.goal - ground.start;
+  const Vec2 line = ground.goal - ground.start;
   const double share = rng.uniform(0.1, 1);
-  const double arrival = share * norm(way) / swarm.speed * rng.uniform(0.9, 1.5);
+  const double arrival = share * norm(line) / swarm.speed * rng.uniform(0.9, 1.5);
   const Vec2 aside =
-      3 * swarm.half_passage * rng.uniform(-1, 1) * unit_vector(heading_of(way) + pi / 2);
+      3 * swarm.half_passage * rng.uniform(-1, 1) * unit_vector(heading_of(line) + pi / 2);
   const Vec2 velocity = speed * unit_vector(rng.uniform(-pi, pi));
-  return {.start = ground.start + share * way + aside - arrival * velocity, .velocity = velocity};
+  return {.start = ground.start + share * line + aside - arrival * velocity, .velocity = velocity};
 }
 
 /// Random walk with a varying heading that turns back at the border.

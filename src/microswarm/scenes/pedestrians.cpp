@@ -13,7 +13,7 @@ namespace {
 
 constexpr double um_per_m = 150;
 constexpr double walker_radius = 45;
-constexpr double min_way = 900;  // minimum distance from start to goal [µm]
+constexpr double min_distance = 900;  // minimum distance from start to goal [µm]
 constexpr Box street{{-1300, 550}, {1150, 3300}};
 constexpr Box inner{{-1000, 850}, {850, 3000}};
 
@@ -38,7 +38,7 @@ void place_ends(Scenario& s, Rng& rng) {
     s.start = Pose2{uniform_in(inner, rng), 0};
     s.goal = uniform_in(inner, rng);
     s.start->heading = heading_of(*s.goal - s.start->position);
-    if (distance(s.start->position, *s.goal) > min_way && starts_apart(s)) return;
+    if (distance(s.start->position, *s.goal) > min_distance && starts_apart(s)) return;
   }
 }
 

@@ -17,20 +17,20 @@ constexpr double bound_rounding = 1e-12;
 constexpr double h_per_mh = 1e-3;
 
 /// Largest s in [0, 1] for which from + s · way is within the bounds; nothing if there is none.
-std::optional<double> farthest(const Eigen::VectorXd& from, const Eigen::VectorXd& way,
+std::optional<double> farthest(const Eigen::VectorXd& from, const Eigen::VectorXd& change,
                                const Eigen::VectorXd& lo, const Eigen::VectorXd& hi) {
   double least = 0;
   double most = 1;
-  for (Eigen::Index i = 0; i < way.size(); ++i) {
-    const double slack = bound_rounding * (1 + std::abs(from[i]) + std::abs(way[i]));
+  for (Eigen::Index i = 0; i < change.size(); ++i) {
+    const double slack = bound_rounding * (1 + std::abs(from[i]) + std::abs(change[i]));
     if (lo[i] > hi[i] + slack) return std::nullopt;
-    if (way[i] == 0) {
+    if (change[i] == 0) {
       if (from[i] < lo[i] - slack || from[i] > hi[i] + slack) return std::nullopt;
       continue;
     }
-    const double a = (lo[i] - from[i]) / way[i];
-    const double b = (hi[i] - from[i]) / way[i];
-    least = std::max(least, std::min(a, b) - slack / std::abs(way[i]));
+    const double a = (lo[i] - from[i]) / change[i];
+    const double b = (hi[i] - from[i]) / change[i];
+    least = std::max(least, std::min(a, b) - slack / std::abs(change[i]));
     most = std::min(most, std::max(a, b));
   }
   if (!(least <= most + bound_rounding)) return std::nullopt;
@@ -98,21 +98,21 @@ struct Turning {
   double constant = 0, cosine = 0, sine = 0;
 
   double amplitude() const { return std::sqrt(cosine * cosine + sine * sine); }
-  /// Mean square [A²] over phases from `phase - way` to `phase`.
-  double mean_square(double phase, double way) const {
-    const double middle = phase - way / 2;
+  /// Mean square [A²] over phases from `phase - extent` to `phase`.
+  double mean_square(double phase, double extent) const {
+    const double middle = phase - extent / 2;
     const auto [s1, c1] = maths::sincos(middle);
     const auto [s2, c2] = maths::sincos(2 * middle);
-    const double one = sinc(way / 2), two = sinc(way);
+    const double one = sinc(extent / 2), two = sinc(extent);
     return constant * constant + 2 * constant * one * (cosine * c1 + sine * s1) +
            0.5 * (cosine * cosine * (1 + two * c2) + sine * sine * (1 - two * c2)) +
            cosine * sine * two * s2;
   }
   /// Largest mean square [A²] over any interval of phases of this length.
-  double max_mean_square(double way) const {
+  double max_mean_square(double extent) const {
     const double A = amplitude();
-    return constant * constant + 2 * std::abs(constant) * A * std::abs(sinc(way / 2)) +
-           0.5 * A * A * (1 + std::abs(sinc(way)));
+    return constant * constant + 2 * std::abs(constant) * A * std::abs(sinc(extent / 2)) +
+           0.5 * A * A * (1 + std::abs(sinc(extent)));
   }
 };
 
@@ -289,9 +289,9 @@ DrivenCurrents CoilDrive::step(const Eigen::VectorXd& wanted, double dt) {
     result.keeps_direction = false;
     const DrivenCurrents held = steady(wanted);
     result.scale = held.scale;
-    const Eigen::VectorXd way = held.currents - currents_;
-    if (const auto share = farthest(currents_, way, bounds.lo, bounds.hi)) {
-      result.currents = currents_ + *share * way;
+    const Eigen::VectorXd change = held.currents - currents_;
+    if (const auto share = farthest(currents_, change, bounds.lo, bounds.hi)) {
+      result.currents = currents_ + *share * change;
     } else {  // too hot: reduce as fast as possible
       const Bounds any = reachable(dt, false);
       const Eigen::VectorXd down = -currents_;
@@ -319,11 +319,11 @@ double CoilDrive::turn(const TurningCurrents& wanted, double dt) {
   toward(turning_.constant, to.constant);
   toward(turning_.cosine, to.cosine);
   toward(turning_.sine, to.sine);
-  const double way = 2 * pi * to.frequency * dt;
+  const double extent = 2 * pi * to.frequency * dt;
   for (std::size_t k = 0; k < drives_.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
-    const double square = std::max(coil_of(turning_, i).mean_square(to.phase, way),
-                                   coil_of(to, i).mean_square(to.phase, way));
+    const double square = std::max(coil_of(turning_, i).mean_square(to.phase, extent),
+                                   coil_of(to, i).mean_square(to.phase, extent));
     temperatures_[i] = temperature_later(drives_[k], temperatures_[i], square, dt);
   }
   turning_ = std::move(to);

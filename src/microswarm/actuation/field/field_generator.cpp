@@ -12,9 +12,10 @@ namespace microswarm {
 namespace {
 
 // In units of a turn's length. Missed displacement across the heading is made up over
-// `catch_up_way`; faster turns would miss more than they make up. Displacement beyond `max_owed` is
-// dropped. At most `max_rolled` is rolled per step, since half a turn has no direction.
-constexpr double catch_up_way = 0.25, max_owed = 0.5, max_rolled = 0.4;
+// `catch_up_lengths`; faster turns would miss more than they make up. Displacement beyond
+// `max_owed` is dropped. At most `max_rolled` is rolled per step, since half a turn has no
+// direction.
+constexpr double catch_up_lengths = 0.25, max_owed = 0.5, max_rolled = 0.4;
 constexpr double max_haste = 2;  // times the commanded speed, while making up displacement
 
 }  // namespace
@@ -62,15 +63,15 @@ void FieldGenerator::roll(double dt) {
   if (const double most = max_owed * length; norm(owed_) > most) owed_ = most / norm(owed_) * owed_;
   const double speed = norm(velocity_);
   if (speed > 0) {
-    const double wanted = heading_of(owed_ + catch_up_way * length / speed * velocity_);
+    const double wanted = heading_of(owed_ + catch_up_lengths * length / speed * velocity_);
     const bool backwards = std::abs(wrap(wanted - heading_)) > pi / 2;
     turn_to(backwards ? wanted + pi : wanted, dt);
   }
   const double fastest = std::min(length * params_.frequency, max_haste * speed);
   const double most = std::min(fastest * dt, max_rolled * length);
-  const double way = std::clamp(dot(owed_, unit_vector(heading_)), -most, most);
-  frequency_ = dt > 0 ? way / length / dt : 0;
-  phase_ = std::fmod(phase_ + 2 * pi * (1 + way / length), 2 * pi);
+  const double rolled = std::clamp(dot(owed_, unit_vector(heading_)), -most, most);
+  frequency_ = dt > 0 ? rolled / length / dt : 0;
+  phase_ = std::fmod(phase_ + 2 * pi * (1 + rolled / length), 2 * pi);
   const Eigen::Vector3d before = field_;
   update_field();
   owed_ -= rolled_distance(before, field_, length);

@@ -15,21 +15,21 @@ namespace {
 
 constexpr int max_samples = 20'000;  // of one obstacle on one trajectory
 
-double top_speed_of(std::span<const PoseStamped> way) {
+double top_speed_of(std::span<const PoseStamped> poses) {
   double speed = 0;
-  for (std::size_t i = 1; i < way.size(); ++i)
-    speed = std::max(speed, distance(way[i - 1].pose.position, way[i].pose.position) /
-                                (way[i].t - way[i - 1].t));
+  for (std::size_t i = 1; i < poses.size(); ++i)
+    speed = std::max(speed, distance(poses[i - 1].pose.position, poses[i].pose.position) /
+                                (poses[i].t - poses[i - 1].t));
   return speed;
 }
 
 /// Maximum growth rate of the radius [µm/s].
-double top_growth_of(std::span<const PoseStamped> way) {
+double top_growth_of(std::span<const PoseStamped> poses) {
   double growth = 0;
-  for (std::size_t i = 1; i < way.size(); ++i)
-    if (way[i].radius != way[i - 1].radius)
-      growth =
-          std::max(growth, std::abs(way[i].radius - way[i - 1].radius) / (way[i].t - way[i - 1].t));
+  for (std::size_t i = 1; i < poses.size(); ++i)
+    if (poses[i].radius != poses[i - 1].radius)
+      growth = std::max(
+          growth, std::abs(poses[i].radius - poses[i - 1].radius) / (poses[i].t - poses[i - 1].t));
   return growth;
 }
 
@@ -39,16 +39,17 @@ double min_between(double at_first, double at_last, double reach) {
   return sum < infinity ? (sum - reach) / 2 : std::min(at_first, at_last) - reach;
 }
 
-double speed_at(std::span<const PoseStamped> way, double t) {
-  for (std::size_t i = 1; i < way.size(); ++i)
-    if (way[i].t >= t)
-      return distance(way[i - 1].pose.position, way[i].pose.position) / (way[i].t - way[i - 1].t);
+double speed_at(std::span<const PoseStamped> poses, double t) {
+  for (std::size_t i = 1; i < poses.size(); ++i)
+    if (poses[i].t >= t)
+      return distance(poses[i - 1].pose.position, poses[i].pose.position) /
+             (poses[i].t - poses[i - 1].t);
   return 0;
 }
 
 }  // namespace
 
-struct ContactMonitor::Way {
+struct ContactMonitor::Course {
   double t0;
   std::span<const PoseStamped> poses;
   double top_speed;
@@ -66,10 +67,10 @@ void ContactMonitor::take_obstacles() {
 std::vector<RunEvent> ContactMonitor::follow(double t0, std::span<const PoseStamped> trajectory) {
   std::vector<RunEvent> events;
   if (trajectory.empty()) return events;
-  const Way way{t0, trajectory, top_speed_of(trajectory), top_growth_of(trajectory)};
-  if (const auto touch = wall_touch(way)) events.push_back(*touch);
+  const Course course{t0, trajectory, top_speed_of(trajectory), top_growth_of(trajectory)};
+  if (const auto touch = wall_touch(course)) events.push_back(*touch);
   for (std::uint32_t i = 0; i < world_->obstacles.size(); ++i) {
-    const std::optional<Sample> touch = first_touch(way, i);
+    const std::optional<Sample> touch = first_touch(course, i);
     if (touch && !touching_[i])
       events.push_back({.t = t0 + touch->t,
                         .kind = EventKind::contact_obstacle,
@@ -77,34 +78,35 @@ std::vector<RunEvent> ContactMonitor::follow(double t0, std::span<const PoseStam
                         .clearance = touch->clearance,
                         .speed = speed_at(trajectory, touch->t),
                         .body = i});
-    touching_[i] = touch && sample(way, i, trajectory.back().t).gap < 0;
+    touching_[i] = touch && sample(course, i, trajectory.back().t).gap < 0;
   }
   std::stable_sort(events.begin(), events.end(),
                    [](const RunEvent& a, const RunEvent& b) { return a.t < b.t; });
   return events;
 }
 
-ContactMonitor::Sample ContactMonitor::sample(const Way& way, std::uint32_t obstacle, double t) {
+ContactMonitor::Sample ContactMonitor::sample(const Course& course, std::uint32_t obstacle,
+                                              double t) {
   bodies_.clear();
-  append_bodies(world_->obstacles[obstacle], obstacle, way.t0 + t, bodies_);
-  const PoseStamped swarm = moment_on(way.poses, t);
+  append_bodies(world_->obstacles[obstacle], obstacle, course.t0 + t, bodies_);
+  const PoseStamped swarm = moment_on(course.poses, t);
   double clearance = infinity;
   for (const Body& body : bodies_)
     clearance = std::min(clearance, distance(swarm.pose.position, body));
-  if (clearance < obstacles_.clearance) obstacles_ = {clearance, way.t0 + t};
+  if (clearance < obstacles_.clearance) obstacles_ = {clearance, course.t0 + t};
   const double gap = clearance - swarm.radius;
   min_gap_ = std::min(min_gap_, gap);
   return {t, clearance, gap};
 }
 
 // Bisects the trajectory, earlier half first, wherever a contact or a new minimum is possible.
-std::optional<ContactMonitor::Sample> ContactMonitor::first_touch(const Way& way,
+std::optional<ContactMonitor::Sample> ContactMonitor::first_touch(const Course& course,
                                                                   std::uint32_t obstacle) {
-  const double rate = way.top_speed + top_speeds_[obstacle];
-  const double gap_rate = rate + way.top_growth;
+  const double rate = course.top_speed + top_speeds_[obstacle];
+  const double gap_rate = rate + course.top_growth;
   std::optional<Sample> touch;
   std::vector<std::pair<Sample, Sample>> open{
-      {sample(way, obstacle, 0), sample(way, obstacle, way.poses.back().t)}};
+      {sample(course, obstacle, 0), sample(course, obstacle, course.poses.back().t)}};
   if (open.back().first.gap < 0) touch = open.back().first;
   for (int n = 0; n < max_samples && !open.empty(); ++n) {
     const auto [a, b] = open.back();
@@ -116,25 +118,25 @@ std::optional<ContactMonitor::Sample> ContactMonitor::first_touch(const Way& way
     const bool may_be_nearest =
         least < obstacles_.clearance - resolution || min_gap < min_gap_ - resolution;
     if (may_touch || may_be_nearest) {
-      const Sample middle = sample(way, obstacle, (a.t + b.t) / 2);
+      const Sample middle = sample(course, obstacle, (a.t + b.t) / 2);
       open.push_back({middle, b});
       open.push_back({a, middle});
     } else if (!touch && b.gap < 0) {
       // The gap decreases at its maximum rate here, hence linearly.
       const double share = a.gap / (a.gap - b.gap);
-      touch = sample(way, obstacle, a.t + share * (b.t - a.t));
+      touch = sample(course, obstacle, a.t + share * (b.t - a.t));
     }
   }
   return touch;
 }
 
-std::optional<RunEvent> ContactMonitor::wall_touch(const Way& way) {
+std::optional<RunEvent> ContactMonitor::wall_touch(const Course& course) {
   const Map& map = *world_->map;
   std::optional<RunEvent> event;
   bool touching = touching_wall_;
-  for (std::size_t i = 0; i < way.poses.size(); ++i) {
-    const PoseStamped& here = way.poses[i];
-    const PoseStamped& before = way.poses[i > 0 ? i - 1 : 0];
+  for (std::size_t i = 0; i < course.poses.size(); ++i) {
+    const PoseStamped& here = course.poses[i];
+    const PoseStamped& before = course.poses[i > 0 ? i - 1 : 0];
     const Segment piece{before.pose.position, here.pose.position};
     const double radius = std::max(before.radius, here.radius);
     const double path_length_um = distance(piece.a, piece.b);
@@ -145,11 +147,11 @@ std::optional<RunEvent> ContactMonitor::wall_touch(const Way& way) {
     // Inside the border, the distance to it is concave along the piece: minimal at an end.
     const double border = std::min(map.border_clearance(piece.a), map.border_clearance(piece.b));
     const double clearance = map.walls().clearance(piece, border);
-    if (clearance < walls_.clearance) walls_ = {clearance, way.t0 + here.t};
+    if (clearance < walls_.clearance) walls_ = {clearance, course.t0 + here.t};
     const bool touches = clearance < radius;
     if (touches && !touching && !event) {
       const std::size_t body = map.walls().nearest(piece.b, clearance + path_length_um);
-      event = {.t = way.t0 + here.t,
+      event = {.t = course.t0 + here.t,
                .kind = EventKind::contact_wall,
                .position = piece.b,
                .clearance = clearance,

@@ -46,11 +46,11 @@ class ContactMonitor {
     double clearance = 0;
     double gap = 0;  ///< clearance from the swarm's edge, negative inside
   };
-  struct Way;
+  struct Course;
 
-  Sample sample(const Way& way, std::uint32_t obstacle, double t);
-  std::optional<Sample> first_touch(const Way& way, std::uint32_t obstacle);
-  std::optional<RunEvent> wall_touch(const Way& way);
+  Sample sample(const Course& course, std::uint32_t obstacle, double t);
+  std::optional<Sample> first_touch(const Course& course, std::uint32_t obstacle);
+  std::optional<RunEvent> wall_touch(const Course& course);
 
   const World* world_;
   std::vector<double> top_speeds_;

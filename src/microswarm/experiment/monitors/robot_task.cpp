@@ -14,21 +14,21 @@ RobotTask::RobotTask(const Scenario& scenario, const Map& map) : goals_(scenario
   known_.resize(4096);
 }
 
-double RobotTask::way_from(Vec2 place) {
+double RobotTask::remaining_from(Vec2 place) {
   Hash hash;
   hash.value(place.x), hash.value(place.y);
   Known& known = known_[hash.digest() % known_.size()];
   if (known.place != place) known = {place, field_->visible_estimate(place)};
-  return known.way;
+  return known.remaining;
 }
 
 double RobotTask::left(std::span<const Vec2> robots) {
   double worst = 0;
   double sum = 0;
   for (std::size_t i = 0; i < robots.size(); ++i) {
-    const double way = field_ ? way_from(robots[i]) : distance(robots[i], goals_[i]);
-    worst = std::max(worst, way);
-    sum += way;
+    const double remaining = field_ ? remaining_from(robots[i]) : distance(robots[i], goals_[i]);
+    worst = std::max(worst, remaining);
+    sum += remaining;
   }
   return field_ ? sum / static_cast<double>(robots.size()) : worst;
 }

@@ -25,10 +25,10 @@ class RobotTask {
  private:
   struct Known {
     Vec2 place{std::numeric_limits<double>::quiet_NaN(), 0};
-    double way = 0;
+    double remaining = 0;
   };
 
-  double way_from(Vec2 place);
+  double remaining_from(Vec2 place);
 
   std::vector<Vec2> goals_;
   std::optional<DistanceField> field_;

@@ -124,7 +124,7 @@ class Judge {
         answers_(answers(limits_.max_speed, params.directions)) {}
 
   ContactVerdict operator()(const RunEvent& contact, const std::vector<State>& states) const {
-    ContactVerdict verdict{.contact = contact, .way = {}};
+    ContactVerdict verdict{.contact = contact, .manoeuvre = {}};
     const double latest =
         contact.t - limits_.response_lag - scenario_.sensing.observation_delay + 1e-9;
     for (auto state = states.rbegin(); state != states.rend() && !verdict.avoidable; ++state) {
@@ -133,7 +133,7 @@ class Judge {
       if (const Answer* answer = find(*state, contact.t + params_.aftermath)) {
         verdict.avoidable = true;
         verdict.decided = state->t;
-        verdict.way = answer->name;
+        verdict.manoeuvre = answer->name;
       }
     }
     return verdict;

@@ -42,8 +42,8 @@ class ContactLog : public RunListener {
 struct ContactVerdict {
   RunEvent contact;
   bool avoidable = false;
-  double decided = 0;    ///< time of the last tick at which it was avoidable [s]
-  std::string_view way;  ///< "hold", "retreat", "hold, retreat", "retreat, hold" or empty
+  double decided = 0;          ///< time of the last tick at which it was avoidable [s]
+  std::string_view manoeuvre;  ///< "hold", "retreat", "hold, retreat", "retreat, hold" or empty
 };
 
 /// Judges every contact of a run of KinematicPlant. A contact at t_c was avoidable if, from the

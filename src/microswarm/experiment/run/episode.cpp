@@ -14,11 +14,11 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// Cuts a trajectory at time t.
-void cut(std::vector<PoseStamped>& way, double t) {
-  PoseStamped end = moment_on(way, t);
+void cut(std::vector<PoseStamped>& trajectory, double t) {
+  PoseStamped end = moment_on(trajectory, t);
   end.t = t;
-  std::erase_if(way, [t](const PoseStamped& pose) { return pose.t >= t && pose.t > 0; });
-  if (t > 0) way.push_back(end);
+  std::erase_if(trajectory, [t](const PoseStamped& pose) { return pose.t >= t && pose.t > 0; });
+  if (t > 0) trajectory.push_back(end);
 }
 
 }  // namespace
@@ -165,9 +165,9 @@ Episode::Present Episode::present(const Observation& seen) {
   if (!seen.swarm)
     return {seen.now, present_.pose, present_.radius, present_.speed, present_.goal_distance};
   const double passed = seen.now - present_.t;
-  const double way = distance(present_.pose.position, seen.swarm->pose.position);
+  const double moved = distance(present_.pose.position, seen.swarm->pose.position);
   return {seen.now, seen.swarm->pose, scenario_.robots ? 0 : seen.swarm->radius,
-          passed > 0 ? way / passed : 0, goal_.left(seen.swarm->pose.position, seen.robots)};
+          passed > 0 ? moved / passed : 0, goal_.left(seen.swarm->pose.position, seen.robots)};
 }
 
 /// Detects contact and arrival on the last trajectory, in order of time.

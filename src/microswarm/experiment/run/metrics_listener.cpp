@@ -26,7 +26,7 @@ void MetricsListener::on_tick(const Tick& tick) {
   note_contacts(tick);
   if (tick.holding) return hold(tick);
   is_held_ = false;
-  note_way(tick);
+  note_distance(tick);
   note_clearances(tick);
   if (tick.end)
     note_end(tick);
@@ -54,7 +54,7 @@ void MetricsListener::note_contacts(const Tick& tick) {
   }
 }
 
-void MetricsListener::note_way(const Tick& tick) {
+void MetricsListener::note_distance(const Tick& tick) {
   move_to(tick.frame.pose);
   const RunEvent* const arrival = tick.end ? nullptr : arrival_of(tick);
   for (const PoseStamped& pose : tick.trajectory)

@@ -20,7 +20,7 @@ class MetricsListener : public RunListener {
 
  private:
   void move_to(const Pose2& pose);
-  void note_way(const Tick& tick);
+  void note_distance(const Tick& tick);
   void note_contacts(const Tick& tick);
   void hold(const Tick& tick);
   void note_step(const Tick& tick);

@@ -16,9 +16,9 @@ void ProgressListener::on_tick(const Tick& tick) {
   if (!start_distance_) start_distance_ = std::max(frame.goal_distance, 1e-9);
   if (frame.t < next_) return;
   next_ = frame.t + period_;
-  const double way_done = 1 - frame.goal_distance / *start_distance_;
+  const double distance_done = 1 - frame.goal_distance / *start_distance_;
   report_({.t = frame.t,
-           .way_done = std::clamp(way_done, 0.0, 1.0),
+           .distance_done = std::clamp(distance_done, 0.0, 1.0),
            .time_spent = std::clamp(frame.t / time_limit_, 0.0, 1.0)});
 }
 

@@ -11,9 +11,9 @@ namespace microswarm {
 /// Progress of a run: the completed fraction of the initial goal distance and the elapsed fraction
 /// of the simulated time limit.
 struct RunProgress {
-  double t = 0;           ///< [s]
-  double way_done = 0;    ///< in [0, 1]
-  double time_spent = 0;  ///< in [0, 1]
+  double t = 0;              ///< [s]
+  double distance_done = 0;  ///< in [0, 1]
+  double time_spent = 0;     ///< in [0, 1]
 };
 
 /// Calls a function at most every `period` seconds of simulated time.

@@ -52,10 +52,10 @@ Issues validate_margin(const Scenario& scenario, const World& world) {
   // A start closer to a wall is allowed: the navigator leads away from it.
   const double needed = std::min(margin, world.map->clearance(scenario.start->position));
   if (leads_to(*world.map, scenario.start->position, *target, needed)) return issues;
-  const WidestPath way = widest_path(*world.map, scenario.start->position, *target, margin);
-  const std::string left = way.found
+  const WidestPath path = widest_path(*world.map, scenario.start->position, *target, margin);
+  const std::string left = path.found
                                ? fmt::format(": about {:.3g} µm are left at ({:.4g}, {:.4g}) µm",
-                                             way.clearance, way.tightest.x, way.tightest.y)
+                                             path.clearance, path.tightest.x, path.tightest.y)
                                : "";
   issues.add("navigator.clearance_um",
              fmt::format("navigator.clearance_um is {:.4g}, wider than the passages to the goal "
@@ -92,15 +92,15 @@ Issues validate_body(const Scenario& scenario, const World& world) {
 Issues validate_path(const Map& map, Vec2 start, Vec2 goal, double radius) {
   Issues issues;
   if (leads_to(map, start, goal, radius)) return issues;
-  const WidestPath way = widest_path(map, start, goal, radius);
-  if (!way.found && !connected(map, start, goal)) {
+  const WidestPath path = widest_path(map, start, goal, radius);
+  if (!path.found && !connected(map, start, goal)) {
     issues.add("goal_um", "goal is cut off from the start by walls");
     return issues;
   }
   issues.add({"swarm.radius_um", "swarm", "goal_um"},
              fmt::format("swarm is {:.4g} µm wide, wider than every passage to the goal: the "
                          "widest is about {:.3g} µm, at ({:.4g}, {:.4g}) µm",
-                         2 * radius, 2 * way.clearance, way.tightest.x, way.tightest.y));
+                         2 * radius, 2 * path.clearance, path.tightest.x, path.tightest.y));
   return issues;
 }
 

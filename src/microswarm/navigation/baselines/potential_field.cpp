@@ -105,10 +105,10 @@ Vec2 PotentialFieldNavigator::push_of(const Body& body, const TrackedBody& motio
   const Vec2 at =
       p - steering_.delay() * motion.velocity;  // relative to the body's observed position
   const bool inside = depth_in(body, at) >= 0;
-  const Vec2 way = (inside ? motion.centre : nearest_of(body, at)) - at;
-  const double d = norm(way);
+  const Vec2 offset = (inside ? motion.centre : nearest_of(body, at)) - at;
+  const double d = norm(offset);
   if (d == 0) return {};
-  const Vec2 n = (1 / d) * way;
+  const Vec2 n = (1 / d) * offset;
   const Vec2 relative = wanted - motion.velocity;
   const double growth = outward_speed(body, motion);
   const double closing = std::max(0.0, dot(relative, n)) + growth;

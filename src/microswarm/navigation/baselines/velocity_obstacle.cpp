@@ -32,8 +32,8 @@ double rim_contact(Vec2 d, Vec2 v, double reach, double growth, double t) {
 /// Calls visit(way, t0, t1) for the straight segments of the path over the next `time` seconds,
 /// including the turn, until one call returns false. Returns whether none did.
 template <class Visit>
-bool along_the_way(Pose2 pose, const Command& command, double turn_rate, double time,
-                   Visit&& visit) {
+bool along_trajectory(Pose2 pose, const Command& command, double turn_rate, double time,
+                      Visit&& visit) {
   double t = 0;
   const double turn = std::abs(wrap(command.heading - pose.heading));
   if (command.speed > 0 && std::isfinite(turn_rate) && turn > choice_rounding) {
@@ -44,8 +44,8 @@ bool along_the_way(Pose2 pose, const Command& command, double turn_rate, double 
       pose = next;
     }
   }
-  const Vec2 way = std::max(0.0, time - t) * command.speed * unit_vector(command.heading);
-  return visit(Segment{pose.position, pose.position + way}, t, time);
+  const Vec2 move = std::max(0.0, time - t) * command.speed * unit_vector(command.heading);
+  return visit(Segment{pose.position, pose.position + move}, t, time);
 }
 
 }  // namespace
@@ -140,23 +140,23 @@ bool VelocityObstacleNavigator::clear_of_walls(const Map& map, const Pose2& pose
                             (1 - choice_rounding) * map.clearance(pose.position));
   const double time = std::min(params_.wall_horizon,
                                distance(pose.position, steering_.aim().position) / command.speed);
-  return along_the_way(pose, command, steering_.swarm().max_turn_rate, time,
-                       [&](Segment way, double, double) { return map.is_free(way, r); });
+  return along_trajectory(pose, command, steering_.swarm().max_turn_rate, time,
+                          [&](Segment leg, double, double) { return map.is_free(leg, r); });
 }
 
 /// Time until the command leads into a body; infinity if not within the horizon.
 double VelocityObstacleNavigator::time_to_contact(const Pose2& pose, const Command& command) const {
   double first = never;
-  along_the_way(pose, command, steering_.swarm().max_turn_rate, params_.horizon,
-                [&](Segment way, double t0, double t1) {
-                  for (const Threat& threat : threats_)
-                    first = std::min(first, time_to_contact(threat, way, t0, t1));
-                  return first == never;
-                });
+  along_trajectory(pose, command, steering_.swarm().max_turn_rate, params_.horizon,
+                   [&](Segment leg, double t0, double t1) {
+                     for (const Threat& threat : threats_)
+                       first = std::min(first, time_to_contact(threat, leg, t0, t1));
+                     return first == never;
+                   });
   return first;
 }
 
-double VelocityObstacleNavigator::time_to_contact(const Threat& threat, Segment way, double t0,
+double VelocityObstacleNavigator::time_to_contact(const Threat& threat, Segment leg, double t0,
                                                   double t1) const {
   const Segment own_frame{way.a - (steering_.delay() + t0) * threat.velocity,
                           way.b - (steering_.delay() + t1) * threat.velocity};

@@ -41,7 +41,7 @@ class VelocityObstacleNavigator : public Navigator {
   void find_threats(const Snapshot& world, Vec2 p);
   bool clear_of_walls(const Map& map, const Pose2& pose, const Command& command) const;
   double time_to_contact(const Pose2& pose, const Command& command) const;
-  double time_to_contact(const Threat& threat, Segment way, double t0, double t1) const;
+  double time_to_contact(const Threat& threat, Segment leg, double t0, double t1) const;
 
   VelocityObstacleParams params_;
   SteeringCycle steering_;

@@ -10,9 +10,9 @@ namespace microswarm {
 namespace {
 
 double share_of(Segment s, Vec2 p) {
-  const Vec2 way = s.b - s.a;
-  const double length2 = squared_norm(way);
-  return length2 > 0 ? std::clamp(dot(p - s.a, way) / length2, 0.0, 1.0) : 1.0;
+  const Vec2 along = s.b - s.a;
+  const double length2 = squared_norm(along);
+  return length2 > 0 ? std::clamp(dot(p - s.a, along) / length2, 0.0, 1.0) : 1.0;
 }
 
 }  // namespace

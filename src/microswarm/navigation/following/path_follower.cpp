@@ -48,8 +48,8 @@ PathFollower::Answer PathFollower::command(std::span<const Vec2> path, PathPlace
 Command pursue_in_flow(std::span<const Vec2> path, PathPlace& place, const Pose2& pose,
                        double lookahead, double speed, Vec2 flow) {
   Command command = pursue(path, place, pose, lookahead, speed);
-  const Vec2 way = unit_vector(command.heading);
-  const double across = way.x * flow.y - way.y * flow.x;
+  const Vec2 along = unit_vector(command.heading);
+  const double across = along.x * flow.y - along.y * flow.x;
   // No heading holds the line if the flow is as fast as the swarm.
   const double crab = -maths::asin(std::clamp(across / speed, -0.9, 0.9));
   command.heading = wrap(command.heading + crab);

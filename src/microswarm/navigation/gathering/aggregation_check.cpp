@@ -52,10 +52,10 @@ int exits(const Map& map, Vec2 goal, double width) {
   const std::vector<bool> near =
       flood(map, lattice, goal, [&](std::uint32_t node) { return far(node) <= outer; });
   std::vector<bool> counted(lattice.size(), false);
-  int ways = 0;
+  int exits = 0;
   for (std::uint32_t node = 0; node < lattice.size(); ++node) {
     if (!near[node] || counted[node] || far(node) < width) continue;
-    ++ways;
+    ++exits;
     const std::vector<bool> piece = flood(map, lattice, lattice[node], [&](std::uint32_t other) {
       return near[other] && far(other) >= width;
     });
@@ -63,7 +63,7 @@ int exits(const Map& map, Vec2 goal, double width) {
       if (piece[other]) counted[other] = true;
     counted[node] = true;
   }
-  return ways;
+  return exits;
 }
 
 }  // namespace

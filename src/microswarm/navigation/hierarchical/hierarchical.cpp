@@ -174,9 +174,10 @@ bool HierarchicalNavigator::replan_in_time(const Snapshot& seen, double clearanc
                                            const Stop& stop) {
   if (params_.target_horizon <= 0 || obstacles_.all_rest()) return false;
   const Vec2 from = pose_.position;
-  const auto way_from = [&](Vec2 p) {
-    const double way = params_.guide == Guide::route ? route_.from(p) : distance(p, aim().position);
-    return std::isfinite(way) ? way : distance(p, aim().position) + params_.tuning.detour;
+  const auto length_from = [&](Vec2 p) {
+    const double length =
+        params_.guide == Guide::route ? route_.from(p) : distance(p, aim().position);
+    return std::isfinite(length) ? length : distance(p, aim().position) + params_.tuning.detour;
   };
   const auto target = select_predicted_target(seen, obstacles_,
                                               {.swarm = pose_,
@@ -194,7 +195,7 @@ bool HierarchicalNavigator::replan_in_time(const Snapshot& seen, double clearanc
                                                .wait_times = params_.tuning.wait_times,
                                                .wait_weight = params_.tuning.wait_weight,
                                                .contact_weight = params_.tuning.contact_weight},
-                                              way_from);
+                                              length_from);
   if (!target) return false;
   if (target->wait > 0) {  // without a path it holds
     if (!wait_) wait_ = Wait{seen.time(), from};

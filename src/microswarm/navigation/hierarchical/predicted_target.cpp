@@ -15,13 +15,13 @@ constexpr double piece_time = 1;  // of a way that is searched for its first con
 
 /// Time for which the straight path of this heading stays free of obstacles [s], at most `most` and
 /// its duration.
-double free_time(const Snapshot& frame, const ObstaclePredictor& obstacles, Segment way,
+double free_time(const Snapshot& frame, const ObstaclePredictor& obstacles, Segment leg,
                  double heading, double speed, double start, double most, double clearance) {
-  const double time = std::min(most, distance(way.a, way.b) / speed);
+  const double time = std::min(most, distance(leg.a, leg.b) / speed);
   const Vec2 velocity = speed * unit_vector(heading);
   for (double t = 0; t < time; t += piece_time) {
     const double end = std::min(time, t + piece_time);
-    const Segment piece{way.a + t * velocity, way.a + end * velocity};
+    const Segment piece{leg.a + t * velocity, leg.a + end * velocity};
     if (obstacles.clearance(frame, piece, start + t, start + end, clearance + 1) < clearance)
       return t;
   }
@@ -31,8 +31,8 @@ double free_time(const Snapshot& frame, const ObstaclePredictor& obstacles, Segm
 class PredictedChoice {
  public:
   PredictedChoice(const Snapshot& frame, const ObstaclePredictor& obstacles,
-                  const PredictedTargetQuery& query, const std::function<double(Vec2)>& way_from)
-      : frame_(frame), obstacles_(obstacles), q_(query), way_from_(way_from) {}
+                  const PredictedTargetQuery& query, const std::function<double(Vec2)>& length_from)
+      : frame_(frame), obstacles_(obstacles), q_(query), length_from_(length_from) {}
 
   /// Takes the target, reached after a wait [s], if no other has cost less.
   void consider(Vec2 target, double wait) {
@@ -42,7 +42,7 @@ class PredictedChoice {
     double cost = length + q_.wait_weight * q_.speed * wait +
                   q_.turn_weight * turn_between(heading, q_.swarm.heading);
     if (!(cost < best_cost_) || !frame_.map().is_free(Segment{from, target}, q_.clearance)) return;
-    cost += way_from_(target);
+    cost += length_from_(target);
     if (!(cost < best_cost_)) return;
     const double time = length / q_.speed;
     if (!rests_freely(wait) || free_time({from, target}, heading, wait, time) < time) return;
@@ -62,8 +62,8 @@ class PredictedChoice {
   const std::optional<PredictedTarget>& best() const { return best_; }
 
  private:
-  double free_time(Segment way, double heading, double start, double most) const {
-    return microswarm::free_time(frame_, obstacles_, way, heading, q_.speed, q_.delay + start, most,
+  double free_time(Segment leg, double heading, double start, double most) const {
+    return microswarm::free_time(frame_, obstacles_, leg, heading, q_.speed, q_.delay + start, most,
                                  q_.clearance);
   }
   bool rests_freely(double wait) const {
@@ -78,7 +78,7 @@ class PredictedChoice {
   const Snapshot& frame_;
   const ObstaclePredictor& obstacles_;
   const PredictedTargetQuery& q_;
-  const std::function<double(Vec2)>& way_from_;
+  const std::function<double(Vec2)>& length_from_;
   std::optional<PredictedTarget> best_;
   double best_cost_ = std::numeric_limits<double>::infinity();
 };
@@ -87,12 +87,12 @@ class PredictedChoice {
 
 std::optional<PredictedTarget> select_predicted_target(
     const Snapshot& frame, const ObstaclePredictor& obstacles, const PredictedTargetQuery& q,
-    const std::function<double(Vec2)>& way_from) {
+    const std::function<double(Vec2)>& length_from) {
   const Vec2 from = q.swarm.position;
   const double straight = heading_of(q.towards - from);
   const double goal_distance = distance(from, q.goal);
   const int directions = std::max(4, static_cast<int>(std::lround(2 * pi / q.angle_step)));
-  PredictedChoice choice(frame, obstacles, q, way_from);
+  PredictedChoice choice(frame, obstacles, q, length_from);
   for (const double wait : q.wait_times) {
     if (wait > 0 && wait > q.max_wait) break;
     if (goal_distance <= q.reach) choice.consider(q.goal, wait);
@@ -108,11 +108,11 @@ bool is_free_in_time(const Snapshot& frame, const ObstaclePredictor& obstacles,
                      double clearance) {
   double t = 0;
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-    const Segment way{path[i], path[i + 1]};
-    if (!frame.map().is_free(way, clearance)) return false;
-    const double time = std::min(horizon - t, distance(way.a, way.b) / speed);
+    const Segment leg{path[i], path[i + 1]};
+    if (!frame.map().is_free(leg, clearance)) return false;
+    const double time = std::min(horizon - t, distance(leg.a, leg.b) / speed);
     if (time <= 0) continue;
-    if (free_time(frame, obstacles, way, heading_of(way.b - way.a), speed, delay + t, time,
+    if (free_time(frame, obstacles, leg, heading_of(leg.b - leg.a), speed, delay + t, time,
                   clearance) < time)
       return false;
     t += time;

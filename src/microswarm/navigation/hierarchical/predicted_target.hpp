@@ -38,13 +38,12 @@ struct PredictedTarget {
 /// Selects a local target in space and time (ours, besides Algorithm 1 [drrt]). The swarm goes
 /// straight to the target, at once or after an obstacle has passed, then straight towards the goal.
 /// All obstacles move as predicted. Of the targets reached with the clearance, the one of minimum
-/// cost is taken. The cost is the distance to the target, `way_from` it to the goal [µm], turning,
-/// and the loss by waiting and by meeting an obstacle beyond the target within the horizon. Nothing
-/// if no target can be reached.
-std::optional<PredictedTarget> select_predicted_target(const Snapshot& frame,
-                                                       const ObstaclePredictor& obstacles,
-                                                       const PredictedTargetQuery& query,
-                                                       const std::function<double(Vec2)>& way_from);
+/// cost is taken. The cost is the distance to the target, `length_from` it to the goal [µm],
+/// turning, and the loss by waiting and by meeting an obstacle beyond the target within the
+/// horizon. Nothing if no target can be reached.
+std::optional<PredictedTarget> select_predicted_target(
+    const Snapshot& frame, const ObstaclePredictor& obstacles, const PredictedTargetQuery& query,
+    const std::function<double(Vec2)>& length_from);
 
 /// Whether the path is collision-free when followed from its first point at `speed` [µm/s], `delay`
 /// [s] after the frame: among predicted obstacles for at most `horizon` [s], among walls for the

@@ -17,11 +17,11 @@ namespace microswarm {
 /// Oscillation or rotation on a circle.
 struct ArcSwing {
   Vec2 centre;
-  double radius = 0;  ///< [µm]
-  Oscillation way;    ///< x: arc length from heading 0 [µm]
+  double radius = 0;       ///< [µm]
+  Oscillation arc_length;  ///< x: arc length from heading 0 [µm]
 
   /// Heading from the centre at `t` [rad].
-  double angle(double t) const { return way.at(t).x / radius; }
+  double angle(double t) const { return arc_length.at(t).x / radius; }
   Vec2 at(double t) const { return centre + radius * unit_vector(angle(t)); }
 };
 

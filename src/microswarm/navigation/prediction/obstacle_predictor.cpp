@@ -73,12 +73,13 @@ Snapshot ObstaclePredictor::swept_obstacles(const Snapshot& frame, double horizo
   std::vector<Body> swept;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Motion& motion = motions_[i];
-    const double way = norm(motion.velocity) * horizon;
+    const double travel = norm(motion.velocity) * horizon;
     const double size = std::max(1.0, inradius_bound(bodies[i]));
     // Copies without gaps between them; fewer for a small fast body, but no path fits between two
     // of them.
-    const double without_gap = std::max(enough_copies, std::ceil(way / (size + r)));
-    const int copies = static_cast<int>(std::min({std::ceil(way / size), without_gap, max_copies}));
+    const double without_gap = std::max(enough_copies, std::ceil(travel / (size + r)));
+    const int copies =
+        static_cast<int>(std::min({std::ceil(travel / size), without_gap, max_copies}));
     for (int k = 0; k <= copies; ++k) {
       swept.push_back(bodies[i]);
       if (copies == 0) continue;

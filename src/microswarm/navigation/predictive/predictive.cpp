@@ -183,14 +183,14 @@ void PredictiveNavigator::look_ahead(double effect) {
 /// Whether nothing is near the straight path to the goal within the horizon. Between samples, a
 /// body may have approached by half the distance that both moved.
 bool PredictiveNavigator::goal_is_clear(const Map& map, const Pose2& pose) const {
-  const Vec2 way = steering_.aim().position - pose.position;
-  const double heading = heading_of(way);
+  const Vec2 offset = steering_.aim().position - pose.position;
+  const double heading = heading_of(offset);
   constexpr double turned = 0.02;  // [rad]
   const bool turns = std::isfinite(steering_.swarm().max_turn_rate);
   if (!in_sight_ || (turns && turn_between(heading, pose.heading) > turned)) return false;
   const double own_step = 0.5 * field_.step() * steering_.speed();
   for (int s = 0; s < 2 * field_.steps(); ++s) {
-    const double gone = std::min(norm(way), field_.time_of(s) * steering_.speed());
+    const double gone = std::min(norm(offset), field_.time_of(s) * steering_.speed());
     const Vec2 p = pose.position + gone * unit_vector(heading);
     if (standing_risk(map, p) > 0) return false;
     const std::size_t first = static_cast<std::size_t>(s) * bodies_;
@@ -201,7 +201,7 @@ bool PredictiveNavigator::goal_is_clear(const Map& map, const Pose2& pose) const
           outlines_[i].distance_at(rotated(p - body.centre, -body.turn)) - body.growth - radius_;
       if (gap < params_.risk.reach + body.uncertainty + 0.5 * (own_step + step)) return false;
     }
-    if (gone == norm(way)) break;
+    if (gone == norm(offset)) break;
   }
   return true;
 }
@@ -217,8 +217,8 @@ void PredictiveNavigator::solve(const Map& map, Vec2 from) {
 double PredictiveNavigator::left_from(Vec2 p) {
   const double straight = distance(p, steering_.aim().position) - reached_.radius;
   if (in_sight_) return std::max(0.0, straight) / steering_.speed();
-  const double way = route_.from(p);
-  return std::isfinite(way) ? way / steering_.speed() : params_.tuning.unreachable_time;
+  const double length = route_.from(p);
+  return std::isfinite(length) ? length / steering_.speed() : params_.tuning.unreachable_time;
 }
 
 float PredictiveNavigator::standing_risk(const Map& map, Vec2 p) const {
@@ -273,16 +273,16 @@ PredictiveNavigator::Leg PredictiveNavigator::tried(const Map& map, const Pose2&
   Pose2 pose = from;
   for (int piece = 0; piece < leg_pieces; ++piece) {
     const Pose2 next = unicycle_step(pose, command, steering_.swarm().max_turn_rate, dt);
-    const Segment way{pose.position, next.position};
-    const Meeting met = meeting(piece, way);
+    const Segment move{pose.position, next.position};
+    const Meeting met = meeting(piece, move);
     leg.min_gap = std::min(leg.min_gap, met.gap);
     const double risk = std::max(met.risk, static_cast<double>(standing_risk(map, next.position)));
     leg.cost += dt * (1 + risk);
-    if (command.speed > 0 && !map.is_free(way, needed))
+    if (command.speed > 0 && !map.is_free(move, needed))
       leg.cost = params_.tuning.unreachable_time + bound;
     if (leg.cost > bound) return leg;
     pose = next;
-    if (ending_ ? distance(steering_.goal(), way) < ends_within_
+    if (ending_ ? distance(steering_.goal(), move) < ends_within_
                 : distance(pose.position, reached_.centre) < reached_.radius)
       return leg;
   }
@@ -310,7 +310,7 @@ double PredictiveNavigator::turning_time(const Pose2& pose) const {
 }
 
 /// Gap and risk of the bodies along a segment of the first leg.
-PredictiveNavigator::Meeting PredictiveNavigator::meeting(int piece, Segment way) const {
+PredictiveNavigator::Meeting PredictiveNavigator::meeting(int piece, Segment move) const {
   Meeting out;
   const std::size_t first = static_cast<std::size_t>(piece) * bodies_;
   for (std::size_t i = 0; i < bodies_; ++i) {
@@ -318,8 +318,8 @@ PredictiveNavigator::Meeting PredictiveNavigator::meeting(int piece, Segment way
     const PredictedBody& b = leg_ahead_[first + bodies_ + i];
     const double grown = radius_ + std::max(a.growth, b.growth);
     const double near = grown + params_.risk.reach + b.uncertainty;
-    const Vec2 p = way.a - a.centre;
-    const Vec2 q = way.b - b.centre;
+    const Vec2 p = move.a - a.centre;
+    const Vec2 q = move.b - b.centre;
     const double away = outlines_[i].radius + near + distance(p, q);
     if (squared_norm(p) > away * away) continue;
     const double gap =

@@ -57,7 +57,7 @@ class PredictiveNavigator : public Navigator {
   Leg tried(const Map& map, const Pose2& pose, const Command& command, double bound);
   std::optional<double> best_heading(Vec2 p) const;
   double turning_time(const Pose2& pose) const;
-  Meeting meeting(int piece, Segment way) const;
+  Meeting meeting(int piece, Segment move) const;
   double follow_field(Vec2 from);
 
   PredictiveParams params_;

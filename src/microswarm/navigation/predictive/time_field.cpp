@@ -12,8 +12,8 @@ namespace {
 // long_way to longest_path, cells_a_step is their mean length and stride_cells their greatest
 // extent. `predictive.step` sets the resolution.
 constexpr double longest_path = 3.25;
-constexpr double long_way = 2.4;
-constexpr double short_way = 1.5;
+constexpr double long_move = 2.4;
+constexpr double short_move = 1.5;
 constexpr double cells_a_step = 3.1;
 constexpr float not_ended = std::numeric_limits<float>::infinity();
 
@@ -28,8 +28,8 @@ TimeField::TimeField(double speed, double horizon, double step)
   for (int j = -stride_cells; j <= stride_cells; ++j)
     for (int i = -stride_cells; i <= stride_cells; ++i) {
       const double length = std::sqrt(i * i + j * j);
-      const bool is_long = length >= long_way && length <= longest_path;
-      const bool is_short = length <= short_way && (i == 0) == (j == 0);
+      const bool is_long = length >= long_move && length <= longest_path;
+      const bool is_short = length <= short_move && (i == 0) == (j == 0);
       if (!is_long && !is_short) continue;
       // An integer number of cells is slightly more or less than a step. Slow moves wait.
       const double extra = is_long ? (length / cells_a_step - 1) * step_ : 0;
@@ -189,7 +189,7 @@ Vec2 TimeField::next(int k, Vec2 p) const {
   Vec2 best = p;
   double least = cost(k + 1, p);
   for (const Move& move : moves_) {
-    const Vec2 there = p + cell_ * move.way;
+    const Vec2 there = p + cell_ * move.offset;
     const double c = cost(k + 1, there) + static_cast<double>(move.extra);
     if (c >= least) continue;
     least = c;

@@ -78,7 +78,7 @@ class TimeField {
   Vec2 centre_;
   struct Move {
     std::ptrdiff_t cells;  ///< difference of the indices
-    Vec2 way;              ///< [cells]
+    Vec2 offset;           ///< [cells]
     float extra;           ///< time it takes beyond a step [s]
   };
   std::vector<Move> moves_;

@@ -40,19 +40,19 @@ MICROSWARM_EACH_CPU Screened screen_places(const EscapeFan::Places& places, doub
 double squared_if_positive(double v) { return v > 0 ? v * v : 0; }
 
 /// Straight remainder of a trajectory, from `before` on [s].
-Segment last_leg(const Foresight& seen, const EscapeWay& way, double before) {
+Segment last_leg(const Foresight& seen, const EscapeTrajectory& trajectory, double before) {
   const Vec2 start = seen.start().place;
-  return {start + way.at(before), start + way.at(seen.end())};
+  return {start + trajectory.at(before), start + trajectory.at(seen.end())};
 }
 
 }  // namespace
 
-bool is_free(const Foresight& seen, const EscapeWay& way, std::span<const Instant> instants,
-             double before) {
+bool is_free(const Foresight& seen, const EscapeTrajectory& trajectory,
+             std::span<const Instant> instants, double before) {
   const Vec2 start = seen.start().place;
-  Vec2 last = start + way.at(before);
+  Vec2 last = start + trajectory.at(before);
   for (const Instant& i : instants) {
-    const Vec2 p = start + way.at(i.t);
+    const Vec2 p = start + trajectory.at(i.t);
     const Vec2 from = std::exchange(last, p);
     if (!seen.is_clear(p, i) || !seen.is_free_of_walls(from, p, i.t)) return false;
   }
@@ -80,30 +80,31 @@ EscapeFan::EscapeFan(std::vector<Vec2> velocities, double speed)
 /// `gap_at` returns the required gap [µm]. The last instants come first, since most bodies are near
 /// then.
 template <class GapAt>
-bool EscapeFan::screen(const Foresight& seen, const Ways& ways, std::span<const Instant> instants,
-                       Foresight::Error error, GapAt&& gap_at, std::int64_t count) {
+bool EscapeFan::screen(const Foresight& seen, const Trajectories& trajectories,
+                       std::span<const Instant> instants, Foresight::Error error, GapAt&& gap_at,
+                       std::int64_t count) {
   std::fill(blocked_.begin(), blocked_.end(), 0);
   for (std::size_t i = instants.size(); i-- > 0;) {
     const Demand demand{gap_at(instants[i]), error};
     for (const Foresight::Near& body : seen.near(instants[i]))
-      if (meet(seen, body, ways, instants[i].t, demand) < count) return false;
+      if (meet(seen, body, trajectories, instants[i].t, demand) < count) return false;
   }
   return static_cast<std::int64_t>(velocities_.size()) >= count;
 }
 
 bool EscapeFan::has_free(Foresight& seen, Vec2 begin, double until, int count) {
   const Foresight::Schedule& schedule = seen.schedule(until);
-  const Ways ways{{begin, until, {}}};
-  if (!is_free(seen, ways.common, schedule.begun(), 0)) return false;
+  const Trajectories trajectories{{begin, until, {}}};
+  if (!is_free(seen, trajectories.common, schedule.begun(), 0)) return false;
   const auto goes_on = [&](std::size_t k) {
-    return is_free(seen, ways[velocities_[k]], schedule.rest(), schedule.before());
+    return is_free(seen, trajectories[velocities_[k]], schedule.rest(), schedule.before());
   };
   if (count == 1 && goes_on(last_)) return true;
   const auto required = [](const Instant& i) { return i.required; };
-  if (!screen(seen, ways, schedule.rest(), Foresight::Error::bounded, required, count))
+  if (!screen(seen, trajectories, schedule.rest(), Foresight::Error::bounded, required, count))
     return false;
   const auto passes_walls = [&](std::size_t k) {
-    const Segment leg = last_leg(seen, ways[velocities_[k]], schedule.before());
+    const Segment leg = last_leg(seen, trajectories[velocities_[k]], schedule.before());
     return seen.passes_walls(leg) || (!seen.meets_walls(leg) && goes_on(k));
   };
   int found = 0;
@@ -118,34 +119,40 @@ bool EscapeFan::has_free(Foresight& seen, Vec2 begin, double until, int count) {
 // A gap changes by no more than the position does.
 bool EscapeFan::excludes(Foresight& seen, Vec2 begin, double spread, double until, int count) {
   const Foresight::Schedule& schedule = seen.schedule(until);
-  const Ways ways{{begin, until, {}}};
+  const Trajectories trajectories{{begin, until, {}}};
   const auto slack = [&](double t) { return std::min(t, until) * spread * (1 + doubt) + doubt; };
   const auto required = [&](const Instant& i) { return i.required - slack(i.t); };
   for (const Instant& i : schedule.begun()) {
-    const Vec2 p = seen.start().place + ways.common.at(i.t);
+    const Vec2 p = seen.start().place + trajectories.common.at(i.t);
     if (seen.gap(p, i, i.required, Foresight::Error::bounded) < required(i)) return true;
   }
-  if (!screen(seen, ways, schedule.rest(), Foresight::Error::bounded, required, count)) return true;
+  if (!screen(seen, trajectories, schedule.rest(), Foresight::Error::bounded, required, count))
+    return true;
   int left = 0;
   for (std::size_t k = 0; k < velocities_.size() && left < count; ++k) {
     if (blocked_[k] != 0) continue;
-    const Segment leg = last_leg(seen, ways[velocities_[k]], schedule.before());
+    const Segment leg = last_leg(seen, trajectories[velocities_[k]], schedule.before());
     if (!seen.meets_walls(leg, slack(until))) ++left;
   }
   return left < count;
 }
 
-bool EscapeFan::may_keep(const Foresight& seen, const Ways& ways, std::span<const Instant> instants,
-                         const LeastGap& least) {
+bool EscapeFan::may_keep(const Foresight& seen, const Trajectories& trajectories,
+                         std::span<const Instant> instants, const LeastGap& least) {
   const auto gap_at = [&](const Instant& i) { return least.at(i.t); };
-  return screen(seen, ways, instants, Foresight::Error::none, gap_at, 1);
+  return screen(seen, trajectories, instants, Foresight::Error::none, gap_at, 1);
 }
 
 /// Blocks the velocities that get too near to this body; returns how many remain.
-std::int64_t EscapeFan::meet(const Foresight& seen, const Foresight::Near& body, const Ways& ways,
-                             double t, const Demand& demand) {
-  const Places places{x_.data(),         y_.data(),          x_.size(),  ways.varied_for(t),
-                      ways.common.at(t), seen.start().place, body.centre};
+std::int64_t EscapeFan::meet(const Foresight& seen, const Foresight::Near& body,
+                             const Trajectories& trajectories, double t, const Demand& demand) {
+  const Places places{x_.data(),
+                      y_.data(),
+                      x_.size(),
+                      trajectories.varied_for(t),
+                      trajectories.common.at(t),
+                      seen.start().place,
+                      body.centre};
   const ConvexOutline& outline = *body.outline;
   const double keep = body.touch[static_cast<std::size_t>(demand.error)] + demand.gap;
   const double far = std::max(0.0, outline.radius + keep) * (1 + doubt) + doubt;

@@ -13,7 +13,7 @@ namespace microswarm {
 
 /// Whether a swarm keeps the required gaps on the trajectory at these instants; `before` [s] is the
 /// time of the instant before the first.
-bool is_free(const Foresight& seen, const EscapeWay& way,
+bool is_free(const Foresight& seen, const EscapeTrajectory& trajectory,
              std::span<const Foresight::Instant> instants, double before);
 
 /// Minimum gap of a trajectory: the maximum of a constant and of a line in time.
@@ -30,12 +30,12 @@ class EscapeFan {
  public:
   /// The trajectories of a fan: each of its velocities replaces the second of `common`, or the
   /// first one if `first_varies`.
-  struct Ways {
-    EscapeWay common;
+  struct Trajectories {
+    EscapeTrajectory common;
     bool first_varies = false;
-    EscapeWay operator[](Vec2 velocity) const {
-      return first_varies ? EscapeWay{velocity, common.until, common.second}
-                          : EscapeWay{common.first, common.until, velocity};
+    EscapeTrajectory operator[](Vec2 velocity) const {
+      return first_varies ? EscapeTrajectory{velocity, common.until, common.second}
+                          : EscapeTrajectory{common.first, common.until, velocity};
     }
     /// Time at the varying velocity within the first `t` seconds [s].
     double varied_for(double t) const {
@@ -66,7 +66,7 @@ class EscapeFan {
   bool excludes(Foresight& seen, Vec2 begin, double spread, double until, int count);
   /// Whether some of the trajectories may keep these gaps to convex bodies at all instants;
   /// is_left() says which.
-  bool may_keep(const Foresight& seen, const Ways& ways,
+  bool may_keep(const Foresight& seen, const Trajectories& trajectories,
                 std::span<const Foresight::Instant> instants, const LeastGap& least);
   bool is_left(std::size_t velocity) const { return blocked_[velocity] == 0; }
 
@@ -78,10 +78,11 @@ class EscapeFan {
   };
 
   template <class GapAt>
-  bool screen(const Foresight& seen, const Ways& ways, std::span<const Foresight::Instant> instants,
-              Foresight::Error error, GapAt&& gap_at, std::int64_t count);
-  std::int64_t meet(const Foresight& seen, const Foresight::Near& body, const Ways& ways, double t,
-                    const Demand& demand);
+  bool screen(const Foresight& seen, const Trajectories& trajectories,
+              std::span<const Foresight::Instant> instants, Foresight::Error error, GapAt&& gap_at,
+              std::int64_t count);
+  std::int64_t meet(const Foresight& seen, const Foresight::Near& body,
+                    const Trajectories& trajectories, double t, const Demand& demand);
   std::int64_t settle(const Places& at, const Foresight::Near& body, const Demand& demand);
 
   std::vector<Vec2> velocities_;

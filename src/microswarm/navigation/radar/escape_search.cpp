@@ -20,19 +20,20 @@ EscapeSearch::Trace EscapeSearch::begin(Vec2 first, double until) {
   return trace;
 }
 
-void EscapeSearch::consider(const EscapeWay& way, Trace trace) {
+void EscapeSearch::consider(const EscapeTrajectory& trajectory, Trace trace) {
   if (trace.is_hopeless || is_hopeless(trace, tuning_.counted_gap)) return;
   if (!trace.blocked) {
-    const std::span<const Foresight::Instant> all = seen_.schedule(way.until).instants;
+    const std::span<const Foresight::Instant> all = seen_.schedule(trajectory.until).instants;
     double last = tuning_.counted_gap;
     if (only_gaps_count() || seen_.walls_from() >= seen_.end()) {  // it reaches its end, or loses
       const Foresight::Instant& end = all.back();
-      last = seen_.gap(seen_.start().place + way.at(end.t), end, last, Foresight::Error::none);
+      last =
+          seen_.gap(seen_.start().place + trajectory.at(end.t), end, last, Foresight::Error::none);
       if (only_gaps_count() && is_contact(last, end.t)) return;
       trace.outcome.least = std::min(trace.outcome.least, last);
       if (is_hopeless(trace, last)) return;
     }
-    follow(trace, way, all.subspan(trace.instants), last);
+    follow(trace, trajectory, all.subspan(trace.instants), last);
     if (trace.is_hopeless) return;
   }
   const EscapeOutcome& o = trace.outcome;
@@ -40,11 +41,11 @@ void EscapeSearch::consider(const EscapeWay& way, Trace trace) {
                                                 : !(o.worth() > bar()))
     return;
   outcome_ = o;
-  best_ = way;
+  best_ = trajectory;
 }
 
 void EscapeSearch::turns(Vec2 first, double until, EscapeFan& fan, Bundle& out) {
-  out.ways = {{first, until, {}}, false};
+  out.trajectories = {{first, until, {}}, false};
   out.begun = begin(first, until);
   out.left.assign(fan.velocities().size(), out.begun.blocked ? 1 : 0);
   if (out.begun.is_hopeless || is_hopeless(out.begun, tuning_.counted_gap)) return;
@@ -54,7 +55,7 @@ void EscapeSearch::turns(Vec2 first, double until, EscapeFan& fan, Bundle& out) 
 }
 
 void EscapeSearch::runs(double until, EscapeFan& fan, Bundle& out) {
-  out.ways = {{{}, until, {}}, true};
+  out.trajectories = {{{}, until, {}}, true};
   out.begun = nothing_behind();
   out.left.assign(fan.velocities().size(), 0);
   screen(fan, out);
@@ -64,13 +65,14 @@ void EscapeSearch::runs(double until, EscapeFan& fan, Bundle& out) {
 /// sooner than the best one and, once only gaps count, those whose minimum gap is too small for any
 /// final gap.
 void EscapeSearch::screen(EscapeFan& fan, Bundle& out) const {
-  const std::span<const Foresight::Instant> all = seen_.schedule(out.ways.common.until).instants;
+  const std::span<const Foresight::Instant> all =
+      seen_.schedule(out.trajectories.common.until).instants;
   const auto later = std::find_if(all.begin(), all.end(), [&](const Foresight::Instant& i) {
     return i.t > outcome_.until_contact;
   });
   const auto upto = static_cast<std::size_t>(later - all.begin());
   const std::size_t from = std::min(out.begun.instants, upto);
-  if (!fan.may_keep(seen_, out.ways, all.subspan(from, upto - from), least())) return;
+  if (!fan.may_keep(seen_, out.trajectories, all.subspan(from, upto - from), least())) return;
   for (std::size_t k = 0; k < out.left.size(); ++k) out.left[k] = fan.is_left(k) ? 1 : 0;
 }
 
@@ -81,8 +83,9 @@ LeastGap EscapeSearch::least() const {
 
 void EscapeSearch::consider(const Bundle& bundle, const EscapeFan& fan, std::size_t velocity) {
   if (bundle.left[velocity] == 0) return;
-  const EscapeWay way = bundle.ways[fan.velocities()[velocity]];
-  consider(way, bundle.ways.first_varies ? begin(way.first, way.until) : bundle.begun);
+  const EscapeTrajectory trajectory = bundle.trajectories[fan.velocities()[velocity]];
+  consider(trajectory, bundle.trajectories.first_varies ? begin(trajectory.first, trajectory.until)
+                                                        : bundle.begun);
 }
 
 void EscapeSearch::prefer(double time, double gap) {
@@ -93,16 +96,16 @@ void EscapeSearch::prefer(double time, double gap) {
 
 /// Follows the trajectory until a wall, or until it cannot become the best, given that its final
 /// gap is at most `max_last_gap` if it is free.
-void EscapeSearch::follow(Trace& trace, const EscapeWay& way,
+void EscapeSearch::follow(Trace& trace, const EscapeTrajectory& trajectory,
                           std::span<const Foresight::Instant> instants, double max_last_gap) const {
   if (trace.blocked || instants.empty()) return;
   const Vec2 start = seen_.start().place;
   EscapeOutcome& out = trace.outcome;
   Vec2 last = start;
   if (trace.instants > 0)
-    last = start + way.at(seen_.schedule(way.until).instants[trace.instants - 1].t);
+    last = start + trajectory.at(seen_.schedule(trajectory.until).instants[trace.instants - 1].t);
   for (const Foresight::Instant& i : instants) {
-    const Vec2 p = start + way.at(i.t);
+    const Vec2 p = start + trajectory.at(i.t);
     const Vec2 from = std::exchange(last, p);
     if (!seen_.is_free_of_walls(from, p, i.t)) {
       trace.blocked = true;

@@ -35,7 +35,7 @@ class EscapeSearch {
 
   /// The trajectories of a fan after screening.
   struct Bundle {
-    EscapeFan::Ways ways;
+    EscapeFan::Trajectories trajectories;
     Trace begun;                     ///< the common first part
     std::vector<std::uint8_t> left;  ///< for each velocity, whether it may become the best
   };
@@ -45,8 +45,10 @@ class EscapeSearch {
   /// First part of all trajectories that turn from `first` at `until`.
   Trace begin(Vec2 first, double until);
   /// Takes the trajectory if it is clearly better than the best so far; `begun` is its first part.
-  void consider(const EscapeWay& way, Trace begun);
-  void consider(const EscapeWay& way) { consider(way, begin(way.first, way.until)); }
+  void consider(const EscapeTrajectory& trajectory, Trace begun);
+  void consider(const EscapeTrajectory& trajectory) {
+    consider(trajectory, begin(trajectory.first, trajectory.until));
+  }
   /// Makes the best trajectory so far harder to replace, by a time [s] and a gap [µm].
   void prefer(double time, double gap);
   /// Screens the trajectories that turn from `first` at `until` to a velocity of the fan.
@@ -55,7 +57,7 @@ class EscapeSearch {
   void runs(double until, EscapeFan& fan, Bundle& out);
   /// Takes the trajectory of a velocity if it passed the screening and is clearly better.
   void consider(const Bundle& bundle, const EscapeFan& fan, std::size_t velocity);
-  const EscapeWay& best() const { return best_; }
+  const EscapeTrajectory& best() const { return best_; }
 
  private:
   void screen(EscapeFan& fan, Bundle& out) const;
@@ -63,8 +65,8 @@ class EscapeSearch {
   Trace nothing_behind() const {
     return {.outcome = {.until_contact = 0, .least = tuning_.counted_gap, .last = 0}};
   }
-  void follow(Trace& trace, const EscapeWay& way, std::span<const Foresight::Instant> instants,
-              double max_last_gap) const;
+  void follow(Trace& trace, const EscapeTrajectory& trajectory,
+              std::span<const Foresight::Instant> instants, double max_last_gap) const;
   bool is_hopeless(const Trace& trace, double max_last_gap) const;
   /// Whether no trajectory can be free for longer than the best.
   bool only_gaps_count() const { return outcome_.until_contact >= seen_.end(); }
@@ -76,7 +78,7 @@ class EscapeSearch {
 
   Foresight& seen_;
   const SafetyFilterTuning& tuning_;
-  EscapeWay best_;
+  EscapeTrajectory best_;
   EscapeOutcome outcome_{-1, -infinity, 0};
 };
 

@@ -153,13 +153,13 @@ bool Foresight::is_clear(Vec2 p, const Instant& at) const {
   return !(gap(p, at, at.required + asked_beyond, Error::bounded) < at.required);
 }
 
-bool Foresight::passes_walls(const Segment& way) const {
-  return walls_from_ >= end() || world_->map().is_free(way, wall_keep_ + keep_rounding);
+bool Foresight::passes_walls(const Segment& segment) const {
+  return walls_from_ >= end() || world_->map().is_free(segment, wall_keep_ + keep_rounding);
 }
 
-bool Foresight::meets_walls(const Segment& way, double slack) const {
+bool Foresight::meets_walls(const Segment& segment, double slack) const {
   const double keep = wall_keep_ - slack - keep_rounding;
-  return walls_from_ < end() && keep > 0 && !world_->map().is_free(way, keep);
+  return walls_from_ < end() && keep > 0 && !world_->map().is_free(segment, keep);
 }
 
 }  // namespace microswarm

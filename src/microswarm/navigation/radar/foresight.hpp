@@ -25,7 +25,7 @@ struct EscapeStart {
 };
 
 /// Two-leg trajectory: a first velocity, and a second one from `until` on [s]. Velocities [µm/s].
-struct EscapeWay {
+struct EscapeTrajectory {
   Vec2 first;
   double until = 0;
   Vec2 second;
@@ -99,10 +99,10 @@ class Foresight {
   /// Whether a swarm certainly keeps away from walls on a segment. If neither this nor
   /// meets_walls() holds, rounding decides, and is_free_of_walls() has to be asked from instant to
   /// instant.
-  bool passes_walls(const Segment& way) const;
+  bool passes_walls(const Segment& segment) const;
   /// Whether it certainly comes too near to walls on this segment and on all parallels at most
   /// `slack` [µm] aside.
-  bool meets_walls(const Segment& way, double slack = 0) const;
+  bool meets_walls(const Segment& segment, double slack = 0) const;
   /// Time until which no wall is within reach [s].
   double walls_from() const { return walls_from_; }
 

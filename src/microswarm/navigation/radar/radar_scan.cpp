@@ -10,7 +10,9 @@
 namespace microswarm {
 namespace {
 
-double nearness(Vec2 place, Vec2 target) { return 1 / std::max(distance(place, target), min_way); }
+double nearness(Vec2 place, Vec2 target) {
+  return 1 / std::max(distance(place, target), min_distance);
+}
 
 Vec2 place_of(const RadarLook& look, double heading) {
   return look.centre + look.step * unit_vector(heading);
@@ -96,9 +98,9 @@ RadarWeights radar_weights(const RadarLook& look, double distance_to_edge) {
   const double r_s = look.radius;
   const double r_d = look.circles.detection;
   const double s = std::clamp(distance_to_edge, r_s, r_d);
-  const double way = distance(look.centre, look.target) / r_d;
+  const double relative = distance(look.centre, look.target) / r_d;
   const double near = (1 / s - 1 / r_d) / (1 / r_s - 1 / r_d);
-  return {.target = 1 + look.target_gain * way * way,
+  return {.target = 1 + look.target_gain * relative * relative,
           .avoidance = 0.5 + look.avoidance_gain / 2 * near * near};
 }
 

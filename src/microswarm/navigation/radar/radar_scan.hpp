@@ -45,7 +45,7 @@ struct RadarWeights {
 RadarWeights radar_weights(const RadarLook& look, double distance);
 
 /// Lower bound of the distance ‖O_pe O_t‖ in Eq 9 [µm].
-inline constexpr double min_way = 1e-9;
+inline constexpr double min_distance = 1e-9;
 
 /// N(·) of Eq 9 [radar]: from 0 to 1 over the candidates, 0 if all are equal.
 class MinMax {

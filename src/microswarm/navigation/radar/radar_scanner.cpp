@@ -21,7 +21,7 @@ RadarScanner::RadarScanner(int directions, const RadarTuning& tuning) : tuning_(
     ux_.push_back(u.x);
     uy_.push_back(u.y);
   }
-  for (auto* buffer : {&px_, &py_, &room_, &gap_, &way_}) buffer->resize(n);
+  for (auto* buffer : {&px_, &py_, &room_, &gap_, &nearness_}) buffer->resize(n);
   discs_.reserve(64);
   edges_.reserve(256);
   bodies_.reserve(64);
@@ -117,11 +117,11 @@ void RadarScanner::screen_by_walls(const RadarLook& look, const Snapshot& world)
 
 // 1/‖O_pe O_t‖ of Eq 9.
 void RadarScanner::measure_distance(Vec2 target) {
-  for (std::size_t i = 0; i < way_.size(); ++i) {
+  for (std::size_t i = 0; i < nearness_.size(); ++i) {
     const double dx = target.x - px_[i];
     const double dy = target.y - py_[i];
-    const double way = std::sqrt(dx * dx + dy * dy);
-    way_[i] = 1 / (way > min_way ? way : min_way);
+    const double length = std::sqrt(dx * dx + dy * dy);
+    nearness_[i] = 1 / (length > min_distance ? length : min_distance);
   }
 }
 
@@ -154,10 +154,10 @@ std::optional<std::size_t> RadarScanner::best(const RadarLook& look, const Snaps
   } else {
     std::fill(gap_.begin(), gap_.end(), 0);
   }
-  MinMax way, gap;
+  MinMax nearness, gap;
   for (std::size_t i = 0; i < room_.size(); ++i) {
     if (room_[i] < 0) continue;
-    way.include(way_[i]);
+    nearness.include(nearness_[i]);
     gap.include(gap_[i]);
   }
   // N(·) is over all of χ_2; among these, directions that keep the course are preferred.
@@ -168,8 +168,8 @@ std::optional<std::size_t> RadarScanner::best(const RadarLook& look, const Snaps
     if (room_[i] < 0) continue;
     const bool keeps = keeps_course(look, {ux_[i], uy_[i]});
     if (on_course && !keeps) continue;
-    const double score =
-        weights.target * way.normalised(way_[i]) + weights.avoidance * gap.normalised(gap_[i]);
+    const double score = weights.target * nearness.normalised(nearness_[i]) +
+                         weights.avoidance * gap.normalised(gap_[i]);
     if (found && keeps == on_course && score <= most) continue;
     most = score;
     found = i;
@@ -205,12 +205,12 @@ std::vector<bool> RadarScanner::kept(const RadarLook& look, const Snapshot& worl
 
 RadarScanner::Outcome RadarScanner::outcome(const RadarLook& look, const Snapshot& world,
                                             Vec2 to) const {
-  const Segment way{look.centre, to};
+  const Segment leg{look.centre, to};
   const Map& map = world.map();
-  Outcome out{.on_way = map.clearance(way, look.circles.detection), .at_end = map.clearance(to)};
+  Outcome out{.on_path = map.clearance(leg, look.circles.detection), .at_end = map.clearance(to)};
   for (const std::uint32_t i : bodies_) {
     const Body& body = world.moving().bodies()[i];
-    out.on_way = std::min(out.on_way, distance(way, body));
+    out.on_path = std::min(out.on_path, distance(leg, body));
     out.at_end = std::min(out.at_end, distance(to, body));
   }
   out.at_end = std::min(out.at_end, look.circles.detection);
@@ -230,7 +230,7 @@ std::optional<double> RadarScanner::retreat(const RadarLook& look, const Snapsho
     for (const double steps : {1.0, 3.0}) {
       const Outcome o =
           outcome(look, world, look.centre + steps * look.step * Vec2{ux_[i], uy_[i]});
-      if (o.on_way <= 0 || o.worth() <= most) continue;
+      if (o.on_path <= 0 || o.worth() <= most) continue;
       most = o.worth();
       found = i;
     }

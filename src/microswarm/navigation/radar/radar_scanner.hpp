@@ -47,9 +47,9 @@ class RadarScanner {
   };
   /// Distances from the swarm's centre to the nearest object, at most r_d [µm].
   struct Outcome {
-    double on_way = 0;  ///< minimum along the path
+    double on_path = 0;  ///< minimum along the path
     double at_end = 0;
-    double worth() const { return on_way + at_end; }  ///< [µm]
+    double worth() const { return on_path + at_end; }  ///< [µm]
   };
 
   void note(RadarContact contact);
@@ -64,10 +64,10 @@ class RadarScanner {
   double heading(std::size_t i) const;
 
   RadarTuning tuning_;
-  std::vector<double> ux_, uy_;    ///< directions
-  std::vector<double> px_, py_;    ///< predictive swarms
-  std::vector<double> room_;       ///< squared distance minus squared reach; negative: screened
-  std::vector<double> way_, gap_;  ///< terms of Eq 9
+  std::vector<double> ux_, uy_;  ///< directions
+  std::vector<double> px_, py_;  ///< predictive swarms
+  std::vector<double> room_;     ///< squared distance minus squared reach; negative: screened
+  std::vector<double> nearness_, gap_;  ///< terms of Eq 9
   std::optional<RadarContact> nearest_;
   std::vector<NearDisc> discs_;
   std::vector<NearEdge> edges_;

@@ -123,8 +123,9 @@ Command SafetyFilter::best_manoeuvre() {
   EscapeSearch search(seen_, tuning);
   const double now = seen_.start().time;
   if (committed_) {
-    const double until = committed_->way.until - (now - committed_->time);
-    search.consider({committed_->way.first, std::max(until, 0.0), committed_->way.second});
+    const double until = committed_->trajectory.until - (now - committed_->time);
+    search.consider(
+        {committed_->trajectory.first, std::max(until, 0.0), committed_->trajectory.second});
     search.prefer(tuning.switch_time, tuning.switch_gap);
   }
   std::size_t count = 0;
@@ -142,7 +143,7 @@ Command SafetyFilter::best_manoeuvre() {
     for (const double t : tuning.turn_times) search.turns(first, t, turns_, bundles_[count++]);
     consider(turns_);
   }
-  const EscapeWay& chosen = search.best();
+  const EscapeTrajectory& chosen = search.best();
   committed_ = Committed{chosen, now};
   const Vec2 begin = chosen.until > 0 ? chosen.first : chosen.second;
   const double speed = norm(begin);

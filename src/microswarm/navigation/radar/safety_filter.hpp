@@ -41,7 +41,7 @@ class SafetyFilter {
  private:
   /// Trajectory commanded last, as long as it is needed.
   struct Committed {
-    EscapeWay way;
+    EscapeTrajectory trajectory;
     double time = 0;  ///< [s]
   };
   /// An alternative command, ordered by its turn from the wanted command and the course.

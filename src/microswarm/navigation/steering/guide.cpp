@@ -10,14 +10,14 @@ void GoalGuide::prepare(const std::shared_ptr<const Map>& map, Vec2 goal, double
   goal_ = goal;
   if (kind_ == Guide::straight) return;
   for (const auto& [i, keep] : {std::pair{0U, clearance}, {1U, least}})
-    ways_[i] = {Route(map, goal_, keep), keep};
+    candidates_[i] = {Route(map, goal_, keep), keep};
 }
 
 Vec2 GoalGuide::target(const Map& map, Vec2 from) {
   if (kind_ == Guide::straight) return goal_;
-  for (Way& way : ways_) {
-    if (map.is_free(Segment{from, goal_}, way.clearance)) return goal_;
-    const Vec2 ahead = way.route.ahead(from, reach_);
+  for (Candidate& candidate : candidates_) {
+    if (map.is_free(Segment{from, goal_}, candidate.clearance)) return goal_;
+    const Vec2 ahead = candidate.route.ahead(from, reach_);
     if (!(ahead == from)) return ahead;
   }
   return goal_;

@@ -21,20 +21,20 @@ class GoalGuide {
   void prepare(const std::shared_ptr<const Map>& map, Vec2 goal, double clearance, double least);
   /// Sets the stop that ends a search for the route.
   void stop_with(const Stop& stop) {
-    for (Way& way : ways_) way.route.stop_with(stop);
+    for (Candidate& candidate : candidates_) candidate.route.stop_with(stop);
   }
   /// Target from `from`: the goal, or a visible point of the route.
   Vec2 target(const Map& map, Vec2 from);
 
  private:
-  struct Way {
+  struct Candidate {
     Route route;
     double clearance = 0;
   };
   Guide kind_;
   Vec2 goal_;
   double reach_;
-  std::array<Way, 2> ways_;
+  std::array<Candidate, 2> candidates_;
 };
 
 }  // namespace microswarm

@@ -211,7 +211,7 @@ bool TangentSearch::is_dominated(const Label& label) {
   for (std::uint32_t i = wheel(label.wheel).first_label; i != none; i = labels_[i].next) {
     const Label& other = labels_[i];
     if (other.arc != label.arc) continue;
-    const double angle = circle.way_around(to, other.arrive, label.arrive);
+    const double angle = circle.angle_around(to, other.arrive, label.arrive);
     if (angle >= 0 && (!circle.is_disc || angle < pi) &&
         other.length + circle.radius * angle <= label.length)
       return true;
@@ -249,7 +249,7 @@ void TangentSearch::expand_hops(const Label& label, std::uint32_t number) {
     if (hop.walls == Walls::blocked) return;
     const int arc = is_near ? arc_at(circle, hop.leave) : hop.leave_arc;
     if (arc != label.arc) return;
-    const double angle = circle.way_around(turn, label.arrive, hop.leave);
+    const double angle = circle.angle_around(turn, label.arrive, hop.leave);
     const double length = label.length + circle.radius * angle + hop.line.length;
     if (hop.query == query_ && hop.best <= length) return;
     hop.query = query_;
@@ -278,7 +278,7 @@ std::optional<TangentSearch::Leaving> TangentSearch::leaving(const Label& label,
   const auto line = join(circle, turn, there, sense_there);
   if (!line) return std::nullopt;
   const double leave = circle.angle_of(-turn * perpendicular(line->along));
-  const double angle = circle.way_around(turn, label.arrive, leave);
+  const double angle = circle.angle_around(turn, label.arrive, leave);
   if (angle < 0 || arc_at(circle, leave) != label.arc) return std::nullopt;
   return Leaving{*line, leave, label.length + circle.radius * angle + line->length};
 }
@@ -391,7 +391,7 @@ void TangentSearch::add(Vec2 p, std::vector<Vec2>& path) const {
 /// Adds tangent lines around the arc.
 void TangentSearch::draw_arc(const Circle& circle, double sense, double from, double to,
                              std::vector<Vec2>& points) const {
-  const double angle = circle.way_around(sense, from, to);
+  const double angle = circle.angle_around(sense, from, to);
   constexpr double step = 0.1;  // [rad]
   const int count = static_cast<int>(std::ceil(angle / step));
   if (angle < angle_slack) return;

@@ -29,7 +29,7 @@ double TurningCircle::angle_of(Vec2 normal) const {
   return std::clamp(maths::atan2(cross(first, normal), dot(first, normal)), 0.0, width);
 }
 
-double TurningCircle::way_around(double sense, double leaves, double arrives) const {
+double TurningCircle::angle_around(double sense, double leaves, double arrives) const {
   const double angle = sense * (arrives - leaves);
   if (!is_disc) return angle < -angle_slack ? -1 : std::max(0.0, angle);
   const double ahead = positive(angle);

@@ -29,7 +29,7 @@ struct TurningCircle {
   double angle_of(Vec2 normal) const;
   /// Angle from one angle to another [rad], counter-clockwise (`sense` 1) or clockwise (−1);
   /// negative if the second is not ahead. On a disc every angle is ahead.
-  double way_around(double sense, double leaves, double arrives) const;
+  double angle_around(double sense, double leaves, double arrives) const;
   /// Point where a line in this direction leaves or arrives.
   Vec2 touch(double sense, Vec2 along) const {
     return centre - sense * radius * perpendicular(along);

@@ -94,9 +94,9 @@ struct Problem {
     const Vec2 mean = sum / count;
     const double formation = std::sqrt(std::max(0.0, squares / count - squared_norm(mean)));
     if (fields.empty()) return formation + params.travel_weight * norm(mean);
-    double way = 0;
-    for (std::size_t i = 0; i < n; ++i) way += fields[i].estimate(position(c[i]));
-    return formation + params.travel_weight * way / count;
+    double travel = 0;
+    for (std::size_t i = 0; i < n; ++i) travel += fields[i].estimate(position(c[i]));
+    return formation + params.travel_weight * travel / count;
   }
 };
 

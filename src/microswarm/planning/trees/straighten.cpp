@@ -83,11 +83,11 @@ void Straightener::lay_out(std::span<const Vec2> points) {
   points_.clear();
   edges_.clear();
   for (const Vec2 p : points) {
-    const Vec2 way = points.back() - p;
+    const Vec2 rest = points.back() - p;
     points_.push_back({.place = p});
-    if (way == Vec2{}) continue;
-    points_.back().length_left = cost_.per_length * norm(way);
-    points_.back().heading_left = heading_of(way);
+    if (rest == Vec2{}) continue;
+    points_.back().length_left = cost_.per_length * norm(rest);
+    points_.back().heading_left = heading_of(rest);
   }
 }
 
@@ -175,8 +175,8 @@ constexpr std::size_t divisions = shares.size() + 1;
 std::vector<Vec2> divided(std::span<const Vec2> path) {
   std::vector<Vec2> points{path.front()};
   for (std::size_t k = 1; k < path.size(); ++k) {
-    const Vec2 way = path[k] - path[k - 1];
-    for (const double share : shares) points.push_back(path[k - 1] + share * way);
+    const Vec2 edge = path[k] - path[k - 1];
+    for (const double share : shares) points.push_back(path[k - 1] + share * edge);
     points.push_back(path[k]);
   }
   return points;

@@ -170,7 +170,7 @@ std::vector<ReproduceRow> drrt_comparison(const ReproduceOptions& options, const
   const std::vector<Contestant> who = contestants_of(s.scene.scenario);
   std::vector<Study> studies;
   std::vector<ReproduceRow> rows;
-  const double shortest = shortest_way(s);
+  const double shortest = shortest_path_length(s);
   const std::uint64_t seed = s.scene.scenario.seed;
   for (const Contestant& contestant : who) {
     s.scene.scenario.seed = contestant.held_out ? seed + 1 : seed;

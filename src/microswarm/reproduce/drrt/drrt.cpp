@@ -20,7 +20,7 @@ DrrtSetting load_drrt(const ReproduceOptions& options, const char* name) {
   return {std::move(scene), std::move(world)};
 }
 
-double shortest_way(const DrrtSetting& setting) {
+double shortest_path_length(const DrrtSetting& setting) {
   const Scenario& scenario = setting.scene.scenario;
   const ShortestPath path =
       ShortestPaths(*setting.world.map, 0).find(scenario.start->position, *scenario.goal);

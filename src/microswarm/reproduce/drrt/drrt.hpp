@@ -36,7 +36,7 @@ std::vector<ReproduceRow> drrt_comparison(const ReproduceOptions& options, const
 
 /// Shortest way [µm] of the scenario's swarm to within the goal's tolerance, without its moving
 /// obstacles and at no distance from the walls: no run is shorter.
-double shortest_way(const DrrtSetting& setting);
+double shortest_path_length(const DrrtSetting& setting);
 /// Median of lengths [µm] over the shortest [%]; nothing without one.
 std::optional<double> over_the_shortest(const std::vector<double>& lengths, double shortest);
 

@@ -120,7 +120,8 @@ std::vector<ReproduceRow> loop_figure(const LoopFigure& f, const ReproduceOption
     if (stop()) return rows;  // do not report interrupted trials
     if (!options.out.empty())
       loop_pictures(f, as_published ? "-as-published" : "", s.scene, s.world, options.out, stop);
-    for (ReproduceRow& row : loop_rows(f, who, summed(trials), shortest_way(s), global_time))
+    for (ReproduceRow& row :
+         loop_rows(f, who, summed(trials), shortest_path_length(s), global_time))
       rows.push_back(std::move(row));
   }
   return rows;

@@ -134,7 +134,7 @@ Trials gather_on(const Ground& ground, int count, bool quick, const Progress& ba
     if (stop() || !trials.has(k)) return;
     const std::size_t m = trials.method_of(i);
     Robots robots = gather_robots(ground.scene, weighted, stepper, population(k),
-                                  static_cast<std::uint32_t>(trials.number_of(i)), ground.min_way);
+                                  static_cast<std::uint32_t>(trials.number_of(i)), ground.min_length);
     Trial& trial = trials[i];
     trial.result = gathered(gather_methods[m].weighted ? weighted : plain, stepper,
                             parameters(ground, m, k, quick), robots, stop);
@@ -276,7 +276,7 @@ struct TrialRow {
   int trial = 0;
   Status status = Status::stopped;
   int steps = 0;
-  double mean_way = 0;
+  double mean_distance = 0;
   int guard_count = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
@@ -286,7 +286,7 @@ struct TrialRow {
     visit(self.trial, plain("trial", "Number of the trial."));
     visit(self.status, plain("status", "How it ended."));
     visit(self.steps, plain("steps", "Number of steps."));
-    visit(self.mean_way, um("mean_way", "Mean distance to the goal at the end."));
+    visit(self.mean_distance, um("mean_way", "Mean distance to the goal at the end."));
     visit(self.guard_count, plain("guard_count", "1 after a livelock."));
   }
 };
@@ -303,7 +303,7 @@ std::string trials_csv(const std::vector<Ground>& maps, std::vector<Trials>& tri
                       .trial = static_cast<int>(trials[g].number_of(i)),
                       .status = t.result.status,
                       .steps = t.result.steps,
-                      .mean_way = t.result.mean_distance,
+                      .mean_distance = t.result.mean_distance,
                       .guard_count = t.result.guard_count});
     }
   }

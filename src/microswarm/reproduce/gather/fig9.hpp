@@ -47,7 +47,7 @@ using Means = std::array<std::optional<double>, populations>;
 struct Ground {
   const char* name;
   scenes::Vascular scene;
-  double min_way;  ///< minimum path length of the robots' start positions [µm]
+  double min_length;  ///< minimum path length of the robots' start positions [µm]
   std::array<Means, published_methods> published;
   int followed_regions;  ///< parameter of DCA in the published program
   int last_regions;

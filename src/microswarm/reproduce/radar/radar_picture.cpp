@@ -103,7 +103,7 @@ Box part_that_matters(const RadarRun& run, const World& world, std::span<const d
   };
   for (std::size_t k = 0; k < record.frames.size(); ++k)
     include(record.frames[k].pose.position, edge * circles_at(run, k).detection);
-  const Box way = box;
+  const Box passage = box;
   for (const double t : moments)
     for (const Body& body : world.at(t).moving().bodies())
       std::visit(Overloaded{[&](const Disc& disc) {

@@ -67,8 +67,8 @@ int side_passed(const Record& record) {
       record.frames.begin(), record.frames.end(),
       [](const Frame& a, const Frame& b) { return a.obstacle_clearance < b.obstacle_clearance; });
   const Vec2 obstacle = placement(scenario.obstacles.front().motion, nearest.t).pose.position;
-  const Vec2 way = *scenario.goal - scenario.start->position;
-  return cross(way, obstacle - nearest.pose.position) > 0 ? 1 : -1;
+  const Vec2 line = *scenario.goal - scenario.start->position;
+  return cross(line, obstacle - nearest.pose.position) > 0 ? 1 : -1;
 }
 
 }  // namespace microswarm::reproduce

@@ -131,7 +131,7 @@ struct ContactRow {
   double speed = 0;
   bool avoidable = false;
   std::optional<double> decided;
-  std::string way;
+  std::string manoeuvre;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.course, plain("course", "Course."));
@@ -146,7 +146,7 @@ struct ContactRow {
     visit(self.avoidable, plain("avoidable", "1 if it could have been avoided."));
     visit(self.decided,
           s("decided", "Time before the contact of the last decision that avoids it."));
-    visit(self.way, plain("way", "Manoeuvre that avoids it."));
+    visit(self.manoeuvre, plain("way", "Manoeuvre that avoids it."));
   }
 };
 
@@ -212,7 +212,7 @@ std::string contacts_csv(const std::vector<CourseResult>& results) {
                          .speed = contact.speed,
                          .avoidable = v.avoidable,
                          .decided = {},
-                         .way = std::string(v.way)});
+                         .manoeuvre = std::string(v.manoeuvre)});
           if (v.avoidable) row.decided = v.decided;
         }
       });

@@ -55,9 +55,9 @@ void scatter(Scenario& scenario, double top_speed, std::uint32_t trial) {
       line.centre = rounded({x, map.lo.y + height * rng.uniform(0.15, 0.85)});
       line.amplitude =
           rounded(height * rng.uniform(0.1, 0.4) * unit_vector(rng.uniform(0, 2 * pi)));
-      const Segment way{line.centre - line.amplitude, line.centre + line.amplitude};
-      if (distance(scenario.start->position, way) > keep_off &&
-          distance(*scenario.goal, way) > keep_off)
+      const Segment sweep{line.centre - line.amplitude, line.centre + line.amplitude};
+      if (distance(scenario.start->position, sweep) > keep_off &&
+          distance(*scenario.goal, sweep) > keep_off)
         break;
     }
     line.period = std::ceil(2 * pi * norm(line.amplitude) / (top_speed * rng.uniform(0.3, 1)));

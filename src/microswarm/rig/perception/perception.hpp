@@ -31,11 +31,11 @@ struct Detections {
   /// Why no swarm was found: "none", too "far" away, "several", of another "size", "split" into
   /// parts, "merged" with another body, or too few "robots".
   std::string_view trouble;
-  std::vector<double> parts;  ///< radii of the parts after a split or before a merger [µm]
-  int unseen = 0;             ///< robots without a spot, neither their own nor that of a pile
-  double commanded_way = 0;   ///< commanded distance since the last picture [µm]
-  double followed_way = 0;    ///< observed displacement along it [µm]; negative: opposite
-  double across_way = 0;      ///< observed displacement to its left [µm]
+  std::vector<double> parts;      ///< radii of the parts after a split or before a merger [µm]
+  int unseen = 0;                 ///< robots without a spot, neither their own nor that of a pile
+  double commanded_distance = 0;  ///< commanded distance since the last picture [µm]
+  double followed_distance = 0;   ///< observed displacement along it [µm]; negative: opposite
+  double across_distance = 0;     ///< observed displacement to its left [µm]
 };
 
 /// Interface of a rig's image processing, picture by picture, in world coordinates. Walls are those

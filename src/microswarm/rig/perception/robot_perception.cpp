@@ -57,7 +57,7 @@ const Detections& RobotPerception::process(const Image& picture, double t) {
   detections_.swarm.reset();
   detections_.trouble = "none";
   detections_.unseen = static_cast<int>(count);
-  detections_.commanded_way = detections_.followed_way = detections_.across_way = 0;
+  detections_.commanded_distance = detections_.followed_distance = detections_.across_distance = 0;
   expect(passed);
   if (spots_.empty()) return detections_;
   const double reach = diameter_ + speed_margin * max_speed_ * passed;
@@ -157,18 +157,18 @@ void RobotPerception::measure_following() {
   double count = 0;
   for (std::size_t r = 0; r < before_.size(); ++r) {
     const Vec2 wanted = expected_[r] - before_[r];
-    const double way = norm(wanted);
-    if (!spot_of_[r] || way == 0) continue;
+    const double length = norm(wanted);
+    if (!spot_of_[r] || length == 0) continue;
     ++count;
-    detections_.commanded_way += way;
+    detections_.commanded_distance += length;
     const Vec2 seen = detections_.robots[r] - before_[r];
-    detections_.followed_way += dot(seen, wanted) / way;
-    detections_.across_way += cross(wanted, seen) / way;
+    detections_.followed_distance += dot(seen, wanted) / length;
+    detections_.across_distance += cross(wanted, seen) / length;
   }
   if (count == 0) return;
-  detections_.commanded_way /= count;
-  detections_.followed_way /= count;
-  detections_.across_way /= count;
+  detections_.commanded_distance /= count;
+  detections_.followed_distance /= count;
+  detections_.across_distance /= count;
 }
 
 void RobotPerception::learn_ground() {

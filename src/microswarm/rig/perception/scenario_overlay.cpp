@@ -41,8 +41,8 @@ class Canvas {
   }
   void cross(Vec2 place, const cv::Scalar& colour) {
     const Vec2 at = scale_.to_picture(place);
-    for (const Vec2 way : {Vec2{mark_px, mark_px}, Vec2{mark_px, -mark_px}})
-      pixel_line(at - way, at + way, colour);
+    for (const Vec2 diagonal : {Vec2{mark_px, mark_px}, Vec2{mark_px, -mark_px}})
+      pixel_line(at - diagonal, at + diagonal, colour);
   }
   /// A line of three marks' length.
   void heading(const Pose2& pose, const cv::Scalar& colour) {

@@ -58,7 +58,7 @@ const Detections& SwarmPerception::process(const Image& picture, double t) {
   detections_.swarm.reset();
   detections_.parts.clear();
   detections_.trouble = enum_name(scene.swarm.sight);
-  detections_.commanded_way = detections_.followed_way = detections_.across_way = 0;
+  detections_.commanded_distance = detections_.followed_distance = detections_.across_distance = 0;
   if (tell_split(scene.swarm)) {
     detections_.trouble = "split";
   } else if (swarm && !is_of_its_size(swarm->radius_px)) {
@@ -199,8 +199,8 @@ double SwarmPerception::follow_distance() const {
 double SwarmPerception::reach_px(double t) const {
   const double jump = params_.scene.swarm.jump;
   if (!found_) return jump;
-  const double way = params_.speed_gain * limits_.max_speed * std::max(0.0, t - *found_);
-  return std::min(jump, way / scale_.um_per_px + params_.position_noise);
+  const double travel = params_.speed_gain * limits_.max_speed * std::max(0.0, t - *found_);
+  return std::min(jump, travel / scale_.um_per_px + params_.position_noise);
 }
 
 bool SwarmPerception::is_of_its_size(double radius_px) const {
@@ -220,11 +220,11 @@ void SwarmPerception::keep_size(const Blob& swarm) {
 void SwarmPerception::measure_following(Vec2 place, double t) {
   if (!found_ || !before_px_) return;
   const Vec2 wanted = displacement(command_, std::max(0.0, t - *found_));
-  detections_.commanded_way = norm(wanted);
-  if (detections_.commanded_way <= 0) return;
+  detections_.commanded_distance = norm(wanted);
+  if (detections_.commanded_distance <= 0) return;
   const Vec2 seen = place - scale_.to_world(*before_px_);
-  detections_.followed_way = dot(seen, wanted) / detections_.commanded_way;
-  detections_.across_way = cross(wanted, seen) / detections_.commanded_way;
+  detections_.followed_distance = dot(seen, wanted) / detections_.commanded_distance;
+  detections_.across_distance = cross(wanted, seen) / detections_.commanded_distance;
 }
 
 void SwarmPerception::tell_heading(Vec2 place) {

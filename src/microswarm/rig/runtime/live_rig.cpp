@@ -168,9 +168,9 @@ void LiveRig::read_frame() {
   if (detections_->swarm) found_ = seen_;
   const double distance =
       rig_.params.safety.follow_distance.value_or(perception_->follow_distance());
-  angle_.take(detections_->commanded_way, detections_->followed_way, detections_->across_way,
-              distance / stretches_of_follow_distance);
-  if (!following_.take(detections_->commanded_way, detections_->followed_way, distance))
+  angle_.take(detections_->commanded_distance, detections_->followed_distance,
+              detections_->across_distance, distance / stretches_of_follow_distance);
+  if (!following_.take(detections_->commanded_distance, detections_->followed_distance, distance))
     fail(
         fmt::format("the swarm does not follow: of {:.3g} µm that were commanded it went {:.3g} µm",
                     following_.commanded(), following_.followed()));

@@ -36,8 +36,8 @@ Command FieldResponse::step(const Eigen::Vector3d& field, double dt) {
 }
 
 Command FieldResponse::rolling(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double dt) {
-  const Vec2 way = rolled_distance(from, to, params_.length_per_turn);
-  const Eigen::Vector3d sum = over({dt, {way.x, way.y, 0}}, rolling_inertia);
+  const Vec2 rolled = rolled_distance(from, to, params_.length_per_turn);
+  const Eigen::Vector3d sum = over({dt, {rolled.x, rolled.y, 0}}, rolling_inertia);
   double time = 0;
   for (const Piece& piece : turn_) time += piece.dt;
   const Command driven = command_for({sum.x(), sum.y()}, time);

@@ -68,10 +68,11 @@ void RigSimulator::pass(std::span<const double> currents, double dt) {
     waiting_ = 0;
     return;
   }
-  const double passed = way_.empty() ? 0 : way_.back().t;
+  const double passed = trajectory_.empty() ? 0 : trajectory_.back().t;
   physics_->apply(driven, dt);
-  for (const PoseStamped& p : physics_->ground_truth()->trajectory.subspan(way_.empty() ? 0 : 1))
-    way_.push_back({passed + p.t, p.pose, p.radius});
+  for (const PoseStamped& p :
+       physics_->ground_truth()->trajectory.subspan(trajectory_.empty() ? 0 : 1))
+    trajectory_.push_back({passed + p.t, p.pose, p.radius});
 }
 
 RigSimulator::Shot RigSimulator::capture() {
@@ -86,7 +87,7 @@ RigSimulator::Shot RigSimulator::capture() {
 GroundTruth RigSimulator::ground_truth() const {
   GroundTruth ground_truth = *physics_->ground_truth();
   ground_truth.now += waiting_;
-  if (!way_.empty()) ground_truth.trajectory = way_;
+  if (!trajectory_.empty()) ground_truth.trajectory = trajectory_;
   return ground_truth;
 }
 

@@ -47,7 +47,7 @@ class RigSimulator {
   }
   /// Ground truth with the trajectory since `start_trajectory`.
   GroundTruth ground_truth() const;
-  void start_trajectory() { way_.clear(); }
+  void start_trajectory() { trajectory_.clear(); }
   CameraView camera() const {
     return {microscope_.scale(), microscope_.width(), microscope_.height()};
   }
@@ -64,7 +64,7 @@ class RigSimulator {
   Microscope microscope_;
   Eigen::Vector3d at_;  // position of `actuation_`
   Actuation actuation_;
-  std::vector<PoseStamped> way_;
+  std::vector<PoseStamped> trajectory_;
   Vec2 step_{};         // pending displacement of robots [µm]
   double waiting_ = 0;  // duration of `step_` [s]
 };

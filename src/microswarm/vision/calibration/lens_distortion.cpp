@@ -18,8 +18,8 @@ class Lens {
   double radius() const { return radius_; }
   /// Position of a point without the distortion.
   Vec2 straightened(Vec2 at_px, double k1) const {
-    const Vec2 way = at_px - middle_;
-    return at_px + k1 * squared_norm(way) / (radius_ * radius_) * way;
+    const Vec2 offset = at_px - middle_;
+    return at_px + k1 * squared_norm(offset) / (radius_ * radius_) * offset;
   }
   std::vector<ScalePoint> straightened(std::span<const ScalePoint> points, double k1) const {
     std::vector<ScalePoint> all(points.begin(), points.end());

@@ -51,11 +51,11 @@ FittedScale fit_scale(std::span<const ScalePoint> points, bool y_up) {
 
 CameraScale scale_of_distance(Vec2 a_px, Vec2 b_px, double distance_um, int height,
                               std::optional<Vec2> origin_px, bool y_up) {
-  const double way = distance(a_px, b_px);
-  if (!(way > 0)) throw InputError("scale: the two points are one");
+  const double length = distance(a_px, b_px);
+  if (!(length > 0)) throw InputError("scale: the two points are one");
   if (!(distance_um > 0))
     throw InputError("distance_um: is " + number_text(distance_um) + ", must be above 0");
-  CameraScale scale = upright_scale(height, distance_um / way);
+  CameraScale scale = upright_scale(height, distance_um / length);
   if (!(scale.um_per_px >= 1e-6 && scale.um_per_px <= 1e6))
     throw InputError("scale: " + number_text(scale.um_per_px) + " µm a pixel, allowed 1e-6..1e6");
   scale.y_up = y_up;

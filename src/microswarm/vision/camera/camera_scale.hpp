@@ -31,8 +31,8 @@ struct CameraScale {
   Vec2 to_world(Vec2 at_px) const { return direction_to_world(at_px - origin_px); }
   /// Pixel position of a world position [µm].
   Vec2 to_picture(Vec2 place) const {
-    const Vec2 way = rotated(place, -rotation) / um_per_px;
-    return origin_px + Vec2{way.x, y_up ? -way.y : way.y};
+    const Vec2 turned = rotated(place, -rotation) / um_per_px;
+    return origin_px + Vec2{turned.x, y_up ? -turned.y : turned.y};
   }
   /// World displacement [µm] of a displacement in pixels.
   Vec2 direction_to_world(Vec2 distance_px) const {

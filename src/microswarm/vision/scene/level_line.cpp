@@ -8,9 +8,9 @@ namespace microswarm {
 namespace {
 
 /// Offset to a neighbour: 0 is up; each increment turns right by 90° as displayed.
-cv::Point step(int way) {
+cv::Point step(int direction) {
   constexpr std::array<int, 4> along{0, 1, 0, -1};
-  return {along[way & 3], along[(way + 3) & 3]};
+  return {along[direction & 3], along[(direction + 3) & 3]};
 }
 
 }  // namespace

@@ -50,9 +50,9 @@ std::vector<Vec2> own_outline(const Blob& blob, const cv::Size& size, const Mask
     const cv::Rect all(0, 0, size.width, size.height);
     const cv::Point at(static_cast<int>(std::lround(p.x)), static_cast<int>(std::lround(p.y)));
     bool is_own = true;
-    for (const cv::Point way : {cv::Point(-margin, 0), {margin, 0}, {0, -margin}, {0, margin}})
-      is_own =
-          is_own && all.contains(at + way) && !(hidden && hidden->at(at.x + way.x, at.y + way.y));
+    for (const cv::Point offset : {cv::Point(-margin, 0), {margin, 0}, {0, -margin}, {0, margin}})
+      is_own = is_own && all.contains(at + offset) &&
+               !(hidden && hidden->at(at.x + offset.x, at.y + offset.y));
     if (is_own) own.push_back(p);
   }
   return own;

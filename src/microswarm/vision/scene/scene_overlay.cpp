@@ -41,9 +41,9 @@ void draw_blob(cv::Mat& picture, const Blob& blob, const cv::Scalar& colour) {
   draw_ring(picture, blob.outline_px, colour, 2);
   draw_ring(picture, ellipse_of(blob), white, 1);
   for (const Vec2 axis : {Vec2{blob.semi_major_px, 0}, Vec2{0, blob.semi_minor_px}}) {
-    const Vec2 way = rotated(axis, blob.angle);
-    cv::line(picture, fine(blob.centre_px - way), fine(blob.centre_px + way), white, 1, cv::LINE_AA,
-             fraction_bits);
+    const Vec2 half = rotated(axis, blob.angle);
+    cv::line(picture, fine(blob.centre_px - half), fine(blob.centre_px + half), white, 1,
+             cv::LINE_AA, fraction_bits);
   }
 }
 

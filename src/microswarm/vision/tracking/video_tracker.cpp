@@ -62,7 +62,7 @@ TrackSummary summarise(const std::vector<TrackRow>& rows, int frames) {
   }
 
   std::vector<const TrackRow*> last(static_cast<std::size_t>(ids), nullptr);
-  double way = 0;
+  double travelled = 0;
   double time = 0;
   Vec2 moved;  // in this frame, summed over `movers`
   int movers = 0;
@@ -72,7 +72,7 @@ TrackSummary summarise(const std::vector<TrackRow>& rows, int frames) {
         before && before->frame + 1 == row.frame && length[row.id] >= TrackSummary::long_track) {
       moved += row.place - before->place;
       ++movers;
-      way += distance(before->place, row.place);
+      travelled += distance(before->place, row.place);
       time += row.t - before->t;
     }
     last[row.id] = &row;
@@ -82,7 +82,7 @@ TrackSummary summarise(const std::vector<TrackRow>& rows, int frames) {
       movers = 0;
     }
   }
-  if (time > 0) summary.mean_speed = way / time;
+  if (time > 0) summary.mean_speed = travelled / time;
   return summary;
 }
 

@@ -105,13 +105,13 @@ float radius_near(const cv::Mat& depth, cv::Point p) {
 }
 
 /// The pixels from `p` back to its piece; the last one belongs to the piece.
-std::vector<cv::Point> way_back(const Reach& reach, cv::Point p) {
-  std::vector<cv::Point> way{p};
+std::vector<cv::Point> path_back(const Reach& reach, cv::Point p) {
+  std::vector<cv::Point> path{p};
   for (int i = reach.parent.at<int>(p); i >= 0; i = reach.parent.at<int>(p)) {
     p = {i % reach.parent.cols, i / reach.parent.cols};
-    way.push_back(p);
+    path.push_back(p);
   }
-  return way;
+  return path;
 }
 
 void set_disc(cv::Mat& set, cv::Point centre, double radius) {
@@ -143,13 +143,13 @@ int bridge_gaps(cv::Mat& set, const cv::Mat& cost, double most) {
     if (a == b) continue;
     joined[a] = b;
     ++bridges;
-    const auto from_a = way_back(reach, m.a);
-    const auto from_b = way_back(reach, m.b);
+    const auto from_a = path_back(reach, m.a);
+    const auto from_b = path_back(reach, m.b);
     const double radius = std::max(
         1.0F,
         std::min(radius_near(depth, from_a.back()), radius_near(depth, from_b.back())) - 0.5F);
-    for (const auto& way : {from_a, from_b})
-      for (const cv::Point p : way) set_disc(set, p, radius);
+    for (const auto& path : {from_a, from_b})
+      for (const cv::Point p : path) set_disc(set, p, radius);
   }
   return bridges;
 }

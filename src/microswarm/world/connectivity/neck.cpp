@@ -61,7 +61,7 @@ Segment connection(const Feature& f, const Feature& g, Vec2 p) {
 Passage neck_near(const Map& map, Vec2 place, double least, double spacing) {
   const std::vector<Feature> features = features_near(map, place, least + 3 * spacing);
   Passage best{place, 2 * least};
-  double best_way = 4 * spacing;
+  double min_offset = 4 * spacing;
   for (std::size_t i = 0; i < features.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       const Vec2 to_i = nearest_point(place, features[i]) - place;
@@ -71,10 +71,10 @@ Passage neck_near(const Map& map, Vec2 place, double least, double spacing) {
       const Vec2 middle = 0.5 * (s.a + s.b);
       const double half = 0.5 * distance(s.a, s.b);
       if (half < least * (1 - 1e-9) || half > least + 1.5 * spacing) continue;
-      const double way = distance(middle, place);
-      if (way >= best_way || map.clearance(middle) < half * (1 - 1e-9)) continue;
+      const double offset = distance(middle, place);
+      if (offset >= min_offset || map.clearance(middle) < half * (1 - 1e-9)) continue;
       best = {middle, 2 * half};
-      best_way = way;
+      min_offset = offset;
     }
   }
   return best;

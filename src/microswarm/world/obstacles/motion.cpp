@@ -49,21 +49,21 @@ double length_of(const std::vector<Vec2>& points) {
   return length;
 }
 
-/// Arc length along the waypoints after `way` µm, and the sign of the motion (0 at rest).
+/// Arc length along the waypoints after `travelled` µm, and the sign of the motion (0 at rest).
 struct Along {
   double s;
   double sign;
 };
-Along along(const Waypoints& m, double way, double length, double closed_length) {
+Along along(const Waypoints& m, double travelled, double length, double closed_length) {
   switch (m.at_end) {
     case AtEnd::stay:
-      return {std::min(way, length), way < length ? 1.0 : 0.0};
+      return {std::min(travelled, length), travelled < length ? 1.0 : 0.0};
     case AtEnd::loop:
-      return {std::fmod(way, closed_length), 1.0};
+      return {std::fmod(travelled, closed_length), 1.0};
     case AtEnd::back:
       break;
   }
-  const double s = std::fmod(way, 2 * length);
+  const double s = std::fmod(travelled, 2 * length);
   return s < length ? Along{s, 1.0} : Along{2 * length - s, -1.0};
 }
 
@@ -106,8 +106,8 @@ Placement placed(const Track& m, double t) {
   const std::size_t j = std::min(static_cast<std::size_t>(after - times.begin()), times.size() - 1);
   const double span = times[j] - times[j - 1];
   if (!(span > 0)) return {true, {points[j], 0}, {}};
-  const Vec2 way = points[j] - points[j - 1];
-  return {true, {points[j - 1] + ((t - times[j - 1]) / span) * way, 0}, way / span};
+  const Vec2 step = points[j] - points[j - 1];
+  return {true, {points[j - 1] + ((t - times[j - 1]) / span) * step, 0}, step / span};
 }
 
 double top(const Still&) { return 0; }
@@ -119,10 +119,10 @@ double top(const Track& m) {
   double speed = 0;
   if (!m.samples) return speed;
   for (std::size_t i = 1; i < m.samples->times.size(); ++i) {
-    const double way = distance(m.samples->points[i - 1], m.samples->points[i]);
+    const double length = distance(m.samples->points[i - 1], m.samples->points[i]);
     const double span = m.samples->times[i] - m.samples->times[i - 1];
-    if (way > 0) {
-      speed = std::max(speed, span > 0 ? way / span : std::numeric_limits<double>::infinity());
+    if (length > 0) {
+      speed = std::max(speed, span > 0 ? length / span : std::numeric_limits<double>::infinity());
     }
   }
   return speed;

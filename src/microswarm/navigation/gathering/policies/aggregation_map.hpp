@@ -42,7 +42,7 @@ struct AggregationMap {
                  MoveRule rule = MoveRule::any_direction, const Stop& stop = {});
 
   /// Path length [µm] from `p` to the goal, where `node` is the one nearest to `p`.
-  double way(Vec2 p, std::uint32_t node) const {
+  double length_from(Vec2 p, std::uint32_t node) const {
     if (cells) return hops[cells->at(p)] * cells->unit();
     return routes().length[node] + distance(p, tree.nodes[node]);
   }
@@ -54,7 +54,7 @@ struct AggregationMap {
 struct RobotsOnMap {
   std::vector<std::uint32_t> counts;  ///< robots at each position; empty: one each
   std::vector<std::uint32_t> nodes;   ///< nearest node of each position
-  std::vector<double> ways;           ///< path length to the goal from each position [µm]
+  std::vector<double> lengths;        ///< path length to the goal from each position [µm]
 
   /// Number of robots at a position.
   double count(std::size_t i) const { return counts.empty() ? 1 : static_cast<double>(counts[i]); }

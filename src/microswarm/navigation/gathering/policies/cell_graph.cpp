@@ -36,9 +36,9 @@ CellGraph::CellGraph(const Map& map, double cell, CellSteps steps)
     neighbours_.emplace_back().fill(node);
     lattice_.for_each_neighbour(place, [&](std::uint32_t other) {
       if (at_[other] == unreached) return;
-      const Segment way{centres_[node], lattice_[other]};
-      if (steps_ == CellSteps::hops || map.is_free(way, 0))
-        neighbours_[node][direction_of(way.b - way.a)] = at_[other];
+      const Segment edge{centres_[node], lattice_[other]};
+      if (steps_ == CellSteps::hops || map.is_free(edge, 0))
+        neighbours_[node][direction_of(edge.b - edge.a)] = at_[other];
     });
   }
 }

@@ -37,9 +37,9 @@ bool DivideAndConquer::is_led_on(const RobotsOnMap& robots, std::size_t robot) {
     const std::uint32_t region = map_->segmentation.region[robots.nodes[robot]];
     if (region == region_) return true;
     entered_ = region;
-    target_distance_ = std::max(0.0, robots.ways[robot] - params_.team_depth);
+    target_distance_ = std::max(0.0, robots.lengths[robot] - params_.team_depth);
   }
-  return robots.ways[robot] > target_distance_ + params_.step;
+  return robots.lengths[robot] > target_distance_ + params_.step;
 }
 
 // The farthest region that holds robots. In rounds the map shrinks (Eq 7): robots that were pushed
@@ -69,9 +69,9 @@ std::size_t DivideAndConquer::nearest_to_gate(const RobotsOnMap& robots) const {
   for (std::size_t i = 0; i < robots.nodes.size(); ++i) {
     const std::uint32_t node = robots.nodes[i];
     if (map.region[node] != region_ || map.branch[node] != branch_) continue;
-    const double way = distance_to_gate(robots, i);
-    if (way < least) {
-      least = way;
+    const double left = distance_to_gate(robots, i);
+    if (left < least) {
+      least = left;
       nearest = i;
     }
   }
@@ -82,8 +82,9 @@ std::size_t DivideAndConquer::farthest_in_region(const RobotsOnMap& robots) cons
   std::size_t farthest = 0;
   double most = -1;
   for (std::size_t i = 0; i < robots.nodes.size(); ++i) {
-    if (map_->segmentation.region[robots.nodes[i]] != region_ || robots.ways[i] <= most) continue;
-    most = robots.ways[i];
+    if (map_->segmentation.region[robots.nodes[i]] != region_ || robots.lengths[i] <= most)
+      continue;
+    most = robots.lengths[i];
     farthest = i;
   }
   return farthest;
@@ -106,7 +107,7 @@ std::uint32_t DivideAndConquer::richest_branch(const RobotsOnMap& robots) const 
 double DivideAndConquer::distance_to_gate(const RobotsOnMap& robots, std::size_t robot) const {
   const MapSegmentation& map = map_->segmentation;
   const Region& region = map.regions[map.region[robots.nodes[robot]]];
-  return std::max(0.0, robots.ways[robot] - map_->routes().length[region.node]);
+  return std::max(0.0, robots.lengths[robot] - map_->routes().length[region.node]);
 }
 
 }  // namespace microswarm

@@ -49,7 +49,7 @@ void DynamicShortestPath::choose(const Robots& robots, const RobotsOnMap& on_map
   const NodePair pair = farthest_pair(*cells_, cells);
   follower_ = pair.first;
   other_ = pair.second;
-  if (on_map.ways[follower_] < on_map.ways[other_]) std::swap(follower_, other_);
+  if (on_map.lengths[follower_] < on_map.lengths[other_]) std::swap(follower_, other_);
   has_pair_ = pair.distance > 0 && !met(robots);
   together_ = !has_pair_;
   std::ranges::sort(cells);

@@ -24,7 +24,7 @@ std::size_t farthest(const Distances& distances, std::span<const std::uint32_t> 
 }
 
 /// Node half way on a shortest path from `node` to where the distances begin.
-std::uint32_t half_way(const CellGraph& graph, const Distances& distances, std::uint32_t node) {
+std::uint32_t midpoint(const CellGraph& graph, const Distances& distances, std::uint32_t node) {
   const std::uint32_t half = distances[node] / 2;
   while (distances[node] > half) node = graph.towards(distances, node);
   return node;
@@ -44,7 +44,7 @@ NodePair farthest_pair(const CellGraph& graph, std::span<const std::uint32_t> no
   };
   const Distances from_end = try_from(end);
   if (best.distance == 0) return best;
-  const Distances from_middle = graph.distances(half_way(graph, from_end, nodes[best.second]));
+  const Distances from_middle = graph.distances(midpoint(graph, from_end, nodes[best.second]));
   std::vector<std::size_t> order(nodes.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto far = [&](std::size_t i) { return from_middle[nodes[i]]; };

@@ -7,13 +7,14 @@ namespace microswarm {
 namespace {
 
 bool is_on_its_way(const RobotsOnMap& robots, std::size_t robot, double step) {
-  return robot < robots.ways.size() && robots.ways[robot] >= 2 * step;
+  return robot < robots.lengths.size() && robots.lengths[robot] >= 2 * step;
 }
 
 }  // namespace
 
 std::size_t farthest_robot(const RobotsOnMap& robots) {
-  return static_cast<std::size_t>(std::ranges::max_element(robots.ways) - robots.ways.begin());
+  return static_cast<std::size_t>(std::ranges::max_element(robots.lengths) -
+                                  robots.lengths.begin());
 }
 
 std::size_t heuristic_leader(const RobotsOnMap& robots, std::size_t last, double step) {
@@ -24,9 +25,9 @@ std::size_t heuristic_leader(const RobotsOnMap& robots, std::size_t last, double
 std::size_t random_leader(const RobotsOnMap& robots, std::size_t last, double step, Rng& rng) {
   if (is_on_its_way(robots, last, step)) return last;
   std::size_t chosen = farthest_robot(robots);
-  const double length = rng.uniform(0, robots.ways[chosen]);
-  for (std::size_t i = 0; i < robots.ways.size(); ++i)
-    if (robots.ways[i] >= length && robots.ways[i] < robots.ways[chosen]) chosen = i;
+  const double length = rng.uniform(0, robots.lengths[chosen]);
+  for (std::size_t i = 0; i < robots.lengths.size(); ++i)
+    if (robots.lengths[i] >= length && robots.lengths[i] < robots.lengths[chosen]) chosen = i;
   return chosen;
 }
 

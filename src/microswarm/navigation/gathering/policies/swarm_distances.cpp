@@ -15,7 +15,7 @@ void SwarmDistances::update(const Robots& robots, std::span<const std::uint32_t>
     x_.assign(n, std::numeric_limits<float>::quiet_NaN());
     y_.resize(n);
     robots_.nodes.resize(n);
-    robots_.ways.assign(n, 0);
+    robots_.lengths.assign(n, 0);
     count_ = counts.empty() ? static_cast<double>(n)
                             : std::accumulate(counts.begin(), counts.end(), 0.0);
   }
@@ -25,16 +25,16 @@ void SwarmDistances::update(const Robots& robots, std::span<const std::uint32_t>
     y_[i] = robots.y[i];
     const Vec2 p = robots.position(i);
     const std::uint32_t node = robots_.nodes[i] = map_->tree.nearest(p);
-    const double before = robots_.ways[i];
-    robots_.ways[i] = on_lattice(map_->way(p, node));
-    sum_ += robots_.count(i) * (robots_.ways[i] - before);
+    const double before = robots_.lengths[i];
+    robots_.lengths[i] = on_lattice(map_->length_from(p, node));
+    sum_ += robots_.count(i) * (robots_.lengths[i] - before);
   }
   mean_ = n > 0 ? sum_ / count_ : 0;
 }
 
 double SwarmDistances::left(Gathered measure) const {
   if (measure == Gathered::mean) return mean_;
-  return robots_.ways.empty() ? 0 : *std::ranges::max_element(robots_.ways);
+  return robots_.lengths.empty() ? 0 : *std::ranges::max_element(robots_.lengths);
 }
 
 bool SwarmDistances::remap(std::span<const std::uint32_t> new_positions) {
@@ -43,19 +43,19 @@ bool SwarmDistances::remap(std::span<const std::uint32_t> new_positions) {
   for (std::size_t i = 0; i < new_positions.size(); ++i) {
     const std::size_t to = new_positions[i];
     if (to != kept) {
-      sum_ += robots_.count(i) * (robots_.ways[to] - robots_.ways[i]);
+      sum_ += robots_.count(i) * (robots_.lengths[to] - robots_.lengths[i]);
       continue;
     }
     x_[kept] = x_[i];
     y_[kept] = y_[i];
     robots_.nodes[kept] = robots_.nodes[i];
-    robots_.ways[kept] = robots_.ways[i];
+    robots_.lengths[kept] = robots_.lengths[i];
     ++kept;
   }
   x_.resize(kept);
   y_.resize(kept);
   robots_.nodes.resize(kept);
-  robots_.ways.resize(kept);
+  robots_.lengths.resize(kept);
   return true;
 }
 

@@ -29,11 +29,13 @@ struct Trial {
 /// Moves on along the straight way of the plan's moves from `begin` to `end`.
 void go_straight(PartialPlan& partial, const RolloutExecution& plan, std::size_t begin,
                  std::size_t end, RolloutSimulator& simulator) {
-  Vec2 way;
-  for (const Vec2 move : plan.moves().subspan(begin, end - begin)) way = way + move;
-  const double count = std::ceil(norm(way) / simulator.params().step - 1e-9);
+  Vec2 displacement;
+  for (const Vec2 move : plan.moves().subspan(begin, end - begin))
+    displacement = displacement + move;
+  const double count = std::ceil(norm(displacement) / simulator.params().step - 1e-9);
   if (count < 1) return;
-  simulator.follow(partial, std::vector<Vec2>(static_cast<std::size_t>(count), (1 / count) * way),
+  simulator.follow(partial,
+                   std::vector<Vec2>(static_cast<std::size_t>(count), (1 / count) * displacement),
                    plan.steps());
 }
 

@@ -161,7 +161,7 @@ std::size_t RolloutSimulator::farthest(const Robots& robots) const {
   std::size_t best = 0;
   double most = -1;
   for (std::size_t i = 0; i < robots.size(); ++i) {
-    const double far = way(robots, i);
+    const double far = remaining(robots, i);
     if (far <= most) continue;
     most = far;
     best = i;
@@ -169,16 +169,16 @@ std::size_t RolloutSimulator::farthest(const Robots& robots) const {
   return best;
 }
 
-double RolloutSimulator::way(const Robots& robots, std::size_t i) const {
+double RolloutSimulator::remaining(const Robots& robots, std::size_t i) const {
   const Vec2 p = robots.position(i);
-  return map_->way(p, map_->tree.nearest(p));
+  return map_->length_from(p, map_->tree.nearest(p));
 }
 
 double RolloutSimulator::mean_distance(const MergedRobots& merged) const {
   double sum = 0;
   double robots = 0;
   for (std::size_t i = 0; i < merged.places().size(); ++i) {
-    sum += merged.counts()[i] * way(merged.places(), i);
+    sum += merged.counts()[i] * remaining(merged.places(), i);
     robots += merged.counts()[i];
   }
   return sum / std::max(1.0, robots);
@@ -188,7 +188,7 @@ double RolloutSimulator::distance_left(const MergedRobots& merged) const {
   if (params_.gathered == Gathered::mean) return mean_distance(merged);
   double most = 0;
   for (std::size_t i = 0; i < merged.places().size(); ++i)
-    most = std::max(most, way(merged.places(), i));
+    most = std::max(most, remaining(merged.places(), i));
   return most;
 }
 
@@ -199,7 +199,7 @@ double RolloutSimulator::left_to_do(MergedRobots merged) const {
   merged.merge_coincident(tuning.merge_cell * params_.step);
   double sum = 0;
   for (std::size_t i = 0; i < merged.places().size(); ++i) {
-    const double far = way(merged.places(), i);
+    const double far = remaining(merged.places(), i);
     sum += power(merged.counts()[i]) * far * far;
   }
   return sum;

@@ -80,7 +80,7 @@ class RolloutSimulator {
  private:
   class Work;
   void move(PartialPlan& partial, Vec2 move, Work& work) const;
-  double way(const Robots& robots, std::size_t i) const;
+  double remaining(const Robots& robots, std::size_t i) const;
   double power(std::uint32_t count) const;
   std::size_t farthest(const Robots& robots) const;
 
