@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs in real time against a simulated simulator, and what happens when something fails.
+// Runs in real time against a simulated rig, and what happens when something fails.
 #include "tests/rig/live_rigs.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A rig in real time against a simulated simulator, with coils and a camera that can be made to
-// fail.
+// A rig in real time against a simulated rig, with coils and a camera that can be made to fail.
 #pragma once
 
 #include <gtest/gtest.h>
