@@ -101,7 +101,7 @@ struct Scenario {
     visit(self.hold_at_goal,
           s("hold_at_goal", 0, 1e6, "Time to hold the swarm at the goal before the end."));
     visit(self.stop_at_contact,
-          plain("stop_at_contact", "End at the first contact, or count contacts and go on."));
+          plain("stop_at_contact", "End at the first contact, or count contacts and continue."));
     visit(self.detection_range,
           um("detection_range", 0, 1e6, "Gap below which an obstacle counts as being avoided."));
     visit(self.seed, plain("seed", "Seed of every random stream."));

@@ -43,7 +43,7 @@ struct PotentialFieldParams {
                         .formerly("margin_um"));
     visit(self.guide, plain("guide", "Direction of the goal: straight or route."));
     visit(self.tracker, plain("tracker", "Estimation of the obstacles' motion."));
-    visit(self.tuning, plain("tuning", "Constants that seldom need a change."));
+    visit(self.tuning, plain("tuning", "Constants that rarely need a change."));
   }
 };
 

@@ -39,7 +39,7 @@ struct VelocityObstacleParams {
           um("urgency", 0, 1e6, "Weight of 1 / time to contact where no velocity is free."));
     visit(self.guide, plain("guide", "Direction of the goal: straight or route."));
     visit(self.tracker, plain("tracker", "Estimation of the obstacles' motion."));
-    visit(self.tuning, plain("tuning", "Constants that seldom need a change."));
+    visit(self.tuning, plain("tuning", "Constants that rarely need a change."));
   }
 };
 

@@ -96,7 +96,7 @@ struct HierarchicalParams {
     visit(self.tracker, plain("tracker", "Estimation of the obstacles' motion."));
     visit(self.target, plain("target", "Local target selection."));
     visit(self.planner, plain("planner", "Local planner."));
-    visit(self.tuning, plain("tuning", "Constants that seldom need a change."));
+    visit(self.tuning, plain("tuning", "Constants that rarely need a change."));
   }
 };
 

@@ -28,7 +28,7 @@ struct MultiModelPredictorParams {
           um("max_uncertainty", 0, 1e4, "Upper bound of the added uncertainty.")
               .formerly("most_doubt_um"));
     visit(self.tracker, plain("tracker", "Estimation of the obstacles' motion."));
-    visit(self.tuning, plain("tuning", "Constants that seldom need a change."));
+    visit(self.tuning, plain("tuning", "Constants that rarely need a change."));
   }
 };
 

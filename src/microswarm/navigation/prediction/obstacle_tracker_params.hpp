@@ -16,7 +16,7 @@ struct ObstacleTrackerParams {
     visit(self.frames, plain("frames", 2, 100, "Maximum number of frames for a motion estimate."));
     visit(self.memory,
           s("memory", 1e-2, 60, "Time for which frames are kept for the noise estimate."));
-    visit(self.tuning, plain("tuning", "Constants that seldom need a change."));
+    visit(self.tuning, plain("tuning", "Constants that rarely need a change."));
   }
 };
 

@@ -63,7 +63,7 @@ struct PredictiveParams {
     visit(self.prediction, plain("prediction", "Prediction of obstacles.").formerly("foresight"));
     visit(self.guide, plain("guide", "Direction of the goal: straight or route."));
     visit(self.route_cell, um("route_cell", 1e-2, 1e5, "Grid spacing of the route."));
-    visit(self.tuning, plain("tuning", "Constants that seldom need a change."));
+    visit(self.tuning, plain("tuning", "Constants that rarely need a change."));
   }
 };
 

@@ -78,7 +78,7 @@ struct RadarParams {
           plain("global_plan", "Plan waypoints around walls; else straight to the goal."));
     visit(self.planner, plain("planner", "Planner of the waypoints."));
     visit(self.as_published, plain("as_published", "As in [radar], without our additions."));
-    visit(self.tuning, plain("tuning", "Constants that seldom need a change."));
+    visit(self.tuning, plain("tuning", "Constants that rarely need a change."));
   }
 };
 

@@ -35,7 +35,7 @@ struct SafetyFilterParams {
               .formerly("margin_rate_um_per_s"));
     visit(self.wall_gap, um("wall_gap", 0, 1e5, "Gap kept to walls.").formerly("wall_margin_um"));
     visit(self.tracker, plain("tracker", "Estimation of the obstacles' motion."));
-    visit(self.tuning, plain("tuning", "Constants that seldom need a change."));
+    visit(self.tuning, plain("tuning", "Constants that rarely need a change."));
   }
 };
 

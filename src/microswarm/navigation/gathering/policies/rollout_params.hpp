@@ -49,7 +49,7 @@ struct RolloutParams {
           plain("max_deviation", 0, 1e6, "Mean deviation in steps above which it plans again.")
               .formerly("stray"));
     visit(self.threads, plain("threads", 0, 1024, "Threads of the search; 0: one per core."));
-    visit(self.tuning, plain("tuning", "Constants that seldom need a change."));
+    visit(self.tuning, plain("tuning", "Constants that rarely need a change."));
   }
 };
 

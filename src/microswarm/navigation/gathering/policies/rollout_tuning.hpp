@@ -27,7 +27,7 @@ struct RolloutTuning {
     visit(self.change_lengths,
           plain("change_lengths", 1, 1e6, "Lengths of a random change, in steps."));
     visit(self.replan_representatives,
-          plain("replan_representatives", 1, 1e6, "Representative robots when it plans anew."));
+          plain("replan_representatives", 1, 1e6, "Representative robots for replanning."));
     visit(self.finest_cell,
           plain("finest_cell", 1e-3, 1e3, "Initial cell of merged robots, in steps."));
     visit(self.merge_cell,
