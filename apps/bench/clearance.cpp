@@ -53,23 +53,23 @@ std::vector<BenchRow> clearance_queries(bool quick) {
   constexpr double clearance = 40;
   const std::size_t n = quick ? 200'000 : 1'000'000;
   std::vector<Segment> edges(n);
-  std::vector<Vec2> places;
+  std::vector<Vec2> positions;
   for (Segment& e : edges) {
     e.a = uniform_in(world.bounds(), rng);
     e.b = e.a + 40 * unit_vector(rng.uniform(0, 2 * pi));
-    places.push_back(e.a);
+    positions.push_back(e.a);
   }
   const int repeats = quick ? 5 : 11;
   const std::size_t few = n / 200;
   const double one_by_one =
-      rate_of(n, repeats, [&](std::size_t i) { return world.is_free(places[i], clearance); });
+      rate_of(n, repeats, [&](std::size_t i) { return world.is_free(positions[i], clearance); });
   std::vector<std::uint8_t> free(n);
   return {{.name = "is the place free, clearance 40 µm",
            .quantity = "queries per second",
            .unit = "1/s",
            .ours = one_by_one,
            .peer = rate_of(few, repeats,
-                           [&](std::size_t i) { return raw.clearance(places[i]) >= clearance; }),
+                           [&](std::size_t i) { return raw.clearance(positions[i]) >= clearance; }),
            .peer_name = "every shape in turn",
            .at_most = false},
           {.name = "are the places free, clearance 40 µm, all at once",
@@ -77,7 +77,7 @@ std::vector<BenchRow> clearance_queries(bool quick) {
            .unit = "1/s",
            .ours = rate_of_all(n, repeats,
                                [&] {
-                                 world.are_free(places, clearance, free);
+                                 world.are_free(positions, clearance, free);
                                  return std::size_t{free[n / 2]};
                                }),
            .peer = one_by_one,

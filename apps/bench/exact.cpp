@@ -94,16 +94,16 @@ std::vector<Vec2> points_along(const std::vector<Vec2>& path, double step) {
 }
 
 /// Times [ms] of a tree's length queries from these positions, if there is a path.
-std::vector<double> tree_times(ShortestPathTree& tree, std::span<const Vec2> places,
+std::vector<double> tree_times(ShortestPathTree& tree, std::span<const Vec2> positions,
                                const Stop& stop) {
   std::vector<double> ms;
-  for (const Vec2 place : places) {
+  for (const Vec2 position : positions) {
     if (stop()) break;
     const auto began = Clock::now();
-    const bool reaches = tree.length_from(place) < infinity;
+    const bool reaches = tree.length_from(position) < infinity;
     if (reaches) ms.push_back(spent_ms(began));
   }
-  require_solved(stop() || 2 * ms.size() > places.size());
+  require_solved(stop() || 2 * ms.size() > positions.size());
   return ms;
 }
 

@@ -115,12 +115,12 @@ Robots random_robots(const Task& task, const AggregationMap& map, const RobotSte
     nodes.resize(task.robots);
     return robots_at(*map.cells, nodes);
   }
-  std::vector<Vec2> places;
-  while (places.size() < task.robots) {
+  std::vector<Vec2> positions;
+  while (positions.size() < task.robots) {
     const Vec2 p = uniform_in(task.map.bounds(), rng);
-    if (map.map.is_free(p, 4 * stepper.guard())) places.push_back(p);
+    if (map.map.is_free(p, 4 * stepper.guard())) positions.push_back(p);
   }
-  return stepper.place(places);
+  return stepper.place(positions);
 }
 
 /// Steps of each seed, and the time of all.

@@ -99,10 +99,10 @@ Growth of_robots(bool quick, const Stop& stop) {
   const Map map = scenes::larger_vascular_network().map();
   const RobotStepper stepper(map, 1);
   Rng rng(1, Purpose::scene);
-  std::vector<Vec2> places;
-  while (places.size() < 65536) {
+  std::vector<Vec2> positions;
+  while (positions.size() < 65536) {
     const Vec2 p = uniform_in(map.bounds(), rng);
-    if (map.is_free(p, 4 * stepper.guard())) places.push_back(p);
+    if (map.is_free(p, 4 * stepper.guard())) positions.push_back(p);
   }
   const int count = quick ? 200 : 1000;
   std::vector<Vec2> moves;
@@ -111,7 +111,8 @@ Growth of_robots(bool quick, const Stop& stop) {
     moves.push_back(k % 25 == 0 ? unit_vector(rng.uniform(0, 2 * pi)) : moves.back());
   for (const std::size_t n : {256U, 1024U, 4096U, 16384U, 65536U}) {
     if (stop()) break;
-    const std::vector<Vec2> first(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(n));
+    const std::vector<Vec2> first(positions.begin(),
+                                  positions.begin() + static_cast<std::ptrdiff_t>(n));
     Robots all = stepper.place(first);
     const double ours = time_of(count, microsecond, [&](int k) {
       stepper.step(all, moves[static_cast<std::size_t>(k)], ContactRule::slide);
@@ -178,11 +179,11 @@ Growth of_vertices(bool quick, const Stop& stop) {
 std::vector<Growth> of_shapes(bool quick, const Stop& stop) {
   constexpr double clearance = 10;
   Growth loads{.name = "a map made", .of = "shapes", .unit = "ms", .peer = {}, .aim = 1.1};
-  Growth places{.name = "is the place free",
-                .of = "shapes",
-                .unit = "ns",
-                .peer = "every shape in turn",
-                .aim = 0.2};
+  Growth positions{.name = "is the place free",
+                   .of = "shapes",
+                   .unit = "ns",
+                   .peer = "every shape in turn",
+                   .aim = 0.2};
   Growth exact{.name = "exact across the map, tangents kept",
                .of = "shapes",
                .unit = "ms",
@@ -202,12 +203,12 @@ std::vector<Growth> of_shapes(bool quick, const Stop& stop) {
     const double all = time_of(5, 1e-9, [&](int) {
       for (const Vec2 p : asked) sum += world.is_free(p, clearance) ? 1 : 0;
     });
-    places.ours.emplace_back(
+    positions.ours.emplace_back(
         count, all / static_cast<double>(asked.size()) + 0 * static_cast<double>(sum));
     const double naive = time_of(quick ? 20 : 200, 1e-9, [&](int k) {
       sum += raw.clearance(asked[static_cast<std::size_t>(k)]) >= clearance ? 1 : 0;
     });
-    places.theirs.emplace_back(count, naive + 0 * static_cast<double>(sum));
+    positions.theirs.emplace_back(count, naive + 0 * static_cast<double>(sum));
     const std::vector<PathQuery> pairs = far_pairs(world, clearance, quick ? 5 : 20, rng);
     const auto ask = [&](const PlannerParams& params) {
       return time_of(static_cast<int>(pairs.size()), millisecond, [&](int k) {
@@ -223,7 +224,7 @@ std::vector<Growth> of_shapes(bool quick, const Stop& stop) {
     grid.cell = 10;
     exact.theirs.emplace_back(count, ask(grid));
   }
-  return {loads, places, exact};
+  return {loads, positions, exact};
 }
 
 }  // namespace

@@ -16,14 +16,15 @@ double time_to(const Segment& edge, Vec2 p, Vec2 move) {
   if (turn == 0) return 2;
   const Vec2 to_edge = edge.a - p;
   const double t = cross(to_edge, along) / turn;
-  const double place = cross(to_edge, move) / turn;
-  if (t < 0 || place < -1e-6 || place > 1 + 1e-6) return 2;
+  const double position = cross(to_edge, move) / turn;
+  if (t < 0 || position < -1e-6 || position > 1 + 1e-6) return 2;
   return t - standoff * norm(along) / std::abs(turn);
 }
 
 }  // namespace
 
-NaiveRobots::NaiveRobots(const Map& map, std::vector<Vec2> places) : places_(std::move(places)) {
+NaiveRobots::NaiveRobots(const Map& map, std::vector<Vec2> positions)
+    : places_(std::move(positions)) {
   const Box& b = map.bounds();
   const Vec2 corners[] = {b.lo, {b.hi.x, b.lo.y}, b.hi, {b.lo.x, b.hi.y}};
   for (int i = 0; i < 4; ++i) edges_.push_back({corners[i], corners[(i + 1) % 4]});

@@ -11,7 +11,7 @@ namespace microswarm::bench {
 /// against every edge of the map, stopping slightly before the nearest.
 class NaiveRobots {
  public:
-  NaiveRobots(const Map& map, std::vector<Vec2> places);
+  NaiveRobots(const Map& map, std::vector<Vec2> positions);
   void step(Vec2 move);
   const std::vector<Vec2>& places() const { return places_; }
 

@@ -208,10 +208,10 @@ std::vector<BenchRow> time_rows(const std::string& name, const std::vector<doubl
 
 std::vector<PathQuery> far_pairs(const Snapshot& world, double clearance, int count, Rng& rng) {
   const Box& box = world.bounds();
-  const auto place = [&] { return uniform_in(box, rng); };
+  const auto position = [&] { return uniform_in(box, rng); };
   std::vector<PathQuery> pairs;
   for (int draw = 0; draw < 1000 * count && std::ssize(pairs) < count; ++draw) {
-    const PathQuery q{{place(), 0}, place()};
+    const PathQuery q{{position(), 0}, position()};
     if (distance(q.start.position, q.goal) >= 0.5 * box.width() &&
         world.is_free(q.start.position, 2 * clearance) && world.is_free(q.goal, 2 * clearance))
       pairs.push_back(q);

@@ -66,9 +66,9 @@ std::vector<double> times(const std::vector<Place>& all, int rounds, const Stop&
                           Decide&& decide) {
   std::vector<double> microseconds;
   for (int round = 0; round < rounds && !stop(); ++round) {
-    for (const Place& place : all) {
+    for (const Place& position : all) {
       const auto began = Clock::now();
-      decide(place);
+      decide(position);
       const std::chrono::duration<double, std::micro> took = Clock::now() - began;
       if (round > 0 || rounds == 1) microseconds.push_back(took.count());  // else warm-up
     }
@@ -133,14 +133,14 @@ void add_rows(std::vector<BenchRow>& rows, const std::string& name, int obstacle
   double now = 0;
   double sum = 0;  // prevents the results from being optimised away
   DecisionTimes measured;
-  measured.ours = times(all, quick ? 20 : 100, stop, [&](const Place& place) {
+  measured.ours = times(all, quick ? 20 : 100, stop, [&](const Place& position) {
     now += 0.1;
-    sum += navigator.step(observed(*place.world, place.swarm, now), {}).heading;
+    sum += navigator.step(observed(*position.world, position.swarm, now), {}).heading;
   });
-  measured.naive = times(all, quick ? 1 : 3, stop, [&](const Place& place) {
-    navigator.step(observed(*place.world, place.swarm, now), {});
+  measured.naive = times(all, quick ? 1 : 3, stop, [&](const Place& position) {
+    navigator.step(observed(*position.world, position.swarm, now), {});
     if (navigator.last_look())
-      sum += scan(*navigator.last_look(), *place.world, 360).weights.target;
+      sum += scan(*navigator.last_look(), *position.world, 360).weights.target;
   });
   std::ranges::move(rows_of(name, measured, aims), std::back_inserter(rows));
   rows.back().ours += 0 * sum;

@@ -28,13 +28,13 @@ constexpr int robots_stepped = 1024;
 constexpr int moves_a_heading = 25;
 
 std::vector<Vec2> free_places(const Map& map, double clearance, Rng& rng) {
-  std::vector<Vec2> places;
+  std::vector<Vec2> positions;
   const Box& b = map.bounds();
-  for (int draw = 0; draw < 1'000'000 && std::ssize(places) < robots_stepped; ++draw) {
+  for (int draw = 0; draw < 1'000'000 && std::ssize(positions) < robots_stepped; ++draw) {
     const Vec2 p = uniform_in(b, rng);
-    if (map.is_free(p, clearance)) places.push_back(p);
+    if (map.is_free(p, clearance)) positions.push_back(p);
   }
-  return places;
+  return positions;
 }
 
 /// Moves with a new random heading every few moves.
@@ -66,17 +66,17 @@ void add_rows(std::vector<BenchRow>& rows, const std::string& name, const Map& m
               double aim, bool quick, const Stop& stop) {
   const RobotStepper stepper(map, step);
   Rng rng(1, Purpose::scene);
-  const std::vector<Vec2> places = free_places(map, 4 * stepper.guard(), rng);
+  const std::vector<Vec2> positions = free_places(map, 4 * stepper.guard(), rng);
   const int repeats = quick ? 3 : 9;
   const auto faces = static_cast<int>(stepper.faces().all().size());
   const std::vector<Vec2> few = moves(step, std::clamp(200'000 / faces, 5, quick ? 50 : 200), rng);
   const double naive = rate(few, quick ? 1 : 3, stop, [&] {
-    return [robots = NaiveRobots(map, places)](Vec2 move) mutable { robots.step(move); };
+    return [robots = NaiveRobots(map, positions)](Vec2 move) mutable { robots.step(move); };
   });
   const std::vector<Vec2> many = moves(step, quick ? 1000 : 8000, rng);
   for (const ContactRule rule : {ContactRule::stop, ContactRule::slide}) {
     const double ours = rate(many, repeats, stop, [&] {
-      return [&, robots = stepper.place(places)](Vec2 move) mutable {
+      return [&, robots = stepper.place(positions)](Vec2 move) mutable {
         stepper.step(robots, move, rule);
       };
     });

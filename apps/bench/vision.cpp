@@ -36,14 +36,15 @@ double ms_since(Clock::time_point began) {
 
 /// Initial positions of robots that do not touch.
 std::vector<Vec2> first_places(Rng& rng) {
-  std::vector<Vec2> places;
-  for (int draw = 0; draw < 1'000'000 && std::ssize(places) < robots; ++draw) {
+  std::vector<Vec2> positions;
+  for (int draw = 0; draw < 1'000'000 && std::ssize(positions) < robots; ++draw) {
     const double x = rng.uniform(8, width - 8);
     const Vec2 p{x, rng.uniform(8, height - 8)};
-    if (std::none_of(places.begin(), places.end(), [&](Vec2 q) { return distance(p, q) < 13; }))
-      places.push_back(p);
+    if (std::none_of(positions.begin(), positions.end(),
+                     [&](Vec2 q) { return distance(p, q) < 13; }))
+      positions.push_back(p);
   }
-  return places;
+  return positions;
 }
 
 Image draw(const std::vector<Vec2>& at_px, Rng& rng) {

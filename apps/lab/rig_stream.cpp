@@ -114,13 +114,13 @@ MessagePtr picture_message(const Image& picture, const CameraScale& scale, doubl
   constexpr int quality = 80;
   const int factor = (picture.width + widest - 1) / widest;
   const Image shown = factor > 1 ? shrunk(picture, factor) : picture;
-  const auto place = [&](int column, int row) {
+  const auto position = [&](int column, int row) {
     const double middle = 0.5 * (factor - 1);
     return scale.to_world({column * factor + middle, row * factor + middle});
   };
-  const Vec2 o = place(0, 0);
-  const Vec2 u = place(1, 0) - o;
-  const Vec2 v = place(0, 1) - o;
+  const Vec2 o = position(0, 0);
+  const Vec2 u = position(1, 0) - o;
+  const Vec2 v = position(0, 1) - o;
   const std::string jpeg = encode_jpeg(shown, quality);
   return make_message({{"type", "picture"},
                        {"t_s", t},

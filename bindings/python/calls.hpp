@@ -126,7 +126,7 @@ void warn(const Notes& notes);
 /// Positions from an array of shape (n, 2). Throws InputError for another shape.
 std::vector<Vec2> places(const Numbers& array, const char* name);
 /// Array of shape (n, 2) from positions.
-py::array_t<double> array_of(std::span<const Vec2> places);
+py::array_t<double> array_of(std::span<const Vec2> positions);
 
 /// Adds the parts of the module.
 void add_coils(py::module_& module);

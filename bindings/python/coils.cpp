@@ -75,12 +75,12 @@ py::array_t<double> each_row(const Coils& coils, const Numbers& given, py::ssize
   const bool is_one = at.shape(0) == 1;
   py::array_t<double> made({rows, columns});
   const double* in = given.data();
-  const double* place = at.data();
+  const double* position = at.data();
   double* out = made.mutable_data();
   Actuation actuation;
   for_rows(rows, [&](py::ssize_t i) {
     if (i == 0 || !is_one)
-      actuation = coils.system.at({place[3 * i], place[3 * i + 1], place[3 * i + 2]});
+      actuation = coils.system.at({position[3 * i], position[3 * i + 1], position[3 * i + 2]});
     Out result(out + columns * i, columns);
     work(Row(in + width * i, width), actuation, result);
   });
@@ -157,9 +157,9 @@ FieldMeasurements measurements_of(const Numbers& currents, const Numbers& fields
   measured.rows.reserve(static_cast<std::size_t>(rows));
   for (py::ssize_t i = 0; i < rows; ++i) {
     const double* field = fields.data() + 3 * i;
-    const double* place = positions.data() + 3 * i;
+    const double* position = positions.data() + 3 * i;
     measured.rows.push_back({.currents = Row(currents.data() + coils * i, coils),
-                             .place = {place[0], place[1], place[2]},
+                             .position = {position[0], position[1], position[2]},
                              .field = {field[0], field[1], field[2]},
                              .line = static_cast<int>(i),
                              .planned = {}});
@@ -228,12 +228,12 @@ void add_coils(py::module_& module) {
       .def("gradients", gradients_of_currents)
       .def("allowed_shares", allowed_shares)
       .def("in_workspace",
-           [](const Coils& coils, const std::array<double, 3>& place) {
-             return coils.system.in_workspace({place[0], place[1], place[2]});
+           [](const Coils& coils, const std::array<double, 3>& position) {
+             return coils.system.in_workspace({position[0], position[1], position[2]});
            })
       .def("matrix",
-           [](const Coils& coils, const std::array<double, 3>& place) {
-             return array_of_rows(coils.system.at({place[0], place[1], place[2]}).field);
+           [](const Coils& coils, const std::array<double, 3>& position) {
+             return array_of_rows(coils.system.at({position[0], position[1], position[2]}).field);
            })
       .def("name", [](const Coils& coils) { return coils.system.name(); })
       .def("names", [](const Coils& coils) { return coils.system.coil_names(); })

@@ -27,9 +27,9 @@ py::dict global_plan(const NamedMap& map, const Numbers& starts, const Numbers& 
   py::array_t<double> paths({static_cast<py::ssize_t>(moments.size()), robots, py::ssize_t{2}});
   double* out = paths.mutable_data();
   for (const std::vector<Vec2>& moment : moments)
-    for (const Vec2 place : moment) {
-      *out++ = place.x;
-      *out++ = place.y;
+    for (const Vec2 position : moment) {
+      *out++ = position.x;
+      *out++ = position.y;
     }
   py::dict answer;
   answer["status"] = std::string(to_string(made.plan.status));

@@ -49,12 +49,12 @@ std::vector<Vec2> places(const Numbers& array, const char* name) {
   return all;
 }
 
-py::array_t<double> array_of(std::span<const Vec2> places) {
-  py::array_t<double> array({static_cast<py::ssize_t>(places.size()), py::ssize_t{2}});
+py::array_t<double> array_of(std::span<const Vec2> positions) {
+  py::array_t<double> array({static_cast<py::ssize_t>(positions.size()), py::ssize_t{2}});
   double* numbers = array.mutable_data();
-  for (const Vec2& place : places) {
-    *numbers++ = place.x;
-    *numbers++ = place.y;
+  for (const Vec2& position : positions) {
+    *numbers++ = position.x;
+    *numbers++ = position.y;
   }
   return array;
 }

@@ -34,8 +34,8 @@ py::object column_of(const Column& column, const ListRef<const void*>& list) {
 
 }  // namespace
 
-py::dict columns_of_list(const ListRef<const void*>& list, const Field* places) {
-  const Unit unit = places ? places->info.unit : Unit::um;
+py::dict columns_of_list(const ListRef<const void*>& list, const Field* positions) {
+  const Unit unit = positions ? positions->info.unit : Unit::um;
   py::dict out;
   for (const Column& column : columns_of(list.row_type(), ColumnUnits::held, unit))
     out[py::str(column.key)] = column_of(column, list);

@@ -7,8 +7,8 @@
 
 namespace microswarm::python {
 
-/// A column for every quantity of a list of rows. `places` is the field of a list of positions.
-py::dict columns_of_list(const ListRef<const void*>& list, const Field* places = nullptr);
+/// A column for every quantity of a list of rows. `positions` is the field of a list of positions.
+py::dict columns_of_list(const ListRef<const void*>& list, const Field* positions = nullptr);
 
 /// Dictionary of status, metrics as JSON and times of the steps.
 py::dict summary_of(const RunResult& result);

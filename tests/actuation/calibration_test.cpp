@@ -76,7 +76,7 @@ TEST(Calibration, NamesTheWorstPoint) {
   const FittedMatrix fit = fit_matrix(rows);
   EXPECT_EQ(fit.worst_row, 30u);
   EXPECT_EQ(rows.rows[fit.worst_row].line, 33);
-  EXPECT_EQ(rows.rows[fit.worst_row].place, Eigen::Vector3d(300, 0, 0));
+  EXPECT_EQ(rows.rows[fit.worst_row].position, Eigen::Vector3d(300, 0, 0));
 }
 
 TEST(Calibration, RefusesWhatIsNotDetermined) {

@@ -28,26 +28,26 @@ CoilSystem helmholtz() {
 
 /// The centre and `reach` along both ways of each axis.
 std::vector<Eigen::Vector3d> cross(const Eigen::Vector3d& centre, double reach) {
-  std::vector<Eigen::Vector3d> places{centre};
+  std::vector<Eigen::Vector3d> positions{centre};
   for (int axis = 0; axis < 3; ++axis)
     for (const double side : {-1, 1})
-      places.emplace_back(centre + side * reach * Eigen::Vector3d::Unit(axis));
-  return places;
+      positions.emplace_back(centre + side * reach * Eigen::Vector3d::Unit(axis));
+  return positions;
 }
 
 /// Measures the plan in a system, with the noise of a probe [mT].
-FieldMeasurements measure(const CoilSystem& system, const std::vector<Eigen::Vector3d>& places,
+FieldMeasurements measure(const CoilSystem& system, const std::vector<Eigen::Vector3d>& positions,
                           double noise, const FieldGradient& ambient = {}) {
   std::mt19937_64 source(7);
   std::normal_distribution<double> normal(0, 1);
   FieldMeasurements measured{.file = "m.csv", .coils = system.coil_names()};
   int line = 1;
   for (const MeasurementStep& step :
-       measurement_plan(system, {.places = places, .levels = 2, .pairs = true})) {
-    Eigen::Vector3d b = system.at(step.place).field_of(step.currents) + ambient.field +
-                        ambient.gradient * step.place;
+       measurement_plan(system, {.positions = positions, .levels = 2, .pairs = true})) {
+    Eigen::Vector3d b = system.at(step.position).field_of(step.currents) + ambient.field +
+                        ambient.gradient * step.position;
     for (double& component : b) component += noise * normal(source);
-    measured.rows.push_back({step.currents, step.place, b, ++line});
+    measured.rows.push_back({step.currents, step.position, b, ++line});
   }
   return measured;
 }
@@ -79,10 +79,10 @@ TEST(GradientFit, FindsAnyFieldAndGradientInFreeSpaceExactly) {
     params.drives = {{.max_current = 5}};
     const CoilSystem system(params);
     // Three positions of a plane are enough.
-    const std::vector<Eigen::Vector3d> places{1000 * dice.vector(), 1000 * dice.vector(),
-                                              1000 * dice.vector()};
+    const std::vector<Eigen::Vector3d> positions{1000 * dice.vector(), 1000 * dice.vector(),
+                                                 1000 * dice.vector()};
     const Eigen::Vector3d centre(truth.centre.data());
-    const FittedMatrix fit = fit_matrix(measure(system, places, 0),
+    const FittedMatrix fit = fit_matrix(measure(system, positions, 0),
                                         {.offset = true, .gradients = true, .centre = centre});
     const Actuation found = system_with(fit).at(centre), expected = system.at(centre);
     EXPECT_LE((found.field - expected.field).norm(), 1e-9);
@@ -131,8 +131,8 @@ TEST(GradientFit, FindsAHelmholtzSystemWithinItsStandardErrors) {
 TEST(GradientFit, StandardErrorsAreTheSpreadOfManyFits) {
   test::Dice dice(5);
   const CoilSystem system = helmholtz();
-  const std::vector<Eigen::Vector3d> places = cross({0, 0, 0}, 2000);
-  FieldMeasurements measured = measure(system, places, 0);
+  const std::vector<Eigen::Vector3d> positions = cross({0, 0, 0}, 2000);
+  FieldMeasurements measured = measure(system, positions, 0);
   const std::vector<FieldMeasurement> exact = measured.rows;
   constexpr int fits = 300;
   for (const bool with : {false, true}) {
@@ -152,9 +152,9 @@ TEST(GradientFit, StandardErrorsAreTheSpreadOfManyFits) {
 
 TEST(GradientFit, RefusesWhatPositionsDoNotTell) {
   const CoilSystem system = helmholtz();
-  const auto refusal = [&](const std::vector<Eigen::Vector3d>& places, bool offset = true) {
+  const auto refusal = [&](const std::vector<Eigen::Vector3d>& positions, bool offset = true) {
     return test::error_of(
-        [&] { fit_matrix(measure(system, places, 0), {.offset = offset, .gradients = true}); });
+        [&] { fit_matrix(measure(system, positions, 0), {.offset = offset, .gradients = true}); });
   };
   EXPECT_TRUE(test::is_one_line_naming(
       refusal({{0, 0, 0}}), "m.csv",
@@ -168,7 +168,7 @@ TEST(GradientFit, RefusesWhatPositionsDoNotTell) {
   // One coil was only measured at one of them.
   FieldMeasurements some = measure(system, cross({0, 0, 0}, 1000), 0);
   std::erase_if(some.rows, [](const FieldMeasurement& row) {
-    return row.currents[1] != 0 && !row.place.isZero();
+    return row.currents[1] != 0 && !row.position.isZero();
   });
   const std::string why =
       test::error_of([&] { fit_matrix(some, {.offset = true, .gradients = true}); });
@@ -220,10 +220,10 @@ TEST(GradientFitData, GradientsNearTheCentreAreThoseOfTheMultipoles) {
       for (std::size_t i = 0; i < coils; ++i)
         row.currents[static_cast<Eigen::Index>(i)] = number(3 + i);
       for (std::size_t k = 0; k < 3; ++k) {
-        row.place[static_cast<Eigen::Index>(k)] = 1e6 * number(k);
+        row.position[static_cast<Eigen::Index>(k)] = 1e6 * number(k);
         row.field[static_cast<Eigen::Index>(k)] = 1e3 * number(3 + coils + k);
       }
-      if (row.place.norm() < 4500) measured.rows.push_back(row);
+      if (row.position.norm() < 4500) measured.rows.push_back(row);
     }
     const FitOptions options{.gradients = true, .centre = Eigen::Vector3d::Zero()};
     const FittedMatrix fit = fit_matrix(measured, options);

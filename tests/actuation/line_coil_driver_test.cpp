@@ -261,12 +261,12 @@ TEST(LineCoilDriver, AnInterruptionDoesNotWaitForTheAnswer) {
 }
 
 template <class Open>
-void refuses(Open&& open, const std::string& place, const std::vector<std::string>& parts) {
+void refuses(Open&& open, const std::string& position, const std::vector<std::string>& parts) {
   try {
     open();
-    FAIL() << place;
+    FAIL() << position;
   } catch (const HardwareError& e) {
-    EXPECT_TRUE(test::is_one_line_naming(e.what(), place, parts));
+    EXPECT_TRUE(test::is_one_line_naming(e.what(), position, parts));
   }
 }
 

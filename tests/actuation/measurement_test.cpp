@@ -25,7 +25,7 @@ TEST(MeasurementPlan, HoldsEveryCurrentForEver) {
   const CoilSystem system = two_coils(
       {{.thermal_resistance = 2, .max_current = 10, .max_temperature = 60}, {.max_current = 2.47}});
   const auto steps =
-      measurement_plan(system, {.places = {{0, 0, 0}, {5, 0, 0}}, .levels = 2, .pairs = true});
+      measurement_plan(system, {.positions = {{0, 0, 0}, {5, 0, 0}}, .levels = 2, .pairs = true});
   ASSERT_EQ(steps.size(), 2u * (1 + 2 * 2 * 2 + 1));
   for (const MeasurementStep& step : steps)
     EXPECT_EQ(CoilDrive(system.drives()).steady(step.currents).scale, 1);
@@ -34,13 +34,13 @@ TEST(MeasurementPlan, HoldsEveryCurrentForEver) {
   EXPECT_NEAR(steps[1].currents[0], 0.5 * steps[2].currents[0], 1e-12);
   EXPECT_EQ(steps[6].currents[1], 1.9);  // 80 %, two digits
   EXPECT_EQ(steps[9].currents, Eigen::VectorXd(steps[2].currents + steps[6].currents));
-  EXPECT_EQ(steps[10].place, Eigen::Vector3d(5, 0, 0));
+  EXPECT_EQ(steps[10].position, Eigen::Vector3d(5, 0, 0));
 }
 
 TEST(MeasurementPlan, RefusesCurrentsThatCannotBeHeld) {
   const auto refusal = [](const std::vector<DriveParams>& drives, std::optional<double> current) {
     return test::error_of([&] {
-      measurement_plan(two_coils(drives), {.places = {{0, 0, 0}}, .current = current});
+      measurement_plan(two_coils(drives), {.positions = {{0, 0, 0}}, .current = current});
     });
   };
   EXPECT_TRUE(test::is_one_line_naming(refusal({{.max_current = 3}, {.max_current = 2}}, 2.5), "",
@@ -52,12 +52,12 @@ TEST(MeasurementPlan, RefusesCurrentsThatCannotBeHeld) {
 
 TEST(MeasurementPlan, ARowMeetsOneStep) {
   const CoilSystem system = two_coils({{.max_current = 10}});
-  const auto steps = measurement_plan(system, {.places = {{0, 0, 0}, {9, 0, 0}}});
+  const auto steps = measurement_plan(system, {.positions = {{0, 0, 0}, {9, 0, 0}}});
   std::vector<FieldMeasurement> rows;
   EXPECT_EQ(missing_steps(steps, rows).size(), 10u);
   const auto measured = [&](const Eigen::VectorXd& currents, const Eigen::VectorXd& planned,
-                            const Eigen::Vector3d& place) {
-    rows.push_back({currents, place, {}, 2, planned});
+                            const Eigen::Vector3d& position) {
+    rows.push_back({currents, position, {}, 2, planned});
   };
   measured(0.6 * steps[1].currents, steps[1].currents, {0, 0, 0});  // limited by the device
   measured(steps[2].currents, Eigen::Vector2d(1, 2), {0, 0, 0});    // another's

@@ -39,10 +39,10 @@ class RigMeasure : public DrivenRig {
     const std::lock_guard lock(mutex);
     return {outputs[0] / 100.0, outputs[1] / 100.0, outputs[2] / 100.0};
   }
-  Eigen::Vector3d truth(const Eigen::Vector3d& place = Eigen::Vector3d::Zero()) {
+  Eigen::Vector3d truth(const Eigen::Vector3d& position = Eigen::Vector3d::Zero()) {
     const Eigen::Vector3d I = currents();
     const Eigen::Matrix3d G = gradient_of(FiveGradients(truth_G * I)) * mt_per_um_of_t_per_m;
-    return truth_A * I + G * place + Eigen::Vector3d(0.02, -0.03, 0.045);
+    return truth_A * I + G * position + Eigen::Vector3d(0.02, -0.03, 0.045);
   }
   static std::string typed(const Eigen::Vector3d& b) {
     return std::to_string(b[0]) + " " + std::to_string(b[1]) + ", " + std::to_string(b[2]) + "\r";
@@ -60,10 +60,10 @@ class RigMeasure : public DrivenRig {
     terminal.press("\r");
   }
   /// Answers `count` questions.
-  void answer(Terminal& terminal, int count, const Eigen::Vector3d& place) {
+  void answer(Terminal& terminal, int count, const Eigen::Vector3d& position) {
     for (int i = 0; i < count; ++i) {
       ASSERT_TRUE(terminal.hears(question)) << terminal.said();
-      terminal.press(typed(truth(place)));
+      terminal.press(typed(truth(position)));
     }
   }
   std::size_t rows() const {
@@ -86,11 +86,11 @@ class RigMeasure : public DrivenRig {
 
 TEST_F(RigMeasure, AnOperatorIsGuidedToMatrixAndGradients) {
   Terminal terminal(arguments({"--positions", "0,0,0;5000,0,0;0,5000,0", "--gradients"}), at);
-  for (const Eigen::Vector3d& place : {Eigen::Vector3d(0, 0, 0), {5000, 0, 0}, {0, 5000, 0}}) {
+  for (const Eigen::Vector3d& position : {Eigen::Vector3d(0, 0, 0), {5000, 0, 0}, {0, 5000, 0}}) {
     ASSERT_TRUE(terminal.hears("then Enter")) << terminal.said();
     EXPECT_EQ(currents().norm(), 0);
     terminal.press("\r");
-    answer(terminal, 7, place);
+    answer(terminal, 7, position);
   }
   EXPECT_EQ(terminal.wait(), 0) << terminal.said();
   EXPECT_EQ(rows(), 21u);

@@ -54,7 +54,7 @@ TEST_F(RigRun, DrivesTheDeviceUntilItsTimeIsUp) {
   ASSERT_TRUE(frame.observed);
   const auto seen = std::ranges::find(log.seen_at, frame.seen);
   ASSERT_NE(seen, log.seen_at.end());
-  EXPECT_EQ(log.places[static_cast<std::size_t>(seen - log.seen_at.begin())].x,
+  EXPECT_EQ(log.positions[static_cast<std::size_t>(seen - log.seen_at.begin())].x,
             frame.observed->position.x);
   const std::string commands = read("out/commands.csv");
   const auto rows = split(commands, '\n');

@@ -53,7 +53,7 @@ TEST(RobotRun, GathersAndComesBackFromItsFileToTheSameBits) {
   const Record record = record_of(scenario);
   EXPECT_EQ(record.result.status, Status::solved);
   EXPECT_LE(record.result.metrics.goal_distance, 10);
-  EXPECT_EQ(record.robots.front().places.size(), 32u);
+  EXPECT_EQ(record.robots.front().positions.size(), 32u);
   EXPECT_EQ(record.robots.back().t, record.result.metrics.time);
   const auto file = std::filesystem::path(testing::TempDir()) / "robots.h5";
   write_record(record, file);
@@ -67,9 +67,9 @@ TEST(RobotRun, GoalsOfTheirOwn) {
   ASSERT_EQ(check_error(two_robots()), "");
   const Record record = record_of(two_robots());
   EXPECT_EQ(record.result.status, Status::solved);
-  const std::vector<Vec2>& places = record.robots.back().places;
+  const std::vector<Vec2>& positions = record.robots.back().positions;
   for (std::size_t i = 0; i < 2; ++i)
-    EXPECT_LE(distance(places[i], record.scene.scenario.robots->goals[i]), 20);
+    EXPECT_LE(distance(positions[i], record.scene.scenario.robots->goals[i]), 20);
   EXPECT_EQ(replay(record).difference, "");
 }
 

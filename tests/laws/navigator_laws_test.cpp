@@ -362,8 +362,8 @@ TEST(RadarLaws, NoCommandIntoAScreenedDirection) {
         const double step = state == NavigatorState::direct
                                 ? std::min(25.0, distance(pose.position, scene.goal))
                                 : 25.0;
-        const Vec2 place = pose.position + step * unit_vector(c.heading);
-        ASSERT_GE(world.clearance(place), radius + 25 - 1e-9) << trial << ", " << k;
+        const Vec2 position = pose.position + step * unit_vector(c.heading);
+        ASSERT_GE(world.clearance(position), radius + 25 - 1e-9) << trial << ", " << k;
         avoided += state == NavigatorState::avoid;
       } else {
         ASSERT_EQ(c.speed > 0, state == NavigatorState::retreat || state == NavigatorState::guard)

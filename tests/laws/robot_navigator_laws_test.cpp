@@ -176,11 +176,11 @@ TEST_P(RobotNavigatorLaws, HoldsWithoutAGoodLook) {
   test::RobotScene s = scene(GetParam().robots, 0);
   const auto navigator = make(s.params);
   navigator->prepare(s.world, {});
-  std::vector<Vec2> places = s.places();
+  std::vector<Vec2> positions = s.places();
   const auto expect_hold = [&](const char* what, auto spoil) {
     Observation bad = s.observe();
-    places.assign(bad.robots.begin(), bad.robots.end());
-    bad.robots = places;
+    positions.assign(bad.robots.begin(), bad.robots.end());
+    bad.robots = positions;
     spoil(bad);
     const Command c = navigator->step(bad, {});
     EXPECT_EQ(c.speed, 0) << what;
@@ -190,8 +190,8 @@ TEST_P(RobotNavigatorLaws, HoldsWithoutAGoodLook) {
   };
   for (int k = 0; k < 2; ++k) {  // before it ever saw the robots, and on their way
     expect_hold("no robots", [](Observation& o) { o.robots = {}; });
-    expect_hold("no number", [&](Observation&) { places.back().y = no_number; });
-    expect_hold("infinite", [&](Observation&) { places.front().x = 1 / 0.0; });
+    expect_hold("no number", [&](Observation&) { positions.back().y = no_number; });
+    expect_hold("infinite", [&](Observation&) { positions.front().x = 1 / 0.0; });
     expect_hold("stale", [](Observation& o) { o.seen = o.now - robot_timeout - 0.01; });
     if (!GetParam().goal)
       expect_hold("too few", [](Observation& o) { o.robots = o.robots.first(1); });
@@ -227,14 +227,14 @@ TEST_P(RobotNavigatorLaws, RobotsInAWallAreNoCrash) {
   const test::RobotScene s = scene(GetParam().robots, 0);
   const auto navigator = make(s.params);
   navigator->prepare(s.world, {});
-  std::vector<Vec2> places = s.places();
+  std::vector<Vec2> positions = s.places();
   const Box bounds = s.map.bounds();
   for (int k = 0; k < 6; ++k) {
     const double t = k / 5.0;
-    places[0] = {bounds.lo.x + t * bounds.width(), bounds.lo.y + t * bounds.height()};
+    positions[0] = {bounds.lo.x + t * bounds.width(), bounds.lo.y + t * bounds.height()};
     Observation seen = s.observe();
     seen.now = seen.seen = robot_tick * k;
-    seen.robots = places;
+    seen.robots = positions;
     const Command c = navigator->step(seen, {});
     EXPECT_TRUE(std::isfinite(c.heading) && std::isfinite(c.speed));
     EXPECT_LE(c.speed, s.params.max_speed * (1 + 1e-12));

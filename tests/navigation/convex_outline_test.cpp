@@ -77,11 +77,11 @@ TEST(ConvexOutline, HowHollowABodyMayBeIsTuned) {
   const Polygon angle{
       .outer = {{0, 0}, {100, 0}, {100, 10}, {10, 10}, {10, 100}, {0, 100}}};  // 0.62 hollow
   const std::vector<Vec2> inside{{40, 40}};
-  const auto misleads = [&](const ConvexOutlineTuning& tuning, std::span<const Vec2> places) {
+  const auto misleads = [&](const ConvexOutlineTuning& tuning, std::span<const Vec2> positions) {
     ConvexOutliner outliner(tuning);
     ConvexOutline outline;
     outliner.take({.shape = angle}, outline);
-    return outliner.misleads(outline, places);
+    return outliner.misleads(outline, positions);
   };
   EXPECT_TRUE(misleads({}, {}));
   EXPECT_FALSE(misleads({.max_hollow = 0.9}, {}));

@@ -30,13 +30,13 @@ struct Gathering {
   }
   Robots robots(int count, std::uint32_t trial) const {
     Rng rng(2, Purpose::scene, trial);
-    std::vector<Vec2> places;
+    std::vector<Vec2> positions;
     const Box& b = scene.bounds;
-    while (std::ssize(places) < count) {
+    while (std::ssize(positions) < count) {
       const Vec2 p = uniform_in(b, rng);
-      if (ground.map.is_free(p, 4 * stepper.guard())) places.push_back(p);
+      if (ground.map.is_free(p, 4 * stepper.guard())) positions.push_back(p);
     }
-    return stepper.place(places);
+    return stepper.place(positions);
   }
 };
 

@@ -13,7 +13,7 @@ namespace {
 
 /// Third difference of evenly spaced sightings, in standard deviations of a coordinate's noise.
 double third_difference_at(const std::vector<Sighting>& s, std::size_t i) {
-  return norm(s[i + 3].place - s[i].place + 3 * (s[i + 1].place - s[i + 2].place)) /
+  return norm(s[i + 3].position - s[i].position + 3 * (s[i + 1].position - s[i + 2].position)) /
          std::sqrt(20.0);
 }
 

@@ -40,8 +40,8 @@ class PlainSafetyFilter {
     look_at_bodies(world);
     std::optional<Command> instead;
     if (!threats_.empty() || !nonconvex_.empty()) {
-      gap_now_ = gap(start.place, 0, params_.gap, 0);
-      wall_keep_ = std::clamp(world.map().clearance(start.place) - 1e-6, 0.0,
+      gap_now_ = gap(start.position, 0, params_.gap, 0);
+      wall_keep_ = std::clamp(world.map().clearance(start.position) - 1e-6, 0.0,
                               start.radius + params_.wall_gap);
       instead = checked(wanted, world.map(), std::max(tick, params_.commitment));
     }
@@ -73,7 +73,7 @@ class PlainSafetyFilter {
     const SafetyFilterTuning& tuning = params_.tuning;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       const Disc extent = extent_of(bodies[i]);
-      const double far = distance(extent.centre, start_.place) - extent.radius - start_.radius;
+      const double far = distance(extent.centre, start_.position) - extent.radius - start_.radius;
       const TrackedBody motion = tracker_.body(i);
       const double widening = outward_speed(bodies[i], motion);
       const double closing = speed_ + norm(motion.velocity) + params_.gap_rate;
@@ -83,9 +83,9 @@ class PlainSafetyFilter {
         continue;
       Threat met{{}, motion.velocity, widening, widening + norm(motion.velocity)};
       outliner_.take(bodies[i], met.outline);
-      if (outliner_.misleads(met.outline, std::array{start_.place})) {
+      if (outliner_.misleads(met.outline, std::array{start_.position})) {
         nonconvex.push_back(bodies[i]);
-        const Disc reach{start_.place,
+        const Disc reach{start_.position,
                          start_.radius + speed_ * (tuning.max_dead_time + tuning.growth_time)};
         closing_ = std::max(
             closing_, tracker_.outline_speed_within(i, bodies[i], reach) + norm(motion.velocity));
@@ -118,14 +118,14 @@ class PlainSafetyFilter {
     for (int s = 1; s <= samples_; ++s) {
       const double t = s * params_.step;
       if (t - params_.step < trajectory.until && trajectory.until < t)
-        if (!visit(trajectory.until, start_.place + trajectory.at(trajectory.until))) return;
-      if (!visit(t, start_.place + trajectory.at(t))) return;
+        if (!visit(trajectory.until, start_.position + trajectory.at(trajectory.until))) return;
+      if (!visit(t, start_.position + trajectory.at(t))) return;
     }
   }
 
   bool is_free(const Map& map, const EscapeTrajectory& trajectory) const {
     bool free = true;
-    follow(trajectory, [&, last = start_.place](double t, Vec2 p) mutable {
+    follow(trajectory, [&, last = start_.position](double t, Vec2 p) mutable {
       const double required = std::min(params_.gap, gap_now_ + params_.tuning.recovery_rate * t);
       const Vec2 from = std::exchange(last, p);
       free = gap(p, t, required + 1, params_.gap_rate) >= required &&
@@ -139,7 +139,7 @@ class PlainSafetyFilter {
     const SafetyFilterTuning& tuning = params_.tuning;
     EscapeOutcome out{.until_contact = 0, .least = tuning.counted_gap, .last = 0};
     bool touched = false;
-    follow(trajectory, [&, last = start_.place](double t, Vec2 p) mutable {
+    follow(trajectory, [&, last = start_.position](double t, Vec2 p) mutable {
       const Vec2 from = std::exchange(last, p);
       if (p != from && !map.is_free(Segment{from, p}, wall_keep_)) return false;
       out.last = gap(p, t, tuning.counted_gap, 0);

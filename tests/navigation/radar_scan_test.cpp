@@ -210,9 +210,10 @@ TEST(RadarScanner, ChoosesAsTheFullScanDoes) {
     ASSERT_TRUE(!fast || slow.best) << trial;
     screened += !slow.best;
     if (!fast && slow.best) {  // walls alone, and no way gains
-      const Vec2 place = c.look.centre + c.look.step * unit_vector(slow.beams[*slow.best].heading);
+      const Vec2 position =
+          c.look.centre + c.look.step * unit_vector(slow.beams[*slow.best].heading);
       ASSERT_FALSE(contact);
-      ASSERT_GE(distance(place, c.look.target), distance(c.look.centre, c.look.target)) << trial;
+      ASSERT_GE(distance(position, c.look.target), distance(c.look.centre, c.look.target)) << trial;
     }
     if (!fast) continue;
     ASSERT_EQ(*fast, slow.beams[*slow.best].heading) << trial;

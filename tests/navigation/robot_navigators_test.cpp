@@ -45,8 +45,8 @@ TEST(RobotDelayCompensator, ARobotSeenJustInAWallDoesNotGoThroughIt) {
   const test::RobotScene rig(scenes::global_world(1), params, params.starts, 0);
   RobotDelayCompensator forecast(rig.map, params.max_speed * robot_tick, params.contact, 0);
   Observation seen = rig.observe();
-  const std::vector<Vec2> places{{260, 174.99}, {330, 200}};
-  seen.robots = places;
+  const std::vector<Vec2> positions{{260, 174.99}, {330, 200}};
+  seen.robots = positions;
   forecast.note(0, {radians(-90), 30});
   seen.now = 0.1;
   const Robots robots = forecast.at_effect(seen);
@@ -64,9 +64,9 @@ TEST(PlanExecutor, SeenWithErrorsItArrives) {
   int planned = 0;
   for (int i = 0; i < 3000 && rig.worst() > 20; ++i) {
     Observation seen = rig.observe();
-    std::vector<Vec2> places(seen.robots.begin(), seen.robots.end());
-    for (Vec2& place : places) place += 0.2 * Vec2{eye.normal(), eye.normal()};
-    seen.robots = places;
+    std::vector<Vec2> positions(seen.robots.begin(), seen.robots.end());
+    for (Vec2& position : positions) position += 0.2 * Vec2{eye.normal(), eye.normal()};
+    seen.robots = positions;
     rig.apply(player.step(seen, {}));
     planned += player.view().planned;
   }

@@ -43,7 +43,7 @@ struct Drive {
   int overruled = 0;
 };
 
-/// Drives a swarm that wants what `wants(t, place)` says, and the guard allows.
+/// Drives a swarm that wants what `wants(t, position)` says, and the guard allows.
 template <class Wants>
 Drive drive(const std::vector<Mover>& movers, Vec2 start, double seconds, Wants&& wants) {
   SafetyFilter guard({}, guard_speed);

@@ -19,17 +19,17 @@ void expect_all_come_home(const scenes::GlobalTask& task) {
   Rng rng(1, Purpose::planner);
   const GlobalPlan plan = global_search(task.map, task.starts, task.goals, params, rng).plan;
   ASSERT_EQ(plan.status, Status::solved);
-  std::vector<Vec2> places = task.starts;
+  std::vector<Vec2> positions = task.starts;
   const RobotStepper stepper = input_stepper(task.map, params.robostep);
   for (const Vec2 input : plan.inputs)
-    for (Vec2& p : places) {
+    for (Vec2& p : positions) {
       const PointF moved =
           stepper.moved(stepper.relative(p), {float(input.x), float(input.y)}, ContactRule::slide);
       p = task.map.bounds().centre() +
           Vec2{static_cast<double>(moved.x), static_cast<double>(moved.y)};
     }
-  for (std::size_t i = 0; i < places.size(); ++i)
-    EXPECT_LE(distance(places[i], task.goals[i]), params.goal_tolerance + 1e-3) << i;
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    EXPECT_LE(distance(positions[i], task.goals[i]), params.goal_tolerance + 1e-3) << i;
 }
 
 TEST(GlobalSample, TwoRobotsAmongVeins) {

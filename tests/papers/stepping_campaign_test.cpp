@@ -44,13 +44,13 @@ std::vector<Ground> grounds() {
 }
 
 Robots anywhere(const RobotStepper& stepper, const Map& map, Rng& rng) {
-  std::vector<Vec2> places;
+  std::vector<Vec2> positions;
   const Box& b = map.bounds();
-  for (int draw = 0; draw < 10'000'000 && std::ssize(places) < robots_a_map; ++draw) {
+  for (int draw = 0; draw < 10'000'000 && std::ssize(positions) < robots_a_map; ++draw) {
     const Vec2 p = uniform_in(b, rng);
-    if (map.is_free(p, 4 * stepper.guard())) places.push_back(p);
+    if (map.is_free(p, 4 * stepper.guard())) positions.push_back(p);
   }
-  return stepper.place(places);
+  return stepper.place(positions);
 }
 
 /// Robots that have left the free space, of as many steps as asked for: some of the headings along

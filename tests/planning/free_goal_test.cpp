@@ -65,17 +65,17 @@ TEST(PushedFree, HasTheClearanceAndIsBesideThePlace) {
     const Map& map = snapshot.map();
     for (int k = 0; k < 20; ++k) {
       const double x = rng.uniform(0, 1000);
-      const Vec2 place{x, rng.uniform(0, 700)};
-      const double has = map.clearance(place);
-      const auto found = pushed_free(map, place, 20);
+      const Vec2 position{x, rng.uniform(0, 700)};
+      const double has = map.clearance(position);
+      const auto found = pushed_free(map, position, 20);
       if (has >= 20) {
-        EXPECT_EQ(found, place);
+        EXPECT_EQ(found, position);
         continue;
       }
       ++(found ? pushed : not_pushed);
       if (!found) continue;
       EXPECT_TRUE(map.is_free(*found, 20));
-      EXPECT_GE(distance(*found, place), 20 - has - 1e-6);
+      EXPECT_GE(distance(*found, position), 20 - has - 1e-6);
     }
   }
   EXPECT_GT(pushed, 30);

@@ -56,19 +56,19 @@ TEST_F(RunVideos, ShowTheRunFromItsBeginToItsEnd) {
   EXPECT_EQ(video.pictures, static_cast<int>(record_.frames.back().t / 2) + 1);
   const auto frames = open_frames(file);
   VideoFrame frame;
-  std::vector<std::pair<int, int>> places;
+  std::vector<std::pair<int, int>> positions;
   while (frames->next(frame)) {
     EXPECT_EQ(frame.picture.width, 642);
     EXPECT_EQ(frame.picture.height % 2, 0);
-    places.push_back(swarm_columns(frame.picture));
+    positions.push_back(swarm_columns(frame.picture));
   }
-  ASSERT_EQ(places.size(), static_cast<std::size_t>(video.pictures));
+  ASSERT_EQ(positions.size(), static_cast<std::size_t>(video.pictures));
   const Box view = build_world(record_.scene).map->bounds();
   const double scale = (641 - 48) / view.width();
-  for (const std::size_t k : {std::size_t{0}, places.size() / 2}) {
+  for (const std::size_t k : {std::size_t{0}, positions.size() / 2}) {
     const double t = static_cast<double>(k) * 2;
     const auto at = std::ranges::lower_bound(record_.frames, t - 1e-9, {}, &Frame::t);
-    const double middle = 0.5 * (places[k].first + places[k].second);
+    const double middle = 0.5 * (positions[k].first + positions[k].second);
     EXPECT_NEAR(middle, 24 + (at->pose.position.x - view.lo.x) * scale, 3) << "picture " << k;
   }
 }

@@ -27,7 +27,7 @@ TEST_F(LiveRigs, DrivesTheSwarmInRealTime) {
   EXPECT_EQ(result.status, Status::stopped);
   EXPECT_GT(driven, 0.1);
   // 10 pictures and 200 sendings a second are meant, far fewer come on a busy computer.
-  EXPECT_GT(distance(place, start), 0.1 * 3 * limits_of(scene.scenario.swarm).max_speed);
+  EXPECT_GT(distance(position, start), 0.1 * 3 * limits_of(scene.scenario.swarm).max_speed);
   EXPECT_GE(timing.frames, 3);
   EXPECT_GE(coils->drives, 30);
   EXPECT_LE(coils->drives, 700);

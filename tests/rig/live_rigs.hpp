@@ -176,7 +176,7 @@ class LiveRigs : public ::testing::Test {
                                      std::chrono::duration<double>(seconds))));
     timing = plant.timing();
     at_end = coils->strongest;
-    place = simulator.swarm().pose.position;
+    position = simulator.swarm().pose.position;
     over = true;
     trouble_maker.join();
     if (then) std::printf("coils at zero after %.3f s\n", zero_after);
@@ -208,7 +208,7 @@ class LiveRigs : public ::testing::Test {
   double began = 0;       // the trouble
   double zero_after = 0;  // [s] it took until the coils were at zero
   double at_end = -1;     // [A], when the run has ended
-  Vec2 place;
+  Vec2 position;
   RigTiming timing;
 };
 

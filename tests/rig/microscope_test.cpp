@@ -23,8 +23,8 @@ MicroscopeParams plain() {
   return p;
 }
 
-std::uint8_t grey_at(const Microscope& m, const Image& picture, Vec2 place) {
-  const Vec2 at = m.scale().to_picture(place);
+std::uint8_t grey_at(const Microscope& m, const Image& picture, Vec2 position) {
+  const Vec2 at = m.scale().to_picture(position);
   return picture.pixels[picture.index(static_cast<int>(std::lround(at.x)),
                                       static_cast<int>(std::lround(at.y)))];
 }
@@ -58,12 +58,12 @@ TEST(Microscope, TheSwarmIsADarkCloudOfItsRadius) {
   double farthest = 0;
   for (int row = 16; row < microscope.height() - 16; ++row)
     for (int column = 16; column < microscope.width() - 16; ++column) {
-      const Vec2 place = microscope.scale().to_world({1.0 * column, 1.0 * row});
-      if (!map->is_free(place, 2)) continue;
+      const Vec2 position = microscope.scale().to_world({1.0 * column, 1.0 * row});
+      if (!map->is_free(position, 2)) continue;
       const double dark = 180 - picture.pixels[picture.index(column, row)];
       sum += dark;
-      x += dark * place.x;
-      if (dark > 5) farthest = std::max(farthest, distance(place, Vec2{50, 150}));
+      x += dark * position.x;
+      if (dark > 5) farthest = std::max(farthest, distance(position, Vec2{50, 150}));
     }
   EXPECT_NEAR(x / sum, 50, 2);
   EXPECT_NEAR(farthest, 40, 1.5);

@@ -62,7 +62,7 @@ TEST_F(VanishingRobots, AFewUnseenAreCountedAndStayWhereTheyAreExpected) {
     EXPECT_EQ(seen.unseen, 3);
     for (const Vec2 robot : robots)
       EXPECT_TRUE(std::any_of(seen.robots.begin(), seen.robots.end(),
-                              [&](Vec2 place) { return distance(place, robot) < 3; }));
+                              [&](Vec2 position) { return distance(position, robot) < 3; }));
   }
   EXPECT_EQ(see(robots).unseen, 0);
 }
@@ -106,13 +106,14 @@ TEST(RobotPerception, PilesAreSeenAsOneAndComeApartAgain) {
   };
   double t = 0;
   for (; robots[0].x < robots[1].x; robots[0].x += 4) see(t += 0.1);
-  for (const Vec2 place : see(t += 0.1).robots)
-    EXPECT_LT(std::min(distance(place, robots[1]), distance(place, robots[2])), 7);  // its radius
+  for (const Vec2 position : see(t += 0.1).robots)
+    EXPECT_LT(std::min(distance(position, robots[1]), distance(position, robots[2])),
+              7);  // its radius
   for (int i = 0; i < 40; ++i, robots[0].y += 4) see(t += 0.1);
   const Detections& apart = see(t += 0.1);
-  const auto near = [&](Vec2 place) {
+  const auto near = [&](Vec2 position) {
     return std::any_of(apart.robots.begin(), apart.robots.end(),
-                       [&](Vec2 p) { return distance(p, place) < 3; });
+                       [&](Vec2 p) { return distance(p, position) < 3; });
   };
   for (const Vec2 robot : robots) EXPECT_TRUE(near(robot));
 }
@@ -145,20 +146,20 @@ Lost drive_to_and_fro(int count) {
   Robots robots = stepper.place(starts);
   RobotPerception perception(params, {}, *map, starts, view_of(microscope));
   constexpr double near = 30;  // [µm]; a robot's picture is 16 µm wide
-  const auto alone = [](Vec2 place, const std::vector<Vec2>& others) {
+  const auto alone = [](Vec2 position, const std::vector<Vec2>& others) {
     return std::none_of(others.begin(), others.end(),
-                        [&](Vec2 other) { return distance(place, other) < near; });
+                        [&](Vec2 other) { return distance(position, other) < near; });
   };
   Lost lost;
   Command command;
   for (int frame = 0; frame < 300; ++frame) {
     if (frame % 10 == 0) command = {rng.uniform(-pi, pi), 150};
     const double t = 0.1 * frame;
-    const std::vector<Vec2> places = robots.positions();
+    const std::vector<Vec2> positions = robots.positions();
     const Detections& seen =
-        perception.process(microscope.look(Snapshot(map, t), std::nullopt, places), t);
-    for (const Vec2 place : places) lost.unseen += alone(place, seen.robots);
-    for (const Vec2 place : seen.robots) lost.ghosts += alone(place, places);
+        perception.process(microscope.look(Snapshot(map, t), std::nullopt, positions), t);
+    for (const Vec2 position : positions) lost.unseen += alone(position, seen.robots);
+    for (const Vec2 position : seen.robots) lost.ghosts += alone(position, positions);
     perception.commanded(command, t);
     stepper.step(robots, displacement(command, 0.1), ContactRule::stop);
   }
@@ -196,22 +197,22 @@ class NumbersOfAllPairs {
  public:
   explicit NumbersOfAllPairs(double reach) : reach_(reach) {}
 
-  std::vector<std::uint32_t> number(const std::vector<Vec2>& places) {
+  std::vector<std::uint32_t> number(const std::vector<Vec2>& positions) {
     std::vector<AssignmentEdge> edges;
-    for (std::size_t i = 0; i < places.size(); ++i)
+    for (std::size_t i = 0; i < positions.size(); ++i)
       for (std::size_t k = 0; k < known_.size(); ++k) {
-        const double off = squared_norm(places[i] - known_[k]);
+        const double off = squared_norm(positions[i] - known_[k]);
         if (off <= reach_ * reach_)
           edges.push_back({static_cast<int>(i), static_cast<int>(k), off});
       }
-    const auto of = Assignment().solve(static_cast<int>(places.size()),
+    const auto of = Assignment().solve(static_cast<int>(positions.size()),
                                        static_cast<int>(known_.size()), edges, reach_ * reach_);
     std::vector<std::uint32_t> numbers;
-    for (std::size_t i = 0; i < places.size(); ++i) {
+    for (std::size_t i = 0; i < positions.size(); ++i) {
       if (!of[i]) known_.emplace_back();
       numbers.push_back(
           static_cast<std::uint32_t>(of[i] ? *of[i] : static_cast<int>(known_.size()) - 1));
-      known_[numbers.back()] = places[i];
+      known_[numbers.back()] = positions[i];
     }
     return numbers;
   }
@@ -230,16 +231,16 @@ TEST(BodyNumbers, AreThoseOfAllPairs) {
     const double size = rng.uniform(300, 2000);
     BodyNumbers fast(reach);
     NumbersOfAllPairs slow(reach);
-    std::vector<Vec2> places;
+    std::vector<Vec2> positions;
     for (std::size_t i = 0; i < count; ++i)
-      places.push_back({rng.uniform(0, size), rng.uniform(0, size)});
+      positions.push_back({rng.uniform(0, size), rng.uniform(0, size)});
     for (const double t : {0.0, 0.1}) {
       std::vector<Body> bodies;
-      for (const Vec2 place : places) bodies.push_back({.shape = Disc{place, 5}});
+      for (const Vec2 position : positions) bodies.push_back({.shape = Disc{position, 5}});
       fast.number(bodies, t);
-      const std::vector<std::uint32_t> expected = slow.number(places);
+      const std::vector<std::uint32_t> expected = slow.number(positions);
       for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(bodies[i].obstacle, expected[i]) << trial;
-      for (Vec2& place : places) place += Vec2{rng.uniform(-10, 10), rng.uniform(-10, 10)};
+      for (Vec2& position : positions) position += Vec2{rng.uniform(-10, 10), rng.uniform(-10, 10)};
     }
   }
 }

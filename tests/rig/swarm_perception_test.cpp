@@ -32,15 +32,15 @@ TEST(SwarmPerception, FollowsASwarmAmongObstacles) {
   std::uint32_t standing_number = 0;
   for (int i = 0; i < 60; ++i) {
     const double t = 0.1 * i;
-    const Vec2 place{200 + 80 * t, 300 + 40 * t};
-    const SwarmPose swarm{{place, 0}, 40};
+    const Vec2 position{200 + 80 * t, 300 + 40 * t};
+    const SwarmPose swarm{{position, 0}, 40};
     // One goes along with it, 8 µm from edge to edge; one stands.
     const Snapshot world(map, t,
-                         {{.shape = Disc{place + Vec2{0, 108}, 60}, .obstacle = 0},
+                         {{.shape = Disc{position + Vec2{0, 108}, 60}, .obstacle = 0},
                           {.shape = Disc{{900, 250}, 50}, .obstacle = 1}});
     const Detections& seen = perception.process(microscope.look(world, swarm, {}), t);
     ASSERT_TRUE(seen.swarm) << t << " " << seen.trouble;
-    EXPECT_LT(distance(seen.swarm->pose.position, place), 3) << t;
+    EXPECT_LT(distance(seen.swarm->pose.position, position), 3) << t;
     EXPECT_NEAR(seen.swarm->radius, 40, 4);
     if (i > 5) {
       EXPECT_LT(turn_between(seen.swarm->pose.heading, std::atan2(1, 2)), 0.15);
@@ -198,7 +198,7 @@ struct Followed {
   SwarmPerception perception{
       eye_params(), {.max_speed = 40}, *map, {{300, 400}, 0}, view_of(microscope)};
   double t = 0;
-  Vec2 place{300, 400};
+  Vec2 position{300, 400};
 
   const Detections& see(Vec2 at, double radius) {
     t += 0.1;
@@ -207,29 +207,29 @@ struct Followed {
   Followed() {
     for (int i = 0; i < 20; ++i) {
       perception.commanded({0, 40}, t);
-      place.x += 4;
-      EXPECT_TRUE(see(place, 60).swarm) << i;
+      position.x += 4;
+      EXPECT_TRUE(see(position, 60).swarm) << i;
     }
   }
 };
 
 TEST(SwarmPerception, WhatItCannotHaveReachedIsNotTheSwarm) {
   Followed f;
-  const Detections& seen = f.see(f.place + Vec2{120, 60}, 60);
+  const Detections& seen = f.see(f.position + Vec2{120, 60}, 60);
   EXPECT_FALSE(seen.swarm);
   EXPECT_EQ(seen.trouble, "far");
   // It may come back to where it can have gone meanwhile.
-  EXPECT_TRUE(f.see(f.place + Vec2{8, 0}, 60).swarm);
+  EXPECT_TRUE(f.see(f.position + Vec2{8, 0}, 60).swarm);
 }
 
 TEST(SwarmPerception, WhatIsOfAnotherSizeIsNotTheSwarm) {
   Followed f;
   for (int i = 0; i < 10; ++i) {
-    const Detections& seen = f.see(f.place, 30);
+    const Detections& seen = f.see(f.position, 30);
     EXPECT_FALSE(seen.swarm);
     EXPECT_EQ(seen.trouble, "size");
   }
-  EXPECT_TRUE(f.see(f.place, 55).swarm);
+  EXPECT_TRUE(f.see(f.position, 55).swarm);
 }
 
 /// Darkens a disc of a picture, without texture.
@@ -262,15 +262,15 @@ struct Smooth {
 
 TEST(SwarmPerception, ADenseSmoothSwarmIsFollowed) {
   Smooth f;
-  Vec2 place{305, 396};
+  Vec2 position{305, 396};
   for (int i = 0; i < 30; ++i) {
     const Disc still{{800, 500}, 60};
-    const Detections& seen = f.see({{place, 60}, still});
+    const Detections& seen = f.see({{position, 60}, still});
     ASSERT_TRUE(seen.swarm) << i << " " << seen.trouble;
-    EXPECT_LT(distance(seen.swarm->pose.position, place), 3);
+    EXPECT_LT(distance(seen.swarm->pose.position, position), 3);
     ASSERT_EQ(seen.moving.size(), 1U);
     EXPECT_LT(distance(test::bounding_box(seen.moving[0]).centre(), still.centre), 5);
-    place.x += 4;
+    position.x += 4;
   }
   // When it is gone, nothing else is taken for it.
   EXPECT_FALSE(f.see({{{800, 500}, 60}}).swarm);
@@ -289,7 +289,7 @@ TEST(SwarmPerception, ASmoothBodyIsNeverTakenForASwarmThatHadTexture) {
   Followed f;
   Image picture = f.microscope.look(Snapshot(f.map), std::nullopt, {});
   const CameraScale scale = f.microscope.scale();
-  stain(picture, scale.to_picture(f.place), 60 / scale.um_per_px, 0.4);
+  stain(picture, scale.to_picture(f.position), 60 / scale.um_per_px, 0.4);
   const Detections& seen = f.perception.process(picture, f.t + 0.1);
   EXPECT_FALSE(seen.swarm);
   EXPECT_EQ(seen.trouble, "none");
@@ -309,8 +309,8 @@ Image both(Microscope& microscope, const std::shared_ptr<const Map>& map, const 
 TEST(SwarmPerception, ASplitIsToldWithItsParts) {
   for (const auto& [left, right] : {std::pair{43.0, 42.0}, {48.0, 34.0}}) {
     Followed f;
-    const Image picture = both(f.microscope, f.map, {{f.place - Vec2{60, 0}, 0}, left},
-                               {{f.place + Vec2{60, 0}, 0}, right});
+    const Image picture = both(f.microscope, f.map, {{f.position - Vec2{60, 0}, 0}, left},
+                               {{f.position + Vec2{60, 0}, 0}, right});
     const Detections& seen = f.perception.process(picture, f.t + 0.1);
     EXPECT_FALSE(seen.swarm);
     EXPECT_EQ(seen.trouble, "split");
@@ -322,13 +322,13 @@ TEST(SwarmPerception, ASplitIsToldWithItsParts) {
 
 TEST(SwarmPerception, AMergerIsToldWithWhatMerged) {
   Followed f;
-  const Vec2 second = f.place + Vec2{150, 0};
+  const Vec2 second = f.position + Vec2{150, 0};
   for (int i = 0; i < 3; ++i)
-    EXPECT_TRUE(
-        f.perception
-            .process(both(f.microscope, f.map, {{f.place, 0}, 60}, {{second, 0}, 55}), f.t += 0.1)
-            .swarm);
-  const Detections& seen = f.see(f.place + Vec2{12, 0}, 82);
+    EXPECT_TRUE(f.perception
+                    .process(both(f.microscope, f.map, {{f.position, 0}, 60}, {{second, 0}, 55}),
+                             f.t += 0.1)
+                    .swarm);
+  const Detections& seen = f.see(f.position + Vec2{12, 0}, 82);
   EXPECT_FALSE(seen.swarm);
   EXPECT_EQ(seen.trouble, "merged");
   ASSERT_EQ(seen.parts.size(), 2U);
@@ -339,7 +339,8 @@ TEST(SwarmPerception, AMergerIsToldWithWhatMerged) {
 TEST(SwarmPerception, SomethingNewBesideAWholeSwarmIsNoSplit) {
   Followed f;
   const Detections& seen = f.perception.process(
-      both(f.microscope, f.map, {{f.place, 0}, 60}, {{f.place + Vec2{100, 0}, 0}, 25}), f.t + 0.1);
+      both(f.microscope, f.map, {{f.position, 0}, 60}, {{f.position + Vec2{100, 0}, 0}, 25}),
+      f.t + 0.1);
   EXPECT_NE(seen.trouble, "split");
   EXPECT_TRUE(seen.swarm);
 }
@@ -347,22 +348,22 @@ TEST(SwarmPerception, SomethingNewBesideAWholeSwarmIsNoSplit) {
 TEST(SwarmPerception, MeasuresHowItFollows) {
   Followed f;
   f.perception.commanded({0, 40}, f.t);
-  const Detections& along = f.see(f.place += Vec2{4, 0}, 60);
+  const Detections& along = f.see(f.position += Vec2{4, 0}, 60);
   EXPECT_NEAR(along.commanded_distance, 4, 1e-9);
   EXPECT_NEAR(along.followed_distance, 4, 2);
   double followed = 0;
   for (int i = 0; i < 20; ++i) {
     f.perception.commanded({0, 40}, f.t);
-    followed += f.see(f.place += Vec2{0, 4}, 60).followed_distance;
+    followed += f.see(f.position += Vec2{0, 4}, 60).followed_distance;
   }
   EXPECT_NEAR(followed, 0, 5);  // of 80 µm
   EXPECT_NEAR(
       f.perception
-          .process(f.microscope.look(Snapshot(f.map, f.t), SwarmPose{{f.place, 0}, 60}, {}), f.t)
+          .process(f.microscope.look(Snapshot(f.map, f.t), SwarmPose{{f.position, 0}, 60}, {}), f.t)
           .across_distance,
       0, 1e-9);  // no time has passed
   f.perception.commanded({0, 40}, f.t);
-  EXPECT_NEAR(f.see(f.place += Vec2{0, 4}, 60).across_distance, 4, 2);
+  EXPECT_NEAR(f.see(f.position += Vec2{0, 4}, 60).across_distance, 4, 2);
 }
 
 TEST(FollowAngle, IsThatOfTheSeenWay) {

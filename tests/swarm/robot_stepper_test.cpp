@@ -23,19 +23,19 @@ Map thin_and_sharp() {
   Rng rng(5, Purpose::scene);
   std::vector<Polygon> walls;
   std::vector<Disc> discs;
-  const auto place = [&] {
+  const auto position = [&] {
     const double x = rng.uniform(0, 1000);
     return Vec2{x, rng.uniform(0, 1000)};
   };
   for (int i = 0; i < 40; ++i) {
-    const Vec2 p = place();
+    const Vec2 p = position();
     const Vec2 along = unit_vector(rng.uniform(0, 2 * pi));
     const Vec2 across{-along.y, along.x};
     const Vec2 end = p + rng.uniform(20, 200) * along;
     walls.push_back({{p, end, end + 0.5 * across, p + 0.5 * across}, {}});
-    const Vec2 q = place();
+    const Vec2 q = position();
     walls.push_back({{q, q + rng.uniform(20, 150) * along, q + rng.uniform(0.01, 5) * across}, {}});
-    if (i % 2 == 0) discs.push_back({place(), rng.uniform(1, 30)});
+    if (i % 2 == 0) discs.push_back({position(), rng.uniform(1, 30)});
   }
   return {{{0, 0}, {1000, 1000}}, walls, discs};
 }
@@ -79,13 +79,13 @@ std::vector<Case> cases() {
 }
 
 std::vector<Vec2> free_places(const Map& map, double clearance, int count, Rng& rng) {
-  std::vector<Vec2> places;
+  std::vector<Vec2> positions;
   const Box& b = map.bounds();
-  for (int draw = 0; draw < 1000 * count && std::ssize(places) < count; ++draw) {
+  for (int draw = 0; draw < 1000 * count && std::ssize(positions) < count; ++draw) {
     const Vec2 p = uniform_in(b, rng);
-    if (map.is_free(p, clearance)) places.push_back(p);
+    if (map.is_free(p, clearance)) positions.push_back(p);
   }
-  return places;
+  return positions;
 }
 
 TEST(RobotStepper, NoRobotEverLeavesFreeSpace) {
@@ -172,7 +172,7 @@ TEST(RobotStepper, ManyMovesOfOneRobotGiveTheBitsOfOneByOne) {
     for (const Case& c : cases()) {
       const RobotStepper stepper(c.map, c.reach);
       Rng rng(10, Purpose::scene);
-      for (const Vec2 place : free_places(c.map, 4 * stepper.guard(), 40, rng)) {
+      for (const Vec2 position : free_places(c.map, 4 * stepper.guard(), 40, rng)) {
         std::vector<PointF> moves(70);
         for (PointF& m : moves) {
           // Some too short to leave a wall, some of several pieces.
@@ -181,7 +181,7 @@ TEST(RobotStepper, ManyMovesOfOneRobotGiveTheBitsOfOneByOne) {
           m = {static_cast<float>(move.x), static_cast<float>(move.y)};
         }
         for (const ContactRule rule : rules) {
-          const PointF p = stepper.moved(stepper.relative(place), moves.back(), rule);
+          const PointF p = stepper.moved(stepper.relative(position), moves.back(), rule);
           std::vector<PointF> ends(moves.size());
           stepper.moved(p, moves, rule, ends);
           for (std::size_t k = 0; k < moves.size(); ++k) {

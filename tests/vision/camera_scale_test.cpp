@@ -62,7 +62,7 @@ TEST(CameraScale, FitFindsTheScaleThatMadeThePoints) {
     for (ScalePoint& p : points) {
       const double x = rng.uniform(0, 640);
       p.at_px = {x, rng.uniform(0, 480)};
-      p.place = truth.to_world(p.at_px);
+      p.position = truth.to_world(p.at_px);
     }
     const FittedScale fit = fit_scale(points, truth.y_up);
     EXPECT_NEAR(fit.scale.um_per_px, truth.um_per_px, 1e-9 * truth.um_per_px);
@@ -151,7 +151,7 @@ TEST(CalibrationGrid, DotsAndChessboardsAreFoundAtAnyAngle) {
       worst_scale = std::max(worst_scale, std::abs(fit.scale.um_per_px / truth.um_per_px - 1));
       worst_turn = std::max(worst_turn, std::abs(fit.scale.rotation - truth.rotation));
       for (const ScalePoint& p : points)
-        worst_point = std::max(worst_point, distance(p.at_px, truth.to_picture(p.place)));
+        worst_point = std::max(worst_point, distance(p.at_px, truth.to_picture(p.position)));
     }
     std::printf("%s: scale off by %.4f %%, angle by %.3f deg, a point by %.3f px at most\n",
                 enum_name(pattern).data(), 100 * worst_scale, worst_turn * 180 / pi, worst_point);

@@ -75,17 +75,17 @@ Changes changes_in(const PairsVideo& video, int min_lifetime) {
                         .find = {.diameter = 13, .tone = ParticleTone::bright, .min_mass = 300},
                         .track = {.min_lifetime = min_lifetime}},
                        0.1);
-  std::map<std::pair<int, int>, Vec2> place;  // of frame and robot
+  std::map<std::pair<int, int>, Vec2> position;  // of frame and robot
   for (int k = 0; k < PairsVideo::frames; ++k)
     for (const TrackRow& row : tracker.step({k, 0.1 * k, video.pictures[k]}))
-      place[{k, row.id}] = place_in_picture(row.place, PairsVideo::height, 1);
+      position[{k, row.id}] = place_in_picture(row.position, PairsVideo::height, 1);
   tracker.finish();
   Changes changes;
   std::set<std::pair<TrackChange, int>> told;
   for (const TrackEvent& e : tracker.events()) {
     if (e.change != TrackChange::merge && e.change != TrackChange::split) continue;
     ++changes.noted;
-    const Vec2 at = place.at({e.frame, *e.other});
+    const Vec2 at = position.at({e.frame, *e.other});
     const int due =
         e.change == TrackChange::merge ? PairsVideo::merge_frame : PairsVideo::split_frame;
     for (int i = 0; i < PairsVideo::pairs; ++i)

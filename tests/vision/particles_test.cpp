@@ -63,12 +63,12 @@ TEST(Particles, ErrorGrowsWithNoise) {
 
 TEST(Particles, MovedPictureMovesParticles) {
   Rng rng(3, Purpose::test);
-  std::vector<Vec2> places = test::scattered(300, 200, 30, rng);
+  std::vector<Vec2> positions = test::scattered(300, 200, 30, rng);
   ParticleFinder finder({.diameter = 11, .tone = ParticleTone::bright, .min_mass = 300});
   Rng none(1, Purpose::test);
-  const Image a = test::draw_spots(300, 200, places, 2, 80, 0, none);
+  const Image a = test::draw_spots(300, 200, positions, 2, 80, 0, none);
   const std::vector<Particle> before = finder.find(a);
-  for (Vec2& p : places) p += Vec2{7, 0};
+  for (Vec2& p : positions) p += Vec2{7, 0};
   Image b = a;  // the same pixels, seven columns on
   for (int y = 0; y < 200; ++y)
     for (int x = 7; x < 300; ++x) b.pixels[b.index(x, y)] = a.pixels[a.index(x - 7, y)];

@@ -39,29 +39,29 @@ TEST(RobotTracker, CrossingRobotsKeepTheirNames) {
 
 TEST(RobotTracker, NamesDoNotDependOnTheOrderOfPlaces) {
   Rng rng(3, Purpose::test);
-  std::vector<Vec2> places;
+  std::vector<Vec2> positions;
   std::vector<Vec2> moves;
   for (int i = 0; i < 60; ++i) {
-    places.push_back({40.0 * (i % 10), 40.0 * (i / 10)});
+    positions.push_back({40.0 * (i % 10), 40.0 * (i / 10)});
     moves.push_back(2 * unit_vector(rng.uniform(0, 2 * pi)));
   }
   RobotTracker tracker({}, diameter, dt);
-  std::vector<int> order(places.size());
+  std::vector<int> order(positions.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
   std::map<int, int> robot_of_id;
   for (int k = 0; k < 30; ++k) {
     for (std::size_t i = order.size() - 1; i > 0; --i) std::swap(order[i], order[rng.below(i + 1)]);
     std::vector<Vec2> seen;
-    for (const int i : order) seen.push_back(places[i]);
+    for (const int i : order) seen.push_back(positions[i]);
     const auto& at = tracker.step(k, seen);
     for (std::size_t j = 0; j < at.size(); ++j) {
       if (k == 0) robot_of_id[at[j].id] = order[j];
       ASSERT_EQ(robot_of_id.at(at[j].id), order[j]) << k;
     }
-    for (std::size_t i = 0; i < places.size(); ++i) places[i] += moves[i];
+    for (std::size_t i = 0; i < positions.size(); ++i) positions[i] += moves[i];
     for (Vec2& move : moves) move = rotated(move, rng.uniform(-0.05, 0.05));
-    for (std::size_t i = 0; i < places.size(); ++i)  // those about to leave their cell turn back
-      if (distance(places[i],
+    for (std::size_t i = 0; i < positions.size(); ++i)  // those about to leave their cell turn back
+      if (distance(positions[i],
                    {40.0 * static_cast<double>(i % 10), 40.0 * static_cast<double>(i / 10)}) > 15)
         moves[i] = 0.5 * moves[i];
   }

@@ -37,13 +37,13 @@ inline Image draw_spots(int width, int height_px, const std::vector<Vec2>& at_px
 
 /// Places on a grid `pitch` apart, each off its node by up to half a pixel either way.
 inline std::vector<Vec2> scattered(int width, int height_px, int pitch, Rng& rng) {
-  std::vector<Vec2> places;
+  std::vector<Vec2> positions;
   for (int y = pitch; y + pitch <= height_px; y += pitch)
     for (int x = pitch; x + pitch <= width; x += pitch) {
       const double dx = rng.uniform(-0.5, 0.5);
-      places.push_back({x + dx, y + rng.uniform(-0.5, 0.5)});
+      positions.push_back({x + dx, y + rng.uniform(-0.5, 0.5)});
     }
-  return places;
+  return positions;
 }
 
 }  // namespace microswarm::test

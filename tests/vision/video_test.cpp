@@ -244,7 +244,7 @@ TEST(VideoTracker, TheSameVideoGivesTheSameTracks) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
     EXPECT_EQ(a[i].id, b[i].id);
-    EXPECT_EQ(a[i].place, b[i].place);
+    EXPECT_EQ(a[i].position, b[i].position);
     EXPECT_EQ(a[i].velocity, b[i].velocity);
   }
 }
@@ -258,7 +258,7 @@ TEST(VideoTracker, PictureAndWorldAreEachOthersInverse) {
 TEST(TrackOverlay, DrawsOnAPictureOfItsSize) {
   TrackOverlay overlay(0.5);
   const VideoFrame frame{0, 0, {120, 90, 1, std::vector<std::uint8_t>(120 * 90, 50)}};
-  const Image shown = overlay.draw(frame, {{.id = 3, .place = {30, 22}, .radius = 2}});
+  const Image shown = overlay.draw(frame, {{.id = 3, .position = {30, 22}, .radius = 2}});
   EXPECT_EQ(shown.width, 120);
   EXPECT_EQ(shown.channels, 3);
   const std::size_t ring = shown.index(59 + 6, 90 - 1 - 44);
@@ -329,7 +329,7 @@ Comparison compare(const fs::path& folder, const fs::path& reference,
     result.ours += static_cast<int>(rows.size());
     std::vector<std::pair<double, std::pair<std::size_t, std::size_t>>> near;
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      const Vec2 p = place_in_picture(rows[i].place, frame.picture.height, *settings.um_per_px);
+      const Vec2 p = place_in_picture(rows[i].position, frame.picture.height, *settings.um_per_px);
       for (std::size_t k = 0; k < features.size(); ++k)
         if (const double d = distance(p, features[k].at_px); d <= 1) near.push_back({d, {i, k}});
     }

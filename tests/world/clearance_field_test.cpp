@@ -68,14 +68,14 @@ TEST(ClearanceField, brackets_the_exact_clearance_everywhere) {
 TEST(ClearanceField, has_the_same_bits_with_vectors_of_every_width) {
   Rng rng(4, Purpose::test);
   for (const Drawn& drawn : {crowded(rng, 60, 30), crowded(rng, 0, 40), orchard(rng, 8, 4)}) {
-    std::vector<Vec2> places;
-    for (int i = 0; i < 5000; ++i) places.push_back(random_point(rng, drawn.bounds));
+    std::vector<Vec2> positions;
+    for (int i = 0; i < 5000; ++i) positions.push_back(random_point(rng, drawn.bounds));
     std::vector<double> first;
     test::for_each_target([&](const char* target) {
       SCOPED_TRACE(target);
       const Map map = drawn.map();
       std::vector<double> found;
-      for (const Vec2 p : places) {
+      for (const Vec2 p : positions) {
         found.push_back(map.field().lower(p));
         found.push_back(map.field().wall_distance(p));
       }

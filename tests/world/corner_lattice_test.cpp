@@ -80,17 +80,18 @@ TEST(CornerLattice, LeadsThroughTheMiddleOfTheNarrowestDoorThatFits) {
   for (const double clearance : {10.0, 40.0, 50.0, 60.0, 99.0, 120.0}) {
     const int cells = static_cast<int>(std::ceil(clearance / 50));
     const Map map = door(cells);
-    const auto places = through_narrowest_passage({.origin = {1000, 500}, .pitch = 100}, clearance);
-    EXPECT_EQ(off(places.origin.x - (1000 + 50.0 * cells), 100), 0) << clearance;
-    EXPECT_EQ(shortest_free_run(map, places, clearance - 1e-9, 100), 1) << clearance;
+    const auto positions =
+        through_narrowest_passage({.origin = {1000, 500}, .pitch = 100}, clearance);
+    EXPECT_EQ(off(positions.origin.x - (1000 + 50.0 * cells), 100), 0) << clearance;
+    EXPECT_EQ(shortest_free_run(map, positions, clearance - 1e-9, 100), 1) << clearance;
   }
 }
 
 TEST(CornerLattice, TheShortestRunIsTheNarrowestDoor) {
-  const CornerLattice places{.origin = {50, 50}, .pitch = 100};
-  EXPECT_EQ(shortest_free_run(door(7), places, 40, 100), 7);
-  EXPECT_EQ(shortest_free_run(door(7), places, 60, 100), 5);
-  EXPECT_EQ(shortest_free_run(door(7), places, 40, 3), 3);
+  const CornerLattice positions{.origin = {50, 50}, .pitch = 100};
+  EXPECT_EQ(shortest_free_run(door(7), positions, 40, 100), 7);
+  EXPECT_EQ(shortest_free_run(door(7), positions, 60, 100), 5);
+  EXPECT_EQ(shortest_free_run(door(7), positions, 40, 3), 3);
 }
 
 }  // namespace

@@ -68,23 +68,23 @@ TEST(Map, answers_as_brute_force_in_a_crowd) {
 std::vector<Vec2> places_of_every_kind(Rng& rng, const Drawn& drawn, const Map& map) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();
-  std::vector<Vec2> places{{nan, 500},  {500, nan}, {nan, nan},      {inf, 500},
-                           {500, -inf}, {1e300, 1}, drawn.bounds.lo, drawn.bounds.hi};
+  std::vector<Vec2> positions{{nan, 500},  {500, nan}, {nan, nan},      {inf, 500},
+                              {500, -inf}, {1e300, 1}, drawn.bounds.lo, drawn.bounds.hi};
   const double cell = map.field().cell();
   const Vec2 origin = drawn.bounds.lo - Vec2{cell, cell};
   const auto beside = [&](double x) {
     const double steps[] = {x, std::nextafter(x, inf), std::nextafter(x, -inf)};
     return steps[rng.below(3)];
   };
-  while (places.size() < 5000) {
+  while (positions.size() < 5000) {
     const Vec2 p = random_point(rng, drawn.bounds.grown(20));
-    places.push_back(p);
+    positions.push_back(p);
     const Vec2 cells = (p - origin) / cell;
-    places.push_back({beside(origin.x + std::round(cells.x) * cell),
-                      beside(origin.y + std::round(cells.y) * cell)});
-    places.push_back({beside(places.back().x), p.y});
+    positions.push_back({beside(origin.x + std::round(cells.x) * cell),
+                         beside(origin.y + std::round(cells.y) * cell)});
+    positions.push_back({beside(positions.back().x), p.y});
   }
-  return places;
+  return positions;
 }
 
 TEST(Map, says_of_many_places_what_it_says_of_each) {
@@ -92,23 +92,23 @@ TEST(Map, says_of_many_places_what_it_says_of_each) {
   for (int world = 0; world < 6; ++world) {
     const Drawn drawn = world == 0 ? Drawn{} : crowded(rng, 12 * world, 6 * world);
     const Map map = drawn.map(world % 2 == 0 ? 0 : 30);
-    const std::vector<Vec2> places = places_of_every_kind(rng, drawn, map);
+    const std::vector<Vec2> positions = places_of_every_kind(rng, drawn, map);
     for (const double r : {0.0, 1e-3, 7.0, 40.0, 1e4, std::numeric_limits<double>::infinity(),
                            std::numeric_limits<double>::quiet_NaN()}) {
       std::vector<std::uint8_t> expected;
-      for (const Vec2 p : places) expected.push_back(map.is_free(p, r));
+      for (const Vec2 p : positions) expected.push_back(map.is_free(p, r));
       test::for_each_target([&](const char* target) {
         SCOPED_TRACE(target);
-        std::vector<std::uint8_t> found(places.size(), 7);
-        map.are_free(places, r, found);
+        std::vector<std::uint8_t> found(positions.size(), 7);
+        map.are_free(positions, r, found);
         EXPECT_EQ(found, expected);
       });
     }
     for (std::size_t count = 0; count < 40; ++count) {
       std::vector<std::uint8_t> found(count + 1, 7);
-      map.are_free(std::span(places).subspan(20, count), 10, std::span(found).first(count));
+      map.are_free(std::span(positions).subspan(20, count), 10, std::span(found).first(count));
       for (std::size_t i = 0; i < count; ++i)
-        EXPECT_EQ(found[i], map.is_free(places[20 + i], 10)) << i << " of " << count;
+        EXPECT_EQ(found[i], map.is_free(positions[20 + i], 10)) << i << " of " << count;
       EXPECT_EQ(found[count], 7);
     }
   }
@@ -122,13 +122,13 @@ TEST(Map, excludes_no_free_place_of_many) {
   for (int world = 0; world < 4; ++world) {
     const Drawn drawn = world == 0 ? Drawn{} : crowded(rng, 12 * world, 6 * world);
     const Map map = drawn.map(world % 2 == 0 ? 0 : 30);
-    const std::vector<Vec2> places = places_of_every_kind(rng, drawn, map);
+    const std::vector<Vec2> positions = places_of_every_kind(rng, drawn, map);
     for (const double r : {0.0, 7.0, 40.0, 1e4, std::numeric_limits<double>::quiet_NaN()}) {
-      for (std::size_t i = 0; i + 4 <= places.size(); i += 4) {
-        const unsigned bits = map.may_be_free(std::span(places).subspan(i, 4), r);
+      for (std::size_t i = 0; i + 4 <= positions.size(); i += 4) {
+        const unsigned bits = map.may_be_free(std::span(positions).subspan(i, 4), r);
         ASSERT_LT(bits, 16u);
         for (std::size_t k = 0; k < 4; ++k)
-          ASSERT_TRUE((bits >> k) % 2 == 1 || !map.is_free(places[i + k], r));
+          ASSERT_TRUE((bits >> k) % 2 == 1 || !map.is_free(positions[i + k], r));
       }
     }
   }

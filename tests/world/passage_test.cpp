@@ -24,8 +24,8 @@ TEST(Passage, of_a_dumbbell_is_its_neck) {
     EXPECT_NEAR(report.free_area, 2 * 900 * 1000 + 200 * width, 1e-6);
     ASSERT_EQ(report.passages.size(), 1u);
     EXPECT_NEAR(report.narrowest_passage, width, 1e-9);
-    EXPECT_NEAR(report.passages[0].place.x, 1000, 110);
-    EXPECT_NEAR(report.passages[0].place.y, 500, 1e-6);
+    EXPECT_NEAR(report.passages[0].position.x, 1000, 110);
+    EXPECT_NEAR(report.passages[0].position.y, 500, 1e-6);
     EXPECT_GE(report.widest, 900 - 0.003);  // it reaches a little into the neck
     EXPECT_LE(report.widest, 903);
   }
@@ -37,7 +37,7 @@ TEST(Passage, between_two_discs_is_where_they_are_nearest) {
   const MapReport report = check_map(drawn.map());
   ASSERT_EQ(report.passages.size(), 1u);
   EXPECT_NEAR(report.narrowest_passage, 650 - 570, 1e-6);
-  EXPECT_NEAR(report.passages[0].place.y, 500, 0.1);
+  EXPECT_NEAR(report.passages[0].position.y, 500, 0.1);
 }
 
 TEST(Passage, none_in_one_room) {

@@ -17,12 +17,12 @@ TEST(Snapshot, joins_walls_border_and_moving_bodies) {
     for (const Polygon& p : moving.polygons) bodies.push_back({.shape = normalised(p)});
     for (const Disc& d : moving.discs) bodies.push_back({.shape = d});
     const Snapshot now(std::make_shared<Map>(walls.map()), 3, bodies);
-    std::vector<Vec2> places;
-    for (int i = 0; i < 3000; ++i) places.push_back(random_point(rng, walls.bounds.grown(10)));
-    std::vector<std::uint8_t> free(places.size());
-    now.are_free(places, 25, free);
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      const Vec2 p = places[i];
+    std::vector<Vec2> positions;
+    for (int i = 0; i < 3000; ++i) positions.push_back(random_point(rng, walls.bounds.grown(10)));
+    std::vector<std::uint8_t> free(positions.size());
+    now.are_free(positions, 25, free);
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      const Vec2 p = positions[i];
       EXPECT_EQ(free[i], now.is_free(p, 25));
       EXPECT_EQ(now.clearance(p), std::min(walls.clearance(p), moving.to_walls(p)));
       EXPECT_EQ(now.obstacle_clearance(p), std::min(walls.to_walls(p), moving.to_walls(p)));

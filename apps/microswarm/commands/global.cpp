@@ -95,8 +95,8 @@ Json paths_of(const GlobalPlan& plan) {
   Json paths = Json::array();
   for (std::size_t robot = 0; robot < plan.configurations.at(0).size(); ++robot) {
     Json path = Json::array();
-    for (const auto& places : plan.configurations)
-      path.push_back({places[robot].x, places[robot].y});
+    for (const auto& positions : plan.configurations)
+      path.push_back({positions[robot].x, positions[robot].y});
     paths.push_back(path);
   }
   return paths;

@@ -89,7 +89,7 @@ int check(const MapOptions& o, double resolution) {
   if (r.passages.empty())
     print(" (it is one room)\n");
   else
-    print(", at ({:.0f}, {:.0f}) µm\n", r.passages[0].place.x, r.passages[0].place.y);
+    print(", at ({:.0f}, {:.0f}) µm\n", r.passages[0].position.x, r.passages[0].position.y);
   print(
       "a swarm of up to {:.1f} µm radius gets from room to room there (ends that taper off are no "
       "rooms), up to {:.1f} µm fits somewhere\n",

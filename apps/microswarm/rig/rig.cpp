@@ -95,8 +95,8 @@ int field(const FieldOptions& o) {
   if (o.currents.empty() == o.field.empty())
     throw InputError("rig field: give either --currents or --field");
   const CoilSystem system = read_coil_system(o.system);
-  const Eigen::Vector3d place = o.at.empty() ? system.centre() : triple_of(o.at);
-  const Actuation at = system.at(place);
+  const Eigen::Vector3d position = o.at.empty() ? system.centre() : triple_of(o.at);
+  const Actuation at = system.at(position);
   std::optional<CurrentsForField> found;
   if (!o.field.empty()) found = currents_for(at, triple_of(o.field));
   const Eigen::VectorXd wanted = found ? found->currents : currents_of(o.currents, system);
@@ -108,8 +108,8 @@ int field(const FieldOptions& o) {
     Json hits = Json::array();
     for (const LimitHit& hit : held.hits) hits.push_back(json_of(hit, system));
     Json json{{"system", system.name()},
-              {"at_um", json_of(place)},
-              {"in_workspace", system.in_workspace(place)},
+              {"at_um", json_of(position)},
+              {"in_workspace", system.in_workspace(position)},
               {"coils", system.coil_names()},
               {"currents_a", json_of(held.currents)},
               {"field_mt", json_of(made)},
@@ -124,8 +124,9 @@ int field(const FieldOptions& o) {
     }
     print("{}\n", json.dump(2));
   } else {
-    print("{} at {} µm{}\n", system.name().empty() ? o.system : system.name(), triple_text(place),
-          system.in_workspace(place) ? "" : ", outside of the calibrated workspace");
+    print("{} at {} µm{}\n", system.name().empty() ? o.system : system.name(),
+          triple_text(position),
+          system.in_workspace(position) ? "" : ", outside of the calibrated workspace");
     const Eigen::Vector3d clean = made.unaryExpr([&](double b) { return tidy(b, made.norm()); });
     print("field {} mT, {:.6g} mT in all\n", triple_text(clean), made.norm());
     // [T/m]; entries negligible relative to the field over one metre are rounded to 0.

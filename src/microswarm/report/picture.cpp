@@ -337,8 +337,9 @@ void Picture::text(Vec2 at, std::string_view text, Colour colour, double size_px
   const std::string shown = printable(text);
   cairo_text_extents(cr, shown.c_str(), &extents);
   const double right = picture_margin + impl_->view.width() * impl_->scale - extents.x_advance - 6;
-  const Vec2 place = impl_->place_for_text({std::min(p.x, right), p.y}, extents.x_advance, size_px);
-  cairo_move_to(cr, place.x, place.y);
+  const Vec2 position =
+      impl_->place_for_text({std::min(p.x, right), p.y}, extents.x_advance, size_px);
+  cairo_move_to(cr, position.x, position.y);
   cairo_text_path(cr, shown.c_str());
   impl_->colour({1, 1, 1, 0.85});
   cairo_set_line_width(cr, 4);

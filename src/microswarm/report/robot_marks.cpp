@@ -14,21 +14,21 @@ constexpr std::size_t max_coloured = 8;
 
 /// Robots drawn as one spot because they would overlap.
 struct Pile {
-  Vec2 place;
+  Vec2 position;
   int count = 0;
 };
 
-std::vector<Pile> piles_of(std::span<const Vec2> places, double spot) {
+std::vector<Pile> piles_of(std::span<const Vec2> positions, double spot) {
   std::map<std::pair<int, int>, Pile> by_cell;
-  for (const Vec2 p : places) {
+  for (const Vec2 p : positions) {
     Pile& pile = by_cell[{static_cast<int>(p.x / spot), static_cast<int>(p.y / spot)}];
-    pile.place += p;
+    pile.position += p;
     ++pile.count;
   }
   std::vector<Pile> piles;
   piles.reserve(by_cell.size());
   for (const auto& [cell, pile] : by_cell)
-    piles.push_back({pile.place / static_cast<double>(pile.count), pile.count});
+    piles.push_back({pile.position / static_cast<double>(pile.count), pile.count});
   return piles;
 }
 
@@ -41,15 +41,15 @@ Colour robot_colour(const RobotSwarmParams& robots, std::size_t robot) {
 }
 
 void draw_robot_marks(Picture& picture, const Scenario& scenario, const Box& bounds,
-                      std::span<const Vec2> places) {
+                      std::span<const Vec2> positions) {
   if (are_few(*scenario.robots)) {
-    for (std::size_t i = 0; i < places.size(); ++i)
-      picture.disc({places[i], 0}, robot_colour(*scenario.robots, i));
+    for (std::size_t i = 0; i < positions.size(); ++i)
+      picture.disc({positions[i], 0}, robot_colour(*scenario.robots, i));
     return;
   }
   const double pixel = std::max(bounds.width(), bounds.height()) / 1200;  // [µm] of the picture
-  for (const Pile& pile : piles_of(places, 6 * pixel))
-    picture.disc({pile.place, pixel * (3 + 0.8 * std::sqrt(pile.count))}, colours::swarm);
+  for (const Pile& pile : piles_of(positions, 6 * pixel))
+    picture.disc({pile.position, pixel * (3 + 0.8 * std::sqrt(pile.count))}, colours::swarm);
   picture.legend("robots; a larger spot is a pile of them", colours::swarm, true);
 }
 

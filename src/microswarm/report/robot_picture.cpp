@@ -16,7 +16,7 @@ void draw_robots(const Map& map, const GlobalPlan& plan, std::span<const Vec2> g
   for (std::size_t robot = 0; robot < goals.size(); ++robot) {
     const Colour colour = colours::robots[robot % colours::robots.size()];
     std::vector<Vec2> path;
-    for (const auto& places : plan.configurations) path.push_back(places[robot]);
+    for (const auto& positions : plan.configurations) path.push_back(positions[robot]);
     picture.circle({goals[robot], tolerance}, colour, 2);
     picture.line(path, colour, 2.5);
     if (!path.empty()) {

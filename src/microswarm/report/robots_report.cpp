@@ -33,16 +33,16 @@ struct RobotsSubject {
 /// Draws the paths of a few robots from the recorded moments.
 void draw_paths(Picture& picture, const RobotsSubject& s, double until) {
   if (!s.few()) return;
-  for (std::size_t i = 0; i < s.record.robots.front().places.size(); ++i) {
+  for (std::size_t i = 0; i < s.record.robots.front().positions.size(); ++i) {
     std::vector<Vec2> path;
     for (const RobotMoment& m : s.record.robots)
-      if (m.t <= until) path.push_back(m.places[i]);
+      if (m.t <= until) path.push_back(m.positions[i]);
     picture.line(path, robot_colour(*s.scenario().robots, i), 1.5);
   }
 }
 
 std::string moment_text(const RobotMoment& moment) {
-  return fmt::format("{} robots at {:.1f} s", moment.places.size(), moment.t);
+  return fmt::format("{} robots at {:.1f} s", moment.positions.size(), moment.t);
 }
 
 Plot left_over_time(const RobotsSubject& s) {
@@ -65,7 +65,7 @@ std::vector<std::vector<std::string>> robots_numbers(const Record& record) {
   const Metrics& m = record.result.metrics;
   return {{"quantity", "value"},
           {"ended", std::string(to_string(record.result.status))},
-          {"robots", fmt::format("{}", record.robots.front().places.size())},
+          {"robots", fmt::format("{}", record.robots.front().positions.size())},
           {"time", fmt::format("{:.1f} s", m.time)},
           {"commands", fmt::format("{}", record.frames.size() - 1)},
           {"left to the goal", fmt::format("{:.1f} µm", m.goal_distance)},
@@ -89,7 +89,7 @@ std::unique_ptr<Picture> draw_robots_at(const Record& record, const ReportOption
   draw_ground(*picture, *s.world.map, options);
   if (at) {
     draw_paths(*picture, s, at->t);
-    draw_robot_marks(*picture, s.scenario(), s.world.map->bounds(), at->places);
+    draw_robot_marks(*picture, s.scenario(), s.world.map->bounds(), at->positions);
   }
   draw_robot_goals(*picture, scenario_at(record, at ? at->t : 0));
   return picture;

@@ -47,14 +47,14 @@ Image image_of(const UniformityMap& map) {
 
 /// A point of the grid as in the table.
 struct FieldRow {
-  std::array<double, 3> place{};
+  std::array<double, 3> position{};
   std::array<double, 3> field{};
   double deviation = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.place[0], um("x", "Place among the coils."));
-    visit(self.place[1], um("y", "Place among the coils."));
-    visit(self.place[2], um("z", "Place among the coils."));
+    visit(self.position[0], um("x", "Place among the coils."));
+    visit(self.position[1], um("y", "Place among the coils."));
+    visit(self.position[2], um("z", "Place among the coils."));
     visit(self.field[0], mt("bx", "Field."));
     visit(self.field[1], mt("by", "Field."));
     visit(self.field[2], mt("bz", "Field."));

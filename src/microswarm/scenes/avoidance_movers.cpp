@@ -101,17 +101,17 @@ Track random_walk(const Ground& ground, double speed, double time_limit, Rng& rn
   const Vec2 middle = 0.5 * ground.map.hi;
   const double reach = 0.45 * std::min(ground.map.hi.x, ground.map.hi.y);
   Samples samples;
-  Vec2 place = random_place(ground, rng);
+  Vec2 position = random_place(ground, rng);
   double heading = rng.uniform(-pi, pi);
   for (double t = -1; t < time_limit + 2; t += step) {
     samples.times.push_back(t);
-    samples.points.push_back(place);
+    samples.points.push_back(position);
     heading += 0.25 * rng.normal();
-    if (distance(place, middle) > reach) {
-      const double back = wrap(heading_of(middle - place) - heading);
+    if (distance(position, middle) > reach) {
+      const double back = wrap(heading_of(middle - position) - heading);
       heading += std::clamp(back, -0.4, 0.4);
     }
-    place += step * speed * unit_vector(heading);
+    position += step * speed * unit_vector(heading);
   }
   Track track;
   track.samples = std::make_shared<const Samples>(std::move(samples));

@@ -61,15 +61,15 @@ class Generator {
     // Pick any open channel, so the tree grows evenly.
     while (!open_.empty()) {
       const std::size_t pick = rng_.below(open_.size());
-      const auto [from, place] = open_[pick];
+      const auto [from, position] = open_[pick];
       open_[pick] = open_.back();
       open_.pop_back();
-      std::uint32_t& joint = at(place);
+      std::uint32_t& joint = at(position);
       if (joint == absent) {
         if (joints() > 2 && rng_.uniform() < shape_.missing) {
           joint = left_out;
         } else {
-          open_joint(place, from);
+          open_joint(position, from);
         }
       } else if (joint != left_out && joint != 0 && from != 0 && !is_joined(from, joint) &&
                  rng_.uniform() < shape_.loops) {
@@ -98,20 +98,20 @@ class Generator {
     });
   }
 
-  void open_joint(Place place, std::uint32_t from) {
+  void open_joint(Place position, std::uint32_t from) {
     const std::uint32_t joint = joints();
-    at(place) = joint;
+    at(position) = joint;
     const Vec2 cell{shape_.width / columns_, shape_.height / rows_};
     const double dx = rng_.uniform(-shape_.wander, shape_.wander);
     const double dy = rng_.uniform(-shape_.wander, shape_.wander);
     const double half = rng_.uniform(shape_.min_half, shape_.max_half);
-    const Vec2 centre{(place.column + 0.5 + dx) * cell.x, (place.row + 0.5 + dy) * cell.y};
+    const Vec2 centre{(position.column + 0.5 + dx) * cell.x, (position.row + 0.5 + dy) * cell.y};
     graph_.joints.push_back({centre, half});
     if (joint != from) graph_.channels.push_back({from, joint});
-    const Place around[] = {{place.column + 1, place.row},
-                            {place.column - 1, place.row},
-                            {place.column, place.row + 1},
-                            {place.column, place.row - 1}};
+    const Place around[] = {{position.column + 1, position.row},
+                            {position.column - 1, position.row},
+                            {position.column, position.row + 1},
+                            {position.column, position.row - 1}};
     std::vector<Open> open;
     for (const Place p : around) {
       if (p.column < 0 || p.row < 0 || p.column >= columns_ || p.row >= rows_) continue;
@@ -135,13 +135,13 @@ class Generator {
 // Retries networks that stop growing early; returns the largest if none is large enough.
 ChannelGraph random_channels(const VascularShape& shape, Rng& rng) {
   constexpr int max_tries = 20;
-  const double places =
+  const double positions =
       std::floor(shape.width / shape.spacing) * std::floor(shape.height / shape.spacing);
   ChannelGraph best;
   for (int i = 0; i < max_tries; ++i) {
     ChannelGraph graph = Generator(shape, rng).grow();
     if (graph.joints.size() > best.joints.size()) best = std::move(graph);
-    if (static_cast<double>(best.joints.size()) >= 0.8 * (1 - shape.missing) * places) break;
+    if (static_cast<double>(best.joints.size()) >= 0.8 * (1 - shape.missing) * positions) break;
   }
   return best;
 }

@@ -77,12 +77,12 @@ double Snapshot::obstacle_clearance(Vec2 p) const {
   return moving_.empty() ? to_wall : moving_.clearance(p, to_wall);
 }
 
-void Snapshot::are_free(std::span<const Vec2> places, double r,
+void Snapshot::are_free(std::span<const Vec2> positions, double r,
                         std::span<std::uint8_t> free) const {
-  map_->are_free(places, r, free);
+  map_->are_free(positions, r, free);
   if (moving_.empty()) return;
-  for (std::size_t i = 0; i < places.size(); ++i)
-    if (free[i] != 0) free[i] = moving_.is_free(places[i], r);
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    if (free[i] != 0) free[i] = moving_.is_free(positions[i], r);
 }
 
 bool Snapshot::is_free(std::span<const Vec2> polyline, double r) const {

@@ -40,8 +40,8 @@ class Snapshot {
     return map_->is_free(p, r) && moving_.is_free(p, r);
   }
   /// The same for many places at once, which is quicker: free[i] is 1 if places[i] is free, else 0.
-  /// `free` is as long as `places`.
-  void are_free(std::span<const Vec2> places, double r, std::span<std::uint8_t> free) const;
+  /// `free` is as long as `positions`.
+  void are_free(std::span<const Vec2> positions, double r, std::span<std::uint8_t> free) const;
   bool is_free(Segment s, double r) const {
     if (moving_.empty()) return map_->is_free(s, r);
     return map_->is_free(s, r) && moving_.is_free(s, r);

@@ -40,7 +40,7 @@ void require_determined(const std::vector<MeasurementStep>& steps, const CoilSys
                         const FitOptions& fit) {
   FieldMeasurements planned{.file = "--positions", .coils = system.coil_names()};
   for (const MeasurementStep& step : steps)
-    planned.rows.push_back({step.currents, step.place, Eigen::Vector3d::Zero(), 0});
+    planned.rows.push_back({step.currents, step.position, Eigen::Vector3d::Zero(), 0});
   fit_matrix(planned, fit);
 }
 
@@ -82,7 +82,7 @@ class Guide {
 
  private:
   enum class Moved { there, back, ended };
-  Moved move_to(const Eigen::Vector3d& place);
+  Moved move_to(const Eigen::Vector3d& position);
   std::optional<std::string> wait_for_line();
   Outcome hold(const MeasurementStep& step, const std::string& what);
   void look(const ManualMoment& moment);
@@ -138,19 +138,20 @@ std::optional<std::string> Guide::wait_for_line() {
   return std::nullopt;
 }
 
-Guide::Moved Guide::move_to(const Eigen::Vector3d& place) {
-  if (place_ && *place_ == place) return Moved::there;
-  const bool asks = answers_.is_terminal() || place_ || place != rig_.system.centre();
+Guide::Moved Guide::move_to(const Eigen::Vector3d& position) {
+  if (place_ && *place_ == position) return Moved::there;
+  const bool asks = answers_.is_terminal() || place_ || position != rig_.system.centre();
   for (int attempt = 0; asks; ++attempt) {
     if (attempt == max_attempts && !answers_.is_terminal()) return Moved::ended;
-    answers_.ask(fmt::format("probe to {} µm, then Enter (b: back, q: end): ", triple_text(place)));
+    answers_.ask(
+        fmt::format("probe to {} µm, then Enter (b: back, q: end): ", triple_text(position)));
     const auto line = wait_for_line();
     if (!line || *line == "q") return Moved::ended;
     if (*line == "b") return Moved::back;
     if (line->empty()) break;
     note("Enter, b or q is needed, not {}\n", quote(*line));
   }
-  place_ = place;
+  place_ = position;
   return Moved::there;
 }
 
@@ -183,9 +184,9 @@ void Guide::take_rows(double t) {
 
 /// Expected field of the flowing currents, by the coils' current file.
 std::optional<Eigen::Vector3d> Guide::expected() const {
-  if (!rig_.system.in_workspace(step_->place)) return std::nullopt;
+  if (!rig_.system.in_workspace(step_->position)) return std::nullopt;
   const bool planned = (currents_ - step_->currents).cwiseAbs().maxCoeff() <= tolerance_;
-  return rig_.system.at(step_->place).field_of(planned ? step_->currents : currents_);
+  return rig_.system.at(step_->position).field_of(planned ? step_->currents : currents_);
 }
 
 std::string Guide::question() const {
@@ -279,7 +280,7 @@ Outcome Guide::hold(const MeasurementStep& step, const std::string& what) {
   // A measurement counts even if something fails while the currents ramp down.
   if (outcome_ == Outcome::measured) {
     tell_reversal();
-    log_.add(currents_, step.currents, step.place, reading_of(readings_));
+    log_.add(currents_, step.currents, step.position, reading_of(readings_));
   }
   if (!trouble_.empty() || !zero_confirmed_ || !stop_trouble_.empty()) return Outcome::failed;
   if (result.status == Status::stopped) return Outcome::ended;
@@ -299,7 +300,7 @@ int Guide::make(const std::vector<MeasurementStep>& steps) {
   int attempts = 0;
   while (goes_on && !missing.empty()) {
     const MeasurementStep& step = missing.front();
-    const Moved moved = move_to(step.place);
+    const Moved moved = move_to(step.position);
     const std::string what =
         fmt::format("{}/{}: {}", steps.size() - missing.size() + 1, steps.size(), words_for(step));
     if (probe_ && moved == Moved::there) note("{}\n", what);
@@ -402,7 +403,7 @@ int measure(const Rig& rig, const MeasureOptions& o, const FitOptions& fit, cons
             const Context& context) {
   if (!o.probe.empty() && o.dwell > o.hold) throw InputError("--dwell: is longer than --hold");
   const std::vector<MeasurementStep> steps =
-      measurement_plan(rig.system, {.places = positions_of(o.positions, rig.system),
+      measurement_plan(rig.system, {.positions = positions_of(o.positions, rig.system),
                                     .current = o.current,
                                     .levels = o.levels,
                                     .pairs = o.pairs});

@@ -56,7 +56,7 @@ void tell_json(const Calibration& of) {
             {"rms_abs_mt", fit.total_rms},
             {"worst_mt", fit.worst},
             {"worst_line", worst.line},
-            {"worst_at_um", list_of(worst.place)},
+            {"worst_at_um", list_of(worst.position)},
             {"field_error_mt_per_a", rows_of(fit.field_errors)},
             {"largest_error", nullptr}};
   if (const auto error = largest_error(fit)) json["largest_error"] = error->share;
@@ -92,7 +92,7 @@ void tell(const Calibration& of) {
                fit.rms[static_cast<Eigen::Index>(k)]);
   if (of.uniform) tell_gradients(of);
   cli::print("RMS residual {:.4g} mT; the worst is {:.4g} mT, line {}, at {} µm\n", fit.total_rms,
-             fit.worst, worst.line, triple_text(worst.place));
+             fit.worst, worst.line, triple_text(worst.position));
   if (fit.freedom == 0) return;
   if (const auto error = largest_error(fit))
     cli::print("standard errors of the fields: at most {:.2g} % of a coil's, that of {}\n",

@@ -90,7 +90,7 @@ FoundScale from_grid(const ScaleOptions& o, const Image& picture) {
     throw InputError(o.picture + ": " + error.what());
   }
   if (o.mirrored)  // the grid is mirrored, too
-    for (ScalePoint& p : points) p.place.y = (params.rows - 1) * params.pitch - p.place.y;
+    for (ScalePoint& p : points) p.position.y = (params.rows - 1) * params.pitch - p.position.y;
   FittedScale fit = fit_scale(points, !o.mirrored);
   if (fit.worst > 0.25 * params.pitch)
     throw InputError(fmt::format("{}: a point is {:.3g} µm off a grid of {:.6g} µm", o.picture,

@@ -126,13 +126,13 @@ std::optional<Overlay> overlay_of(const SeeOptions& o) {
 void draw_overlay(Image& shown, const Overlay& over) {
   const Scenario& scenario = over.experiment.scenario();
   draw_scenario(shown, scenario, *over.experiment.world.map, over.scale);
-  const std::vector<Vec2> places = places_of(scenario);
-  const auto outside = std::ranges::count_if(places, [&](Vec2 place) {
-    const Vec2 at = over.scale.to_picture(place);
+  const std::vector<Vec2> positions = places_of(scenario);
+  const auto outside = std::ranges::count_if(positions, [&](Vec2 position) {
+    const Vec2 at = over.scale.to_picture(position);
     return at.x < -0.5 || at.y < -0.5 || at.x > shown.width - 0.5 || at.y > shown.height - 0.5;
   });
   if (outside > 0)
-    note("note: {} of {} starts and goals are outside the picture\n", outside, places.size());
+    note("note: {} of {} starts and goals are outside the picture\n", outside, positions.size());
 }
 
 /// Start of the scenario's swarm in the picture, if it is one body.

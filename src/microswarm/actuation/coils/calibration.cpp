@@ -46,7 +46,7 @@ class Design {
     Eigen::AlignedBox3d box;
     for (const FieldMeasurement& row : measured.rows) {
       most_ = most_.cwiseMax(row.currents.cwiseAbs());
-      box.extend(row.place);
+      box.extend(row.position);
     }
     for (double& most : most_)
       if (most < min_current) most = 1;
@@ -88,7 +88,7 @@ class Design {
 
  private:
   Eigen::Matrix<double, 3, 5> slopes(const FieldMeasurement& row) const {
-    return field_of_gradients((row.place - centre_) / length_);
+    return field_of_gradients((row.position - centre_) / length_);
   }
 
   const FieldMeasurements& measured_;
@@ -317,7 +317,7 @@ void require_effects(const FieldMeasurements& measured, const FittedMatrix& fit)
   double strongest = 0, distance = min_distance;
   for (const FieldMeasurement& row : measured.rows) {
     strongest = std::max(strongest, row.field.norm());
-    distance = std::max(distance, (row.place - centre).norm());
+    distance = std::max(distance, (row.position - centre).norm());
   }
   std::vector<std::string> without;
   for (std::size_t i = 0; i < measured.coils.size(); ++i) {

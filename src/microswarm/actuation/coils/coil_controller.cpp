@@ -36,11 +36,11 @@ CoilController::CoilController(const CoilSystem& system, const FieldGeneratorPar
 
 CoilController::~CoilController() { stop(); }
 
-void CoilController::aim(const Eigen::Vector3d& place) {
+void CoilController::aim(const Eigen::Vector3d& position) {
   constexpr double same_place = 50;  // [µm]; the field of a coil is constant over such a distance
-  if ((place - place_).norm() < same_place) return;
-  place_ = place;
-  actuation_ = system_.at(place);
+  if ((position - place_).norm() < same_place) return;
+  place_ = position;
+  actuation_ = system_.at(position);
 }
 
 const CoilOutput& CoilController::advance(double dt) {

@@ -47,7 +47,7 @@ class CoilController {
   void warm(const Eigen::VectorXd& temperatures) { drive_.warm(temperatures); }
   const Eigen::VectorXd& temperatures() const { return drive_.temperatures(); }  ///< [°C]
   /// Sets the position at which the field is produced [µm].
-  void aim(const Eigen::Vector3d& place);
+  void aim(const Eigen::Vector3d& position);
   /// Advances time by `dt` seconds and sends the currents for the new time. Call it much faster
   /// than the field turns, and within the device's watchdog time.
   const CoilOutput& advance(double dt);

@@ -219,7 +219,7 @@ bool CoilSystem::in_workspace(const Eigen::Vector3d& place) const {
       model_);
 }
 
-Actuation CoilSystem::at(const Eigen::Vector3d& place) const {
+Actuation CoilSystem::at(const Eigen::Vector3d& position) const {
   const auto n = static_cast<Eigen::Index>(size());
   Actuation result{Eigen::Matrix3Xd::Zero(3, n),
                    Eigen::Matrix<double, 5, Eigen::Dynamic>::Zero(5, n), offset_};
@@ -240,9 +240,9 @@ Actuation CoilSystem::at(const Eigen::Vector3d& place) const {
       const FieldGrid& grid = grids[i];
       if (!grid.contains(place))
         throw InputError(fmt::format("place {} is outside of the grid of {}, {} to {}",
-                                     place_text(place), names_[i], place_text(grid.lo()),
+                                     place_text(position), names_[i], place_text(grid.lo()),
                                      place_text(grid.hi())));
-      put(i, grid.at(place));
+      put(i, grid.at(position));
     }
   };
   const auto of_line = [&](const LinearField& linear) {

@@ -171,10 +171,10 @@ class CoilSystem {
   void limit_current(double most);
   /// Centre of the system or of its workspace [µm].
   const Eigen::Vector3d& centre() const { return centre_; }
-  /// Whether the model is valid at `place`. Windings and a matrix are taken as valid everywhere.
-  bool in_workspace(const Eigen::Vector3d& place) const;
+  /// Whether the model is valid at `position`. Windings and a matrix are taken as valid everywhere.
+  bool in_workspace(const Eigen::Vector3d& position) const;
   /// Actuation at a position [µm]. Throws InputError outside a measured grid.
-  Actuation at(const Eigen::Vector3d& place) const;
+  Actuation at(const Eigen::Vector3d& position) const;
 
  private:
   using Model =

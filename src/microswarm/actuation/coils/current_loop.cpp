@@ -54,9 +54,9 @@ Elliptic elliptic(double m, double rest) {
 
 }  // namespace
 
-FieldGradient loop_field(const CurrentLoop& loop, const Eigen::Vector3d& place) {
+FieldGradient loop_field(const CurrentLoop& loop, const Eigen::Vector3d& position) {
   const double a = loop.radius;
-  const Eigen::Vector3d off = place - loop.centre;
+  const Eigen::Vector3d off = position - loop.centre;
   const double z = off.dot(loop.axis);
   const Eigen::Vector3d across = off - z * loop.axis;  // ρ times its direction
   const double rho = across.norm();

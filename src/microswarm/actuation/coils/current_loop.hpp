@@ -18,6 +18,6 @@ struct CurrentLoop {
 
 /// Field of a loop for one ampere: Biot–Savart law with complete elliptic integrals. Exact except
 /// within a millionth of the radius of the wire, where the distance is clamped.
-FieldGradient loop_field(const CurrentLoop& loop, const Eigen::Vector3d& place);
+FieldGradient loop_field(const CurrentLoop& loop, const Eigen::Vector3d& position);
 
 }  // namespace microswarm

@@ -26,7 +26,7 @@ struct Columns {
   std::size_t count = 0;
   std::vector<std::size_t> currents;
   std::array<std::size_t, 3> field{};
-  std::array<std::optional<std::size_t>, 3> place;
+  std::array<std::optional<std::size_t>, 3> position;
   std::vector<std::size_t> planned;  // empty, or one for each current
 };
 
@@ -54,7 +54,7 @@ Columns read_header(const TextRows& rows, std::vector<std::string>& coils) {
     const std::optional<std::size_t> at = find(names, field_columns[k]);
     if (!at) rows.fail(fmt::format("column '{}' is missing", field_columns[k]));
     columns.field[k] = *at;
-    columns.place[k] = find(names, place_columns[k]);
+    columns.position[k] = find(names, place_columns[k]);
   }
   for (const std::string& coil : coils)
     if (const auto at = find(names, fmt::format("planned_{}_a", coil)))
@@ -92,7 +92,7 @@ FieldMeasurements parse_measurements(std::string_view text, std::string_view nam
     for (std::size_t k = 0; k < 3; ++k) {
       const auto d = static_cast<Eigen::Index>(k);
       row.field[d] = value(columns.field[k], field_columns[k]);
-      row.place[d] = columns.place[k] ? value(*columns.place[k], place_columns[k]) : 0;
+      row.position[d] = columns.position[k] ? value(*columns.position[k], place_columns[k]) : 0;
     }
     measured.rows.push_back(std::move(row));
   }

@@ -12,7 +12,7 @@ namespace microswarm {
 /// One measurement: the currents in the coils and the field of a probe.
 struct FieldMeasurement {
   Eigen::VectorXd currents;  ///< [A]
-  Eigen::Vector3d place;     ///< [µm]
+  Eigen::Vector3d position;  ///< [µm]
   Eigen::Vector3d field;     ///< measured by the probe [mT]
   int line = 0;              ///< line in the file
   /// Commanded currents [A], which a device may have limited; empty if unknown.

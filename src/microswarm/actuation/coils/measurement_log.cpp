@@ -34,10 +34,10 @@ bool is_row(std::string_view line) {
 }
 
 std::string row_text(const Eigen::VectorXd& currents, const Eigen::VectorXd& planned,
-                     const Eigen::Vector3d& place, const FieldReading& reading) {
+                     const Eigen::Vector3d& position, const FieldReading& reading) {
   std::vector<std::string> cells;
   for (const double current : currents) cells.push_back(number_text(current + 0.0));  // no -0
-  for (const double x : place) cells.push_back(number_text(x));
+  for (const double x : position) cells.push_back(number_text(x));
   for (const double b : reading.mean) cells.push_back(number_text(b));
   cells.push_back(std::to_string(reading.count));
   for (const double sd : reading.spread)
@@ -86,11 +86,11 @@ MeasurementLog::MeasurementLog(std::filesystem::path file, const std::vector<std
 }
 
 void MeasurementLog::add(const Eigen::VectorXd& currents, const Eigen::VectorXd& planned,
-                         const Eigen::Vector3d& place, const FieldReading& reading) {
-  lines_.push_back(row_text(currents, planned, place, reading));
+                         const Eigen::Vector3d& position, const FieldReading& reading) {
+  lines_.push_back(row_text(currents, planned, position, reading));
   write();
   measured_.rows.push_back(
-      {currents, place, reading.mean, static_cast<int>(lines_.size()), planned});
+      {currents, position, reading.mean, static_cast<int>(lines_.size()), planned});
 }
 
 void MeasurementLog::remove_last() {

@@ -30,7 +30,7 @@ class MeasurementLog {
   /// Writes one more, with the currents that the device had for those planned [A]; throws
   /// InputError if that fails.
   void add(const Eigen::VectorXd& currents, const Eigen::VectorXd& planned,
-           const Eigen::Vector3d& place, const FieldReading& reading);
+           const Eigen::Vector3d& position, const FieldReading& reading);
   /// Takes back the last one, if there is one.
   void remove_last();
 

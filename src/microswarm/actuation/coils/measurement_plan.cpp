@@ -65,8 +65,8 @@ std::vector<MeasurementStep> measurement_plan(const CoilSystem& system,
   if (options.pairs)
     for (Eigen::Index k = 0; k + 1 < n; ++k) currents.emplace_back(alone(k) + alone(k + 1));
   std::vector<MeasurementStep> steps;
-  for (const Eigen::Vector3d& place : options.places)
-    for (const Eigen::VectorXd& one : currents) steps.push_back({one, place});
+  for (const Eigen::Vector3d& position : options.positions)
+    for (const Eigen::VectorXd& one : currents) steps.push_back({one, position});
   return steps;
 }
 
@@ -78,7 +78,7 @@ std::vector<MeasurementStep> missing_steps(const std::vector<MeasurementStep>& s
     std::size_t r = 0;
     const auto fits = [&](const FieldMeasurement& row) {
       return row.planned.size() == step.currents.size() &&
-             (row.place - step.place).norm() <= same_place &&
+             (row.position - step.position).norm() <= same_place &&
              (row.planned - step.currents).cwiseAbs().maxCoeff() <= same_plan;
     };
     while (r < rows.size() && (used[r] || !fits(rows[r]))) ++r;

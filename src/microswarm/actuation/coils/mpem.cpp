@@ -49,8 +49,8 @@ struct Legendre {
 
 }  // namespace
 
-FieldGradient multipole_field(const Multipole& source, const Eigen::Vector3d& place) {
-  const Eigen::Vector3d off = m_per_um * place - source.position;
+FieldGradient multipole_field(const Multipole& source, const Eigen::Vector3d& position) {
+  const Eigen::Vector3d off = m_per_um * position - source.position;
   const double r = off.norm();
   const Eigen::Vector3d& z = source.direction;
   const Eigen::Vector3d u = r > 0 ? Eigen::Vector3d(off / r) : z;
@@ -77,14 +77,14 @@ FieldGradient multipole_field(const Multipole& source, const Eigen::Vector3d& pl
   return sum;
 }
 
-FieldGradient field_of(const std::vector<Multipole>& sources, const Eigen::Vector3d& place) {
+FieldGradient field_of(const std::vector<Multipole>& sources, const Eigen::Vector3d& position) {
   FieldGradient sum;
-  for (const Multipole& source : sources) sum += multipole_field(source, place);
+  for (const Multipole& source : sources) sum += multipole_field(source, position);
   return sum;
 }
 
-bool MpemSystem::in_workspace(const Eigen::Vector3d& place) const {
-  return (place.array() >= lo.array()).all() && (place.array() <= hi.array()).all();
+bool MpemSystem::in_workspace(const Eigen::Vector3d& position) const {
+  return (position.array() >= lo.array()).all() && (position.array() <= hi.array()).all();
 }
 
 }  // namespace microswarm

@@ -24,7 +24,7 @@ struct Multipole {
 
 /// Field of one multipole for one ampere. Terms with coefficient 0 contribute nothing anywhere. At
 /// the position of a source its unbounded B terms are omitted.
-FieldGradient multipole_field(const Multipole& source, const Eigen::Vector3d& place);
+FieldGradient multipole_field(const Multipole& source, const Eigen::Vector3d& position);
 
 /// An electromagnet calibrated as a sum of multipoles.
 struct MpemCoil {
@@ -40,11 +40,11 @@ struct MpemSystem {
   Eigen::Vector3d lo, hi;         ///< workspace [µm]
 
   /// Whether a position [µm] is inside the calibrated workspace, border included.
-  bool in_workspace(const Eigen::Vector3d& place) const;
+  bool in_workspace(const Eigen::Vector3d& position) const;
 };
 
 /// Field of several multipoles.
-FieldGradient field_of(const std::vector<Multipole>& sources, const Eigen::Vector3d& place);
+FieldGradient field_of(const std::vector<Multipole>& sources, const Eigen::Vector3d& position);
 
 /// Reads a calibration in MPEM YAML: Coil_List, and for each coil Source_List and sources with
 /// A_Coeff, B_Coeff, Source_Direction and Source_Position. Throws InputError "NAME:LINE:COLUMN:

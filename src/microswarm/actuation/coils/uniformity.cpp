@@ -32,16 +32,17 @@ double UniformityMap::largest() const {
 }
 
 double UniformityMap::radius_within(double share) const {
-  std::vector<std::pair<double, bool>> places;  // distance, exceeds `share`
-  places.reserve(deviation.size());
+  std::vector<std::pair<double, bool>> positions;  // distance, exceeds `share`
+  positions.reserve(deviation.size());
   for (int row = 0; row < grid.points; ++row)
     for (int column = 0; column < grid.points; ++column)
-      places.emplace_back((place(column, row) - grid.centre).norm(), !(at(column, row) <= share));
+      positions.emplace_back((place(column, row) - grid.centre).norm(),
+                             !(at(column, row) <= share));
   double broken = std::numeric_limits<double>::infinity();
-  for (const auto& [far, deviates] : places)
+  for (const auto& [far, deviates] : positions)
     if (deviates) broken = std::min(broken, far);
   double radius = 0;
-  for (const auto& [far, deviates] : places)
+  for (const auto& [far, deviates] : positions)
     if (far < broken) radius = std::max(radius, far);
   return std::min(radius, grid.half_width);
 }

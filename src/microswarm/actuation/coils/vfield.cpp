@@ -74,8 +74,8 @@ FieldGrid::FieldGrid(const Eigen::Vector3d& lo, const Eigen::Vector3d& hi, std::
     step_[axis] = (hi[axis] - lo[axis]) / (nodes[static_cast<std::size_t>(axis)] - 1);
 }
 
-bool FieldGrid::contains(const Eigen::Vector3d& place) const {
-  return (place.array() >= lo_.array()).all() && (place.array() <= hi_.array()).all();
+bool FieldGrid::contains(const Eigen::Vector3d& position) const {
+  return (position.array() >= lo_.array()).all() && (position.array() <= hi_.array()).all();
 }
 
 const Eigen::Vector3d& FieldGrid::node(int i, int j, int k) const {
@@ -83,13 +83,13 @@ const Eigen::Vector3d& FieldGrid::node(int i, int j, int k) const {
   return values_[row * nodes_[2] + k];
 }
 
-FieldGradient FieldGrid::at(const Eigen::Vector3d& place) const {
-  assert(contains(place));
+FieldGradient FieldGrid::at(const Eigen::Vector3d& position) const {
+  assert(contains(position));
   std::array<int, 3> cell{};
   Eigen::Vector3d share;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto d = static_cast<Eigen::Index>(axis);
-    const double at = (place[d] - lo_[d]) / step_[d];
+    const double at = (position[d] - lo_[d]) / step_[d];
     cell[axis] = std::clamp(static_cast<int>(std::floor(at)), 0, nodes_[axis] - 2);
     share[d] = at - cell[axis];
   }

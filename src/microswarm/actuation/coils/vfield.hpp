@@ -20,10 +20,10 @@ class FieldGrid {
 
   const Eigen::Vector3d& lo() const { return lo_; }  ///< [µm]
   const Eigen::Vector3d& hi() const { return hi_; }  ///< [µm]
-  bool contains(const Eigen::Vector3d& place) const;
+  bool contains(const Eigen::Vector3d& position) const;
   /// Field and gradient at a position inside the grid. The gradient is that of the interpolant, so
   /// it is only approximately symmetric.
-  FieldGradient at(const Eigen::Vector3d& place) const;
+  FieldGradient at(const Eigen::Vector3d& position) const;
 
  private:
   const Eigen::Vector3d& node(int i, int j, int k) const;

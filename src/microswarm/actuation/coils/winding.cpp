@@ -62,9 +62,9 @@ std::vector<CurrentLoop> loops_of(const WindingParams& winding, Issues& issues) 
   return loops;
 }
 
-FieldGradient field_of(const std::vector<CurrentLoop>& loops, const Eigen::Vector3d& place) {
+FieldGradient field_of(const std::vector<CurrentLoop>& loops, const Eigen::Vector3d& position) {
   FieldGradient sum;
-  for (const CurrentLoop& loop : loops) sum += loop_field(loop, place);
+  for (const CurrentLoop& loop : loops) sum += loop_field(loop, position);
   return sum;
 }
 

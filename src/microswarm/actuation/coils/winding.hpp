@@ -47,7 +47,7 @@ struct CoilParams {
 std::vector<CurrentLoop> loops_of(const WindingParams& winding, Issues& issues);
 
 /// Field of several loops for one ampere.
-FieldGradient field_of(const std::vector<CurrentLoop>& loops, const Eigen::Vector3d& place);
+FieldGradient field_of(const std::vector<CurrentLoop>& loops, const Eigen::Vector3d& position);
 
 /// List of three numbers as a vector; otherwise the issue "KEY has 2 numbers, must be [x, y, z]".
 Eigen::Vector3d vector_of(const std::vector<double>& numbers, std::string_view key, Issues& issues);

@@ -18,8 +18,8 @@ namespace {
 Vec2 random_place(const Map& map, double clearance, Rng& rng) {
   constexpr int tries = 100'000;
   for (int i = 0; i < tries; ++i) {
-    const Vec2 place = uniform_in(map.bounds(), rng);
-    if (map.is_free(place, clearance)) return place;
+    const Vec2 position = uniform_in(map.bounds(), rng);
+    if (map.is_free(position, clearance)) return position;
   }
   throw InputError("the map has no free place for a random start or goal");
 }

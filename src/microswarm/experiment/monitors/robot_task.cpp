@@ -14,11 +14,11 @@ RobotTask::RobotTask(const Scenario& scenario, const Map& map) : goals_(scenario
   known_.resize(4096);
 }
 
-double RobotTask::remaining_from(Vec2 place) {
+double RobotTask::remaining_from(Vec2 position) {
   Hash hash;
-  hash.value(place.x), hash.value(place.y);
+  hash.value(position.x), hash.value(position.y);
   Known& known = known_[hash.digest() % known_.size()];
-  if (known.place != place) known = {place, field_->visible_estimate(place)};
+  if (known.position != position) known = {position, field_->visible_estimate(position)};
   return known.remaining;
 }
 

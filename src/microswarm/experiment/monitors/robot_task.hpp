@@ -24,11 +24,11 @@ class RobotTask {
 
  private:
   struct Known {
-    Vec2 place{std::numeric_limits<double>::quiet_NaN(), 0};
+    Vec2 position{std::numeric_limits<double>::quiet_NaN(), 0};
     double remaining = 0;
   };
 
-  double remaining_from(Vec2 place);
+  double remaining_from(Vec2 position);
 
   std::vector<Vec2> goals_;
   std::optional<DistanceField> field_;

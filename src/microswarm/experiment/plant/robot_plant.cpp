@@ -29,15 +29,15 @@ std::vector<Vec2> robot_starts(const Scenario& scenario, const Map& map, std::ui
   const double guard = RobotStepper(map, scenario.robots->max_speed * scenario.tick).guard();
   const Box& box = map.bounds();
   Rng rng(scenario.seed, Purpose::scene, trial);
-  std::vector<Vec2> places;
-  for (std::size_t draw = 0; draw < 100'000 + 1000 * count && places.size() < count; ++draw) {
+  std::vector<Vec2> positions;
+  for (std::size_t draw = 0; draw < 100'000 + 1000 * count && positions.size() < count; ++draw) {
     const Vec2 p = uniform_in(box, rng);
-    if (field.reaches(p) && map.is_free(p, 4 * guard)) places.push_back(p);
+    if (field.reaches(p) && map.is_free(p, 4 * guard)) positions.push_back(p);
   }
-  if (places.size() < count)
+  if (positions.size() < count)
     throw InputError(fmt::format("found {} places from which the goal is reached, for {} robots",
-                                 places.size(), count));
-  return places;
+                                 positions.size(), count));
+  return positions;
 }
 
 RobotPlant::RobotPlant(const Scenario& scenario, World world, std::uint32_t trial)

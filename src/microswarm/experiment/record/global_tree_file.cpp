@@ -38,11 +38,11 @@ void write_root(Hdf5Writer& out, const GlobalTree& tree, const LoadedMap& map) {
   out.attribute("/", "origin_y_um", tree.origin.y);
 }
 
-/// Every `stride`-th entry of `places`, from entry k on.
-std::vector<float> every(const std::vector<float>& places, std::size_t stride, std::size_t k) {
+/// Every `stride`-th entry of `positions`, from entry k on.
+std::vector<float> every(const std::vector<float>& positions, std::size_t stride, std::size_t k) {
   std::vector<float> some;
-  some.reserve(places.size() / stride);
-  for (std::size_t i = k; i < places.size(); i += stride) some.push_back(places[i]);
+  some.reserve(positions.size() / stride);
+  for (std::size_t i = k; i < positions.size(); i += stride) some.push_back(positions[i]);
   return some;
 }
 
@@ -114,10 +114,10 @@ class Reader {
     tree_.reserve(count);
     tree_.configurations.resize(2 * tree_.robots * count);
     for (std::size_t k = 0; k < 2 * tree_.robots; ++k) {
-      const std::vector<double> places = in_->numbers(column(k));
-      if (places.size() != count) in_->fail(column(k) + " is not as long as /nodes/parent");
+      const std::vector<double> positions = in_->numbers(column(k));
+      if (positions.size() != count) in_->fail(column(k) + " is not as long as /nodes/parent");
       for (std::size_t node = 0; node < count; ++node)
-        tree_.configurations[2 * tree_.robots * node + k] = static_cast<float>(places[node]);
+        tree_.configurations[2 * tree_.robots * node + k] = static_cast<float>(positions[node]);
     }
     for (std::size_t node = 0; node < count; ++node) {
       const auto before = static_cast<std::int64_t>(node == 0 ? 1 : node);

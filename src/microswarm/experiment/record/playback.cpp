@@ -63,7 +63,7 @@ const Tick* Playback::step() {
   tick_.view.local_target = frame.target;
   if (const auto* path = newest(record_.paths, frame.t)) tick_.view.path = path->path;
   if (const auto* event = newest(record_.plans, frame.t)) tick_.view.plan = &event->plan;
-  if (const auto* moment = newest(record_.robots, frame.t)) tick_.robots = moment->places;
+  if (const auto* moment = newest(record_.robots, frame.t)) tick_.robots = moment->positions;
   const auto& events = record_.events;
   const auto begin = std::ranges::lower_bound(events, frame.t, {}, &RunEvent::t);
   const auto end =

@@ -31,10 +31,10 @@ constexpr std::int64_t max_coils = 64;
 
 }  // namespace
 
-void RigLog::see(double t, std::int64_t body, Vec2 place, double radius) {
+void RigLog::see(double t, std::int64_t body, Vec2 position, double radius) {
   seen_at.push_back(t);
   bodies.push_back(body);
-  places.push_back(place);
+  positions.push_back(position);
   radii.push_back(radius);
 }
 
@@ -60,9 +60,9 @@ void write_rig_log(Hdf5Writer& out, const RigLog& log) {
     out.attribute(path, "coil", log.coils[c]);
   }
   std::vector<double> x, y;
-  for (const Vec2& place : log.places) {
-    x.push_back(place.x);
-    y.push_back(place.y);
+  for (const Vec2& position : log.positions) {
+    x.push_back(position.x);
+    y.push_back(position.y);
   }
   write_column(out, "/rig/seen/t_s", log.seen_at, "s", "Time of the picture.");
   write_column(out, "/rig/seen/body", log.bodies, "", "-1: the swarm; else an obstacle's number.");
@@ -104,7 +104,7 @@ RigLog read_rig_log(const Hdf5Reader& in) {
   const std::vector<double> x = in.numbers("/rig/seen/x_um"), y = in.numbers("/rig/seen/y_um");
   for (const std::size_t size : {log.bodies.size(), log.radii.size(), x.size(), y.size()})
     if (size != log.seen_at.size()) in.fail("/rig/seen has columns of different lengths");
-  for (std::size_t i = 0; i < x.size(); ++i) log.places.push_back({x[i], y[i]});
+  for (std::size_t i = 0; i < x.size(); ++i) log.positions.push_back({x[i], y[i]});
   return log;
 }
 

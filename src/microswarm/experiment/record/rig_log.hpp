@@ -49,12 +49,12 @@ struct RigLog {
   std::vector<double> currents;       ///< acknowledged currents of all coils, output by output [A]
   std::vector<double> seen_at;        ///< times of the pictures, one entry a body [s]
   std::vector<std::int64_t> bodies;   ///< -1 for the swarm, otherwise an obstacle's number
-  std::vector<Vec2> places;           ///< centres of the bodies [µm]
+  std::vector<Vec2> positions;        ///< centres of the bodies [µm]
   std::vector<double> radii;          ///< of circles around the bodies [µm]
   std::optional<RigLatency> latency;  ///< of the whole run, set at its end
 
   bool empty() const { return began.empty(); }
-  void see(double t, std::int64_t body, Vec2 place, double radius);
+  void see(double t, std::int64_t body, Vec2 position, double radius);
 };
 
 /// Writes the group /rig, nothing for an empty log.

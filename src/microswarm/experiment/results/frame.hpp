@@ -81,11 +81,11 @@ struct PhasedGoal {
 /// Positions of individually tracked robots.
 struct RobotMoment {
   double t = 0;  ///< [s]
-  std::vector<Vec2> places;
+  std::vector<Vec2> positions;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.t, s("t", "Time of the positions."));
-    visit(self.places, um("places", "Position of each robot."));
+    visit(self.positions, um("places", "Position of each robot."));
   }
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 /// A phased goal with its name and key.
 struct Stage {
-  Vec2 place;
+  Vec2 position;
   std::string name;
   std::string key;
 };
@@ -30,12 +30,12 @@ Issues validate_legs(const std::vector<Stage>& stages, const Map& map) {
   Issues issues;
   for (std::size_t i = 1; i < stages.size(); ++i) {
     const Stage &a = stages[i - 1], &b = stages[i];
-    if (!map.is_free(a.place, 0) || !map.is_free(b.place, 0)) continue;  // reported elsewhere
-    if (map.is_free(Segment{a.place, b.place}, 0)) continue;
+    if (!map.is_free(a.position, 0) || !map.is_free(b.position, 0)) continue;  // reported elsewhere
+    if (map.is_free(Segment{a.position, b.position}, 0)) continue;
     issues.add(
         {b.key, a.key},
         fmt::format("the way from {} ({:.6g}, {:.6g}) to {} ({:.6g}, {:.6g}) µm crosses a wall",
-                    a.name, a.place.x, a.place.y, b.name, b.place.x, b.place.y));
+                    a.name, a.position.x, a.position.y, b.name, b.position.x, b.position.y));
   }
   return issues;
 }

@@ -20,12 +20,12 @@ Mask rasterise(const Map& map, double cell);
 template <class PlaceOf>
 Mask blocked_cells(const Map& map, int width, int height, PlaceOf&& place_of) {
   Mask mask(width, height);
-  std::vector<Vec2> places(static_cast<std::size_t>(width));
+  std::vector<Vec2> positions(static_cast<std::size_t>(width));
   for (int row = 0; row < height; ++row) {
     for (int column = 0; column < width; ++column)
-      places[static_cast<std::size_t>(column)] = place_of(column, row);
-    const std::span cells(&mask.at(0, row), places.size());
-    map.are_free(places, 0, cells);
+      positions[static_cast<std::size_t>(column)] = place_of(column, row);
+    const std::span cells(&mask.at(0, row), positions.size());
+    map.are_free(positions, 0, cells);
     for (std::uint8_t& cell : cells) cell = cell == 0;
   }
   return mask;

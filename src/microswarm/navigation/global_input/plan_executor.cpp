@@ -76,8 +76,8 @@ NavigatorState PlanExecutor::find_path(const Robots& robots, double now, const S
   on_plan_ = false;
   input_ = plan_.inputs.size();
   if (now < retry_at_) return NavigatorState::play;
-  const std::vector<Vec2> places = robots.positions();
-  plan_ = global_search(steering_.map(), places, goals(), params_.planner, rng_, stop).plan;
+  const std::vector<Vec2> positions = robots.positions();
+  plan_ = global_search(steering_.map(), positions, goals(), params_.planner, rng_, stop).plan;
   if (plan_.status != Status::solved) retry_at_ = now + params_.retry_time;
   input_ = 0;
   on_plan_ = true;

@@ -334,25 +334,25 @@ HierarchicalNavigator::Rollout HierarchicalNavigator::look_ahead(const Observati
 // A learned follower circles a small goal, so pure pursuit takes over for the last part. At the
 // goal and at the end of the path it holds, and it does not pass the aim within a tick, so that the
 // look-ahead matches the motion.
-PathFollower::Answer HierarchicalNavigator::follow(PathPlace& place, const Pose2& pose,
+PathFollower::Answer HierarchicalNavigator::follow(PathPlace& position, const Pose2& pose,
                                                    double speed) const {
   const double lookahead = params_.as_published ? params_.lookahead : lookahead_at(speed);
   const bool last_bit =
       *target_ == aim().position && distance(pose.position, aim().position) < lookahead;
   PathFollower::Answer answer =
-      last_bit ? PathFollower::Answer{pursue(path_, place, pose, lookahead, speed)}
-               : follower_.command(path_, place, pose, lookahead, speed);
+      last_bit ? PathFollower::Answer{pursue(path_, position, pose, lookahead, speed)}
+               : follower_.command(path_, position, pose, lookahead, speed);
   if (params_.as_published) return answer;
-  const double left = remaining(path_, place);
+  const double left = remaining(path_, position);
   if (left < path_end() || steering_.arrives(pose.position)) return {{pose.heading, 0}};
   if (last_bit) answer.command.speed = std::min(answer.command.speed, left / period_);
   return answer;
 }
 
 bool HierarchicalNavigator::path_is_safe(const Observation& seen, double speed) const {
-  PathPlace place = place_;
+  PathPlace position = place_;
   return is_safe(seen,
-                 [&](const Pose2& pose, double) { return follow(place, pose, speed).command; });
+                 [&](const Pose2& pose, double) { return follow(position, pose, speed).command; });
 }
 
 // Of the hold and the manoeuvres of one leg, or two if one is not enough, takes the one with the

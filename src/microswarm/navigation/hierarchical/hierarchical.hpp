@@ -66,7 +66,7 @@ class HierarchicalNavigator : public Navigator {
   double from_obstacles(const Observation& seen, Segment move, double from, double enough) const;
   double wall_floor(const Map& map, double reach) const;
   double far_enough() const { return 2 * params_.clearance + params_.extra_clearance; }
-  PathFollower::Answer follow(PathPlace& place, const Pose2& pose, double speed) const;
+  PathFollower::Answer follow(PathPlace& position, const Pose2& pose, double speed) const;
   bool path_is_safe(const Observation& seen, double speed) const;
   double lookahead_at(double speed) const {
     return params_.lookahead * std::max(0.5, speed / params_.speed);

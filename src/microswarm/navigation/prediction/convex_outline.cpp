@@ -101,10 +101,10 @@ void ConvexOutliner::take(const Polygon& polygon, ConvexOutline& out) {
   if (whole > 0) hollow_share_ = 1 - area(polygon) / whole;
 }
 
-bool ConvexOutliner::misleads(const ConvexOutline& out, std::span<const Vec2> places) const {
+bool ConvexOutliner::misleads(const ConvexOutline& out, std::span<const Vec2> positions) const {
   if (hollow_share_ <= tuning_.ignored_hollow) return false;
   return hollow_share_ > tuning_.max_hollow ||
-         std::any_of(places.begin(), places.end(),
+         std::any_of(positions.begin(), positions.end(),
                      [&](Vec2 p) { return out.distance_at(p - out.centre) < 0; });
 }
 

@@ -39,7 +39,7 @@ class ConvexOutliner {
   double hollow_share() const { return hollow_share_; }
   /// Whether the outline `out` of the last body is misleading: much of it is not in the body, or
   /// some of it is not and it contains one of these positions.
-  bool misleads(const ConvexOutline& out, std::span<const Vec2> places) const;
+  bool misleads(const ConvexOutline& out, std::span<const Vec2> positions) const;
 
  private:
   void take(const Polygon& polygon, ConvexOutline& out);

@@ -20,7 +20,7 @@ bool are_even(std::span<const Sighting, 4> s) {
 
 /// Square of the third difference of four even sightings.
 double squared_difference(std::span<const Sighting, 4> s) {
-  return squared_norm(s[3].place - s[0].place + 3 * (s[1].place - s[2].place));
+  return squared_norm(s[3].position - s[0].position + 3 * (s[1].position - s[2].position));
 }
 
 /// Third difference of four sightings, in standard deviations of one coordinate's noise.
@@ -32,7 +32,7 @@ double third_difference(std::span<const Sighting, 4> s) {
     double weight = 1;
     for (std::size_t j = 0; j < 4; ++j)
       if (j != i) weight /= s[i].t - s[j].t;
-    sum += weight * s[i].place;
+    sum += weight * s[i].position;
     variance += weight * weight;
   }
   return norm(sum) / std::sqrt(variance);
@@ -75,13 +75,13 @@ struct Moments {
   std::array<Vec2, 3> p{};    ///< Σ tᵏ · position
   double squares = 0;         ///< Σ |position|²
 
-  void add(double time, Vec2 place) {
+  void add(double time, Vec2 position) {
     double power = 1;
     for (std::size_t k = 0; k < t.size(); ++k, power *= time) {
       t[k] += power;
-      if (k < p.size()) p[k] += power * place;
+      if (k < p.size()) p[k] += power * position;
     }
-    squares += squared_norm(place);
+    squares += squared_norm(position);
   }
 };
 
@@ -154,7 +154,7 @@ Windows longest(std::span<const Sighting> sightings, double noise, double max_re
   };
   for (std::size_t n = 1; n <= sightings.size() && (is_straight || is_curved); ++n) {
     const Sighting& s = sightings[sightings.size() - n];
-    m.add(s.t - newest.t, s.place - newest.place);
+    m.add(s.t - newest.t, s.position - newest.position);
     if (is_straight && n >= 2) is_straight = lengthen(out.straight, straight_through(m), n, 2);
     if (is_curved && n >= 3) is_curved = lengthen(out.curved, curved_through(m), n, 3);
   }
@@ -166,7 +166,7 @@ Windows longest(std::span<const Sighting> sightings, double noise, double max_re
 MotionFit fit_motion(std::span<const Sighting> sightings, int most, const MotionFitTuning& tuning) {
   if (sightings.empty()) return {};
   MotionFit out;
-  out.place = sightings.back().place;
+  out.position = sightings.back().position;
   out.noise = noise_of(sightings, tuning);
   out.velocity_error = std::numeric_limits<double>::infinity();
   out.sightings = 1;
@@ -176,7 +176,7 @@ MotionFit fit_motion(std::span<const Sighting> sightings, int most, const Motion
   const bool is_curved =
       newest.size() > 3 && fit.curved.curve.rate_variance < fit.straight.curve.rate_variance;
   const Window& best = is_curved ? fit.curved : fit.straight;
-  out.place += best.curve.c[0];
+  out.position += best.curve.c[0];
   out.velocity = best.curve.c[1];
   out.acceleration = 2 * best.curve.c[2];
   out.velocity_error = out.noise * std::sqrt(best.curve.rate_variance);

@@ -11,12 +11,12 @@ namespace microswarm {
 /// Observed position [µm] and its time [s].
 struct Sighting {
   double t = 0;
-  Vec2 place;
+  Vec2 position;
 };
 
 /// Estimated motion at the time of the newest sighting.
 struct MotionFit {
-  Vec2 place;                 ///< [µm]
+  Vec2 position;              ///< [µm]
   Vec2 velocity;              ///< [µm/s]
   Vec2 acceleration;          ///< [µm/s²]; 0 while the sightings are straight within their noise
   double noise = 0;           ///< standard deviation of a sighting's coordinate [µm]

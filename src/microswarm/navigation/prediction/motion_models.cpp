@@ -17,18 +17,19 @@ template <class At>
 bool explains(At&& at, std::span<const Sighting> seen, int frames, double off) {
   const Sighting& last = seen.back();
   const auto tail = seen.last(std::min(static_cast<std::size_t>(frames), seen.size()));
-  return std::all_of(tail.begin(), tail.end(),
-                     [&](const Sighting& s) { return distance(at(s.t - last.t), s.place) < off; });
+  return std::all_of(tail.begin(), tail.end(), [&](const Sighting& s) {
+    return distance(at(s.t - last.t), s.position) < off;
+  });
 }
 
 /// Least-squares circle through the sightings (Kåsa); nothing if they are on a line, farther than
 /// `off` from it, or it is larger than `max_radius`.
 std::optional<Disc> circle_through(std::span<const Sighting> seen, double off, double max_radius) {
-  const Vec2 origin = seen.back().place;
+  const Vec2 origin = seen.back().position;
   Vec2 sum, cube;
   double xx = 0, xy = 0, yy = 0;
   for (const Sighting& s : seen) {
-    const Vec2 p = s.place - origin;
+    const Vec2 p = s.position - origin;
     sum += p;
     cube += squared_norm(p) * p;
     xx += p.x * p.x;
@@ -47,10 +48,10 @@ std::optional<Disc> circle_through(std::span<const Sighting> seen, double off, d
   const Vec2 centre =
       origin + Vec2{c * right.x - b * right.y, a * right.y - b * right.x} / determinant;
   double radius = 0;
-  for (const Sighting& s : seen) radius += distance(s.place, centre) / n;
+  for (const Sighting& s : seen) radius += distance(s.position, centre) / n;
   if (radius > max_radius) return std::nullopt;
   const bool fits = std::all_of(seen.begin(), seen.end(), [&](const Sighting& s) {
-    return std::abs(distance(s.place, centre) - radius) <= off;
+    return std::abs(distance(s.position, centre) - radius) <= off;
   });
   return fits ? std::optional(Disc{centre, radius}) : std::nullopt;
 }
@@ -112,9 +113,9 @@ void MotionModels::fit_arcs(std::span<const Sighting> seen, double noise, Oscill
                                        tuning_.max_circle_radius);
     if (!circle) continue;
     along_.resize(part.size());
-    double angle = heading_of(part.back().place - circle->centre);
+    double angle = heading_of(part.back().position - circle->centre);
     for (std::size_t i = part.size(); i-- > 0;) {
-      angle += wrap(heading_of(part[i].place - circle->centre) - angle);
+      angle += wrap(heading_of(part[i].position - circle->centre) - angle);
       along_[i] = {part[i].t, {circle->radius * angle, 0}};
     }
     const auto fits = fit.fit(along_);
@@ -126,7 +127,7 @@ void MotionModels::fit_arcs(std::span<const Sighting> seen, double noise, Oscill
 }
 
 Vec2 MotionModels::place(std::size_t model, const MotionTrail& trail, double s) const {
-  if (model == again) return trail.after(again_, s).place;
+  if (model == again) return trail.after(again_, s).position;
   if (model >= arc) return arcs_[model - arc].at(s);
   if (model >= swing) return swings_[model - swing].at(s);
   const Vec2 ahead = motion_.centre_after(s);

@@ -13,7 +13,7 @@ constexpr double min_squared_speed = 1;  // [µm²/s²] slower points cannot be 
 TrailPoint moved(const TrailPoint& p, double t) {
   TrailPoint out = p;
   out.t = t;
-  out.place += (t - p.t) * p.velocity;
+  out.position += (t - p.t) * p.velocity;
   return out;
 }
 
@@ -40,9 +40,9 @@ TrailPoint MotionTrail::at(double t) const {
   const double f = (t - a.t) / dt;
   const double g = 1 - f;
   // Cubic Hermite interpolation.
-  const Vec2 place = (g * g * (1 + 2 * f)) * a.place + (f * f * (1 + 2 * g)) * b.place +
-                     (f * g * dt) * (g * a.velocity - f * b.velocity);
-  return {t, place, g * a.velocity + f * b.velocity, g * a.radius + f * b.radius,
+  const Vec2 position = (g * g * (1 + 2 * f)) * a.position + (f * f * (1 + 2 * g)) * b.position +
+                        (f * g * dt) * (g * a.velocity - f * b.velocity);
+  return {t, position, g * a.velocity + f * b.velocity, g * a.radius + f * b.radius,
           g * a.turn + f * b.turn};
 }
 
@@ -62,19 +62,19 @@ std::optional<Recurrence> MotionTrail::recurrence(double noise,
   for (std::size_t i = points_.size(); i-- > 0;) {
     const TrailPoint& p = points_[i];
     if (p.t > now.t - tuning.min_age) continue;
-    const Vec2 off = now.place - p.place;
+    const Vec2 off = now.position - p.position;
     const double speed2 = squared_norm(p.velocity);
     if (squared_norm(off) > near * near || speed2 < min_squared_speed) continue;
     const double shift = dot(off, p.velocity) / speed2;
     if (std::abs(shift) > tuning.max_time_offset || p.t + shift < points_.front().t) continue;
     const TrailPoint was = at(p.t + shift);
-    const double place = distance(was.place, now.place);
-    if (place > max_place_off) continue;
+    const double position = distance(was.position, now.position);
+    if (position > max_place_off) continue;
     for (const bool reversed : {false, true}) {
       if (reversed && was.t < points_.front().t + tuning.min_reversed_time) continue;
       const double velocity =
           norm(reversed ? was.velocity + now.velocity : was.velocity - now.velocity);
-      const double sum = place + tuning.velocity_weight * velocity;
+      const double sum = position + tuning.velocity_weight * velocity;
       if (velocity > max_velocity_off || sum > min_off - tuning.min_improvement) continue;
       min_off = sum;
       best = Recurrence{was.t, reversed};

@@ -13,7 +13,7 @@ namespace microswarm {
 /// State of a body at one time.
 struct TrailPoint {
   double t = 0;       ///< [s]
-  Vec2 place;         ///< centre [µm]
+  Vec2 position;      ///< centre [µm]
   Vec2 velocity;      ///< [µm/s]
   double radius = 0;  ///< [µm]
   double turn = 0;    ///< rotation since first seen [rad]

@@ -119,13 +119,13 @@ void MultiModelPredictor::update_errors(BodyHistory& history) const {
     std::size_t done = 0;
     for (; done < open.size() && open[done].due <= now_; ++done) {
       const Forecast& told = open[done];
-      const Vec2 was = history.trail.at(told.due).place;
+      const Vec2 was = history.trail.at(told.due).position;
       for (std::size_t m = 0; m < MotionModels::count; ++m) {
         Record& record = history.records[m][k];
         record.errors *= kept;
         record.weight *= kept;
         if (!told.holds[m]) continue;
-        record.errors += std::min(params_.tuning.max_error, distance(told.places[m], was));
+        record.errors += std::min(params_.tuning.max_error, distance(told.positions[m], was));
         record.weight += 1;
       }
     }
@@ -140,7 +140,7 @@ void MultiModelPredictor::model(BodyHistory& history, const TrackedBody& motion)
   double greatest = 0;
   for (const TrailPoint& p : history.trail.points()) {
     if (p.t < now_ - oscillations_.windows().back()) continue;
-    sightings_.push_back({p.t, p.place});
+    sightings_.push_back({p.t, p.position});
     radii_.push_back({p.t, {p.radius, 0}});
     least = std::min(least, p.radius);
     greatest = std::max(greatest, p.radius);
@@ -191,7 +191,7 @@ void MultiModelPredictor::issue_forecasts(BodyHistory& history) const {
     told.due = due;
     for (std::size_t m = 0; m < MotionModels::count; ++m) {
       told.holds[m] = history.models.holds(m);
-      if (told.holds[m]) told.places[m] = history.models.place(m, history.trail, spans_[k]);
+      if (told.holds[m]) told.positions[m] = history.models.place(m, history.trail, spans_[k]);
     }
   }
 }

@@ -47,7 +47,7 @@ class MultiModelPredictor {
   /// A pending forecast of all models.
   struct Forecast {
     double due = 0;
-    std::array<Vec2, MotionModels::count> places;
+    std::array<Vec2, MotionModels::count> positions;
     std::array<bool, MotionModels::count> holds{};
   };
   /// Exponentially weighted past errors of a model.

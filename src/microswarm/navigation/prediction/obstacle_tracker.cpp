@@ -39,7 +39,7 @@ void remember(std::vector<Sighting>& trail, Sighting newest, std::size_t most) {
 
 bool has_constant_radius(std::span<const Sighting> radii) {
   return std::all_of(radii.begin(), radii.end(),
-                     [&](const Sighting& s) { return s.place == radii.back().place; });
+                     [&](const Sighting& s) { return s.position == radii.back().position; });
 }
 
 }  // namespace
@@ -116,7 +116,7 @@ void ObstacleTracker::find_trails(std::span<const Body> bodies) {
     Trail& fresh = *trails_.insert(at, Trail{});
     fresh.key = key;
     const std::size_t most = max_sightings(params_);
-    fresh.places.reserve(most);
+    fresh.positions.reserve(most);
     fresh.radii.reserve(most);
   });
   trail_of_.resize(bodies.size(), 0);
@@ -130,19 +130,19 @@ void ObstacleTracker::extend(Trail& trail, const Body& body, Disc within) const 
   trail.present = seen_;
   const Disc extent = extent_of(body);
   if (distance(extent.centre, within.centre) - extent.radius > within.radius) {
-    trail.places.clear();
+    trail.positions.clear();
     trail.radii.clear();
     return;
   }
   const auto outdated = [&](const Sighting& s) { return s.t < seen_ - params_.memory; };
-  std::erase_if(trail.places, outdated);
+  std::erase_if(trail.positions, outdated);
   std::erase_if(trail.radii, outdated);
   std::visit(
       Overloaded{[](const Disc&) {},
                  [&](const Polygon& polygon) { compare_outline(trail, polygon, extent.centre); }},
       body.shape);
   const std::size_t most = max_sightings(params_);
-  remember(trail.places, {seen_, extent.centre}, most);
+  remember(trail.positions, {seen_, extent.centre}, most);
   remember(trail.radii, {seen_, {extent.radius, 0}}, most);
 }
 
@@ -151,7 +151,7 @@ void ObstacleTracker::extend(Trail& trail, const Body& body, Disc within) const 
 // with the old solid, not with an old vertex.
 void ObstacleTracker::compare_outline(Trail& trail, const Polygon& polygon, Vec2 centre) const {
   auto& [older, newer] = trail.past;
-  const bool known = !trail.places.empty() && !older.shape.outer.empty();
+  const bool known = !trail.positions.empty() && !older.shape.outer.empty();
   trail.outline_speed =
       known ? outward_distance(polygon, centre, older, every_vertex) / (seen_ - older.t) : 0;
   if (known && seen_ - newer.t < params_.tuning.outline_spacing) return;
@@ -198,20 +198,20 @@ double ObstacleTracker::outline_speed_within(std::size_t body, const Body& shape
 }
 
 TrackedBody ObstacleTracker::estimate(const Trail& trail) const {
-  if (trail.places.empty()) return {.velocity_error = std::numeric_limits<double>::infinity()};
-  const MotionFit place = fit_motion(trail.places, params_.frames, params_.tuning.fit);
+  if (trail.positions.empty()) return {.velocity_error = std::numeric_limits<double>::infinity()};
+  const MotionFit position = fit_motion(trail.positions, params_.frames, params_.tuning.fit);
   const MotionFit radius = has_constant_radius(trail.radii)
-                               ? MotionFit{.place = trail.radii.back().place}
+                               ? MotionFit{.position = trail.radii.back().position}
                                : fit_motion(trail.radii, params_.frames, params_.tuning.fit);
-  return {.centre = place.place,
-          .velocity = place.velocity,
-          .acceleration = place.acceleration,
-          .velocity_error = place.velocity_error,
-          .noise = place.noise,
-          .radius = radius.place.x,
+  return {.centre = position.position,
+          .velocity = position.velocity,
+          .acceleration = position.acceleration,
+          .velocity_error = position.velocity_error,
+          .noise = position.noise,
+          .radius = radius.position.x,
           .radius_rate = radius.velocity.x,
           .outline_speed = std::max(trail.outline_speed, std::abs(radius.velocity.x)),
-          .frames = place.sightings};
+          .frames = position.sightings};
 }
 
 }  // namespace microswarm

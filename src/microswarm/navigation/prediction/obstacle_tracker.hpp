@@ -66,10 +66,10 @@ class ObstacleTracker {
   /// History of one body.
   struct Trail {
     Key key;
-    double present = 0;            ///< last time it was in a frame [s]
-    std::vector<Sighting> places;  ///< of the centre, ascending in time; empty if left out
-    std::vector<Sighting> radii;   ///< (radius, 0)
-    std::array<Outline, 2> past;   ///< of a polygon: older one first
+    double present = 0;               ///< last time it was in a frame [s]
+    std::vector<Sighting> positions;  ///< of the centre, ascending in time; empty if left out
+    std::vector<Sighting> radii;      ///< (radius, 0)
+    std::array<Outline, 2> past;      ///< of a polygon: older one first
     double outline_speed = 0;
   };
 

@@ -33,14 +33,14 @@ Vec2 Oscillation::at(double t) const {
 struct OscillationFit::Sums {
   int count = 0;
   double squares = 0;
-  Vec2 places;
+  Vec2 positions;
   std::array<double, rungs> s{}, c{}, ss{}, sc{}, cc{};
   std::array<double, rungs> sx{}, sy{}, cx{}, cy{};
 
-  void add(const Row& row, Vec2 place) {
+  void add(const Row& row, Vec2 position) {
     ++count;
-    squares += squared_norm(place);
-    places += place;
+    squares += squared_norm(position);
+    positions += position;
     for (std::size_t k = 0; k < rungs; ++k) {
       const double sine = row.sine[k];
       const double cosine = row.cosine[k];
@@ -49,10 +49,10 @@ struct OscillationFit::Sums {
       ss[k] += sine * sine;
       sc[k] += sine * cosine;
       cc[k] += cosine * cosine;
-      sx[k] += sine * place.x;
-      sy[k] += sine * place.y;
-      cx[k] += cosine * place.x;
-      cy[k] += cosine * place.y;
+      sx[k] += sine * position.x;
+      sy[k] += sine * position.y;
+      cx[k] += cosine * position.x;
+      cy[k] += cosine * position.y;
     }
   }
 
@@ -70,11 +70,11 @@ struct OscillationFit::Sums {
     const Vec2 by_sine{sx[k], sy[k]};
     const Vec2 by_cosine{cx[k], cy[k]};
     Terms out;
-    out.c[0] = (a * places + b * by_sine + d * by_cosine) / determinant;
-    out.c[1] = (b * places + e * by_sine + f * by_cosine) / determinant;
-    out.c[2] = (d * places + f * by_sine + g * by_cosine) / determinant;
+    out.c[0] = (a * positions + b * by_sine + d * by_cosine) / determinant;
+    out.c[1] = (b * positions + e * by_sine + f * by_cosine) / determinant;
+    out.c[2] = (d * positions + f * by_sine + g * by_cosine) / determinant;
     out.residual =
-        squares - dot(out.c[0], places) - dot(out.c[1], by_sine) - dot(out.c[2], by_cosine);
+        squares - dot(out.c[0], positions) - dot(out.c[1], by_sine) - dot(out.c[2], by_cosine);
     return out;
   }
 };
@@ -113,7 +113,7 @@ void OscillationFit::fill(Row& row) const {
 OscillationFit::Fits OscillationFit::fit(std::span<const Sighting> sightings) {
   Fits out;
   if (sightings.empty() || rows_.empty()) return out;
-  const Vec2 origin = sightings.back().place;
+  const Vec2 origin = sightings.back().position;
   Sums sums;
   std::size_t window = 0;
   std::size_t row = rows_.size();
@@ -125,7 +125,7 @@ OscillationFit::Fits OscillationFit::fit(std::span<const Sighting> sightings) {
     for (; window < window_count && now_ - seen.t > windows_[window]; ++window)
       out[window] = best_of(sums, origin);
     if (window == window_count) return out;
-    sums.add(rows_[row - 1], seen.place - origin);
+    sums.add(rows_[row - 1], seen.position - origin);
   }
   if (window < window_count) out[window] = best_of(sums, origin);
   return out;

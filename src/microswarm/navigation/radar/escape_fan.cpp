@@ -18,9 +18,10 @@ struct Screened {
 };
 
 /// Marks positions nearer than √`near` as blocked, others nearer than √`far` as doubted [µm²].
-MICROSWARM_EACH_CPU Screened screen_places(const EscapeFan::Places& places, double near, double far,
-                                           std::int64_t* blocked, std::int64_t* doubted) {
-  const EscapeFan::Places at = places;
+MICROSWARM_EACH_CPU Screened screen_places(const EscapeFan::Places& positions, double near,
+                                           double far, std::int64_t* blocked,
+                                           std::int64_t* doubted) {
+  const EscapeFan::Places at = positions;
   std::int64_t open = 0;
   std::int64_t doubts = 0;
   for (std::size_t k = 0; k < at.count; ++k) {
@@ -41,7 +42,7 @@ double squared_if_positive(double v) { return v > 0 ? v * v : 0; }
 
 /// Straight remainder of a trajectory, from `before` on [s].
 Segment last_leg(const Foresight& seen, const EscapeTrajectory& trajectory, double before) {
-  const Vec2 start = seen.start().place;
+  const Vec2 start = seen.start().position;
   return {start + trajectory.at(before), start + trajectory.at(seen.end())};
 }
 
@@ -49,7 +50,7 @@ Segment last_leg(const Foresight& seen, const EscapeTrajectory& trajectory, doub
 
 bool is_free(const Foresight& seen, const EscapeTrajectory& trajectory,
              std::span<const Instant> instants, double before) {
-  const Vec2 start = seen.start().place;
+  const Vec2 start = seen.start().position;
   Vec2 last = start + trajectory.at(before);
   for (const Instant& i : instants) {
     const Vec2 p = start + trajectory.at(i.t);
@@ -123,7 +124,7 @@ bool EscapeFan::excludes(Foresight& seen, Vec2 begin, double spread, double unti
   const auto slack = [&](double t) { return std::min(t, until) * spread * (1 + doubt) + doubt; };
   const auto required = [&](const Instant& i) { return i.required - slack(i.t); };
   for (const Instant& i : schedule.begun()) {
-    const Vec2 p = seen.start().place + trajectories.common.at(i.t);
+    const Vec2 p = seen.start().position + trajectories.common.at(i.t);
     if (seen.gap(p, i, i.required, Foresight::Error::bounded) < required(i)) return true;
   }
   if (!screen(seen, trajectories, schedule.rest(), Foresight::Error::bounded, required, count))
@@ -146,23 +147,23 @@ bool EscapeFan::may_keep(const Foresight& seen, const Trajectories& trajectories
 /// Blocks the velocities that get too near to this body; returns how many remain.
 std::int64_t EscapeFan::meet(const Foresight& seen, const Foresight::Near& body,
                              const Trajectories& trajectories, double t, const Demand& demand) {
-  const Places places{x_.data(),
-                      y_.data(),
-                      x_.size(),
-                      trajectories.varied_for(t),
-                      trajectories.common.at(t),
-                      seen.start().place,
-                      body.centre};
+  const Places positions{x_.data(),
+                         y_.data(),
+                         x_.size(),
+                         trajectories.varied_for(t),
+                         trajectories.common.at(t),
+                         seen.start().position,
+                         body.centre};
   const ConvexOutline& outline = *body.outline;
   const double keep = body.touch[static_cast<std::size_t>(demand.error)] + demand.gap;
   const double far = std::max(0.0, outline.radius + keep) * (1 + doubt) + doubt;
-  const Vec2 off = places.start + places.shift - places.body;
-  const double reach = (far + places.after * speed_) * (1 + doubt);
+  const Vec2 off = positions.start + positions.shift - positions.body;
+  const double reach = (far + positions.after * speed_) * (1 + doubt);
   if (squared_norm(off) > reach * reach) return static_cast<std::int64_t>(x_.size());
   const double near = outline.edges.empty() ? (outline.radius + keep) * (1 - doubt) - doubt : 0;
-  const Screened left =
-      screen_places(places, squared_if_positive(near), far * far, blocked_.data(), doubted_.data());
-  return left.doubted == 0 ? left.open : left.open - settle(places, body, demand);
+  const Screened left = screen_places(positions, squared_if_positive(near), far * far,
+                                      blocked_.data(), doubted_.data());
+  return left.doubted == 0 ? left.open : left.open - settle(positions, body, demand);
 }
 
 /// Computes the exact gap of the doubted velocities; blocks and counts those that get too near.

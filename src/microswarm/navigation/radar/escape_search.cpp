@@ -27,8 +27,8 @@ void EscapeSearch::consider(const EscapeTrajectory& trajectory, Trace trace) {
     double last = tuning_.counted_gap;
     if (only_gaps_count() || seen_.walls_from() >= seen_.end()) {  // it reaches its end, or loses
       const Foresight::Instant& end = all.back();
-      last =
-          seen_.gap(seen_.start().place + trajectory.at(end.t), end, last, Foresight::Error::none);
+      last = seen_.gap(seen_.start().position + trajectory.at(end.t), end, last,
+                       Foresight::Error::none);
       if (only_gaps_count() && is_contact(last, end.t)) return;
       trace.outcome.least = std::min(trace.outcome.least, last);
       if (is_hopeless(trace, last)) return;
@@ -99,7 +99,7 @@ void EscapeSearch::prefer(double time, double gap) {
 void EscapeSearch::follow(Trace& trace, const EscapeTrajectory& trajectory,
                           std::span<const Foresight::Instant> instants, double max_last_gap) const {
   if (trace.blocked || instants.empty()) return;
-  const Vec2 start = seen_.start().place;
+  const Vec2 start = seen_.start().position;
   EscapeOutcome& out = trace.outcome;
   Vec2 last = start;
   if (trace.instants > 0)

@@ -41,7 +41,7 @@ void Foresight::look(const EscapeStart& start, const Snapshot& world,
   if (threats_.size() < tracker.size()) threats_.resize(tracker.size());
   find_threats(tracker);
   if (empty()) return;
-  gap_now_ = gap(start.place, foresee(0), params_.gap, Error::none);
+  gap_now_ = gap(start.position, foresee(0), params_.gap, Error::none);
   look_at_walls(top_speed);
   for (int s = 1; s <= samples_; ++s) samples_seen_.push_back(foresee(s * params_.step));
 }
@@ -54,7 +54,7 @@ void Foresight::find_threats(const ObstacleTracker& tracker) {
   const double ahead = start_.time - seen_;
   for (std::size_t i = 0; i < bodies.size() && i < tracker.size(); ++i) {
     const Disc extent = extent_of(bodies[i]);
-    const double far = distance(extent.centre, start_.place) - extent.radius - start_.radius;
+    const double far = distance(extent.centre, start_.position) - extent.radius - start_.radius;
     if (far > range()) continue;
     const TrackedBody motion = tracker.body(i);
     const double widening = outward_speed(bodies[i], motion);
@@ -64,10 +64,10 @@ void Foresight::find_threats(const ObstacleTracker& tracker) {
       continue;
     Threat& met = threats_[bodies_];
     outliner_.take(bodies[i], met.outline);
-    if (outliner_.misleads(met.outline, std::array{start_.place})) {
+    if (outliner_.misleads(met.outline, std::array{start_.position})) {
       nonconvex_bodies_.push_back(bodies[i]);
-      const Disc reach{start_.place, start_.radius + speed_ * (params_.tuning.max_dead_time +
-                                                               params_.tuning.growth_time)};
+      const Disc reach{start_.position, start_.radius + speed_ * (params_.tuning.max_dead_time +
+                                                                  params_.tuning.growth_time)};
       closing_ = std::max(
           closing_, tracker.outline_speed_within(i, bodies[i], reach) + norm(motion.velocity));
       continue;
@@ -82,7 +82,7 @@ void Foresight::find_threats(const ObstacleTracker& tracker) {
 }
 
 void Foresight::look_at_walls(double top_speed) {
-  const double clearance = world_->map().clearance(start_.place);
+  const double clearance = world_->map().clearance(start_.position);
   wall_keep_ = std::clamp(clearance - clearance_rounding, 0.0, start_.radius + params_.wall_gap);
   const double room = clearance - wall_keep_ - 2 * clearance_rounding;
   walls_from_ = room > 0 ? room / (top_speed * (1 + reach_rounding)) : 0;
@@ -105,7 +105,7 @@ Foresight::Instant Foresight::foresee(double t) {
     const double error = std::min(params_.gap_rate, met.speed) * t;
     const Vec2 centre = met.outline.centre + t * met.velocity;
     const double far = met.outline.radius + (touch + error) + reach;
-    if (squared_norm(start_.place - centre) > far * far * (1 + reach_rounding) && far >= 0)
+    if (squared_norm(start_.position - centre) > far * far * (1 + reach_rounding) && far >= 0)
       continue;
     near_.push_back({centre, {touch, touch + error}, &met.outline});
   }

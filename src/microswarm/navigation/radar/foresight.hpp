@@ -19,7 +19,7 @@ namespace microswarm {
 
 /// Predicted state of the swarm when a command takes effect.
 struct EscapeStart {
-  Vec2 place;         ///< [µm]
+  Vec2 position;      ///< [µm]
   double radius = 0;  ///< [µm]
   double time = 0;    ///< [s]
 };

@@ -75,7 +75,7 @@ Decision RadarNavigator::filtered(const Decision& decision, const Observation& s
   } else {
     return decision;
   }
-  const SafetyFilter::Start start{.place = position,
+  const SafetyFilter::Start start{.position = position,
                                   .radius = std::max(sighting_->swarm.radius, swarm().radius),
                                   .time = seen.now + swarm().response_lag};
   const double since = seen.now - steering_.last_command().value_or(seen.now);
@@ -141,9 +141,9 @@ void RadarNavigator::find_route(const Observation& seen, const Stop& stop) {
 
 // A swarm observed or pushed slightly too near to a wall plans from a free point beside it.
 Pose2 RadarNavigator::beside_walls(const Map& map, double radius) const {
-  const Vec2 place = free_place(map, pose_.position, radius);
-  const bool in_sight = map.is_free(Segment{pose_.position, place}, 0);
-  return {in_sight ? place : pose_.position, pose_.heading};
+  const Vec2 position = free_place(map, pose_.position, radius);
+  const bool in_sight = map.is_free(Segment{pose_.position, position}, 0);
+  return {in_sight ? position : pose_.position, pose_.heading};
 }
 
 bool RadarNavigator::plan_route(const Snapshot& walls, Pose2 from, double clearance,

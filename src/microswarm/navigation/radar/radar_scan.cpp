@@ -10,8 +10,8 @@
 namespace microswarm {
 namespace {
 
-double nearness(Vec2 place, Vec2 target) {
-  return 1 / std::max(distance(place, target), min_distance);
+double nearness(Vec2 position, Vec2 target) {
+  return 1 / std::max(distance(position, target), min_distance);
 }
 
 Vec2 place_of(const RadarLook& look, double heading) {
@@ -20,14 +20,14 @@ Vec2 place_of(const RadarLook& look, double heading) {
 
 /// Eq 17, 30
 void screen(RadarBeam& beam, const RadarLook& look, const Snapshot& world) {
-  const Vec2 place = place_of(look, beam.heading);
+  const Vec2 position = place_of(look, beam.heading);
   for (const Body& body : world.moving().bodies()) {
-    if (distance(place, body) >= look.obstacle_reach()) continue;
+    if (distance(position, body) >= look.obstacle_reach()) continue;
     beam.fate = BeamFate::obstacle;
     beam.obstacle = body.obstacle;
     return;
   }
-  if (!world.map().is_free(place, look.wall_reach())) beam.fate = BeamFate::wall;
+  if (!world.map().is_free(position, look.wall_reach())) beam.fate = BeamFate::wall;
 }
 
 std::optional<std::uint32_t> nearest_body(const RadarLook& look, const Snapshot& world) {
@@ -66,15 +66,15 @@ void rate(RadarScan& out, const Snapshot& world) {
   MinMax towards, away;
   for (const RadarBeam& beam : out.beams) {
     if (beam.fate != BeamFate::kept) continue;
-    const Vec2 place = place_of(out.look, beam.heading);
-    towards.include(nearness(place, out.look.target));
-    away.include(gap(place));
+    const Vec2 position = place_of(out.look, beam.heading);
+    towards.include(nearness(position, out.look.target));
+    away.include(gap(position));
   }
   for (RadarBeam& beam : out.beams) {
     if (beam.fate != BeamFate::kept) continue;
-    const Vec2 place = place_of(out.look, beam.heading);
-    beam.score = out.weights.target * towards.normalised(nearness(place, out.look.target)) +
-                 out.weights.avoidance * away.normalised(gap(place));
+    const Vec2 position = place_of(out.look, beam.heading);
+    beam.score = out.weights.target * towards.normalised(nearness(position, out.look.target)) +
+                 out.weights.avoidance * away.normalised(gap(position));
   }
 }
 

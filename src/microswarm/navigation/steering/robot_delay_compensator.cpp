@@ -20,11 +20,11 @@ RobotDelayCompensator::RobotDelayCompensator(const Map& map, double reach, Conta
     : map_(map), stepper_(map, reach), contact_(contact), lag_(response_lag) {}
 
 Robots RobotDelayCompensator::at_effect(const Observation& observation) const {
-  std::vector<Vec2> places(observation.robots.begin(), observation.robots.end());
+  std::vector<Vec2> positions(observation.robots.begin(), observation.robots.end());
   const double guard = stepper_.guard();
-  for (Vec2& place : places)
-    if (!map_.is_free(place, guard / 2)) place = free_place(map_, place, 2 * guard);
-  Robots robots = stepper_.place(places);
+  for (Vec2& position : positions)
+    if (!map_.is_free(position, guard / 2)) position = free_place(map_, position, 2 * guard);
+  Robots robots = stepper_.place(positions);
   const double end = observation.now + lag_;
   for (std::size_t i = 0; i < issued_.size(); ++i) {
     const double begins = std::max(issued_[i].time + lag_, observation.seen);

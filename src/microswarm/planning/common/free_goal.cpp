@@ -63,11 +63,11 @@ std::optional<Vec2> search(const Snapshot& world, Vec2 goal, double tolerance, d
     // Clearance changes by at most 1 µm per µm, so no point of the square can have enough.
     const double reach = square.half * std::numbers::sqrt2;
     if (world.clearance(square.centre) + reach < clearance) continue;
-    const Vec2 place =
+    const Vec2 position =
         pushing ? pushed(world, square.centre, clearance).value_or(square.centre) : square.centre;
-    const double to_goal = distance(place, goal);
-    if (to_goal <= best_distance && world.is_free(place, clearance)) {
-      best = place;
+    const double to_goal = distance(position, goal);
+    if (to_goal <= best_distance && world.is_free(position, clearance)) {
+      best = position;
       best_distance = to_goal;
     }
     if (square.level == finest_level) continue;
@@ -90,17 +90,17 @@ std::optional<Vec2> free_goal(const Snapshot& world, Vec2 goal, double tolerance
   return search(world, goal, tolerance, clearance, true);
 }
 
-std::optional<Vec2> pushed_free(const Map& map, Vec2 place, double clearance) {
-  return pushed(map, place, clearance);
+std::optional<Vec2> pushed_free(const Map& map, Vec2 position, double clearance) {
+  return pushed(map, position, clearance);
 }
 
 Target find_target(const Snapshot& world, Vec2 start, Vec2 goal, double tolerance,
                    double clearance) {
   if (!is_finite(start) || !world.is_free(start, clearance))
-    return {.fault = Status::start_blocked, .place = {}};
-  const auto place = free_goal(world, goal, tolerance, clearance);
-  if (!place) return {.fault = Status::goal_blocked, .place = {}};
-  return {.fault = std::nullopt, .place = *place};
+    return {.fault = Status::start_blocked, .position = {}};
+  const auto position = free_goal(world, goal, tolerance, clearance);
+  if (!position) return {.fault = Status::goal_blocked, .position = {}};
+  return {.fault = std::nullopt, .position = *position};
 }
 
 }  // namespace microswarm

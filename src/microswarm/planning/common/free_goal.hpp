@@ -14,12 +14,12 @@ std::optional<Vec2> free_goal(const Snapshot& world, Vec2 goal, double tolerance
 
 /// A place with the clearance beside one that has less, against the walls' push; nothing in a wall
 /// and where there is none nearby.
-std::optional<Vec2> pushed_free(const Map& map, Vec2 place, double clearance);
+std::optional<Vec2> pushed_free(const Map& map, Vec2 position, double clearance);
 
 /// A free place at the goal of a query, or why it cannot be planned: start_blocked or goal_blocked.
 struct Target {
   std::optional<Status> fault;
-  Vec2 place;
+  Vec2 position;
   /// The plan of a query with a fault.
   Plan blocked(Vec2 start) const { return {.status = *fault, .path = {start}}; }
 };

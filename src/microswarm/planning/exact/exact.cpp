@@ -35,7 +35,7 @@ Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const ExactParams& para
   if (target.fault) return target.blocked(start.position);
   Plan made{.status = Status::solved, .path = {start.position}};
   if (distance(start.position, goal) <= params.goal_tolerance) return made;
-  ShortestPath found = find_kept(world, params.clearance, start.position, target.place, stop);
+  ShortestPath found = find_kept(world, params.clearance, start.position, target.position, stop);
   made.status = found.status;
   if (found.status == Status::solved) made.arc_length = found.length;
   made.path = std::move(found.points);

@@ -176,13 +176,13 @@ void TangentSearch::begin_to_everywhere(Vec2 start) {
   look_from_start(infinity);
 }
 
-void TangentSearch::head_for(Vec2 place) {
-  goal_ = place;
+void TangentSearch::head_for(Vec2 position) {
+  goal_ = position;
   for (Open& open : open_) {
     const TangentLine& line = open.is_guess
                                   ? guesses_[open.line].line
                                   : wheels_[labels_[open.parent].wheel].hops[open.line].line;
-    open.estimate = open.length + distance(touch(open.to, line), place);
+    open.estimate = open.length + distance(touch(open.to, line), position);
   }
   std::make_heap(open_.begin(), open_.end());
 }
@@ -377,11 +377,11 @@ std::vector<Vec2> TangentSearch::path_to(std::uint32_t label) const {
   return path;
 }
 
-void TangentSearch::go_on(const Label& label, const Leaving& leaving, Vec2 place,
+void TangentSearch::go_on(const Label& label, const Leaving& leaving, Vec2 position,
                           std::vector<Vec2>& path) const {
   draw_arc(circles_[label.wheel / 2], sense(label.wheel), label.arrive, leaving.leave, path);
   add(touch(label.wheel, leaving.line), path);
-  add(place, path);
+  add(position, path);
 }
 
 void TangentSearch::add(Vec2 p, std::vector<Vec2>& path) const {

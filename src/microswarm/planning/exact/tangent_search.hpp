@@ -56,8 +56,8 @@ class TangentSearch {
   void begin(Vec2 start, Vec2 goal, const BodySet& moving);
   /// Begins a query for paths to any position, among walls alone, and opens the start's tangents.
   void begin_to_everywhere(Vec2 start);
-  /// Directs the search to `place`, after begin_to_everywhere().
-  void head_for(Vec2 place);
+  /// Directs the search to `position`, after begin_to_everywhere().
+  void head_for(Vec2 position);
   /// Whether `s` keeps the clearance from walls and from the query's moving bodies.
   bool is_free(Segment s) const;
   /// Opens the tangents from the start, those near the line to the goal first. To be called once
@@ -77,14 +77,14 @@ class TangentSearch {
     return wheels_[wheel].query == query_ ? wheels_[wheel].first_label : none;
   }
   /// Distance of a position from a wheel's circle [µm], 0 inside.
-  double distance_to(std::uint32_t wheel, Vec2 place) const {
+  double distance_to(std::uint32_t wheel, Vec2 position) const {
     const Circle& circle = circles_[wheel / 2];
-    return std::max(0.0, distance(circle.centre, place) - circle.radius);
+    return std::max(0.0, distance(circle.centre, position) - circle.radius);
   }
   /// Line from a label's wheel to a position; nothing if it cannot belong to a shortest path. It is
   /// not tested against walls.
-  std::optional<Leaving> leaving(const Label& label, Vec2 place) {
-    return leaving(label, {.centre = place}, 1);
+  std::optional<Leaving> leaving(const Label& label, Vec2 position) {
+    return leaving(label, {.centre = position}, 1);
   }
   const Corners& corners() const { return *corners_; }
   Vec2 start() const { return start_; }
@@ -92,7 +92,8 @@ class TangentSearch {
   /// Path to the end of a label [µm]; arcs are replaced by tangent lines, which keep the clearance.
   std::vector<Vec2> path_to(std::uint32_t label) const;
   /// Extends that path along a line to a position.
-  void go_on(const Label& label, const Leaving& leaving, Vec2 place, std::vector<Vec2>& path) const;
+  void go_on(const Label& label, const Leaving& leaving, Vec2 position,
+             std::vector<Vec2>& path) const;
   /// Adds a point unless it equals the last one up to rounding.
   void add(Vec2 p, std::vector<Vec2>& path) const;
 

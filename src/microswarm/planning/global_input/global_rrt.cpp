@@ -73,9 +73,9 @@ class Growth {
  private:
   std::span<const float> used(const GrownPlaces& c) const { return {c.data(), 2 * n_}; }
 
-  GrownPlaces relative(std::span<const Vec2> places) const {
+  GrownPlaces relative(std::span<const Vec2> positions) const {
     GrownPlaces c{};
-    for (std::size_t i = 0; i < n_; ++i) put(c, i, stepper_.relative(places[i]));
+    for (std::size_t i = 0; i < n_; ++i) put(c, i, stepper_.relative(positions[i]));
     return c;
   }
 
@@ -175,10 +175,11 @@ class Growth {
   std::vector<PointF> reached_;
 };
 
-double min_distance(std::span<const Vec2> places) {
+double min_distance(std::span<const Vec2> positions) {
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < places.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) least = std::min(least, distance(places[i], places[j]));
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      least = std::min(least, distance(positions[i], positions[j]));
   return least;
 }
 

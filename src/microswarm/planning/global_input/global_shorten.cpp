@@ -61,10 +61,10 @@ class Shortening {
     for (const PointF u : inputs_)
       plan.inputs.push_back({static_cast<double>(u.x), static_cast<double>(u.y)});
     for (const PlayedPlaces& robots : states_) {
-      std::vector<Vec2>& places = plan.configurations.emplace_back();
+      std::vector<Vec2>& positions = plan.configurations.emplace_back();
       for (std::size_t i = 0; i < n_; ++i)
-        places.push_back(origin_ +
-                         Vec2{static_cast<double>(robots[i].x), static_cast<double>(robots[i].y)});
+        positions.push_back(
+            origin_ + Vec2{static_cast<double>(robots[i].x), static_cast<double>(robots[i].y)});
     }
     return plan;
   }

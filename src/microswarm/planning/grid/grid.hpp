@@ -263,7 +263,7 @@ Plan plan_on_grids(const Snapshot& world, Pose2 start, Vec2 goal, Params params,
   if (target.fault) return target.blocked(start.position);
   PlanCounts before;
   for (bool is_first = true;; is_first = false) {
-    Plan plan = search(params, target.place);
+    Plan plan = search(params, target.position);
     plan.counts += before;
     if (plan.status != Status::no_path) return plan;
     if (is_first) {

@@ -231,7 +231,7 @@ Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const FmtStarParams& pa
   const Target target =
       find_target(world, start.position, goal, params.goal_tolerance, params.clearance);
   if (target.fault) return target.blocked(start.position);
-  return FmtStar(world, start, goal, target.place, params, rng, stop).run();
+  return FmtStar(world, start, goal, target.position, params, rng, stop).run();
 }
 
 }  // namespace microswarm

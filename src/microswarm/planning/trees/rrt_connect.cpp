@@ -131,7 +131,7 @@ Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const RrtConnectParams&
   const Target target =
       find_target(world, start.position, goal, params.goal_tolerance, params.clearance);
   if (target.fault) return target.blocked(start.position);
-  return RrtConnect(world, start, goal, target.place, params, rng).run(stop);
+  return RrtConnect(world, start, goal, target.position, params, rng).run(stop);
 }
 
 }  // namespace microswarm

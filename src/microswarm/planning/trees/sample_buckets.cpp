@@ -37,7 +37,7 @@ void SampleBuckets::append_near(Vec2 p, std::vector<std::uint32_t>& out) const {
     std::size_t kept = out.size();
     out.resize(kept + run.size());
     for (const Placed& other : run) {
-      const double squared = squared_norm(other.place - p);
+      const double squared = squared_norm(other.position - p);
       out[kept] = other.index;
       kept += static_cast<std::size_t>(squared <= radius_ * radius_) &
               static_cast<std::size_t>(squared > 0);

@@ -25,7 +25,7 @@ class SampleBuckets {
 
  private:
   struct Placed {
-    Vec2 place;
+    Vec2 position;
     std::uint32_t index = 0;
   };
   int index(double offset, int count) const {

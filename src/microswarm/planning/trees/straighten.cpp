@@ -49,7 +49,7 @@ class Straightener {
   };
   /// A point, with what is left to the end in a straight line.
   struct Point {
-    Vec2 place;
+    Vec2 position;
     double length_left = 0;  ///< times its cost
     double heading_left = 0;
     std::size_t first_edge = 0;  ///< of those that end at it
@@ -84,7 +84,7 @@ void Straightener::lay_out(std::span<const Vec2> points) {
   edges_.clear();
   for (const Vec2 p : points) {
     const Vec2 rest = points.back() - p;
-    points_.push_back({.place = p});
+    points_.push_back({.position = p});
     if (rest == Vec2{}) continue;
     points_.back().length_left = cost_.per_length * norm(rest);
     points_.back().heading_left = heading_of(rest);
@@ -94,10 +94,10 @@ void Straightener::lay_out(std::span<const Vec2> points) {
 /// The edge, with infinite cost if no chain over it can cost as little as `known`.
 Straightener::Edge Straightener::reach(std::size_t i, std::size_t j, double known) const {
   const Point &a = points_[i], &b = points_[j];
-  const double length = cost_.per_length * distance(a.place, b.place);
+  const double length = cost_.per_length * distance(a.position, b.position);
   const double least = i == 0 ? length : a.min_cost + length;
   if (!(least + b.length_left <= known)) return {};
-  Edge to{.from = i, .heading = heading_of(b.place - a.place)};
+  Edge to{.from = i, .heading = heading_of(b.position - a.position)};
   if (i == 0) to.cost = length + cost_.per_turn * turn_between(start_heading_, to.heading);
   for (const Edge& from : edges_to(i)) {
     if (from.cost + length >= to.cost) continue;
@@ -110,7 +110,7 @@ Straightener::Edge Straightener::reach(std::size_t i, std::size_t j, double know
   }
   // To the end it is at least the straight line, and the turn from the edge's heading to it.
   const double left =
-      b.place == points_.back().place
+      b.position == points_.back().position
           ? 0
           : b.length_left + cost_.per_turn * turn_between(to.heading, b.heading_left);
   if (!(to.cost + left <= known)) to.cost = infinity;
@@ -129,21 +129,21 @@ std::vector<Vec2> Straightener::cheapest_chain(std::span<const Vec2> points, dou
   for (std::size_t j = 1; j <= last; ++j) {
     points_[j].first_edge = edges_.size();
     for (std::size_t i = first(j); i < j; ++i) {
-      if (points_[i].place == points_[j].place) continue;
+      if (points_[i].position == points_[j].position) continue;
       const Edge e = reach(i, j, known);
       if (e.cost == infinity) continue;
       ++checks_;
-      if (!is_part(i, j) && !is_free(points_[i].place, points_[j].place)) continue;
+      if (!is_part(i, j) && !is_free(points_[i].position, points_[j].position)) continue;
       edges_.push_back(e);
       points_[j].min_cost = std::min(points_[j].min_cost, e.cost);
     }
   }
   const auto best = std::ranges::min_element(edges_to(last), {}, &Edge::cost);
   if (best == edges_to(last).end()) return {};
-  std::vector<Vec2> chain{points_[last].place};
+  std::vector<Vec2> chain{points_[last].position};
   std::size_t i = best->from;
   for (std::size_t j = last; j != 0;) {
-    chain.push_back(points_[i].place);
+    chain.push_back(points_[i].position);
     const std::size_t h = i == 0 ? 0 : edge(i, j).before;
     j = i;
     i = h;

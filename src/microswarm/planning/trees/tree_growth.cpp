@@ -76,16 +76,16 @@ std::optional<Vec2> TreeGrowth::draw_free_uniform() {
   if (world_.is_free(first, params_.clearance)) return first;
   std::array<Vec2, Rng::max_ahead / 2> some;
   for (std::size_t drawn = 1; drawn < max_sample_draws; drawn += some.size()) {
-    const auto places = std::span(some).first(std::min(some.size(), max_sample_draws - drawn));
-    look_ahead(sampled_, rng_, places);
-    for (unsigned left = world_.map().may_be_free(places, params_.clearance); left != 0;
+    const auto positions = std::span(some).first(std::min(some.size(), max_sample_draws - drawn));
+    look_ahead(sampled_, rng_, positions);
+    for (unsigned left = world_.map().may_be_free(positions, params_.clearance); left != 0;
          left &= left - 1) {
       const auto k = static_cast<std::size_t>(std::countr_zero(left));
-      if (!world_.is_free(places[k], params_.clearance)) continue;
+      if (!world_.is_free(positions[k], params_.clearance)) continue;
       rng_.skip(2 * (k + 1));
-      return places[k];
+      return positions[k];
     }
-    rng_.skip(2 * places.size());
+    rng_.skip(2 * positions.size());
   }
   return std::nullopt;
 }

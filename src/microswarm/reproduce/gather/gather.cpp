@@ -28,14 +28,14 @@ AggregationMap gather_map(const scenes::Vascular& scene, bool obstacle_weighted)
 Robots gather_robots(const scenes::Vascular& scene, const AggregationMap& map,
                      const RobotStepper& stepper, int count, std::uint32_t trial, double min_cost) {
   Rng rng(1, Purpose::scene, trial);
-  std::vector<Vec2> places;
+  std::vector<Vec2> positions;
   const Box& box = scene.bounds;
-  while (std::ssize(places) < count) {
+  while (std::ssize(positions) < count) {
     const Vec2 p = uniform_in(box, rng);
     if (map.map.is_free(p, 4 * stepper.guard()) && map.tree.cost(map.tree.weighted, p) >= min_cost)
-      places.push_back(p);
+      positions.push_back(p);
   }
-  return stepper.place(places);
+  return stepper.place(positions);
 }
 
 void write_everywhere(const std::vector<Plot>& plots, const std::filesystem::path& stem) {

@@ -98,14 +98,14 @@ double spread_when_led(const AggregationMap& map, Vec2 start, const ReproduceOpt
   constexpr double radius = 3;
   const RobotStepper stepper(map.map, 1);
   Rng rng(1, Purpose::scene);
-  std::vector<Vec2> places;
-  while (std::ssize(places) < count) {
+  std::vector<Vec2> positions;
+  while (std::ssize(positions) < count) {
     const double x = rng.uniform(-radius, radius);
     const Vec2 off{x, rng.uniform(-radius, radius)};
     if (norm(off) <= radius && map.map.is_free(start + off, 4 * stepper.guard()))
-      places.push_back(start + off);
+      positions.push_back(start + off);
   }
-  Robots robots = stepper.place(places);
+  Robots robots = stepper.place(positions);
   Robots leader = stepper.place(std::vector<Vec2>{start});
   AggregationParams params;
   params.method = Aggregation::heuristic;
@@ -123,7 +123,7 @@ double spread_when_led(const AggregationMap& map, Vec2 start, const ReproduceOpt
   for (std::size_t i = 0; i < robots.size(); ++i) sum += distance(robots.position(i), end);
   Picture picture(map.map.bounds(), name);
   with_walls(picture, map).line(path);
-  draw_robots(picture, stepper.place(places), colours::swarm);
+  draw_robots(picture, stepper.place(positions), colours::swarm);
   draw_robots(picture, robots, colours::obstacle);
   picture.legend("at the start", colours::swarm, true);
   picture.legend("at the end", colours::obstacle, true);

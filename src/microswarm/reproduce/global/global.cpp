@@ -21,9 +21,10 @@ void draw_plan(const ReproduceOptions& options, const std::string& name, const s
 
 double min_distance(const GlobalPlan& plan) {
   double least = std::numeric_limits<double>::infinity();
-  for (const auto& places : plan.configurations)
-    for (std::size_t i = 0; i < places.size(); ++i)
-      for (std::size_t j = 0; j < i; ++j) least = std::min(least, distance(places[i], places[j]));
+  for (const auto& positions : plan.configurations)
+    for (std::size_t i = 0; i < positions.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        least = std::min(least, distance(positions[i], positions[j]));
   return least;
 }
 

@@ -20,21 +20,21 @@ constexpr double smoothing = 0.3;  // weight of the newest velocity
 constexpr std::size_t candidates = 64;
 constexpr double preference = 1e-12;  // of squared distances
 
-/// Adds the pairs of a body at `place`, row `row`, with the nearest expected bodies within reach,
-/// in ascending order of distance.
+/// Adds the pairs of a body at `position`, row `row`, with the nearest expected bodies within
+/// reach, in ascending order of distance.
 class Pairing {
  public:
   Pairing(std::span<const Vec2> expected, double reach)
       : expected_(expected), reach_(reach), grid_(bounding_box(expected).grown(reach)) {
     if (expected.size() > candidates)
-      for (const Vec2 place : expected) grid_.add(place);
+      for (const Vec2 position : expected) grid_.add(position);
   }
 
-  void add(int row, Vec2 place, std::vector<AssignmentEdge>& edges) {
-    find_near(place);
+  void add(int row, Vec2 position, std::vector<AssignmentEdge>& edges) {
+    find_near(position);
     const std::size_t first = edges.size();
     for (const std::uint32_t k : near_) {
-      const double off = squared_norm(place - expected_[k]);
+      const double off = squared_norm(position - expected_[k]);
       if (off <= reach_ * reach_) edges.push_back({row, static_cast<int>(k), off});
     }
     if (edges.size() - first <= candidates) return;
@@ -50,7 +50,7 @@ class Pairing {
   }
 
  private:
-  void find_near(Vec2 place) {
+  void find_near(Vec2 position) {
     near_.clear();
     if (expected_.size() <= candidates) {
       near_.resize(expected_.size());
@@ -60,7 +60,7 @@ class Pairing {
     // The radius grows until it holds enough candidates, so that few are tested in a crowd.
     for (double share = 1.0 / 64; near_.size() < candidates; share *= 2) {
       near_.clear();
-      grid_.within(place, std::min(share, 1.0) * reach_, near_);
+      grid_.within(position, std::min(share, 1.0) * reach_, near_);
       if (share >= 1) break;
     }
   }

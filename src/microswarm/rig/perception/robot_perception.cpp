@@ -18,10 +18,10 @@ constexpr double speed_margin = 3;     // of the speed of a robot between two pi
 constexpr double longest_blink = 0.5;  // [s] unseen, after which a robot does not join a pile
 constexpr double usual_time = 1.0;     // [s] typical time between pictures, for the stepper's grid
 
-std::size_t nearest_of(std::span<const Vec2> places, Vec2 to) {
+std::size_t nearest_of(std::span<const Vec2> positions, Vec2 to) {
   std::size_t best = 0;
-  for (std::size_t i = 1; i < places.size(); ++i)
-    if (squared_norm(places[i] - to) < squared_norm(places[best] - to)) best = i;
+  for (std::size_t i = 1; i < positions.size(); ++i)
+    if (squared_norm(positions[i] - to) < squared_norm(positions[best] - to)) best = i;
   return best;
 }
 
@@ -79,13 +79,13 @@ void RobotPerception::find_spots(const Image& picture) {
 
 /// Predicts the robots' positions from the command and the walls.
 void RobotPerception::expect(double passed) {
-  std::vector<Vec2>& places = detections_.robots;
-  before_ = places;
-  for (Vec2& place : places) place = free_place(map_, place, 2 * stepper_.guard());
-  Robots robots = stepper_.place(places);
+  std::vector<Vec2>& positions = detections_.robots;
+  before_ = positions;
+  for (Vec2& position : positions) position = free_place(map_, position, 2 * stepper_.guard());
+  Robots robots = stepper_.place(positions);
   stepper_.step(robots, displacement(command_, passed), contact_);
-  places = robots.positions();
-  expected_ = places;
+  positions = robots.positions();
+  expected_ = positions;
 }
 
 void RobotPerception::pair(double reach) {

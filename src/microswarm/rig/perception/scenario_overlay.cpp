@@ -39,8 +39,8 @@ class Canvas {
       points.push_back(centre + radius * unit_vector(2 * std::numbers::pi * k / corners));
     ring(points, colour);
   }
-  void cross(Vec2 place, const cv::Scalar& colour) {
-    const Vec2 at = scale_.to_picture(place);
+  void cross(Vec2 position, const cv::Scalar& colour) {
+    const Vec2 at = scale_.to_picture(position);
     for (const Vec2 diagonal : {Vec2{mark_px, mark_px}, Vec2{mark_px, -mark_px}})
       pixel_line(at - diagonal, at + diagonal, colour);
   }

@@ -132,16 +132,16 @@ SwarmPrior SwarmPerception::prior() const {
 void SwarmPerception::accept(const Blob& swarm, const SeenScene& scene, double t) {
   keep_size(swarm);
   const Ring around = *enclosing_circle(swarm.outline_px);
-  const Vec2 place = scale_.to_world(around.centre_px);
-  measure_following(place, t);
+  const Vec2 position = scale_.to_world(around.centre_px);
+  measure_following(position, t);
   before_px_ = around.centre_px;
   found_ = t;
   texture_ = swarm.texture;
   beside_ = scene.swarm.others;
   for (const SeenObstacle& seen : scene.obstacles) beside_.push_back(seen.blob);
-  tell_heading(place);
+  tell_heading(position);
   const double radius = std::max(0.0, around.radius_px + params_.edge);
-  detections_.swarm = SwarmPose{{place, heading_}, radius * scale_.um_per_px};
+  detections_.swarm = SwarmPose{{position, heading_}, radius * scale_.um_per_px};
 }
 
 /// Whether the swarm has split into parts that have its area together. Bodies that were near it
@@ -217,20 +217,20 @@ void SwarmPerception::keep_size(const Blob& swarm) {
   ++sightings_;
 }
 
-void SwarmPerception::measure_following(Vec2 place, double t) {
+void SwarmPerception::measure_following(Vec2 position, double t) {
   if (!found_ || !before_px_) return;
   const Vec2 wanted = displacement(command_, std::max(0.0, t - *found_));
   detections_.commanded_distance = norm(wanted);
   if (detections_.commanded_distance <= 0) return;
-  const Vec2 seen = place - scale_.to_world(*before_px_);
+  const Vec2 seen = position - scale_.to_world(*before_px_);
   detections_.followed_distance = dot(seen, wanted) / detections_.commanded_distance;
   detections_.across_distance = cross(wanted, seen) / detections_.commanded_distance;
 }
 
-void SwarmPerception::tell_heading(Vec2 place) {
-  if (distance(from_, place) < params_.heading_distance) return;
-  heading_ = heading_of(place - from_);
-  from_ = place;
+void SwarmPerception::tell_heading(Vec2 position) {
+  if (distance(from_, position) < params_.heading_distance) return;
+  heading_ = heading_of(position - from_);
+  from_ = position;
 }
 
 }  // namespace microswarm

@@ -46,8 +46,8 @@ class SwarmPerception : public Perception {
   void accept(const Blob& swarm, const SeenScene& scene, double t);
   std::vector<Ring> expected_discs(double t) const;
   bool is_large_or_known(const SeenObstacle& seen, const std::vector<Ring>& expected) const;
-  void measure_following(Vec2 place, double t);
-  void tell_heading(Vec2 place);
+  void measure_following(Vec2 position, double t);
+  void tell_heading(Vec2 position);
 
   PerceptionParams params_;
   CameraScale scale_;

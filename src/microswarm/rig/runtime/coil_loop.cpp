@@ -52,10 +52,10 @@ CoilLoop::~CoilLoop() {
   thread_.join();
 }
 
-void CoilLoop::command(const Command& command, const Eigen::Vector3d& place, double seen) {
+void CoilLoop::command(const Command& command, const Eigen::Vector3d& position, double seen) {
   const std::lock_guard lock(mutex_);
   command_ = command;
-  place_ = place;
+  place_ = position;
   seen_ = seen;
   commanded_ = steady_seconds();
   is_new_ = true;
@@ -128,13 +128,13 @@ void CoilLoop::run() {
     moment.seen = seen_;
     is_new_ = false;
     moment.late = Seconds(now - due).count();
-    const Eigen::Vector3d place = place_;
+    const Eigen::Vector3d position = place_;
     if (moment.t - *commanded_ > limits_.deadman) {
       why_ = fmt::format("no command for {:.2g} s", moment.t - *commanded_);
       break;
     }
     lock.unlock();
-    const std::string trouble = send(moment, place, Seconds(now - last).count());
+    const std::string trouble = send(moment, position, Seconds(now - last).count());
     last = now;
     if (now > due + period) due = now;  // do not make up for missed outputs
     lock.lock();
@@ -163,9 +163,9 @@ void CoilLoop::run() {
 }
 
 /// Error message; empty on success.
-std::string CoilLoop::send(CoilMoment& moment, const Eigen::Vector3d& place, double dt) {
+std::string CoilLoop::send(CoilMoment& moment, const Eigen::Vector3d& position, double dt) {
   try {
-    controller_.aim(place);
+    controller_.aim(position);
     controller_.command(moment.command);
     const double began = steady_seconds();
     moment.output = controller_.advance(dt);

@@ -55,7 +55,7 @@ class CoilLoop {
 
   /// Sets the command and the position of the swarm among the coils [µm]. `seen` is the arrival of
   /// the picture that it answers [s], by steady_seconds().
-  void command(const Command& command, const Eigen::Vector3d& place, double seen = 0);
+  void command(const Command& command, const Eigen::Vector3d& position, double seen = 0);
   /// Sets the coils to zero permanently; callable from any thread. Returns when they are at zero or
   /// cannot be reached.
   void stop(const std::string& why);
@@ -73,7 +73,7 @@ class CoilLoop {
 
  private:
   void run();
-  std::string send(CoilMoment& moment, const Eigen::Vector3d& place, double dt);
+  std::string send(CoilMoment& moment, const Eigen::Vector3d& position, double dt);
 
   CoilController& controller_;
   const CoilLoopLimits limits_;

@@ -52,13 +52,13 @@ std::string why_not_found(const Detections& seen) {
 
 void check_picture(const Rig& rig, const Scenario& scenario, const CameraScale& scale,
                    const Image& picture) {
-  for (const Vec2 place : places_of(scenario)) {
-    const Vec2 at = scale.to_picture(place);
+  for (const Vec2 position : places_of(scenario)) {
+    const Vec2 at = scale.to_picture(position);
     if (at.x < -0.5 || at.y < -0.5 || at.x > picture.width - 0.5 || at.y > picture.height - 0.5)
       throw rig.keys.error(
           "scale", fmt::format("the place ({:.6g}, {:.6g}) µm of the scenario is at pixel ({:.6g}, "
                                "{:.6g}), outside the picture of {} × {}",
-                               place.x, place.y, at.x, at.y, picture.width, picture.height));
+                               position.x, position.y, at.x, at.y, picture.width, picture.height));
   }
 }
 
@@ -214,9 +214,9 @@ void LiveRig::apply(const Command& command, double dt) {
   }
   missed_in_a_row_ = missed ? missed_in_a_row_ + 1 : 0;
   perception_->commanded(command, now);
-  const Vec2 place =
+  const Vec2 position =
       detections_->swarm ? detections_->swarm->pose.position : world_.map->bounds().centre();
-  coils_.command(command, place_among_coils(rig_.system, *world_.map, place), frame_.taken);
+  coils_.command(command, place_among_coils(rig_.system, *world_.map, position), frame_.taken);
   coils_.wait(schedule_.earliest() - since_start());
 }
 

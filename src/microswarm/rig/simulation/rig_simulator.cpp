@@ -95,30 +95,31 @@ Eigen::Vector3d RigSimulator::place() const {
   return place_among_coils(rig_.system, *map_, physics_->ground_truth()->swarm.pose.position);
 }
 
-Eigen::Vector3d place_among_coils(const CoilSystem& system, const Map& map, Vec2 place) {
-  const Vec2 off = place - map.bounds().centre();
+Eigen::Vector3d place_among_coils(const CoilSystem& system, const Map& map, Vec2 position) {
+  const Vec2 off = position - map.bounds().centre();
   return system.centre() + Eigen::Vector3d(off.x, off.y, 0);
 }
 
 std::vector<Vec2> places_of(const Scenario& scenario) {
-  std::vector<Vec2> places;
-  if (scenario.start) places.push_back(scenario.start->position);
-  if (scenario.goal) places.push_back(*scenario.goal);
+  std::vector<Vec2> positions;
+  if (scenario.start) positions.push_back(scenario.start->position);
+  if (scenario.goal) positions.push_back(*scenario.goal);
   if (scenario.robots) {
-    places.insert(places.end(), scenario.robots->starts.begin(), scenario.robots->starts.end());
-    places.insert(places.end(), scenario.robots->goals.begin(), scenario.robots->goals.end());
+    positions.insert(positions.end(), scenario.robots->starts.begin(),
+                     scenario.robots->starts.end());
+    positions.insert(positions.end(), scenario.robots->goals.begin(), scenario.robots->goals.end());
   }
-  return places;
+  return positions;
 }
 
 void check_workspace(const Rig& rig, const Scenario& scenario, const Map& map) {
-  for (const Vec2 place : places_of(scenario)) {
-    const Eigen::Vector3d among = place_among_coils(rig.system, map, place);
+  for (const Vec2 position : places_of(scenario)) {
+    const Eigen::Vector3d among = place_among_coils(rig.system, map, position);
     if (!rig.system.in_workspace(among))
       throw rig.keys.error(
           "coils", fmt::format("the place ({:.6g}, {:.6g}) µm of the scenario is at ({:.6g}, "
                                "{:.6g}, {:.6g}) µm among the coils, where their field is not known",
-                               place.x, place.y, among.x(), among.y(), among.z()));
+                               position.x, position.y, among.x(), among.y(), among.z()));
   }
 }
 

@@ -208,8 +208,8 @@ class FaceGridBuilder {
     hash.bytes(std::as_bytes(std::span(list)));
     const KnownList added{static_cast<std::uint32_t>(grid_.packs_.size()), known_faces_.size(),
                           list.size()};
-    const auto [place, is_new] = known_.try_emplace(hash.digest(), added);
-    const KnownList& known = place->second;
+    const auto [position, is_new] = known_.try_emplace(hash.digest(), added);
+    const KnownList& known = position->second;
     if (!is_new &&
         std::ranges::equal(std::span(known_faces_).subspan(known.begin, known.size), list))
       return known.pack;

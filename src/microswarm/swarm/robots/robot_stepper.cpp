@@ -16,9 +16,9 @@ PointF RobotStepper::relative(Vec2 p) const {
   return {static_cast<float>(q.x), static_cast<float>(q.y)};
 }
 
-Robots RobotStepper::place(std::span<const Vec2> places) const {
+Robots RobotStepper::place(std::span<const Vec2> positions) const {
   Robots robots{faces_.origin(), {}, {}};
-  for (const Vec2 p : places) {
+  for (const Vec2 p : positions) {
     const PointF q = relative(p);
     robots.x.push_back(q.x);
     robots.y.push_back(q.y);

@@ -37,7 +37,7 @@ class RobotStepper {
   RobotStepper(const Map& map, double reach);
 
   /// Robots at these positions, which should be at least `guard()` from every wall.
-  Robots place(std::span<const Vec2> places) const;
+  Robots place(std::span<const Vec2> positions) const;
   /// Moves every robot by `move` [µm] as far as the rule allows. Uses the widest vectors of the
   /// machine; the result has the same bits as `moved` on all machines.
   void step(Robots& robots, Vec2 move, ContactRule rule) const;

@@ -41,10 +41,10 @@ std::vector<Vec2> dots_in(const Image& grey) {
   radii.reserve(dots.size());
   for (const Blob& b : dots) radii.push_back(b.radius_px);
   const double typical = median(radii);
-  std::vector<Vec2> places;
+  std::vector<Vec2> positions;
   for (const Blob& b : dots)
-    if (std::abs(b.radius_px - typical) < dot_spread * typical) places.push_back(b.centre_px);
-  return places;
+    if (std::abs(b.radius_px - typical) < dot_spread * typical) positions.push_back(b.centre_px);
+  return positions;
 }
 
 /// Saddle points of the grey value. The `wanted` strongest responses define the threshold of a
@@ -80,10 +80,10 @@ std::vector<Vec2> corners_in(const Image& grey, std::size_t wanted) {
     if (strength > corner_share * typical) corners.push_back(at);
   cv::cornerSubPix(as_mat(grey), corners, {5, 5}, {-1, -1},
                    {cv::TermCriteria::EPS + cv::TermCriteria::COUNT, 50, 1e-3});
-  std::vector<Vec2> places;
-  places.reserve(corners.size());
-  for (const cv::Point2f c : corners) places.push_back({c.x, c.y});
-  return places;
+  std::vector<Vec2> positions;
+  positions.reserve(corners.size());
+  for (const cv::Point2f c : corners) positions.push_back({c.x, c.y});
+  return positions;
 }
 
 struct Node {

@@ -75,9 +75,9 @@ std::optional<LensDistortion> fit_distortion(std::span<const ScalePoint> points,
   if (!(found.deviation_px < lens.radius()) || std::abs(k1) > 0.99 * max_k1) return std::nullopt;
   for (const Vec2 corner :
        {Vec2{0, 0}, Vec2{width - 1.0, 0}, Vec2{0, height - 1.0}, Vec2{width - 1.0, height - 1.0}}) {
-    const Vec2 place = with.scale.to_world(lens.straightened(corner, k1));
+    const Vec2 position = with.scale.to_world(lens.straightened(corner, k1));
     found.error_px =
-        std::max(found.error_px, distance(without.to_world(corner), place) / without.um_per_px);
+        std::max(found.error_px, distance(without.to_world(corner), position) / without.um_per_px);
   }
   return found;
 }

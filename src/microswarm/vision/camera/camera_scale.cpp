@@ -19,15 +19,15 @@ FittedScale fit_scale(std::span<const ScalePoint> points, bool y_up) {
   Vec2 middle;
   for (const ScalePoint& p : points) {
     middle_px += p.at_px / n;
-    middle += p.place / n;
+    middle += p.position / n;
   }
   double along = 0;
   double across = 0;
   double square = 0;
   for (const ScalePoint& p : points) {
     const Vec2 at = turned(p.at_px - middle_px);
-    along += dot(at, p.place - middle);
-    across += cross(at, p.place - middle);
+    along += dot(at, p.position - middle);
+    across += cross(at, p.position - middle);
     square += squared_norm(at);
   }
   const double um_per_px = norm({along, across}) / square;
@@ -40,7 +40,7 @@ FittedScale fit_scale(std::span<const ScalePoint> points, bool y_up) {
   double squares = 0;
   fit.residuals.reserve(points.size());
   for (const ScalePoint& p : points) {
-    const double off = distance(fit.scale.to_world(p.at_px), p.place);
+    const double off = distance(fit.scale.to_world(p.at_px), p.position);
     fit.residuals.push_back(off);
     fit.worst = std::max(fit.worst, off);
     squares += off * off;

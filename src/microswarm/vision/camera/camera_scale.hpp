@@ -30,8 +30,8 @@ struct CameraScale {
   /// World position [µm] of a pixel position.
   Vec2 to_world(Vec2 at_px) const { return direction_to_world(at_px - origin_px); }
   /// Pixel position of a world position [µm].
-  Vec2 to_picture(Vec2 place) const {
-    const Vec2 turned = rotated(place, -rotation) / um_per_px;
+  Vec2 to_picture(Vec2 position) const {
+    const Vec2 turned = rotated(position, -rotation) / um_per_px;
     return origin_px + Vec2{turned.x, y_up ? -turned.y : turned.y};
   }
   /// World displacement [µm] of a displacement in pixels.
@@ -49,7 +49,7 @@ inline CameraScale upright_scale(int height, double um_per_px) {
 /// A pixel position and its world position [µm].
 struct ScalePoint {
   Vec2 at_px;
-  Vec2 place;
+  Vec2 position;
 };
 
 /// A fitted scale and the residuals of its points.

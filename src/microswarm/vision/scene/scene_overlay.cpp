@@ -75,13 +75,13 @@ void draw_reasons(Image& shown, const std::vector<NotSwarm>& blobs) {
     const std::string words = short_reason(no);
     int below = 0;
     const cv::Size text = cv::getTextSize(words, cv::FONT_HERSHEY_SIMPLEX, size, 1, &below);
-    const auto place = [](double at, int length, int picture) {
+    const auto position = [](double at, int length, int picture) {
       return std::clamp(static_cast<int>(std::lround(at)) - length / 2, 2,
                         std::max(2, picture - length - 2));
     };
     draw_text(canvas, words,
-              {place(no.blob.centre_px.x, text.width, shown.width),
-               place(no.blob.centre_px.y, 0, shown.height) + text.height / 2},
+              {position(no.blob.centre_px.x, text.width, shown.width),
+               position(no.blob.centre_px.y, 0, shown.height) + text.height / 2},
               size);
   }
 }

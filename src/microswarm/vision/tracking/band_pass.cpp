@@ -124,9 +124,9 @@ void BandPass::begin(const Image& grey) {
 void BandPass::take_row(const Image& grey, int row) {
   const auto width = static_cast<std::size_t>(grey.width);
   const int rows = 2 * static_cast<int>(taps_.size()) - 1;
-  float* place = rows_.data() + static_cast<std::size_t>((row + rows) % rows) * width;
-  convert(row_of(grey, row), grey.width, place);
-  std::copy_n(place, width, place + static_cast<std::size_t>(rows) * width);
+  float* position = rows_.data() + static_cast<std::size_t>((row + rows) % rows) * width;
+  convert(row_of(grey, row), grey.width, position);
+  std::copy_n(position, width, position + static_cast<std::size_t>(rows) * width);
 }
 
 void BandPass::smooth_down(const Image& grey, int row) {

@@ -105,8 +105,8 @@ void RobotTracker::miss(Robot& robot, int frame, std::span<const Vec2> seen) {
 }
 
 /// A robot that returns from a merge has split off if it stays.
-void RobotTracker::meet(Robot& robot, int frame, Vec2 place, std::span<const Vec2> seen) {
-  if (robot.merged) robot.appeared = touched(place, robot.id, frame, seen);
+void RobotTracker::meet(Robot& robot, int frame, Vec2 position, std::span<const Vec2> seen) {
+  if (robot.merged) robot.appeared = touched(position, robot.id, frame, seen);
   robot.merged = false;
   robot.missed = 0;
   robot.last_frame = frame;
@@ -120,16 +120,16 @@ void RobotTracker::note_split(Robot& robot) {
   robot.appeared.reset();
 }
 
-/// The nearest other robot seen in this frame within touching distance of `place` that has been
+/// The nearest other robot seen in this frame within touching distance of `position` that has been
 /// seen for long enough.
-std::optional<RobotTracker::Touch> RobotTracker::touched(Vec2 place, int of, int frame,
+std::optional<RobotTracker::Touch> RobotTracker::touched(Vec2 position, int of, int frame,
                                                          std::span<const Vec2> seen) const {
   std::optional<Touch> nearest;
   double least = touch_ * touch_;
-  auto at = std::lower_bound(by_height_.begin(), by_height_.end(), place.y - touch_,
+  auto at = std::lower_bound(by_height_.begin(), by_height_.end(), position.y - touch_,
                              [&](int i, double y) { return seen[i].y < y; });
-  for (; at != by_height_.end() && seen[*at].y <= place.y + touch_; ++at) {
-    const double squared = squared_norm(seen[*at] - place);
+  for (; at != by_height_.end() && seen[*at].y <= position.y + touch_; ++at) {
+    const double squared = squared_norm(seen[*at] - position);
     if (!robot_at_[*at] || squared > least) continue;
     const Robot& other = robots_[*robot_at_[*at]];
     if (other.id == of || other.run < lasting_) continue;

@@ -53,7 +53,7 @@ struct TrackerParams {
 /// A robot seen in a frame.
 struct SeenRobot {
   int id = 0;     ///< numbered from 0 in the order of birth
-  Vec2 place;     ///< filtered [µm]
+  Vec2 position;  ///< filtered [µm]
   Vec2 velocity;  ///< filtered [µm/s]
 };
 
@@ -118,9 +118,9 @@ class RobotTracker {
   void find_candidates(std::span<const Vec2> seen);
   void match(int frame, std::span<const Vec2> seen);
   void miss(Robot& robot, int frame, std::span<const Vec2> seen);
-  void meet(Robot& robot, int frame, Vec2 place, std::span<const Vec2> seen);
+  void meet(Robot& robot, int frame, Vec2 position, std::span<const Vec2> seen);
   void note_split(Robot& robot);
-  std::optional<Touch> touched(Vec2 place, int of, int frame, std::span<const Vec2> seen) const;
+  std::optional<Touch> touched(Vec2 position, int of, int frame, std::span<const Vec2> seen) const;
   void give_birth(int frame, std::span<const Vec2> seen);
   void bury();
 

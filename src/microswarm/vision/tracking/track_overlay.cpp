@@ -74,7 +74,7 @@ void TrackOverlay::follow(const std::vector<TrackRow>& rows, int frame, int heig
     auto& trail = trails_[row.id];
     if (!trail) trail.emplace();
     trail->last_frame = frame;
-    trail->places_px.push_back(place_in_picture(row.place, height, um_per_px_));
+    trail->places_px.push_back(place_in_picture(row.position, height, um_per_px_));
     if (trail->places_px.size() > trail_length) trail->places_px.pop_front();
   }
   for (auto& trail : trails_)

@@ -34,7 +34,7 @@ const std::vector<TrackRow>& VideoTracker::step(const VideoFrame& frame) {
     rows_.push_back({.frame = frame.index,
                      .t = frame.t,
                      .id = sightings[i].id,
-                     .place = places_[i],
+                     .position = places_[i],
                      .velocity = sightings[i].velocity,
                      .radius = um_per_px_ * found[i].radius_px,
                      .mass = found[i].mass,
@@ -70,9 +70,9 @@ TrackSummary summarise(const std::vector<TrackRow>& rows, int frames) {
     const TrackRow& row = rows[i];
     if (const TrackRow* before = last[row.id];
         before && before->frame + 1 == row.frame && length[row.id] >= TrackSummary::long_track) {
-      moved += row.place - before->place;
+      moved += row.position - before->position;
       ++movers;
-      travelled += distance(before->place, row.place);
+      travelled += distance(before->position, row.position);
       time += row.t - before->t;
     }
     last[row.id] = &row;

@@ -37,7 +37,7 @@ struct TrackRow {
   int frame = 0;
   double t = 0;  ///< [s]
   int id = 0;
-  Vec2 place;         ///< measured position [µm]
+  Vec2 position;      ///< measured position [µm]
   Vec2 velocity;      ///< filtered [µm/s]
   double radius = 0;  ///< [µm]
   double mass = 0;    ///< [grey]
@@ -49,8 +49,8 @@ struct TrackRow {
     visit(self.frame, plain("frame", "Picture, from 0."));
     visit(self.id, plain("id", "Robot, from 0 in the order of birth."));
     visit(self.t, s("t", "Time since the first picture."));
-    visit(self.place.x, um("x", "Centre, to the right from the picture's left."));
-    visit(self.place.y, um("y", "Centre, up from the picture's lower border."));
+    visit(self.position.x, um("x", "Centre, to the right from the picture's left."));
+    visit(self.position.y, um("y", "Centre, up from the picture's lower border."));
     visit(self.velocity.x, um_per_s("vx", "Velocity by the filter, to the right."));
     visit(self.velocity.y, um_per_s("vy", "Velocity by the filter, upwards."));
     visit(self.radius, um("radius", "Radius of the ring, or of the even disc alike."));
@@ -92,8 +92,8 @@ inline Vec2 place_in_world(Vec2 at_px, int height, double um_per_px) {
   return um_per_px * Vec2{at_px.x + 0.5, height - 0.5 - at_px.y};
 }
 /// Picture coordinates of a world position.
-inline Vec2 place_in_picture(Vec2 place, int height, double um_per_px) {
-  return {place.x / um_per_px - 0.5, height - 0.5 - place.y / um_per_px};
+inline Vec2 place_in_picture(Vec2 position, int height, double um_per_px) {
+  return {position.x / um_per_px - 0.5, height - 0.5 - position.y / um_per_px};
 }
 
 /// Summary of tracks. Long tracks have at least `long_track` frames.

@@ -103,11 +103,12 @@ CornerLattice through_narrowest_passage(const CornerLattice& corners, double cle
   return {corners.origin + Vec2{middle, middle}, corners.pitch};
 }
 
-int shortest_free_run(const Map& map, const CornerLattice& places, double clearance, int most) {
+int shortest_free_run(const Map& map, const CornerLattice& positions, double clearance, int most) {
   const Box& bounds = map.bounds();
-  const Vec2 lowest = (bounds.lo - places.origin) / places.pitch;
-  const Vec2 first = places.origin + places.pitch * Vec2{std::ceil(lowest.x), std::ceil(lowest.y)};
-  const auto columns = static_cast<std::size_t>((bounds.hi.x - first.x) / places.pitch + 1);
+  const Vec2 lowest = (bounds.lo - positions.origin) / positions.pitch;
+  const Vec2 first =
+      positions.origin + positions.pitch * Vec2{std::ceil(lowest.x), std::ceil(lowest.y)};
+  const auto columns = static_cast<std::size_t>((bounds.hi.x - first.x) / positions.pitch + 1);
   std::vector<Vec2> row(columns);
   std::vector<std::uint8_t> free(columns);
   std::vector<int> runs(columns, 0);  // up the columns
@@ -116,9 +117,9 @@ int shortest_free_run(const Map& map, const CornerLattice& places, double cleara
     if (!goes_on && run > 0) shortest = std::min(shortest, run);
     run = goes_on ? run + 1 : 0;
   };
-  for (double y = first.y; shortest > 1; y += places.pitch) {
+  for (double y = first.y; shortest > 1; y += positions.pitch) {
     for (std::size_t i = 0; i < columns; ++i)
-      row[i] = {first.x + static_cast<double>(i) * places.pitch, y};
+      row[i] = {first.x + static_cast<double>(i) * positions.pitch, y};
     map.are_free(row, clearance, free);
     int run = 0;
     for (std::size_t i = 0; i < columns; ++i) {

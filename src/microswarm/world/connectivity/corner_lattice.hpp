@@ -27,6 +27,6 @@ CornerLattice through_narrowest_passage(const CornerLattice& corners, double cle
 /// The fewest neighbours, along rows and columns, that are free with the clearance [µm] between two
 /// places of the lattice that are not; at most `most`. If it is n, every n-th row and column still
 /// leads through every straight passage.
-int shortest_free_run(const Map& map, const CornerLattice& places, double clearance, int most);
+int shortest_free_run(const Map& map, const CornerLattice& positions, double clearance, int most);
 
 }  // namespace microswarm

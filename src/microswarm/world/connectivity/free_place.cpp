@@ -20,17 +20,17 @@ std::array<Vec2, direction_count> evenly_spaced() {
 
 }  // namespace
 
-Vec2 free_place(const Map& map, Vec2 place, double r) {
-  if (map.is_free(place, r)) return place;
+Vec2 free_place(const Map& map, Vec2 position, double r) {
+  if (map.is_free(position, r)) return position;
   static const auto directions = evenly_spaced();
   const Vec2 size = map.bounds().hi - map.bounds().lo;
-  const double farthest = norm(size) + distance(place, map.bounds().centre());
+  const double farthest = norm(size) + distance(position, map.bounds().centre());
   for (double away = 2 * r; away < farthest; away *= 1.25)
     for (const Vec2 direction : directions) {
-      const Vec2 p = place + away * direction;
+      const Vec2 p = position + away * direction;
       if (map.is_free(p, r)) return p;
     }
-  return place;
+  return position;
 }
 
 }  // namespace microswarm

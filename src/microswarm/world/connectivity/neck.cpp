@@ -24,10 +24,10 @@ Vec2 nearest_point(Vec2 p, const Feature& f) {
   return d > 0 ? q + std::min(1.0, f.radius / d) * (p - q) : q;
 }
 
-std::vector<Feature> features_near(const Map& map, Vec2 place, double reach) {
+std::vector<Feature> features_near(const Map& map, Vec2 position, double reach) {
   std::vector<Feature> out;
   auto add = [&](const Feature& f) {
-    if (distance(place, nearest_point(place, f)) <= reach) out.push_back(f);
+    if (distance(position, nearest_point(position, f)) <= reach) out.push_back(f);
   };
   for (const Body& body : map.walls().bodies()) {
     std::visit(Overloaded{[&](const Disc& disc) {
@@ -58,20 +58,20 @@ Segment connection(const Feature& f, const Feature& g, Vec2 p) {
 
 }  // namespace
 
-Passage neck_near(const Map& map, Vec2 place, double least, double spacing) {
-  const std::vector<Feature> features = features_near(map, place, least + 3 * spacing);
-  Passage best{place, 2 * least};
+Passage neck_near(const Map& map, Vec2 position, double least, double spacing) {
+  const std::vector<Feature> features = features_near(map, position, least + 3 * spacing);
+  Passage best{position, 2 * least};
   double min_offset = 4 * spacing;
   for (std::size_t i = 0; i < features.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      const Vec2 to_i = nearest_point(place, features[i]) - place;
-      const Vec2 to_j = nearest_point(place, features[j]) - place;
+      const Vec2 to_i = nearest_point(position, features[i]) - position;
+      const Vec2 to_j = nearest_point(position, features[j]) - position;
       if (dot(to_i, to_j) >= 0) continue;
-      const Segment s = connection(features[i], features[j], place);
+      const Segment s = connection(features[i], features[j], position);
       const Vec2 middle = 0.5 * (s.a + s.b);
       const double half = 0.5 * distance(s.a, s.b);
       if (half < least * (1 - 1e-9) || half > least + 1.5 * spacing) continue;
-      const double offset = distance(middle, place);
+      const double offset = distance(middle, position);
       if (offset >= min_offset || map.clearance(middle) < half * (1 - 1e-9)) continue;
       best = {middle, 2 * half};
       min_offset = offset;

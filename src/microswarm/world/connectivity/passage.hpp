@@ -13,7 +13,7 @@ inline constexpr double nodes_by_default = 100e3;
 
 /// Narrow passage between two rooms.
 struct Passage {
-  Vec2 place;
+  Vec2 position;
   double width = 0;  ///< [µm], twice the clearance at its middle
 };
 

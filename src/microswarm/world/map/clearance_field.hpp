@@ -45,7 +45,7 @@ class ClearanceField {
   /// For many places at once: sets free[i] to whether lower(places[i]) >= r, which is free for
   /// certain. Writes the numbers of the places that only an exact test can decide to `undecided`,
   /// which has room for all, and returns how many they are.
-  std::size_t decide(std::span<const Vec2> places, double r, std::span<std::uint8_t> free,
+  std::size_t decide(std::span<const Vec2> positions, double r, std::span<std::uint8_t> free,
                      std::span<std::uint32_t> undecided) const;
 
   /// Data with which `decide` finds a position's cell, as cell_at does, and its bounds.

@@ -108,13 +108,13 @@ bool Map::is_free_exactly(Vec2 p, double r) const {
   return field_.lower(p) > 0 || !walls_.polygons().holds(p);
 }
 
-void Map::are_free(std::span<const Vec2> places, double r, std::span<std::uint8_t> free) const {
-  assert(places.size() == free.size());
+void Map::are_free(std::span<const Vec2> positions, double r, std::span<std::uint8_t> free) const {
+  assert(positions.size() == free.size());
   constexpr std::size_t most = 1024;
   std::array<std::uint32_t, most> undecided;
-  for (std::size_t first = 0; first < places.size(); first += most) {
-    const std::size_t count = std::min(most, places.size() - first);
-    const auto some = places.subspan(first, count);
+  for (std::size_t first = 0; first < positions.size(); first += most) {
+    const std::size_t count = std::min(most, positions.size() - first);
+    const auto some = positions.subspan(first, count);
     const std::size_t left = field_.decide(some, r, free.subspan(first, count), undecided);
     for (std::size_t k = 0; k < left; ++k)
       free[first + undecided[k]] = is_free_exactly(some[undecided[k]], r);

@@ -52,14 +52,14 @@ class Map {
     return field_.decides(lower, r) ? lower >= r : is_free_exactly(p, r);
   }
   /// The same for many places at once, which is quicker: free[i] is 1 if places[i] is
-  /// free, else 0. `free` is as long as `places`.
-  void are_free(std::span<const Vec2> places, double r, std::span<std::uint8_t> free) const;
+  /// free, else 0. `free` is as long as `positions`.
+  void are_free(std::span<const Vec2> positions, double r, std::span<std::uint8_t> free) const;
   /// One bit for each of up to 32 places, from the lowest on: 0 if it is not free, 1 if it is or
   /// undecided without `is_free`. Faster than single queries, since there are no branches.
-  unsigned may_be_free(std::span<const Vec2> places, double r) const {
+  unsigned may_be_free(std::span<const Vec2> positions, double r) const {
     unsigned bits = 0;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      const double lower = field_.lower(places[i]);
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      const double lower = field_.lower(positions[i]);
       bits |= static_cast<unsigned>((lower >= r) | !field_.decides(lower, r)) << i;
     }
     return bits;

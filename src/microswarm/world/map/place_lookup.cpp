@@ -22,10 +22,10 @@ class PlaceLookup {
   PlaceLookup(const ClearanceField::Grid& grid, double r) : grid_(grid), r_(r) {}
 
   /// Decides about as many places as a vector has lanes; returns one bit for each undecided one.
-  HWY_INLINE unsigned decide(const Vec2* places, std::uint8_t* free) const {
+  HWY_INLINE unsigned decide(const Vec2* positions, std::uint8_t* free) const {
     static_assert(sizeof(Vec2) == 2 * sizeof(double));
     V x, y;
-    hn::LoadInterleaved2(D(), &places->x, x, y);
+    hn::LoadInterleaved2(D(), &positions->x, x, y);
     const Cells cells = hn::Add(
         hn::Mul(cell_along(y, grid_.origin.y, grid_.last_row), hn::Set(OfCells(), grid_.stride)),
         cell_along(x, grid_.origin.x, grid_.last_column));
@@ -60,7 +60,7 @@ class PlaceLookup {
   double r_;
 };
 
-std::size_t decide_here(const ClearanceField::Grid& grid, std::span<const Vec2> places, double r,
+std::size_t decide_here(const ClearanceField::Grid& grid, std::span<const Vec2> positions, double r,
                         std::uint8_t* free, std::uint32_t* undecided) {
   const PlaceLookup lookup(grid, r);
   const std::size_t lanes = PlaceLookup::lanes();
@@ -70,12 +70,12 @@ std::size_t decide_here(const ClearanceField::Grid& grid, std::span<const Vec2> 
       undecided[count++] = static_cast<std::uint32_t>(first) + std::countr_zero(bits);
   };
   std::size_t i = 0;
-  for (; i + lanes <= places.size(); i += lanes) note(i, lookup.decide(&places[i], free + i));
-  const std::size_t left = places.size() - i;
+  for (; i + lanes <= positions.size(); i += lanes) note(i, lookup.decide(&positions[i], free + i));
+  const std::size_t left = positions.size() - i;
   if (left == 0) return count;
   std::array<Vec2, 8> last{};
   std::array<std::uint8_t, 8> decided;
-  for (std::size_t k = 0; k < left; ++k) last[k] = places[i + k];
+  for (std::size_t k = 0; k < left; ++k) last[k] = positions[i + k];
   note(i, lookup.decide(last.data(), decided.data()) & ((1u << left) - 1));
   for (std::size_t k = 0; k < left; ++k) free[i + k] = decided[k];
   return count;
@@ -90,14 +90,14 @@ namespace microswarm {
 
 HWY_EXPORT(decide_here);
 
-std::size_t ClearanceField::decide(std::span<const Vec2> places, double r,
+std::size_t ClearanceField::decide(std::span<const Vec2> positions, double r,
                                    std::span<std::uint8_t> free,
                                    std::span<std::uint32_t> undecided) const {
-  assert(free.size() >= places.size() && undecided.size() >= places.size());
+  assert(free.size() >= positions.size() && undecided.size() >= positions.size());
   const Grid grid{
       origin_,       per_cell_, last_column_, last_row_, static_cast<std::int32_t>(stride_),
       lower_.data(), spread_,   doubt_};
-  return HWY_DYNAMIC_DISPATCH(decide_here)(grid, places, r, free.data(), undecided.data());
+  return HWY_DYNAMIC_DISPATCH(decide_here)(grid, positions, r, free.data(), undecided.data());
 }
 
 }  // namespace microswarm

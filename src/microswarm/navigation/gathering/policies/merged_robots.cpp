@@ -59,7 +59,7 @@ std::span<const std::uint32_t> MergedRobots::merge_coincident(double cell) {
   places_.x.resize(kept);
   places_.y.resize(kept);
   counts_.resize(kept);
-  for (std::uint32_t& place : place_of_) place = merged_into_[place];
+  for (std::uint32_t& position : place_of_) position = merged_into_[position];
   return merged_into_;
 }
 
@@ -77,9 +77,9 @@ MergedRobots MergedRobots::condensed() const {
 
 Robots MergedRobots::robots() const {
   Robots all{places_.origin, {}, {}};
-  for (const std::uint32_t place : place_of_) {
-    all.x.push_back(places_.x[place]);
-    all.y.push_back(places_.y[place]);
+  for (const std::uint32_t position : place_of_) {
+    all.x.push_back(places_.x[position]);
+    all.y.push_back(places_.y[position]);
   }
   return all;
 }

@@ -58,7 +58,7 @@ void change(Trial& trial, const RolloutExecution& plan, RolloutSimulator& simula
   const auto length = static_cast<std::size_t>(lengths[rng.below(lengths.size())]);
   const std::size_t left_out = 1 + rng.below(length);
   const std::size_t made = 1 + rng.below(left_out);
-  const std::size_t place = rng.below(partial.merged.places().size());
+  const std::size_t position = rng.below(partial.merged.places().size());
   trial.goes_on_at = std::min(most, at + left_out);
   switch (rng.below(10)) {
     case 0:  // another policy from here on
@@ -66,10 +66,10 @@ void change(Trial& trial, const RolloutExecution& plan, RolloutSimulator& simula
       break;
     case 1:  // the same after one robot has led
       trial.goes_on_at = most;
-      simulator.lead(partial, place, rng.below(2) == 0 ? most : length, most);
+      simulator.lead(partial, position, rng.below(2) == 0 ? most : length, most);
       break;
     case 2:
-      simulator.lead(partial, place, made, most);
+      simulator.lead(partial, position, made, most);
       break;
     case 3:
       go_in_one_direction(partial, made, most, simulator, rng);

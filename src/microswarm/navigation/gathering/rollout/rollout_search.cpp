@@ -55,8 +55,9 @@ bool RolloutSearch::begin_layers(const RolloutExecution& plan, RolloutSimulator&
   const RolloutParams& params = simulator.params().rollout;
   const auto left = static_cast<double>(plan.left());
   const double steps = left / interval * mean_trial(params);
-  const auto work_at = [&](std::size_t places) {
-    return steps * params.candidates * (static_cast<double>(places) + params.tuning.step_overhead);
+  const auto work_at = [&](std::size_t positions) {
+    return steps * params.candidates *
+           (static_cast<double>(positions) + params.tuning.step_overhead);
   };
   const auto most = static_cast<std::size_t>(params.lookahead_representatives);
   const auto few = std::min(plan.checkpoints()[plan.done() / interval].places().size(),

@@ -90,13 +90,13 @@ void RolloutSimulator::follow_until_gathered(PartialPlan& partial, std::span<con
   }
 }
 
-void RolloutSimulator::lead(PartialPlan& partial, std::size_t place, std::size_t steps,
+void RolloutSimulator::lead(PartialPlan& partial, std::size_t position, std::size_t steps,
                             std::size_t most) {
   AggregationParams alone = with(params_, Aggregation::heuristic);
   alone.sigma = 2 * params_.step;
   AggregationPolicy policy(*map_, alone);
   Work work(*this);
-  Robots leader = one_of(partial.merged.places(), place);
+  Robots leader = one_of(partial.merged.places(), position);
   for (std::size_t i = 0; i < steps && partial.steps() < most; ++i) {
     const std::optional<Vec2> next = policy.next(leader);
     if (!next) return;
@@ -140,14 +140,14 @@ void RolloutSimulator::try_moves(PartialPlan& partial, bool first, std::size_t m
   const std::size_t length = shortest + rng.below(longest - shortest + 1);
   const std::size_t end = std::min(most, partial.steps() + length);
   const bool one_direction = rng.uniform() < p.tuning.direction_share;
-  const std::size_t place = rng.below(partial.merged.places().size());
+  const std::size_t position = rng.below(partial.merged.places().size());
   const double angle = 0.25 * pi * static_cast<double>(rng.below(8));
   if (first)
     lead(partial, farthest(partial.merged.places()), length, end);
   else if (one_direction)
     follow(partial, std::vector<Vec2>(length, params_.step * unit_vector(angle)), end);
   else
-    lead(partial, place, length, end);
+    lead(partial, position, length, end);
 }
 
 MergedRobots RolloutSimulator::representatives(const MergedRobots& merged) const {

@@ -49,7 +49,7 @@ class RolloutSimulator {
   /// The same, but ends as soon as all are gathered.
   void follow_until_gathered(PartialPlan& partial, std::span<const Vec2> moves, std::size_t most);
   /// The robots at one position lead to the goal, for at most `steps` steps.
-  void lead(PartialPlan& partial, std::size_t place, std::size_t steps, std::size_t most);
+  void lead(PartialPlan& partial, std::size_t position, std::size_t steps, std::size_t most);
   /// Progress of a policy.
   enum class Pursuit { gathered, paused, too_long };
   /// Applies a policy until the robots are gathered, until that takes too many steps, or until
