@@ -66,8 +66,8 @@ py::array_t<double> discs(const NamedMap& map) {
   return array;
 }
 
-/// Calls `work(first, count)` for blocks of `all` positions, without the GIL; interruptible if there
-/// are many.
+/// Calls `work(first, count)` for blocks of `all` positions, without the GIL; interruptible if
+/// there are many.
 template <class Work>
 void in_blocks(std::size_t all, Work&& work) {
   constexpr std::size_t block = 4096;

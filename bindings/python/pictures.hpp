@@ -11,8 +11,8 @@
 namespace microswarm::python {
 
 /// Copies a contiguous array of uint8 or uint16 of shape (height, width) or (height, width, 3) into
-/// an image. 16-bit numbers have `depth` bits; without a value it is set to what this picture needs.
-/// Throws InputError.
+/// an image. 16-bit numbers have `depth` bits; without a value it is set to what this picture
+/// needs. Throws InputError.
 void take_array(const py::array& array, std::optional<int>& depth, std::string_view name,
                 Image& image);
 

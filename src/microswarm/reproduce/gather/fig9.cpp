@@ -133,8 +133,9 @@ Trials gather_on(const Ground& ground, int count, bool quick, const Progress& ba
     const std::size_t k = trials.population_of(i);
     if (stop() || !trials.has(k)) return;
     const std::size_t m = trials.method_of(i);
-    Robots robots = gather_robots(ground.scene, weighted, stepper, population(k),
-                                  static_cast<std::uint32_t>(trials.number_of(i)), ground.min_length);
+    Robots robots =
+        gather_robots(ground.scene, weighted, stepper, population(k),
+                      static_cast<std::uint32_t>(trials.number_of(i)), ground.min_length);
     Trial& trial = trials[i];
     trial.result = gathered(gather_methods[m].weighted ? weighted : plain, stepper,
                             parameters(ground, m, k, quick), robots, stop);
