@@ -36,6 +36,7 @@ struct Object {
   std::string text;
   std::vector<double> numbers;
   std::vector<ms_frame> frames;
+  std::optional<Frame> frame;  ///< the session's newest; none before its first tick
   std::string why;
 };
 

@@ -24,8 +24,8 @@
 extern "C" {
 #endif
 
-/* Interface version of this header. ms_interface() of a compatible library is at least as large. */
-enum { MS_INTERFACE = 1 };
+/* Version of this header. ms_interface is that of the library: at least this one, if it fits. */
+enum { MS_INTERFACE = 2 };
 
 /* Return codes. */
 typedef enum ms_code {
@@ -51,7 +51,8 @@ int32_t ms_stop(uint64_t handle);
 
 /* ---- Experiments ---------------------------------------------------------------------------- */
 
-/* A tick of an experiment. Absent values are NaN. */
+/* A tick of an experiment: what was recorded in interface version 1; ms_frame_columns tells all
+ * that is. What is not there is NaN. */
 typedef struct ms_frame {
   double t_s;  /* start of the tick */
   double x_um; /* centre of the swarm */
@@ -110,7 +111,33 @@ int32_t ms_session_obstacles(uint64_t session, const double** xyr_um, size_t* co
 int32_t ms_session_path(uint64_t session, const double** xy_um, size_t* count);
 /* All frames so far, or all of a record; after the last tick there is one more for the end. */
 int32_t ms_session_frames(uint64_t session, const ms_frame** frames, size_t* count);
-/* Hash of the record so far: equal for equal runs. */
+
+/* How the values of a recorded quantity are to be read. */
+typedef enum ms_kind {
+  MS_REAL = 0,
+  MS_INTEGER = 1,
+  MS_BOOLEAN = 2, /* 0 or 1 */
+  MS_WORD = 3     /* index, from 0, into the words of the column */
+} ms_kind;
+
+/* A quantity that is recorded each tick: a column of the table /frames of a record. */
+typedef struct ms_column {
+  const char* name;    /* ends with its unit: "goal_distance_um" */
+  const char* unit;    /* "µm", "rad", ...; "" for none */
+  const char* meaning; /* one sentence */
+  const char* const* words;
+  size_t word_count; /* 0 unless the kind is MS_WORD */
+  int32_t kind;      /* of ms_kind */
+  int32_t reserved;
+} ms_column;
+
+/* All recorded quantities, in the order of a record; valid until the process ends. */
+int32_t ms_frame_columns(const ms_column** columns, size_t* count);
+/* A recorded quantity by its name, a value for each of ms_session_frames. NaN: not there. */
+int32_t ms_session_column(uint64_t session, const char* name, const double** values, size_t* count);
+/* All quantities at the present tick, a value for each of ms_frame_columns. */
+int32_t ms_session_values(uint64_t session, const double** values, size_t* count);
+/* Fingerprint of the record so far: equal for equal runs. */
 int32_t ms_session_hash(uint64_t session, const char** hash);
 /* Writes the record (HDF5). */
 int32_t ms_session_record(uint64_t session, const char* file);

@@ -128,6 +128,7 @@ int32_t ms_session_step(uint64_t handle, ms_frame* frame) {
   return c::with_session(handle, [&](Session& session, c::Object& object) -> int32_t {
     const Tick* tick = session.step(Stop(&object.stops));
     if (!tick) return MS_END;
+    object.frame = tick->frame;
     if (frame) *frame = plain(tick->frame);
     return MS_OK;
   });
@@ -136,6 +137,7 @@ int32_t ms_session_step(uint64_t handle, ms_frame* frame) {
 int32_t ms_session_finish(uint64_t handle) {
   return c::with_session(handle, [&](Session& session, c::Object& object) -> int32_t {
     const bool stopped = session.finish(Stop(&object.stops)).status == Status::stopped;
+    if (!session.record().frames.empty()) object.frame = session.record().frames.back();
     return stopped ? c::fail(MS_STOPPED, "the run was stopped") : MS_OK;
   });
 }

@@ -4,7 +4,6 @@
  * converted. Handles are uint64. Positions are matrices with one row each.
  *
  * Errors have the identifiers microswarm:bad_input, bad_call, stopped, no_memory and fault. */
-#include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -45,52 +44,33 @@ static mxArray* keep(uint64_t handle) {
   return value;
 }
 
-#define COLUMN(name) \
-  { #name, offsetof(ms_frame, name) }
-static const struct {
-  const char* name;
-  size_t offset;
-} frame_columns[] = {
-    COLUMN(t_s),
-    COLUMN(x_um),
-    COLUMN(y_um),
-    COLUMN(heading_rad),
-    COLUMN(radius_um),
-    COLUMN(speed_um_per_s),
-    COLUMN(command_heading_rad),
-    COLUMN(command_speed_um_per_s),
-    COLUMN(goal_distance_um),
-    COLUMN(wall_clearance_um),
-    COLUMN(obstacle_clearance_um),
-    COLUMN(avoidance_cost),
-    COLUMN(target_x_um),
-    COLUMN(target_y_um),
-};
-enum { FRAME_COLUMNS = sizeof frame_columns / sizeof *frame_columns };
-
 static void put(mxArray* made, const char* name, mxArray* value) {
   mxSetFieldByNumber(made, 0, mxAddField(made, name), value);
 }
 
-/* A struct of columns; the state is a cell array of texts, for a single frame a text. */
-static mxArray* frames_of(const ms_frame* frames, size_t count, int is_single) {
-  mxArray* made = mxCreateStructMatrix(1, 1, 0, NULL);
-  mxArray* states = is_single ? NULL : mxCreateCellMatrix(count, 1);
-  mxArray* planned = mxCreateLogicalMatrix(count, 1);
-  size_t i, k;
-  for (k = 0; k < FRAME_COLUMNS; ++k) {
-    mxArray* column = mxCreateDoubleMatrix(count, 1, mxREAL);
-    double* out = mxGetPr(column);
-    for (i = 0; i < count; ++i)
-      memcpy(out + i, (const char*)(frames + i) + frame_columns[k].offset, sizeof *out);
-    put(made, frame_columns[k].name, column);
+/* Values of a recorded quantity: words as texts in a cell array, of a single value as a text. */
+static mxArray* quantity_of(const ms_column* column, const double* values, size_t count,
+                            int is_single) {
+  const int is_boolean = column->kind == MS_BOOLEAN;
+  mxArray* made;
+  size_t i;
+  if (column->kind == MS_WORD) {
+    made = is_single ? NULL : mxCreateCellMatrix(count, 1);
+    for (i = 0; i < count; ++i) {
+      const int is_there = values[i] >= 0 && values[i] < (double)column->word_count;
+      mxArray* word = mxCreateString(is_there ? column->words[(size_t)values[i]] : "");
+      if (is_single) return word;
+      mxSetCell(made, i, word);
+    }
+    return made;
   }
+  made = is_boolean ? mxCreateLogicalMatrix(count, 1) : mxCreateDoubleMatrix(count, 1, mxREAL);
   for (i = 0; i < count; ++i) {
-    mxGetLogicals(planned)[i] = frames[i].planned != 0;
-    if (!is_single) mxSetCell(states, i, mxCreateString(ms_state_name(frames[i].state)));
+    if (is_boolean)
+      mxGetLogicals(made)[i] = values[i] > 0;
+    else
+      mxGetPr(made)[i] = values[i];
   }
-  put(made, "state", is_single ? mxCreateString(ms_state_name(frames->state)) : states);
-  put(made, "planned", planned);
   return made;
 }
 
@@ -152,17 +132,35 @@ static mxArray* session_advance(arguments in) {
 }
 
 static mxArray* session_step(arguments in) {
-  ms_frame frame;
-  const int32_t code = ms_session_step(handle_of(in[0]), &frame);
+  const uint64_t session = handle_of(in[0]);
+  const ms_column* columns;
+  const double* values;
+  size_t count, k;
+  mxArray* made;
+  const int32_t code = ms_session_step(session, NULL);
   check(code);
-  return code == MS_END ? mxCreateDoubleMatrix(0, 0, mxREAL) : frames_of(&frame, 1, 1);
+  if (code == MS_END) return mxCreateDoubleMatrix(0, 0, mxREAL);
+  check(ms_frame_columns(&columns, &count));
+  check(ms_session_values(session, &values, &count));
+  made = mxCreateStructMatrix(1, 1, 0, NULL);
+  for (k = 0; k < count; ++k)
+    put(made, columns[k].name, quantity_of(columns + k, values + k, 1, 1));
+  return made;
 }
 
 static mxArray* session_frames(arguments in) {
-  const ms_frame* frames = NULL;
-  size_t count = 0;
-  check(ms_session_frames(handle_of(in[0]), &frames, &count));
-  return frames_of(frames, count, 0);
+  const uint64_t session = handle_of(in[0]);
+  const ms_column* columns;
+  const double* values;
+  size_t count, rows, k;
+  mxArray* made;
+  check(ms_frame_columns(&columns, &count));
+  made = mxCreateStructMatrix(1, 1, 0, NULL);
+  for (k = 0; k < count; ++k) {
+    check(ms_session_column(session, columns[k].name, &values, &rows));
+    put(made, columns[k].name, quantity_of(columns + k, values, rows, 0));
+  }
+  return made;
 }
 
 static mxArray* session_set(arguments in) {

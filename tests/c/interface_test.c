@@ -30,6 +30,32 @@ static const char* const scenario =
     "start: {x_um: 200, y_um: 300, heading_deg: 0}\n"
     "goal_um: [1800, 300]\n";
 
+static size_t column_of(const ms_column* columns, size_t count, const char* name) {
+  size_t k = 0;
+  while (k < count && strcmp(columns[k].name, name) != 0) ++k;
+  EXPECT(k < count);
+  return k < count ? k : 0;
+}
+
+static int is_same(double a, double b) { return a == b || (isnan(a) && isnan(b)); }
+
+/* Every recorded quantity has a column, and its last value is the present one. */
+static void columns_are_whole(uint64_t session, size_t frames) {
+  const ms_column* columns = NULL;
+  const double *values = NULL, *column = NULL;
+  double now[200];
+  size_t count = 0, rows = 0, k;
+  EXPECT(ms_frame_columns(&columns, &count) == MS_OK && count > 15 && count < 200);
+  EXPECT(ms_session_values(session, &values, &rows) == MS_OK && rows == count);
+  memcpy(now, values, rows * sizeof *now);
+  for (k = 0; k < count; ++k) {
+    EXPECT(columns[k].name[0] != '\0' && columns[k].meaning[0] != '\0');
+    EXPECT((columns[k].kind == MS_WORD) == (columns[k].word_count > 0));
+    EXPECT(ms_session_column(session, columns[k].name, &column, &rows) == MS_OK);
+    EXPECT(rows == frames && (rows == 0 || is_same(column[rows - 1], now[k])));
+  }
+}
+
 static void sessions(const char* file) {
   const char* settings[] = {"time_limit_s=60", "seed=3"};
   uint64_t session = 0, again = 0, playback = 0;
@@ -72,12 +98,51 @@ static void sessions(const char* file) {
   EXPECT(ms_session_record(session, file) == MS_OK);
 
   EXPECT(ms_session_open(file, NULL, 0, &playback) == MS_OK);
+  EXPECT(ms_session_frames(playback, &frames, &count) == MS_OK && count > 100);
   EXPECT(ms_session_finish(playback) == MS_OK);
+  columns_are_whole(playback, count);
   EXPECT(ms_session_hash(playback, &text) == MS_OK && strcmp(text, hash) == 0);
   EXPECT(ms_session_open_text(scenario, "", settings, 2, &again) == MS_OK && again != session);
   EXPECT(ms_close(playback) == MS_OK && ms_close(session) == MS_OK && ms_close(again) == MS_OK);
   EXPECT_ERROR(ms_session_step(session, &frame), MS_BAD_CALL, "closed");
   EXPECT_ERROR(ms_close(session), MS_BAD_CALL, "closed");
+}
+
+static void columns(void) {
+  uint64_t session = 0;
+  const ms_column* columns = NULL;
+  const ms_frame* frames = NULL;
+  const double* values = NULL;
+  size_t count = 0, rows = 0, of_state, i;
+  EXPECT(ms_session_open_text(scenario, NULL, NULL, 0, &session) == MS_OK);
+  EXPECT(ms_frame_columns(&columns, &count) == MS_OK);
+  columns_are_whole(session, 0);
+  EXPECT(ms_session_values(session, &values, &rows) == MS_OK);
+  EXPECT(values[column_of(columns, count, "x_um")] == 200);
+  for (i = 0; i < 3; ++i) EXPECT(ms_session_step(session, NULL) == MS_OK);
+  columns_are_whole(session, 3);
+  EXPECT(ms_session_finish(session) == MS_OK);
+  EXPECT(ms_session_frames(session, &frames, &rows) == MS_OK);
+  columns_are_whole(session, rows);
+  EXPECT(ms_session_frames(session, &frames, &rows) == MS_OK);
+  EXPECT(ms_session_column(session, "target_x_um", &values, &count) == MS_OK && count == rows);
+  for (i = 0; i < rows; ++i) EXPECT(is_same(values[i], frames[i].target_x_um));
+  EXPECT(ms_session_column(session, "planned", &values, &count) == MS_OK && values[0] == 1);
+  EXPECT(ms_frame_columns(&columns, &count) == MS_OK);
+  of_state = column_of(columns, count, "state");
+  EXPECT(columns[column_of(columns, count, "planned")].kind == MS_BOOLEAN);
+  EXPECT(strcmp(columns[column_of(columns, count, "speed_um_per_s")].unit, "µm/s") == 0);
+  EXPECT(ms_session_column(session, "state", &values, &rows) == MS_OK);
+  for (i = 0; i < rows; ++i)
+    EXPECT(strcmp(columns[of_state].words[(size_t)values[i]], ms_state_name(frames[i].state)) == 0);
+  EXPECT_ERROR(ms_session_column(session, "goal_distanse_um", &values, &rows), MS_BAD_INPUT,
+               "did you mean 'goal_distance_um'");
+  EXPECT_ERROR(ms_session_column(session, "", &values, &rows), MS_BAD_INPUT, "no recorded");
+  EXPECT_ERROR(ms_session_column(session, NULL, &values, &rows), MS_BAD_CALL, "name is null");
+  EXPECT_ERROR(ms_session_values(session, NULL, &rows), MS_BAD_CALL, "values is null");
+  EXPECT_ERROR(ms_frame_columns(&columns, NULL), MS_BAD_CALL, "count is null");
+  EXPECT(ms_close(session) == MS_OK);
+  EXPECT_ERROR(ms_session_column(session, "x_um", &values, &rows), MS_BAD_CALL, "closed");
 }
 
 static void bad_sessions(void) {
@@ -256,6 +321,7 @@ int main(int count, char** arguments) {
   EXPECT(strchr(ms_version(), '.') != NULL);
   EXPECT(ms_error_text()[0] == '\0');
   sessions(arguments[1]);
+  columns();
   bad_sessions();
   trials(arguments[1]);
   navigators();

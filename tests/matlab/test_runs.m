@@ -2,7 +2,8 @@
 function tests = test_runs()
 % test_runs  Runs, sessions and records.
   tests = {@a_run_is_that_of_the_program, @settings_in_every_form, @a_scenario_from_text, ...
-           @a_session_step_by_step, @a_record_is_the_run, @robots_are_shown, @a_run_among_many};
+           @a_session_step_by_step, @a_record_is_the_run, ...
+           @frames_have_what_a_record_has, @robots_are_shown, @a_run_among_many};
 end
 
 function a_run_is_that_of_the_program(world)
@@ -77,6 +78,27 @@ function a_record_is_the_run(world)
   assert(isequal(read.metrics, made.metrics));
   refuses(@() microswarm.read_record(world.flight), 'bad_input', 'is no record');
   refuses(@() microswarm.read_record('none.h5'), 'bad_input', 'none.h5');
+end
+
+function frames_have_what_a_record_has(world)
+  file = fullfile(world.folder, 'columns.h5');
+  session = microswarm.Session(world.flight);
+  first = session.step();
+  while ~session.advance(100), end
+  session.save(file);
+  record = load('-hdf5', file, 'frames');
+  made = session.frames();
+  names = fieldnames(made);
+  assert(isequal(sort(names), sort(fieldnames(record.frames))));
+  for k = 1:numel(names)
+    a = made.(names{k});
+    b = double(record.frames.(names{k})(:));
+    if iscell(a)
+      assert(strcmp(first.(names{k}), a{1}) && numel(unique(a)) == numel(unique(b)));
+    else
+      assert(isequaln(double(a), b) && isequaln(first.(names{k}), a(1)), names{k});
+    end
+  end
 end
 
 function robots_are_shown(world)

@@ -28,7 +28,8 @@ classdef Session < microswarm.internal.Handle
     end
 
     function frame = step(self)
-    % frame = session.step()   The next tick as a struct; [] after the end. Absent values are NaN.
+    % frame = session.step()   The next tick as a struct of all recorded quantities; [] when the run has ended.
+    % What is not there is NaN.
       frame = microswarm_mex('session_step', self.id);
     end
 

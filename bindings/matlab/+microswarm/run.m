@@ -9,10 +9,10 @@ function result = run(scenario, varargin)
 %            and 'trial', k, which selects the random streams; default 0
 %
 % result.status    'solved', 'collided', 'time_limit', ...
-% result.metrics   struct, units in the names; Inf for a distance that was never measured
-% result.frames    struct of columns with a row for each tick and one for the end: t_s, x_um, y_um,
-%                  heading_rad, command_speed_um_per_s, ..., state (cell array), planned (logical)
-% result.hash      hash of the record, as by `microswarm run`: equal for equal runs
+% result.metrics   struct, units in the names; Inf for a distance that never came about
+% result.frames    struct of columns with a row for each tick and one for the end, all that a record has:
+%                  t_s, x_um, goal_distance_um, ..., state (cell array of texts), planned (logical)
+% result.hash      fingerprint of the record, that of `microswarm run`: equal for equal runs
 %
 % Ctrl-C ends it between ticks. Errors: microswarm:bad_input for a file, key or value.
 

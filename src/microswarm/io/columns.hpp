@@ -26,6 +26,8 @@ class Column {
   std::string doc;
   ColumnKind kind = ColumnKind::real;
 
+  /// Type of the value, without the optionals around it.
+  const Type& type() const { return *type_; }
   /// Value of a real or integer column.
   double number(const void* row) const;
   /// False if the value is outside the field's range.
