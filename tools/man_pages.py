@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the manual pages of the program and of each of its commands from what `--help` says.
+"""Writes the manual pages of the program and of each of its commands from `microswarm describe --json`.
 
     tools/man_pages.py build/release/bin/microswarm build/release/man
 
@@ -13,7 +13,7 @@ import pathlib
 import re
 import time
 
-from reference import entries, option_text, read_help, said, subcommands
+from reference import described, option_meaning, option_name, usage
 
 
 def plain(text):
@@ -29,11 +29,10 @@ def prose(text):
     return re.sub(r"^(?=[.'])", "\\\\&", "".join(parts), flags=re.M)
 
 
-def option_name(name):
+def name_text(option):
     """`--out FOLDER`: options are bold, what stands for a value is in italics."""
-    name = name.replace(",-", ", -")
-    words = [f"\\fB{plain(word)}\\fR" if word.startswith("-") else f"\\fI{plain(word)}\\fR" for word in name.split(" ")]
-    return " ".join(words)
+    words = option_name(option).replace(",-", ", -").split(" ")
+    return " ".join(f"\\fB{plain(w)}\\fR" if w.startswith("-") else f"\\fI{plain(w)}\\fR" for w in words)
 
 
 def sentence(text):
@@ -44,62 +43,50 @@ def section(title, body):
     return f".SH {title}\n{body}" if body else ""
 
 
-def options(lines):
+def options(listed):
     """The entries of a list of options or arguments."""
-    text = ""
-    for row in entries(lines):
-        name, meaning = option_text(*row)
-        text += f".TP\n{option_name(name)}\n{prose(sentence(meaning))}\n"
-    return text
+    return "".join(f".TP\n{name_text(each)}\n{prose(sentence(option_meaning(each)))}\n" for each in listed)
 
 
-def command_list(words, lines):
+def command_list(words, commands):
     """The entries of a list of commands, each with the name of its page."""
     return "".join(
-        f".TP\n\\fB{plain('-'.join([*words, name.split(',')[0]]))}\\fR(1)\n{prose(sentence(meaning))}\n"
-        for name, meaning in entries(lines)
+        f".TP\n\\fB{plain('-'.join([*words, each['name']]))}\\fR(1)\n{prose(sentence(each['doc']))}\n"
+        for each in commands
     )
 
 
-def exit_status(lines):
-    """What the program's help says of exit codes."""
-    text = " ".join(lines)
-    found = re.search(r"Exit codes: (.*)", text)
-    return prose(found[1]) + "\n" if found else ""
-
-
-def example(lines):
-    body = "".join(plain(line.removeprefix("  ")) + "\n" for line in lines if line.strip())
+def example(text):
+    body = "".join(plain(line.removeprefix("  ")) + "\n" for line in text.splitlines())
     return f".nf\n{body}.fi\n" if body else ""
 
 
-def page(words, help_text, head):
+def page(words, command, head):
     """The page of a command, of which `words` are the names from the program's on."""
-    name = "-".join(words)
-    about, *usage = [line for line in help_text[""] if line.strip()]
-    usage = re.sub(r"^Usage: ", "", " ".join(usage)).removeprefix(" ".join(words)).strip()
+    name, line = "-".join(words), " ".join(words)
+    exit_codes = " ".join(command.get("footer", "").split()).partition("Exit codes: ")[2]
     above = "" if len(words) == 1 else f"\\fB{plain('-'.join(words[:-1]))}\\fR(1)\n"
     return "".join(
         [
             f'.\\" Written by tools/man_pages.py.\n.TH {plain(name.upper())} 1 {head}\n',
-            section("NAME", f"{plain(name)} \\- {plain(about.rstrip('.'))}\n"),
-            section("SYNOPSIS", f"\\fB{plain(' '.join(words))}\\fR {plain(usage)}\n"),
-            section("COMMANDS", command_list(words, help_text.get("Subcommands", []))),
-            section("ARGUMENTS", options(help_text.get("Positionals", []))),
-            section("OPTIONS", options(help_text.get("Options", []))),
-            section('"EXIT STATUS"', exit_status(help_text.get("rest", [])) if len(words) == 1 else ""),
-            section("EXAMPLE", example(help_text.get("Example", []))),
+            section("NAME", f"{plain(name)} \\- {plain(command['doc'].rstrip('.'))}\n"),
+            section("SYNOPSIS", f"\\fB{plain(line)}\\fR {plain(usage([], command))}\n"),
+            section("COMMANDS", command_list(words, command["commands"])),
+            section("ARGUMENTS", options(command["arguments"])),
+            section("OPTIONS", options(command["options"])),
+            section('"EXIT STATUS"', prose(exit_codes) + "\n" if exit_codes else ""),
+            section("EXAMPLE", example(command.get("example", ""))),
             section('"SEE ALSO"', above),
         ]
     )
 
 
-def pages(program, words, head):
+def pages(words, command, head):
     """(name, text) of the page of a command, then of those below it."""
-    help_text = read_help(said(program, *words[1:], "--help"))
-    yield "-".join(words), page(words, help_text, head)
-    for name in subcommands(help_text):
-        yield from pages(program, [*words, name], head)
+    words = [*words, command["name"]]
+    yield "-".join(words), page(words, command, head)
+    for each in command["commands"]:
+        yield from pages(words, each, head)
 
 
 def main():
@@ -108,12 +95,12 @@ def main():
     parser.add_argument("folder", type=pathlib.Path)
     given = parser.parse_args()
     day = time.strftime("%Y-%m-%d", time.gmtime(int(os.environ.get("SOURCE_DATE_EPOCH", time.time()))))
-    version = said(given.program, "--version").strip()
-    head = f'"{day}" "microswarm {version}" "Manual of microswarm"'
+    data = described(given.program)
+    head = f'"{day}" "microswarm {data["version"]}" "Manual of microswarm"'
     given.folder.mkdir(parents=True, exist_ok=True)
     for old in given.folder.glob("*.1"):
         old.unlink()
-    for name, text in pages(given.program, ["microswarm"], head):
+    for name, text in pages([], data["program"], head):
         (given.folder / f"{name}.1").write_text(text, encoding="utf-8")
 
 

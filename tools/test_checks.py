@@ -14,6 +14,7 @@ import check_maths
 import check_rows
 import check_version
 import figures_page
+import man_pages
 import reference
 import safety_page
 
@@ -317,33 +318,63 @@ class FiguresPage(unittest.TestCase):
 
 
 class Reference(unittest.TestCase):
+    @staticmethod
+    def option(*names, **more):
+        return {"names": list(names), "value": "", "words": [], "default": "off", "required": False,
+                "repeatable": False, "needs": [], "excludes": [], "doc": "Where"} | more
+
     def test_options_become_rows(self):
-        sections = reference.read_help(
-            "About\nUsage: a b\n\nOptions:\n  -h,--help    Help\n"
-            "  --rig FILE REQUIRED Excludes: --trials --jobs\n              A rig\n"
-            "  --to NAME Needs: --out   Where | how\n\nExample:\n  a b --c\n\nExit codes: 0\n")
-        self.assertEqual(["  a b --c", ""], sections["Example"])
         self.assertEqual(
-            ["| `-h,--help` | Help |\n",
-             "| `--rig FILE` | A rig. Required. Not with `--trials`, `--jobs`. |\n",
-             "| `--to NAME` | Where \\| how. Needs `--out`. |\n"],
-            [reference.option_row(*row) for row in reference.entries(sections["Options"])])
-        self.assertEqual("| `kind` | What. One of `a`, `b`. Default `a`. |\n",
-                         reference.option_row("kind TEXT:{a,b}=a", "What"))
+            ["| `-h,--help` | Where |\n",
+             "| `--rig FILE` | Where. Required. Not with `--trials`, `--jobs`. |\n",
+             "| `--to NAME` | Where \\| how (repeatable) (default: a \\| b). Needs `--out`. |\n",
+             "| `kind` | Where (default: a). One of `a`, `b`. |\n",
+             "| `out FILE` | Where |\n"],
+            [reference.option_row(each) for each in (
+                self.option("-h", "--help"),
+                self.option("--rig", value="FILE", required=True, default="required",
+                            excludes=["--trials", "--jobs"]),
+                self.option("--to", value="NAME", doc="Where | how", repeatable=True,
+                            default="a | b", needs=["--out"]),
+                self.option("kind", value="KIND", words=["a", "b"], default="a"),
+                self.option("out", value="FILE", default="none"))])
+
+    def test_a_command_becomes_a_section_and_a_page(self):
+        command = {"name": "go", "doc": "Goes.", "arguments": [self.option("to", value="FILE")],
+                   "options": [self.option("-h", "--help"), self.option("--far")],
+                   "example": "  m go b \\\n      --far", "commands": []}
+        self.assertEqual(
+            "### go\n\nGoes.\n\n    microswarm go [OPTIONS] [to]\n\n| | |\n|---|---|\n| `to FILE` | Where |\n"
+            "| `--far` | Where |\n\nExample:\n\n    m go b \\\n        --far\n\n",
+            reference.command_section([], command))
+        root = {"name": "m", "doc": "All.", "arguments": [], "options": [], "commands": [command],
+                "footer": "See.\nExit codes: 0 good;\n1 bad."}
+        pages = dict(man_pages.pages([], root, "head"))
+        self.assertEqual(["m", "m-go"], list(pages))
+        for part in ("\\fBm\\fR [OPTIONS] SUBCOMMAND\n", "\\fBm\\-go\\fR(1)\nGoes.\n",
+                     '.SH "EXIT STATUS"\n0 good; 1 bad.\n'):
+            self.assertIn(part, pages["m"])
+        for part in ("m\\-go \\- Goes\n", "\\fBm go\\fR [OPTIONS] [to]\n", ".TP\n\\fB\\-\\-far\\fR\nWhere.\n",
+                     "m go b \\e\n    \\-\\-far\n", '.SH "SEE ALSO"\n\\fBm\\fR(1)\n'):
+            self.assertIn(part, pages["m-go"])
 
     def test_keys_become_tables(self):
-        table = ("key        unit  default   allowed       meaning\n"
-                 "a_um       µm    1.2345678 0..1          One.\n"
-                 "b                required                Two.\n"
-                 "  c              x         x | y         Three.\n"
-                 "d                x         a type below  Four.\n"
-                 "  type: x\n"
-                 "    e      s     none                    Five.\n"
-                 "  type: y\n")
-        text = reference.Page().of("rig", reference.tree(reference.read_table(table)))
+        def key(name, doc, **more):
+            return {"key": name, "unit": "", "default": "", "range": "", "words": [], "doc": doc, "keys": [],
+                    "types": []} | more
+
+        keys = [key("a_um", "One.", unit="µm", default="1.2345678", range="0..1"),
+                key("b", "Two.", default="required",
+                    keys=[key("c", "Three.", default="x", words=["x", "y"]),
+                          key("f", "Six.", default="true", words=["true", "false"])]),
+                key("d", "Four.", default="x",
+                    types=[{"type": "x", "keys": [key("e", "Five.", unit="s", default="none")]},
+                           {"type": "y", "keys": []}])]
+        text = reference.Page().of("rig", keys)
         for row in ("- [b](#rig-b)\n- [d](#rig-d): [x](#d-x), [y](#d-y)\n",
                     "| `a_um` | µm | `1.23457` | 0 … 1 | One. |\n",
                     "### rig: `b`\n\nTwo.\n\n", "| `b.c` |  | `x` | `x`, `y` | Three. |\n",
+                    "| `b.f` |  | `true` |  | Six. |\n",
                     "#### `d`: `x`\n\n", "| `e` | s |  |  | Five. |\n", "#### `d`: `y`\n\nNo keys.\n"):
             self.assertIn(row, text)
 

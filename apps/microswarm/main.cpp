@@ -41,5 +41,6 @@ int main(int argc, char** argv) {
   cli::add_reproduce(app, action);
   cli::add_bench(app, action);
   cli::add_schema(app, action);
+  cli::add_describe(line, action);
   return cli::run_program("microswarm", line, action, argc, argv);
 }

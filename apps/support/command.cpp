@@ -6,17 +6,49 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <concepts>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "support/cli.hpp"
 #include "support/completion.hpp"
+#include "support/describe.hpp"
 #include "support/options.hpp"
 #include "support/usage.hpp"
 
 namespace microswarm::cli {
+namespace {
+
+std::string value_text(double value) { return number_text(value); }
+std::string value_text(const std::string& value) { return value; }
+std::string value_text(const std::vector<std::string>& values) {
+  return fmt::format("{}", fmt::join(values, ","));
+}
+template <std::integral T>
+std::string value_text(T value) {
+  return std::to_string(value);
+}
+template <class T>
+std::string value_text(const std::optional<T>& value) {
+  return value ? value_text(*value) : "";
+}
+
+/// CLI11's help, with repetition and default behind the meaning of an option.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  explicit HelpFormatter(const Facts& facts) : facts_(&facts) {}
+  std::string make_option_desc(const CLI::Option* option) const override {
+    return meaning_of(*option, *facts_);
+  }
+
+ private:
+  const Facts* facts_;
+};
+
+}  // namespace
 
 Check number(double lo, double hi) {
   return {[lo, hi](const std::string& text) -> std::string {
@@ -42,7 +74,7 @@ Check one_of(const std::vector<std::string>& words) {
             if (std::find(words.begin(), words.end(), text) != words.end()) return {};
             return fmt::format("must be one of {}, not {}", fmt::join(words, ", "), quote(text));
           },
-          fmt::format("{{{}}}", fmt::join(words, ","))};
+          words};
 }
 
 Check file_kind(const std::vector<std::string>& kinds) {
@@ -81,8 +113,11 @@ Option Option::type_name(const char* name) {
 }
 
 Option Option::check(const Check& check) {
-  option_->check(CLI::Validator([wrong = check.wrong](std::string& text) { return wrong(text); },
-                                check.allowed));
+  const std::string shown =
+      check.words.empty() ? "" : fmt::format("{{{}}}", fmt::join(check.words, ","));
+  option_->check(
+      CLI::Validator([wrong = check.wrong](std::string& text) { return wrong(text); }, shown));
+  if (!check.words.empty()) facts_->words = check.words;
   return *this;
 }
 
@@ -106,8 +141,8 @@ Option Option::excludes(const char* other) {
   return *this;
 }
 
-Option Option::capture_default() {
-  option_->capture_default_str();
+Option Option::default_text(const char* text) {
+  facts_->default_text = text;
   return *this;
 }
 
@@ -117,30 +152,34 @@ Option Option::repeatable() {
 }
 
 Option Option::suggest(const Suggest& values) {
-  (*suggestions_)[option_] = values;
+  facts_->suggest = values;
   return *this;
 }
 
 Command Command::add_command(const char* name, const char* doc, const char* example) {
   CLI::App* command = app_->add_subcommand(name, doc);
-  command->footer(std::string("Example:\n  microswarm ") + example);
-  return {command, suggestions_};
+  command->footer(std::string(example_head) + "  microswarm " + example);
+  return {command, facts_};
 }
+
+void Command::hide() { app_->group(""); }
 
 void Command::former_name(const char* name) { app_->alias(name); }
 
 Command Command::add_group(const char* name, const char* doc) {
   CLI::App* group = app_->add_subcommand(name, doc);
   group->require_subcommand(1);
-  return {group, suggestions_};
+  return {group, facts_};
 }
 
 template <class T>
 Option Command::add_option(const char* name, T& value, const char* doc) {
   CLI::Option* option = app_->add_option(name, value, doc);
+  OptionFacts& facts = (*facts_)[option];
+  facts.default_text = value_text(value);
   if constexpr (std::is_same_v<T, std::string>)  // an unset shell variable gives an empty text
     option->check([](const std::string& text) { return text.empty() ? "is empty" : ""; });
-  return {option, suggestions_};
+  return {option, &facts};
 }
 template Option Command::add_option(const char*, std::string&, const char*);
 template Option Command::add_option(const char*, std::vector<std::string>&, const char*);
@@ -153,16 +192,21 @@ template Option Command::add_option(const char*, std::optional<int>&, const char
 template Option Command::add_option(const char*, std::optional<std::uint64_t>&, const char*);
 
 Option Command::add_flag(const char* name, bool& value, const char* doc) {
-  return {app_->add_flag(name, value, doc)->disable_flag_override(), suggestions_};
+  CLI::Option* option = app_->add_flag(name, value, doc)->disable_flag_override();
+  return {option, &(*facts_)[option]};
 }
 
-Option Command::option(const char* name) { return {app_->get_option(name), suggestions_}; }
+Option Command::option(const char* name) {
+  CLI::Option* option = app_->get_option(name);
+  return {option, &(*facts_)[option]};
+}
 
 void Command::callback(std::function<void()> given) { app_->callback(std::move(given)); }
 
 CommandLine::CommandLine(const char* name, const char* doc, const std::string& version,
                          const char* footer)
     : app_(std::make_unique<CLI::App>(doc, name)) {
+  app_->formatter(std::make_shared<HelpFormatter>(facts_));
   app_->set_version_flag("--version", version, "Print the version and exit");
   app_->set_help_flag("-h,--help", "Print this help and exit");
   app_->require_subcommand(1);
@@ -171,9 +215,11 @@ CommandLine::CommandLine(const char* name, const char* doc, const std::string& v
 
 CommandLine::~CommandLine() = default;
 
+nlohmann::ordered_json CommandLine::description() const { return describe(*app_, facts_); }
+
 std::optional<int> CommandLine::parse(int argc, char** argv) {
   if (argc > 1 && std::string_view(argv[1]) == "complete") {
-    put(completion(*app_, suggestions_, {argv + 2, argv + argc}));
+    put(completion(*app_, facts_, {argv + 2, argv + argc}));
     flush_output();
     return ok;
   }

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,7 +20,7 @@ namespace microswarm::cli {
 /// Condition on the text of an option.
 struct Check {
   std::function<std::string(const std::string&)> wrong;  ///< error message; empty if valid
-  std::string allowed{};                                 ///< for the help
+  std::vector<std::string> words{};                      ///< the valid ones, if there are few
 };
 
 /// A decimal number within lo..hi: "is -3, allowed 0..100".
@@ -40,8 +41,14 @@ struct Suggestion {
 };
 /// Function that returns the completions of a typed beginning.
 using Suggest = std::function<std::vector<Suggestion>(const std::string& typed)>;
-/// Completions of the options that define their own.
-using Suggestions = std::map<const CLI::Option*, Suggest>;
+
+/// What is known of an option beside what the parser needs.
+struct OptionFacts {
+  std::string default_text;        ///< value without the option, or words for it; empty: none
+  std::vector<std::string> words;  ///< the values it takes, if they are words
+  Suggest suggest;                 ///< values that a shell offers; null: by words and value name
+};
+using Facts = std::map<const CLI::Option*, OptionFacts>;
 
 /// Completes to these words.
 Suggest suggest_words(const std::vector<std::string>& words);
@@ -49,8 +56,7 @@ Suggest suggest_words(const std::vector<std::string>& words);
 /// An option or an argument of a command.
 class Option {
  public:
-  Option(CLI::Option* option, Suggestions* suggestions)
-      : option_(option), suggestions_(suggestions) {}
+  Option(CLI::Option* option, OptionFacts* facts) : option_(option), facts_(facts) {}
   Option required();
   Option type_name(const char* name);
   Option check(const Check& check);
@@ -60,8 +66,8 @@ class Option {
   /// Not valid together with the other option.
   Option excludes(Option other);
   Option excludes(const char* other);
-  /// Shows the current value as default in the help.
-  Option capture_default();
+  /// What holds without the option, where its variable does not say it: "one per core".
+  Option default_text(const char* text);
   /// May be given several times, with one value each.
   Option repeatable();
   /// Sets the completions. Not needed for FILE, FOLDER and a Check of words.
@@ -69,21 +75,23 @@ class Option {
 
  private:
   CLI::Option* option_;
-  Suggestions* suggestions_;
+  OptionFacts* facts_;
 };
 
 /// A command, or a group of commands. The variables it fills must outlive the parsing.
 class Command {
  public:
-  Command(CLI::App* app, Suggestions* suggestions) : app_(app), suggestions_(suggestions) {}
+  Command(CLI::App* app, Facts* facts) : app_(app), facts_(facts) {}
   /// Adds a command with a one-line description and an example command line.
   Command add_command(const char* name, const char* doc, const char* example);
   /// Adds a group of commands, one of which must be named.
   Command add_group(const char* name, const char* doc);
-  /// Adds a name of earlier versions, which still works.
+  /// Leaves the command out of the list of commands.
+  void hide();
+  /// Name of this command in earlier versions, which still works.
   void former_name(const char* name);
   /// Adds an option "--name" or an argument "name". T: std::string, a list of strings, double, int,
-  /// an unsigned integer, or an optional number.
+  /// an unsigned integer, or an optional number. The present value is shown as its default.
   template <class T>
   Option add_option(const char* name, T& value, const char* doc);
   Option add_flag(const char* name, bool& value, const char* doc);
@@ -93,7 +101,7 @@ class Command {
 
  private:
   CLI::App* app_;
-  Suggestions* suggestions_;
+  Facts* facts_;
 };
 
 /// The complete command line of the program.
@@ -104,15 +112,17 @@ class CommandLine {
   CommandLine(const CommandLine&) = delete;
   CommandLine& operator=(const CommandLine&) = delete;
 
-  Command root() { return {app_.get(), &suggestions_}; }
-  /// Parses the command line. Returns the exit code if the work is done, as after --help.
-  /// `complete WORD...` prints the completions of the last word, see `completion`. Throws a
-  /// one-line InputError that refers to the help.
+  Command root() { return {app_.get(), &facts_}; }
+  /// The program as data: its commands with their options and arguments, below `commands`.
+  nlohmann::ordered_json description() const;
+  /// Parses the command line. Returns the exit code if nothing remains to be done, as after --help.
+  /// `complete WORD...` prints what a shell offers for the last word, as `completion` says.
+  /// Throws a one-line InputError that refers to the help.
   std::optional<int> parse(int argc, char** argv);
 
  private:
   std::unique_ptr<CLI::App> app_;
-  Suggestions suggestions_;
+  Facts facts_;
 };
 
 }  // namespace microswarm::cli

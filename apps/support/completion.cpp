@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "microswarm/core/text/lines.hpp"
+#include "support/describe.hpp"
 
 namespace microswarm::cli {
 namespace {
@@ -18,20 +18,7 @@ struct Offer {
   std::vector<Suggestion> words{};
 };
 
-bool takes_value(const CLI::Option& option) { return option.get_items_expected_max() > 0; }
-
-/// Words of "TEXT:{one,two}", the help of a Check of words.
-std::vector<Suggestion> listed_words(const std::string& type_name) {
-  std::vector<Suggestion> words;
-  const std::size_t begin = type_name.find('{');
-  const std::size_t end = type_name.find('}');
-  if (begin == std::string::npos || end == std::string::npos) return words;
-  const std::string_view list = std::string_view(type_name).substr(begin + 1, end - begin - 1);
-  for (const std::string_view word : split(list, ',')) words.push_back({std::string(word), {}});
-  return words;
-}
-
-/// Parser state before the last word.
+/// Where the words before the last one lead.
 struct Place {
   const App* at;
   const CLI::Option* wants = nullptr;  ///< option whose value is next
@@ -67,29 +54,30 @@ struct Place {
   }
 };
 
-Offer offered_values(const CLI::Option& option, const Suggestions& suggestions,
-                     const std::string& typed) {
-  if (const auto found = suggestions.find(&option); found != suggestions.end())
-    return {.words = found->second(typed)};
+Offer offered_values(const CLI::Option& option, const Facts& facts, const std::string& typed) {
+  const auto found = facts.find(&option);
+  if (found != facts.end() && found->second.suggest) return {.words = found->second.suggest(typed)};
+  if (found != facts.end() && !found->second.words.empty())
+    return {.words = suggest_words(found->second.words)(typed)};
   const std::string type = option.get_type_name();
   if (type == "FOLDER") return {.kind = "folders"};
   if (type == "FILE" || type == "VIDEO" || type == "CSV") return {.kind = "files"};
-  return {.words = listed_words(type)};
+  return {};
 }
 
 Offer offered_commands(const App& app) {
   Offer offer;
-  for (const App* command : app.get_subcommands(nullptr))
+  for (const App* command : listed_commands(app))
     offer.words.push_back({command->get_name(), command->get_description()});
   return offer;
 }
 
-Offer offered_options(const Place& place) {
+Offer offered_options(const Place& place, const Facts& facts) {
   Offer offer;
   for (const CLI::Option* option : place.at->get_options()) {
-    const bool again = option->get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll;
-    if (option->get_lnames().empty() || (place.given.contains(option) && !again)) continue;
-    offer.words.push_back({"--" + option->get_lnames().front(), option->get_description()});
+    if (option->get_lnames().empty() || (place.given.contains(option) && !is_repeatable(*option)))
+      continue;
+    offer.words.push_back({"--" + option->get_lnames().front(), meaning_of(*option, facts)});
   }
   return offer;
 }
@@ -100,30 +88,28 @@ Offer joined(Offer values, const std::string& before) {
   return values;
 }
 
-Offer offer_for(const Place& place, const std::string& word, const Suggestions& suggestions) {
-  if (place.wants) return offered_values(*place.wants, suggestions, word);
+Offer offer_for(const Place& place, const std::string& word, const Facts& facts) {
+  if (place.wants) return offered_values(*place.wants, facts, word);
   if (word.starts_with('-')) {
     const std::size_t equals = word.find('=');
-    if (equals == std::string::npos) return offered_options(place);
+    if (equals == std::string::npos) return offered_options(place, facts);
     const CLI::Option* option = place.at->get_option_no_throw(word.substr(0, equals));
     if (!option || !takes_value(*option)) return {};
-    return joined(offered_values(*option, suggestions, word.substr(equals + 1)),
+    return joined(offered_values(*option, facts, word.substr(equals + 1)),
                   word.substr(0, equals + 1));
   }
   if (Offer commands = offered_commands(*place.at); !commands.words.empty()) return commands;
-  if (const CLI::Option* argument = place.argument())
-    return offered_values(*argument, suggestions, word);
-  return offered_options(place);
+  if (const CLI::Option* argument = place.argument()) return offered_values(*argument, facts, word);
+  return offered_options(place, facts);
 }
 
 }  // namespace
 
-std::string completion(const App& app, const Suggestions& suggestions,
-                       const std::vector<std::string>& typed) {
+std::string completion(const App& app, const Facts& facts, const std::vector<std::string>& typed) {
   if (typed.empty()) return "words\n";
   Place place{.at = &app};
   for (std::size_t i = 0; i + 1 < typed.size(); ++i) place.pass(typed[i]);
-  const Offer offer = offer_for(place, typed.back(), suggestions);
+  const Offer offer = offer_for(place, typed.back(), facts);
   std::string lines = offer.kind + "\n";
   for (const Suggestion& word : offer.words)
     if (word.word.starts_with(typed.back())) lines += word.word + "\t" + word.doc + "\n";

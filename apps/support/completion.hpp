@@ -9,9 +9,9 @@
 
 namespace microswarm::cli {
 
-/// Completions of the last word typed after the program's name, as lines: first `words`, `files` or
-/// `folders`, then the matching words, each with a tab and its description.
-std::string completion(const CLI::App& app, const Suggestions& suggestions,
+/// What a shell offers for the last of the words typed after the program's name, as lines: first
+/// `words`, `files` or `folders`, then the words that fit, each with a tab and its description.
+std::string completion(const CLI::App& app, const Facts& facts,
                        const std::vector<std::string>& typed);
 
 }  // namespace microswarm::cli

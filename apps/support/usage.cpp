@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "microswarm/core/text/text.hpp"
+#include "support/describe.hpp"
 
 namespace microswarm::cli {
 namespace {
@@ -15,7 +16,7 @@ using Names = std::vector<std::string>;
 
 Names commands_of(const CLI::App& app) {
   Names names;
-  for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
+  for (const CLI::App* command : listed_commands(app)) names.push_back(command->get_name());
   return names;
 }
 

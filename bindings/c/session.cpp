@@ -41,7 +41,7 @@ void require_one_source(const ms_scenario* given) {
     throw c::BadCall{"either file or text of the scenario must be null"};
 }
 
-ms_frame plain(const Frame& frame) {
+ms_frame frame_for_c(const Frame& frame) {
   return {.t_s = frame.t,
           .x_um = frame.pose.position.x,
           .y_um = frame.pose.position.y,
@@ -129,7 +129,7 @@ int32_t ms_session_step(uint64_t handle, ms_frame* frame) {
     const Tick* tick = session.step(Stop(&object.stops));
     if (!tick) return MS_END;
     object.frame = tick->frame;
-    if (frame) *frame = plain(tick->frame);
+    if (frame) *frame = frame_for_c(tick->frame);
     return MS_OK;
   });
 }
@@ -219,7 +219,7 @@ int32_t ms_session_frames(uint64_t handle, const ms_frame** frames, size_t* coun
     c::require(frames, "frames"), c::require(count, "count");
     const std::vector<Frame>& all = session.record().frames;
     object.frames.resize(all.size());
-    std::transform(all.begin(), all.end(), object.frames.begin(), plain);
+    std::transform(all.begin(), all.end(), object.frames.begin(), frame_for_c);
     *count = object.frames.size();
     *frames = object.frames.empty() ? nullptr : object.frames.data();
     return MS_OK;

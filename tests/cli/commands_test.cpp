@@ -15,27 +15,7 @@ class Commands : public CommandLine {
   Commands() { write("flight.yaml", two_rooms()); }
 };
 
-TEST_F(Commands, HelpHasAnExample) {
-  for (const Arguments& command : std::vector<Arguments>{{"run"},
-                                                         {"plan"},
-                                                         {"global"},
-                                                         {"gather"},
-                                                         {"map", "info"},
-                                                         {"map", "check"},
-                                                         {"map", "convert"},
-                                                         {"map", "segment"},
-                                                         {"replay"},
-                                                         {"report"},
-                                                         {"reproduce"},
-                                                         {"bench"},
-                                                         {"schema"}}) {
-    Arguments words = command;
-    words.push_back("--help");
-    std::string name = "microswarm";
-    for (const std::string& word : command) name += " " + word;
-    const std::string help = good(words);
-    EXPECT_NE(help.find("Example:\n  " + name + " "), std::string::npos) << help;
-  }
+TEST_F(Commands, HelpAndVersion) {
   EXPECT_NE(good({"--help"}).find("Exit codes:"), std::string::npos);
   EXPECT_NE(good({"--version"}).find('.'), std::string::npos);
 }

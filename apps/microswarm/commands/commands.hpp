@@ -23,5 +23,7 @@ void add_lab(Command app, Action& action);
 void add_learn(Command app, Action& action);
 void add_reproduce(Command app, Action& action);
 void add_bench(Command app, Action& action);
+/// Adds `describe --json`, which is not listed: the program as data, for its reference.
+void add_describe(CommandLine& line, Action& action);
 
 }  // namespace microswarm::cli

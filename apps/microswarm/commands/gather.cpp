@@ -83,21 +83,20 @@ void add_gather(Command app, Action& action) {
       .required()
       .type_name("X,Y")
       .check(place(2, "x,y in µm"));
-  cmd.add_option("--robots", o->robots, "Number of robots, at random positions (default: 256)")
+  cmd.add_option("--robots", o->robots, "Number of robots, at random positions")
       .type_name("NUMBER")
       .check(whole(1, 1'000'000));
   cmd.add_option("--channel-width", o->channel_width,
-                 "Typical channel width in µm, which scales all lengths (default: measured)")
+                 "Typical channel width in µm, which scales all lengths")
       .type_name("NUMBER")
+      .default_text("measured")
       .check(number(1e-3, 1e6));
-  cmd.add_option("--max-steps,--most-steps", o->max_steps,
-                 "Maximum number of steps (default: 100000)")
+  cmd.add_option("--max-steps,--most-steps", o->max_steps, "Maximum number of steps")
       .type_name("NUMBER")
       .check(whole(1, 100'000'000));
-  add_settings(cmd, o->settings,
-               "Override a scenario value, e.g. navigator.method=heuristic (repeatable)",
+  add_settings(cmd, o->settings, "Override a scenario value, e.g. navigator.method=heuristic",
                type_of<Scenario>);
-  cmd.add_option("--seed", o->seed, "Seed of the random streams (default: 1)")
+  cmd.add_option("--seed", o->seed, "Seed of the random streams")
       .type_name("NUMBER")
       .check(whole(0, UINT64_MAX));
   cmd.add_option("--out", o->out, "Folder for run.h5, pictures and index.html").type_name("FOLDER");

@@ -223,15 +223,15 @@ void add_global(Command app, Action& action) {
   Option save = cmd.add_option("--save-tree", o->save_tree,
                                "Grow a tree to planner.max_nodes and save it to this HDF5 file");
   save.type_name("FILE").excludes("--tree");
-  add_settings(
-      cmd, o->settings,
-      "Select planner.type (global_search or global_rrt) and override its values (repeatable)",
-      type_of<GlobalChoice>);
-  cmd.add_option("--time-limit", o->time_limit, "Time limit in seconds (default: none)")
-      .type_name("NUMBER")
+  add_settings(cmd, o->settings,
+               "Select planner.type (global_search or global_rrt) and override its values",
+               type_of<GlobalChoice>);
+  cmd.add_option("--time-limit", o->time_limit, "Time limit")
+      .type_name("SECONDS")
+      .default_text("none")
       .check(number(0, 1e6));
   cmd.add_flag("--as-found", o->as_found, "Keep superfluous inputs");
-  cmd.add_option("--seed", o->seed, "Seed of the random stream (default: 1)")
+  cmd.add_option("--seed", o->seed, "Seed of the random stream")
       .type_name("NUMBER")
       .check(whole(0, UINT64_MAX));
   cmd.add_option("--picture", o->picture, "Draw the robots' paths to this file: .png, .svg or .pdf")

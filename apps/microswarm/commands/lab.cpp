@@ -118,7 +118,7 @@ void add_lab(Command app, Action& action) {
                                 "lab scenarios/papers/radar/twelve.yaml");
   cmd.add_option("file", o->file, "Scenario (YAML) or record (run.h5) to begin with")
       .type_name("FILE");
-  add_settings(cmd, o->settings, "Override a scenario value (repeatable)", type_of<Scenario>);
+  add_settings(cmd, o->settings, "Override a scenario value", type_of<Scenario>);
   const Option rig =
       cmd.add_option("--rig", o->rig, "Run the scenario on this rig (YAML), in real time")
           .type_name("FILE");

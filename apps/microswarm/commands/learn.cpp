@@ -124,10 +124,11 @@ void add_learn(Command app, Action& action) {
                   "Folder for follower.yaml, its model card, the comparison and plots")
       .required()
       .type_name("FOLDER");
-  add_settings(follower, o->settings, "Override a training parameter, e.g. runs=300 (repeatable)",
+  add_settings(follower, o->settings, "Override a training parameter, e.g. runs=300",
                type_of<FollowerTrainingParams>);
-  follower.add_option("--jobs", o->jobs, "Number of threads (default: one per core)")
+  follower.add_option("--jobs", o->jobs, "Number of threads")
       .type_name("NUMBER")
+      .default_text("one per core")
       .check(whole(1, 1024));
   follower.add_flag("--quick", o->quick, "Less training and fewer paths; takes at most 50 s");
   add_json(follower, o->json);

@@ -193,16 +193,14 @@ void add_segment(Command map, Action& action) {
       .type_name("FILE");
   cmd.add_option("--rig", o->rig, "Use the camera's settings of this rig (YAML)").type_name("FILE");
   add_um_per_px(cmd, o->um_per_px, "µm per pixel of the photograph, 1e-6..1e6");
-  cmd.add_option("--out", o->out,
-                 "Map to write (default: vessels.geojson); NAME-overlay.png is written next to it")
+  cmd.add_option("--out", o->out, "Map to write; NAME-overlay.png is written next to it")
       .type_name("FILE");
   cmd.add_option("--smooth", o->smooth, "Tolerance of the outlines in pixels, 0..100")
       .type_name("NUMBER")
       .check(number(0, 100));
   cmd.add_option("--truth", o->truth, "Ground-truth mask (white vessels) to compare with")
       .type_name("FILE");
-  add_settings(cmd, o->settings, "Override a value, e.g. min_width_px=6 (repeatable)",
-               type_of<VesselParams>);
+  add_settings(cmd, o->settings, "Override a value, e.g. min_width_px=6", type_of<VesselParams>);
   add_json(cmd, o->json);
   cmd.callback(
       [o, &action] { action = [o](const Context& context) { return segment(*o, context); }; });
@@ -241,9 +239,9 @@ void add_map(Command app, Action& action) {
   convert_cmd.add_option("out", *out, fmt::format("File to write: {}", written_map_formats).c_str())
       .required()
       .type_name("FILE");
-  convert_cmd
-      .add_option("--cell", *cell, "Pixel or cell size to write in µm (default: --um-per-px)")
+  convert_cmd.add_option("--cell", *cell, "Pixel or cell size to write in µm")
       .type_name("NUMBER")
+      .default_text("--um-per-px")
       .check(number(1e-6, 1e6));
   convert_cmd.callback(
       [=, &action] { action = [=](const Context&) { return convert(*o, *out, *cell); }; });

@@ -106,9 +106,8 @@ void add_plan(Command app, Action& action) {
       .required()
       .type_name("X,Y")
       .check(place(2, "x,y in µm"));
-  add_settings(cmd, o->settings, "Select planner.type and override its values (repeatable)",
-               path_settings);
-  cmd.add_option("--seed", o->seed, "Seed of the random stream (default: 1)")
+  add_settings(cmd, o->settings, "Select planner.type and override its values", path_settings);
+  cmd.add_option("--seed", o->seed, "Seed of the random stream")
       .type_name("NUMBER")
       .check(whole(0, UINT64_MAX));
   cmd.add_option("--picture", o->picture,

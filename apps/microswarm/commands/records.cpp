@@ -87,35 +87,33 @@ void add_report(Command app, Action& action) {
       "report", "Write the report of a record: pictures and an HTML page, or a video",
       "report out/first/run.h5 --video out/first/run.mp4 --speed 4");
   cmd.add_option("record", o->file, "Record of a run (run.h5)").required().type_name("FILE");
-  cmd.add_option("--out", o->out, "Output folder (default: report, or none with --video)")
-      .type_name("FOLDER");
+  cmd.add_option("--out", o->out, "Output folder")
+      .type_name("FOLDER")
+      .default_text("report, or none with --video");
   cmd.add_option("--video", o->video, "Video of the run to write")
       .type_name("FILE")
       .check(file_kind({".mp4", ".mkv", ".avi", ".gif"}));
-  cmd.add_option("--from", o->from, "Time at which the video begins [s]")
+  cmd.add_option("--from", o->from, "Time at which the video begins")
       .type_name("SECONDS")
       .needs("--video")
-      .check(number(0, 1e9))
-      .capture_default();
-  cmd.add_option("--to", o->to, "Time at which it ends [s] (default: the run's end)")
+      .check(number(0, 1e9));
+  cmd.add_option("--to", o->to, "Time at which it ends")
       .type_name("SECONDS")
+      .default_text("the run's end")
       .needs("--video")
       .check(number(0, 1e9));
   cmd.add_option("--speed", o->speed, "Seconds of the run per second of the video")
       .type_name("NUMBER")
       .needs("--video")
-      .check(number(1e-3, 1e4))
-      .capture_default();
+      .check(number(1e-3, 1e4));
   cmd.add_option("--fps", o->fps, "Pictures of the video per second; at most 50 of a GIF")
       .type_name("NUMBER")
       .needs("--video")
-      .check(number(1, 240))
-      .capture_default();
+      .check(number(1, 240));
   cmd.add_option("--width", o->width, "Width of the video in pixels")
       .type_name("NUMBER")
       .needs("--video")
-      .check(whole(160, 7680))
-      .capture_default();
+      .check(whole(160, 7680));
   add_photo(cmd, o->photo);
   cmd.callback([o, &action] {
     action = [o](const Context& context) { return report_command(*o, context); };

@@ -143,7 +143,7 @@ void add_run(Command app, Action& action) {
   cmd.add_option("--out", o->out,
                  "Folder for run.h5, pictures and index.html, or with --trials for trials.csv")
       .type_name("FOLDER");
-  add_settings(cmd, o->settings, "Override a scenario value (repeatable)", type_of<Scenario>);
+  add_settings(cmd, o->settings, "Override a scenario value", type_of<Scenario>);
   cmd.add_option("--rig", o->rig,
                  "Rig file (YAML); runs through its simulated camera, coils and field")
       .type_name("FILE");

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
 #include "microswarm/config/help.hpp"
 #include "microswarm/config/schema.hpp"
+#include "microswarm/core/version.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/rig/params/rig_params.hpp"
 #include "microswarm/session/global_query.hpp"
@@ -37,7 +39,48 @@ void show(std::string_view name, bool keys) {
       put(keys ? help_text(kind.type) : json_schema(kind.type, fmt::format("microswarm {}", name)));
 }
 
+using Json = nlohmann::ordered_json;
+
+Json json_of(const std::vector<KeyHelp>& keys) {
+  Json list = Json::array();
+  for (const KeyHelp& key : keys) {
+    Json types = Json::array();
+    for (const KeyHelp& type : key.types)
+      types.push_back({{"type", type.key}, {"keys", json_of(type.keys)}});
+    list.push_back({{"key", key.key},
+                    {"unit", key.unit},
+                    {"default", key.default_text},
+                    {"range", key.range},
+                    {"words", key.words},
+                    {"doc", key.doc},
+                    {"keys", json_of(key.keys)},
+                    {"types", types}});
+  }
+  return list;
+}
+
+void print_description(const CommandLine& line) {
+  Json keys;
+  for (const Kind& kind : kinds()) keys[std::string(kind.name)] = json_of(key_help(kind.type));
+  const Json all = {{"version", version}, {"program", line.description()}, {"keys", keys}};
+  put(all.dump() + "\n");
+}
+
 }  // namespace
+
+void add_describe(CommandLine& line, Action& action) {
+  auto json = std::make_shared<bool>(false);
+  Command cmd = line.root().add_command(
+      "describe", "Print all commands, their options, and the keys of files", "describe --json");
+  cmd.hide();
+  cmd.add_flag("--json", *json, "Print the result as JSON").required();
+  cmd.callback([json, &line, &action] {
+    action = [&line](const Context&) {
+      print_description(line);
+      return ok;
+    };
+  });
+}
 
 void add_schema(Command app, Action& action) {
   auto name = std::make_shared<std::string>("scenario");
@@ -49,8 +92,8 @@ void add_schema(Command app, Action& action) {
   for (const Kind& kind : kinds()) names.emplace_back(kind.name);
   cmd.add_option("kind", *name,
                  "Scenario, sweep, rig or coil system file, or the --set values of track or global")
-      .check(one_of(names))
-      .capture_default();
+      .type_name("KIND")
+      .check(one_of(names));
   cmd.add_flag("--keys", *keys, "Print a table with unit, default, range and meaning of each key");
   cmd.callback([=, &action] {
     action = [=](const Context&) {

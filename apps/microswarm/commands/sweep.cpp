@@ -196,12 +196,12 @@ void add_sweep(Command app, Action& action) {
   cmd.add_option("sweep", o->sweep, "Sweep file (YAML); `schema sweep --keys` lists its keys")
       .required()
       .type_name("FILE");
-  cmd.add_option("--out", o->out,
-                 "SQLite database; an interrupted sweep is resumed (default: sweep name with .db)")
-      .type_name("FILE");
-  cmd.add_option("--jobs", o->jobs,
-                 "Number of threads (default: one per core, under mpirun one per rank)")
+  cmd.add_option("--out", o->out, "SQLite database; an interrupted sweep is resumed")
+      .type_name("FILE")
+      .default_text("sweep name with .db");
+  cmd.add_option("--jobs", o->jobs, "Number of threads")
       .type_name("NUMBER")
+      .default_text("one per core, under mpirun one per rank")
       .check(whole(0, 1024));
   cmd.add_option("--csv", o->csv, "Also write the table of trials to this CSV file")
       .type_name("FILE");

@@ -124,8 +124,7 @@ void add_track(Command app, Action& action) {
       .check(number(1e-6, 1e6));
   cmd.add_option("--config", o->config, "Settings file (YAML); other options override it")
       .type_name("FILE");
-  add_settings(cmd, o->settings, "Override a value, e.g. find.tone=bright (repeatable)",
-               type_of<TrackSettings>);
+  add_settings(cmd, o->settings, "Override a value, e.g. find.tone=bright", type_of<TrackSettings>);
   cmd.add_flag("--suggest", o->suggest,
                "Suggest find.min_mass, find.diameter_px and find.tone for a video or picture");
   cmd.add_flag("--no-overlay", o->no_overlay, "Do not write overlay.mp4");

@@ -102,7 +102,7 @@ void add_rig_check(Command rig, Action& action) {
   cmd.add_option("rig", o->rig, "Rig file (YAML)").required().type_name("FILE");
   add_rig_settings(cmd, "--set", o->settings);
   cmd.add_option("--seconds", o->seconds, "Test duration per device")
-      .type_name("S")
+      .type_name("SECONDS")
       .check(number(0.1, 600));
   add_json(cmd, o->json);
   cmd.callback([o, &action] {

@@ -193,9 +193,9 @@ void add_rig_drive(Command rig, Action& action) {
       .type_name("A")
       .check(number(-1e6, 1e6));
   cmd.add_option("--seconds", o->seconds, "Duration, of each coil with --each")
-      .type_name("S")
+      .type_name("SECONDS")
       .check(number(0.1, 1e5));
-  cmd.add_option("--ramp", o->ramp, "Time of each ramp").type_name("S").check(number(0, 1e4));
+  cmd.add_option("--ramp", o->ramp, "Time of each ramp").type_name("SECONDS").check(number(0, 1e4));
   add_coil_options(cmd, o->coils);
   add_rig_settings(cmd, "--set", o->settings);
   cmd.callback(

@@ -102,21 +102,22 @@ void add_rig_map(Command rig, Action& action) {
   cmd.add_option("--out", o->out, "File to write: .png, .svg, .pdf or .csv")
       .type_name("FILE")
       .check(file_kind({".png", ".svg", ".pdf", ".csv"}));
-  cmd.add_option("--at", o->at, "Centre of the map in µm (default: centre of the system)")
+  cmd.add_option("--at", o->at, "Centre of the map in µm")
       .type_name("X,Y,Z")
+      .default_text("centre of the system")
       .check(triple("X,Y,Z", max_place));
   const Option currents =
       cmd.add_option("--currents", o->currents, "Current of each coil in A").type_name("A,A,…");
-  cmd.add_option("--field", o->field, "Field at the centre in mT (default: 1,0,0)")
+  cmd.add_option("--field", o->field, "Field at the centre in mT")
       .type_name("BX,BY,BZ")
       .check(triple("BX,BY,BZ", max_field))
       .excludes(currents);
   cmd.add_option("--plane", o->plane, "Plane of the map: xy, xz or yz")
       .type_name("WORD")
       .check(one_of({"xy", "xz", "yz"}));
-  cmd.add_option("--half-width", o->half_width,
-                 "Half the side of the map in µm (default: 10000, or less in a smaller workspace)")
+  cmd.add_option("--half-width", o->half_width, "Half the side of the map in µm")
       .type_name("NUMBER")
+      .default_text("10000, or less in a smaller workspace")
       .check(number(1, 1e8));
   cmd.add_option("--points", o->points, "Points per side, 3..1001")
       .type_name("NUMBER")

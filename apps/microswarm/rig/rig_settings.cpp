@@ -7,8 +7,9 @@
 namespace microswarm::cli {
 
 Option add_rig_settings(Command command, const char* name, std::vector<std::string>& values) {
-  return command.add_option(name, values, "Override a rig value (repeatable)")
+  return command.add_option(name, values, "Override a rig value")
       .type_name("KEY=VALUE")
+      .repeatable()
       .suggest(suggest_settings(type_of<RigParams>));
 }
 

@@ -26,6 +26,8 @@ const Type& content_of(const Type& type) {
   return wraps ? content_of(*type.parts[0]) : type;
 }
 
+std::vector<KeyHelp> keys_of(const Type& type, const void* defaults);
+
 std::string default_text(const Field& field, const void* value) {
   if (field.info.required) return "required";
   const Type& type = *field.type;
@@ -38,30 +40,49 @@ std::string default_text(const Field& field, const void* value) {
   return text;
 }
 
-std::string allowed_text(const Field& field) {
-  const Type& type = content_of(*field.type);
-  if (type.kind == TypeKind::variant) return "a type below";
-  if (type.kind == TypeKind::choice) return fmt::format("{}", fmt::join(type.words, " | "));
-  if (type.kind == TypeKind::boolean) return "true | false";
-  return range_text(field.info.range, Unit::none);
-}
-
-void add_parts(const Type& type, const void* defaults, std::size_t depth, std::vector<Row>& rows);
-
-void add_field(const Field& field, const void* value, std::size_t depth, std::vector<Row>& rows) {
-  rows.push_back({std::string(2 * depth, ' ') + field.key,
-                  std::string(unit_symbol(field.info.unit)), default_text(field, value),
-                  allowed_text(field), std::string(field.info.doc)});
-  const Type& content = content_of(*field.type);
-  if (has_parts(content))
-    add_parts(content, &content == field.type ? value : content.defaults, depth + 1, rows);
-}
-
-void add_parts(const Type& type, const void* defaults, std::size_t depth, std::vector<Row>& rows) {
-  for (const Field& field : type.fields) add_field(field, field.in(defaults), depth, rows);
+void add_parts(const Type& type, const void* defaults, KeyHelp& to) {
+  to.keys = keys_of(type, defaults);
   for (std::size_t i = 0; i < type.parts.size(); ++i) {
-    rows.push_back({fmt::format("{:{}}type: {}", "", 2 * depth, type.words[i])});
-    add_parts(*type.parts[i], type.parts[i]->defaults, depth + 1, rows);
+    const Type& part = *type.parts[i];
+    to.types.push_back({.key = std::string(type.words[i]), .keys = keys_of(part, part.defaults)});
+  }
+}
+
+KeyHelp help_of(const Field& field, const void* value) {
+  const Type& content = content_of(*field.type);
+  KeyHelp help{.key = field.key,
+               .unit = unit_symbol(field.info.unit),
+               .default_text = default_text(field, value),
+               .range = range_text(field.info.range, Unit::none),
+               .doc = field.info.doc};
+  if (content.kind == TypeKind::choice) help.words = content.words;
+  if (content.kind == TypeKind::boolean) help.words = {"true", "false"};
+  if (has_parts(content))
+    add_parts(content, &content == field.type ? value : content.defaults, help);
+  return help;
+}
+
+std::vector<KeyHelp> keys_of(const Type& type, const void* defaults) {
+  std::vector<KeyHelp> keys;
+  for (const Field& field : type.fields) keys.push_back(help_of(field, field.in(defaults)));
+  return keys;
+}
+
+std::string allowed_text(const KeyHelp& key) {
+  if (!key.types.empty()) return "a type below";
+  return key.words.empty() ? key.range : fmt::format("{}", fmt::join(key.words, " | "));
+}
+
+void add_rows(const std::vector<KeyHelp>& keys, std::size_t depth, std::vector<Row>& rows) {
+  const std::string indent(2 * depth, ' ');
+  for (const KeyHelp& key : keys) {
+    rows.push_back({indent + key.key, std::string(key.unit), key.default_text, allowed_text(key),
+                    std::string(key.doc)});
+    add_rows(key.keys, depth + 1, rows);
+    for (const KeyHelp& type : key.types) {
+      rows.push_back({fmt::format("{}  type: {}", indent, type.key)});
+      add_rows(type.keys, depth + 2, rows);
+    }
   }
 }
 
@@ -74,9 +95,11 @@ std::size_t width(std::string_view text) {
 
 }  // namespace
 
+std::vector<KeyHelp> key_help(const Type& type) { return keys_of(type, type.defaults); }
+
 std::string help_text(const Type& type) {
   std::vector<Row> rows = {{"key", "unit", "default", "allowed", "meaning"}};
-  add_parts(type, type.defaults, 0, rows);
+  add_rows(key_help(type), 0, rows);
   std::array<std::size_t, columns> widths{};
   for (const Row& row : rows)
     for (std::size_t i = 0; i < columns; ++i) widths[i] = std::max(widths[i], width(row[i]));

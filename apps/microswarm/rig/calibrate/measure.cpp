@@ -365,9 +365,9 @@ void add_measure_options(Command cmd, MeasureOptions& o) {
                  "Positions of the probe in µm, or a CSV file with x_um,y_um,z_um")
       .type_name("X,Y,Z;…")
       .needs(measure);
-  cmd.add_option("--current", o.current,
-                 "Largest current in A (default: 80 % of what each coil can hold)")
+  cmd.add_option("--current", o.current, "Largest current in A")
       .type_name("A")
+      .default_text("80 % of what each coil can hold")
       .check(number(1e-6, 1e6))
       .needs(measure);
   cmd.add_option("--levels", o.levels, "Currents of each sign for each coil")
@@ -376,11 +376,11 @@ void add_measure_options(Command cmd, MeasureOptions& o) {
       .needs(measure);
   cmd.add_flag("--pairs", o.pairs, "Also each coil together with the next one").needs(measure);
   cmd.add_option("--hold", o.hold, "Longest time a current waits for an answer")
-      .type_name("S")
+      .type_name("SECONDS")
       .check(number(0.1, 3600))
       .needs(measure);
   cmd.add_option("--ramp", o.ramp, "Time of each ramp")
-      .type_name("S")
+      .type_name("SECONDS")
       .check(number(0, 100))
       .needs(measure);
   cmd.add_option("--settle", o.settle, "Time after the ramp until the field counts")
@@ -392,7 +392,7 @@ void add_measure_options(Command cmd, MeasureOptions& o) {
           .type_name("CSV")
           .needs(measure);
   cmd.add_option("--dwell", o.dwell, "Time over which the probe's rows are averaged")
-      .type_name("S")
+      .type_name("SECONDS")
       .check(number(0.01, 600))
       .needs(probe);
   add_coil_options(cmd, o.coils);

@@ -173,8 +173,7 @@ void add_rig_scale(Command rig, Action& action) {
       .required()
       .type_name("FILE");
   cmd.add_option("--rig", o->rig, "Use the camera's settings of this rig (YAML)").type_name("FILE");
-  add_settings(cmd, o->settings,
-               "Override a setting of the camera, e.g. width_px=1280 (repeatable)",
+  add_settings(cmd, o->settings, "Override a setting of the camera, e.g. width_px=1280",
                type_of<CameraParams>);
   const Option points =
       cmd.add_option("--points", o->points, "Two points in the picture in px, y down")
@@ -199,12 +198,10 @@ void add_rig_scale(Command rig, Action& action) {
   cmd.add_option("--pattern", o->pattern, "Kind of grid points")
       .type_name("WORD")
       .check(one_of({"dots", "chessboard"}))
-      .capture_default()
       .needs(grid);
-  cmd.add_option("--origin", o->origin,
-                 "World origin in the picture in px (default: lower left corner, upper left if "
-                 "mirrored, or the grid's first point)")
+  cmd.add_option("--origin", o->origin, "World origin in the picture in px")
       .type_name("X,Y")
+      .default_text("lower left corner, upper left if mirrored, or the grid's first point")
       .check(place(2, "X,Y"));
   cmd.add_flag("--mirrored", o->mirrored, "World y points down in the picture");
   cmd.add_option("--out", o->out, "Write the scale to this file (YAML), for use in a rig file")

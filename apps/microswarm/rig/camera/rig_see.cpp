@@ -270,8 +270,7 @@ void add_rig_see(Command rig, Action& action) {
   cmd.add_option("--scenario", o->scenario,
                  "Draw map, start and goal of this scenario over the picture, by the rig's scale")
       .type_name("FILE");
-  add_settings(cmd, o->settings,
-               "Override a value, e.g. scene.swarm.look.min_radius_px=12 (repeatable)",
+  add_settings(cmd, o->settings, "Override a value, e.g. scene.swarm.look.min_radius_px=12",
                type_of<SeeSettings>);
   cmd.add_option("--out", o->out, "Draw the detections to this file (PNG)")
       .type_name("FILE")

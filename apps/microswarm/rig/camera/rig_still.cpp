@@ -37,12 +37,10 @@ void add_rig_still(Command rig, Action& action) {
       .required()
       .type_name("FILE");
   cmd.add_option("--rig", o->rig, "Use the camera's settings of this rig (YAML)").type_name("FILE");
-  add_settings(cmd, o->settings, "Override a setting, e.g. exposure_ms=5 (repeatable)",
-               type_of<CameraParams>);
+  add_settings(cmd, o->settings, "Override a setting, e.g. exposure_ms=5", type_of<CameraParams>);
   cmd.add_option("--out", o->out, "File to write (PNG)")
       .type_name("FILE")
-      .check(file_kind({".png"}))
-      .capture_default();
+      .check(file_kind({".png"}));
   cmd.callback([o, &action] { action = [o](const Context&) { return still(*o); }; });
 }
 

@@ -289,13 +289,13 @@ void add_rig_run(Command rig, Action& action) {
   cmd.add_flag("--drawn-swarm", o->drawn_swarm, "Drive coils for a simulated camera's swarm");
   add_coil_options(cmd, o->coils);
   cmd.add_flag("--overwrite", o->overwrite, "Replace the experiment in the folder, or the video");
-  add_settings(cmd, o->settings, "Override a scenario value (repeatable)", type_of<Scenario>);
+  add_settings(cmd, o->settings, "Override a scenario value", type_of<Scenario>);
   add_rig_settings(cmd, "--set-rig", o->rig_settings);
   cmd.add_option("--seconds", o->seconds, "End so long after the first command")
-      .type_name("S")
+      .type_name("SECONDS")
       .check(number(0.1, 1e6));
   cmd.add_option("--hold", o->hold, "Hold the swarm at the goal for this time, or until stopped")
-      .type_name("S")
+      .type_name("SECONDS")
       .check(number(0, 1e6));
   cmd.add_option("--note", o->note, "Note of the operator, kept in the record").type_name("TEXT");
   add_json(cmd, o->json);

@@ -125,11 +125,11 @@ void add_rig_simulate(Command rig, Action& action) {
       rig.add_command("simulate", "Compare runs through a simulated rig with runs without one",
                       "rig simulate scenario.yaml --rig rig.yaml --trials 10");
   cmd.former_name("rehearse");
-  cmd.add_option("scenario", o->scenario,
-                 "Scenario file (YAML) (default: a selection from the papers)")
-      .type_name("FILE");
+  cmd.add_option("scenario", o->scenario, "Scenario file (YAML)")
+      .type_name("FILE")
+      .default_text("a selection from the papers");
   cmd.add_option("--rig", o->rig, "Rig file (YAML)").type_name("FILE");
-  add_settings(cmd, o->settings, "Override a scenario value (repeatable)", type_of<Scenario>);
+  add_settings(cmd, o->settings, "Override a scenario value", type_of<Scenario>);
   add_rig_settings(cmd, "--set-rig", o->rig_settings);
   cmd.add_option("--trials", o->trials,
                  "Number of trials per scenario, each with its own random streams")
