@@ -228,25 +228,25 @@ Actuation CoilSystem::at(const Eigen::Vector3d& position) const {
     result.gradients.col(static_cast<Eigen::Index>(i)) = five_gradients(one.gradient);
   };
   const auto of_loops = [&](const std::vector<LoopCoil>& coils) {
-    for (std::size_t i = 0; i < size(); ++i) put(i, field_of(coils[i].loops, place));
+    for (std::size_t i = 0; i < size(); ++i) put(i, field_of(coils[i].loops, position));
   };
   const auto of_sources = [&](const MpemSystem& mpem) {
     for (std::size_t i = 0; i < size(); ++i)
-      put(i, microswarm::field_of(mpem.coils[i].sources, place));
-    result.offset += microswarm::field_of(mpem.offset, place);
+      put(i, microswarm::field_of(mpem.coils[i].sources, position));
+    result.offset += microswarm::field_of(mpem.offset, position);
   };
   const auto of_grids = [&](const std::vector<FieldGrid>& grids) {
     for (std::size_t i = 0; i < size(); ++i) {
       const FieldGrid& grid = grids[i];
-      if (!grid.contains(place))
-        throw InputError(fmt::format("place {} is outside of the grid of {}, {} to {}",
+      if (!grid.contains(position))
+        throw InputError(fmt::format("position {} is outside of the grid of {}, {} to {}",
                                      place_text(position), names_[i], place_text(grid.lo()),
                                      place_text(grid.hi())));
       put(i, grid.at(position));
     }
   };
   const auto of_line = [&](const LinearField& linear) {
-    const Eigen::Vector3d off = place - centre_;
+    const Eigen::Vector3d off = position - centre_;
     for (std::size_t i = 0; i < size(); ++i) {
       const auto k = static_cast<Eigen::Index>(i);
       const Eigen::Matrix3d gradient = microswarm::gradient_of(linear.gradients.col(k));

@@ -158,8 +158,8 @@ double VelocityObstacleNavigator::time_to_contact(const Pose2& pose, const Comma
 
 double VelocityObstacleNavigator::time_to_contact(const Threat& threat, Segment leg, double t0,
                                                   double t1) const {
-  const Segment own_frame{way.a - (steering_.delay() + t0) * threat.velocity,
-                          way.b - (steering_.delay() + t1) * threat.velocity};
+  const Segment own_frame{leg.a - (steering_.delay() + t0) * threat.velocity,
+                          leg.b - (steering_.delay() + t1) * threat.velocity};
   const auto with_disc = [&](const Disc& disc) {
     if (t1 <= t0) return never;
     const Vec2 velocity = (1 / (t1 - t0)) * (own_frame.b - own_frame.a);

@@ -180,7 +180,7 @@ double ObstacleTracker::outline_speed_within(std::size_t body, const Body& shape
                                              Disc within) const {
   const Trail& trail = trails_[trail_of_[body]];
   const Outline& before = trail.past[0];
-  if (trail.places.empty() || before.shape.outer.empty() || before.t >= seen_) return 0;
+  if (trail.positions.empty() || before.shape.outer.empty() || before.t >= seen_) return 0;
   const auto edge_reaches = [&](Vec2 a, Vec2 b) {
     return distance(within.centre, Segment{a, b}) <= within.radius;
   };

@@ -107,7 +107,7 @@ Box part_that_matters(const RadarRun& run, const World& world, std::span<const d
   for (const double t : moments)
     for (const Body& body : world.at(t).moving().bodies())
       std::visit(Overloaded{[&](const Disc& disc) {
-                              if (disc.centre.x > way.lo.x && disc.centre.x < way.hi.x)
+                              if (disc.centre.x > passage.lo.x && disc.centre.x < passage.hi.x)
                                 include(disc.centre, edge * disc.radius);
                             },
                             [](const Polygon&) {}},
