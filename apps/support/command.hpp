@@ -42,7 +42,7 @@ struct Suggestion {
 /// Function that returns the completions of a typed beginning.
 using Suggest = std::function<std::vector<Suggestion>(const std::string& typed)>;
 
-/// What is known of an option beside what the parser needs.
+/// Facts about an option that the parser does not need.
 struct OptionFacts {
   std::string default_text;        ///< value without the option, or words for it; empty: none
   std::vector<std::string> words;  ///< the values it takes, if they are words
@@ -66,7 +66,7 @@ class Option {
   /// Not valid together with the other option.
   Option excludes(Option other);
   Option excludes(const char* other);
-  /// What holds without the option, where its variable does not say it: "one per core".
+  /// Text of the default, where the variable does not state it: "one per core".
   Option default_text(const char* text);
   /// May be given several times, with one value each.
   Option repeatable();
@@ -91,7 +91,7 @@ class Command {
   /// Name of this command in earlier versions, which still works.
   void former_name(const char* name);
   /// Adds an option "--name" or an argument "name". T: std::string, a list of strings, double, int,
-  /// an unsigned integer, or an optional number. The present value is shown as its default.
+  /// an unsigned integer, or an optional number. The current value is shown as its default.
   template <class T>
   Option add_option(const char* name, T& value, const char* doc);
   Option add_flag(const char* name, bool& value, const char* doc);

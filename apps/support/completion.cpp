@@ -18,7 +18,7 @@ struct Offer {
   std::vector<Suggestion> words{};
 };
 
-/// Where the words before the last one lead.
+/// Position in the command tree after the words before the last one.
 struct Place {
   const App* at;
   const CLI::Option* wants = nullptr;  ///< option whose value is next

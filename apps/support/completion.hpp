@@ -9,7 +9,7 @@
 
 namespace microswarm::cli {
 
-/// What a shell offers for the last of the words typed after the program's name, as lines: first
+/// Lines a shell offers for the last of the words typed after the program's name: first
 /// `words`, `files` or `folders`, then the words that fit, each with a tab and its description.
 std::string completion(const CLI::App& app, const Facts& facts,
                        const std::vector<std::string>& typed);

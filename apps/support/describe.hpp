@@ -12,10 +12,12 @@ namespace microswarm::cli {
 /// The commands below one that are not hidden.
 std::vector<const CLI::App*> listed_commands(const CLI::App& app);
 
+/// Returns whether the option takes a value; a flag does not.
 bool takes_value(const CLI::Option& option);
+/// Returns whether the option may be given several times.
 bool is_repeatable(const CLI::Option& option);
 
-/// What an option means, as in the help: its doc, repetition and default.
+/// Meaning of an option, as in the help: its doc, repetition and default.
 std::string meaning_of(const CLI::Option& option, const Facts& facts);
 
 /// Begins the last part of a command's help.

@@ -38,7 +38,7 @@ struct FrameColumns {
   }
 };
 
-/// Lives to the end of the process, as what is told of it does.
+/// Lives to the end of the process, as do the names and units returned from it.
 const FrameColumns& frame_columns() {
   static const auto* const all = new FrameColumns;  // NOLINT(cppcoreguidelines-owning-memory)
   return *all;

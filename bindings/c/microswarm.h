@@ -51,8 +51,8 @@ int32_t ms_stop(uint64_t handle);
 
 /* ---- Experiments ---------------------------------------------------------------------------- */
 
-/* A tick of an experiment: what was recorded in interface version 1; ms_frame_columns tells all
- * that is. What is not there is NaN. */
+/* A tick of an experiment: what was recorded in interface version 1; ms_frame_columns lists
+ * all quantities. Absent ones are NaN. */
 typedef struct ms_frame {
   double t_s;  /* start of the tick */
   double x_um; /* centre of the swarm */
@@ -135,7 +135,7 @@ typedef struct ms_column {
 int32_t ms_frame_columns(const ms_column** columns, size_t* count);
 /* A recorded quantity by its name, a value for each of ms_session_frames. NaN: not there. */
 int32_t ms_session_column(uint64_t session, const char* name, const double** values, size_t* count);
-/* All quantities at the present tick, a value for each of ms_frame_columns. */
+/* All quantities at the current tick, a value for each of ms_frame_columns. */
 int32_t ms_session_values(uint64_t session, const double** values, size_t* count);
 /* Fingerprint of the record so far: equal for equal runs. */
 int32_t ms_session_hash(uint64_t session, const char** hash);

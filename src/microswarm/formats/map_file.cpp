@@ -107,7 +107,7 @@ MapParts read(const ChannelMap& spec, const fs::path&, Issues& issues) {
   return parts;
 }
 
-/// What files of a kind of map are called, and the extensions of their names.
+/// Name of a kind of map file, and the extensions of such files.
 struct FileFormat {
   std::string_view name;
   std::span<const std::string_view> extensions;

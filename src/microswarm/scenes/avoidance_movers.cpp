@@ -118,7 +118,7 @@ Track random_walk(const Ground& ground, double speed, double time_limit, Rng& rn
   return track;
 }
 
-/// Speeds up a shape or a motion by `factor`, if it has a pace of its own.
+/// Speeds up a shape or a motion by `factor`, if it has its own pace.
 struct Quicken {
   double factor;
   void operator()(OneOf<BreathingDisc, Valve, DeformingChannel, HarmonicLine, HarmonicArc> auto&

@@ -3,7 +3,7 @@
 
 namespace microswarm {
 
-/// A planner without a function of its own would otherwise be taken for its base, or for any
+/// A planner without its own function would otherwise be taken for its base, or for any
 /// planner.
 template <class Forgotten>
 Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const Forgotten& params, Rng& rng,

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
   throw InputError(source.string() + ": " + why);
 }
 
-/// What all sources do alike: indices, times, one size.
+/// Base of all sources: indices, times, one size.
 class Source : public FrameSource {
  public:
   Source(fs::path name, std::optional<double> rate) : name_(std::move(name)), rate_(rate) {}

@@ -17,6 +17,7 @@ struct Body {
       0;  ///< number of the wall piece or obstacle; both leaves of a valve share it
 };
 
+/// Returns whether the body is a disc.
 bool is_disc(const Body& body);
 /// The outer ring of a polygon; null for a disc.
 const std::vector<Vec2>* outline_of(const Body& body);
