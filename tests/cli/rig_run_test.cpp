@@ -9,6 +9,7 @@
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/lines.hpp"
 #include "microswarm/experiment/record/record.hpp"
+#include "terminal.hpp"
 
 namespace microswarm::test {
 namespace {

@@ -28,18 +28,6 @@ struct MapCase {
 
 void PrintTo(const MapCase& c, std::ostream* os) { *os << c.name; }
 
-/// The name of its file; null where there is none.
-std::string* file_of(MapSpec& spec) {
-  return std::visit(
-      [](auto& s) -> std::string* {
-        if constexpr (requires { s.file; })
-          return s.file.empty() ? nullptr : &s.file;
-        else
-          return nullptr;
-      },
-      spec);
-}
-
 class MapSpecLaws : public testing::TestWithParam<MapCase> {
  protected:
   test::Folder folder_;
