@@ -228,7 +228,7 @@ void add_global(Command app, Action& action) {
                type_of<GlobalChoice>);
   cmd.add_option("--time-limit", o->time_limit, "Time limit")
       .type_name("SECONDS")
-      .default_text("none")
+      .default_text("no limit")
       .check(number(0, 1e6));
   cmd.add_flag("--as-found", o->as_found, "Keep superfluous inputs");
   cmd.add_option("--seed", o->seed, "Seed of the random stream")
