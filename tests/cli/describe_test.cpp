@@ -59,7 +59,7 @@ TEST_F(Description, EveryOptionHasADocAndADefaultThatTheHelpShows) {
       const std::string name = testing::PrintToString(words) + option.at("names").dump();
       const std::string value = option.at("default"), doc = option.at("doc");
       EXPECT_FALSE(doc.empty()) << name;
-      EXPECT_EQ(doc.find("default"), std::string::npos) << name << ": " << doc;
+      EXPECT_EQ(doc.find("(default"), std::string::npos) << name << ": " << doc;
       EXPECT_FALSE(value.empty()) << name;
       EXPECT_EQ(value == "required", option.at("required").get<bool>()) << name;
       EXPECT_EQ(value == "off", option.at("value") == "") << name;
