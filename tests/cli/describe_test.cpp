@@ -28,9 +28,9 @@ class Description : public CommandLine {
   }
   DescribedJson option_of(const Arguments& words, const std::string& name) {
     DescribedJson found;
-    each_command([&](const Arguments& at, const DescribedJson& command) {
+    each_command([&](const Arguments& path, const DescribedJson& command) {
       for (const DescribedJson& option : command.at("options"))
-        if (at == words && option.at("names").back() == name) found = option;
+        if (path == words && option.at("names").back() == name) found = option;
     });
     return found;
   }
@@ -83,9 +83,17 @@ TEST_F(Description, DefaultsAreThoseThatHold) {
   EXPECT_EQ(option_of({"run"}, "--trials").at("excludes"), DescribedJson({"--rig"}));
 
   write("maze.map", "type octile\nheight 4\nwidth 4\nmap\n....\n.@@.\n.@@.\n....\n");
-  Arguments words{
-      "plan",   "maze.map", "--um-per-px",           "50", "--start", "25,25", "--goal", "175,175",
-      "--json", "--set",    "planner.type=drrt_star"};
+  Arguments words{"plan",
+                  "maze.map",
+                  "--um-per-px",
+                  "500",
+                  "--start",
+                  "250,250",
+                  "--goal",
+                  "1750,1750",
+                  "--json",
+                  "--set",
+                  "planner.type=drrt_star"};
   const DescribedJson plain = DescribedJson::parse(good(words));
   words.insert(words.end(), {"--seed", option_of({"plan"}, "--seed").at("default")});
   EXPECT_EQ(DescribedJson::parse(good(words)).at("path_um"), plain.at("path_um"));
@@ -120,8 +128,9 @@ TEST_F(Description, KeysAreThoseOfTheTable) {
     list(keys);
     std::string shown;
     const std::string table = good({"schema", kind, "--keys"});
-    for (std::size_t at = table.find('\n') + 1; at < table.size(); at = table.find('\n', at) + 1) {
-      const std::string line = table.substr(at, table.find('\n', at) - at);
+    for (std::size_t begun = table.find('\n') + 1; begun < table.size();
+         begun = table.find('\n', begun) + 1) {
+      const std::string line = table.substr(begun, table.find('\n', begun) - begun);
       const std::size_t begin = line.find_first_not_of(' ');
       const bool is_type = line.compare(begin, 6, "type: ") == 0;
       shown += line.substr(begin, is_type ? line.npos : line.find(' ', begin) - begin) + "\n";
@@ -132,7 +141,7 @@ TEST_F(Description, KeysAreThoseOfTheTable) {
 }
 
 TEST_F(Description, TheCommandItselfIsNotListed) {
-  EXPECT_EQ(good({"--help"}).find("describe"), std::string::npos);
+  EXPECT_EQ(good({"--help"}).find("describe "), std::string::npos);
   EXPECT_EQ(good({"complete", ""}).find("describe"), std::string::npos);
   EXPECT_EQ(run({"fly"}).err.find("describe"), std::string::npos);
   refused({"describe"}, naming("", {"--json", "microswarm describe --help"}));
