@@ -8,9 +8,9 @@ namespace microswarm {
 namespace {
 
 const std::vector<NavigatorParams> all{
-    HierarchicalParams{},     PlanExecutorParams{}, AggregationParams{},
-    RadarParams{},            StraightParams{},     PotentialFieldParams{},
-    VelocityObstacleParams{}, PredictiveParams{},   PathNavigatorParams{}};
+    HierarchicalParams{}, PlanExecutorParams{},   AggregationParams{},      RadarParams{},
+    StraightParams{},     PotentialFieldParams{}, VelocityObstacleParams{}, PredictiveParams{},
+    PathNavigatorParams{}};
 
 TEST(NavigatorParams, ClearanceRangeAndFollowerAreTheNavigators) {
   ASSERT_EQ(all.size(), std::variant_size_v<NavigatorParams>);
@@ -30,8 +30,7 @@ TEST(NavigatorParams, WhatIsPublishedSwitchesOurAdditionsOff) {
   EXPECT_EQ(drrt.horizon, 0);
   const auto radar = std::get<RadarParams>(in_effect(RadarParams{.as_published = true}));
   EXPECT_FALSE(radar.safety_filter.active);
-  for (const NavigatorParams& params : all)
-    EXPECT_EQ(in_effect(params).index(), params.index());
+  for (const NavigatorParams& params : all) EXPECT_EQ(in_effect(params).index(), params.index());
 }
 
 }  // namespace
