@@ -151,7 +151,7 @@ test('a run that ended begins again; one that was touched asks first', () =>
     await play.click();
     await page.waitForSelector('[data-status="solved"]', { timeout: 120_000 });
     await page.keyboard.press('Home');
-    assert.match(await play.innerText(), /Again/);
+    assert.match(await play.innerText(), /Restart/);
     // The second run may be over before one could look at its status.
     await page.evaluate(() => {
       window.statuses = [];

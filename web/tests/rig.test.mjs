@@ -53,7 +53,7 @@ test('it begins as a dry run with the camera picture and its numbers', () =>
     await until(page, () => window.microswarm.scene.layers().some((one) => one.name === 'camera'));
     await page.getByRole('tab', { name: 'Rig' }).click();
     await page.locator('.rig-numbers', { hasText: 'Latencies' }).waitFor();
-    assert.match(await why(page), /Nothing goes to the coils/);
+    assert.match(await why(page), /No current is sent to the coils/);
     await page.waitForTimeout(500);
     await picture('rig-dry');
     const [x] = await swarmAt(page);
@@ -280,7 +280,7 @@ test('a lab that is killed leaves the coils at zero, and the page says that it i
   console.log(`killed: zero after ${Date.now() - began} ms`);
   assert.ok(isZero(applied().at(-1)), 'the coils are at zero');
   await state(page, 'lost');
-  assert.match(await why(page), /by themselves/);
+  assert.match(await why(page), /sets the coils to zero/);
   await picture('rig-lost');
   // That it could not be reached, and nothing else.
   for (const one of complaints.splice(0)) assert.match(one, /net::ERR_/);
