@@ -246,8 +246,10 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     if (asked.photo)
       opening.photo =
           BackgroundPhoto{.file = shared_.library.find(*asked.photo), .um_per_px = asked.um_per_px};
-    auto& settings = opening.options.settings;
-    settings.insert(settings.end(), asked.settings.begin(), asked.settings.end());
+    Settings& settings = opening.options.settings;
+    const Settings more(asked.settings, "");
+    settings.list.insert(settings.list.end(), more.list.begin(), more.list.end());
+    settings.option.clear();  // the page gave no option
     stream_.expires_never();
     const bool live = opening.live.has_value();
     shared_.hub.open(std::move(opening), [self = shared_from_this(),

@@ -9,7 +9,7 @@ namespace microswarm::lab {
 Source source_of(const Opening& opening) {
   return {.file = opening.file.string(),
           .rig = opening.options.rig.string(),
-          .settings = opening.options.settings,
+          .settings = opening.options.settings.texts(),
           .rig_settings = opening.options.rig_settings,
           .live = opening.live.has_value(),
           .photo = opening.photo};
@@ -108,7 +108,7 @@ void Host::answer(std::uint64_t page, const Request& request) {
     obey(page, request, issues);
     if (request.ask == Ask::clearance) callbacks_.send(page, clearance_message(session().map()));
   } catch (const std::exception& error) {
-    issues.add_lines({}, error.what());
+    issues.add(issues_of(error));
   }
   publisher_.changed();
   callbacks_.send(page, answer_message(request.id, issues));

@@ -33,7 +33,7 @@ struct Opening {
   std::filesystem::path file;  ///< scenario or record
   SessionOptions options{};
   /// Throws InputError for settings that are not allowed to a page.
-  std::function<void(const std::vector<std::string>& settings)> check{};
+  std::function<void(const Settings& settings)> check{};
   std::optional<BackgroundPhoto> photo{};
   std::optional<RigOpening> live{};  ///< options for real time; without them in simulated time
 };

@@ -100,9 +100,9 @@ fs::path Library::find(std::string_view file) const {
   throw InputError(fmt::format("{}: no such file in the folders of this lab", one_line(file)));
 }
 
-void Library::check(const fs::path& scenario, const std::vector<std::string>& settings,
-                    const std::vector<std::string>& trusted) const {
-  if (settings == trusted || scenario.extension() == ".h5") return;
+void Library::check(const fs::path& scenario, const Settings& settings,
+                    const Settings& trusted) const {
+  if (settings.list == trusted.list || scenario.extension() == ".h5") return;
   Scenario asked = read_scenario(scenario, settings);
   Scenario opened = read_scenario(scenario, trusted);
   const auto known = files_of(opened);

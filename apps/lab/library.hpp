@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "microswarm/config/settings.hpp"
 #include "microswarm/experiment/scenario/scenario.hpp"
 
 namespace microswarm::lab {
@@ -32,8 +33,8 @@ class Library {
   std::filesystem::path find(std::string_view file) const;
   /// Throws InputError if a scenario with `settings` names a file outside of the folders (map,
   /// track, model), unless it does so with the `trusted` settings. A record names no files.
-  void check(const std::filesystem::path& scenario, const std::vector<std::string>& settings,
-             const std::vector<std::string>& trusted = {}) const;
+  void check(const std::filesystem::path& scenario, const Settings& settings,
+             const Settings& trusted = {}) const;
 
   /// Throws InputError if the scenario names a file outside of the folders.
   void check_all(const std::filesystem::path& scenario) const;

@@ -76,9 +76,7 @@ class PageStream : public Page, public std::enable_shared_from_this<PageStream> 
       if (request.ask == Ask::beat) --unanswered_;
       hub_.ask(number_, std::move(request));
     } catch (const InputError& error) {
-      Issues issues;
-      issues.add({}, error.what());
-      send(answer_message(id_in(text), issues));
+      send(answer_message(id_in(text), error.issues()));
     }
   }
 

@@ -262,7 +262,7 @@ void RigThread::arm(std::uint64_t page, const Request& request, std::uint64_t st
       welcome(0);
     }
   } catch (const std::exception& error) {
-    issues.add_lines({}, error.what());
+    issues.add(issues_of(error));
     drives_ = false;
     if (standing_.state == RigState::opening) standing_.state = RigState::ended;
     if (standing_.why.empty()) standing_.why = error.what();
@@ -290,7 +290,7 @@ void RigThread::obey(std::uint64_t page, const Request& request, Issues& issues)
       operate(request, issues);
       break;
     case Ask::restart: {
-      auto before = std::exchange(opening_.options.settings, request.settings);
+      auto before = std::exchange(opening_.options.settings, Settings(request.settings, ""));
       try {
         begin_run(true, guard_.stops());
       } catch (...) {

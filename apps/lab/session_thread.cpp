@@ -184,7 +184,7 @@ bool SessionThread::is_there() {
 
 void SessionThread::restart(const Request& request) {
   auto before = opening_.options.settings;
-  opening_.options.settings = request.settings;
+  opening_.options.settings = Settings(request.settings, "");
   try {
     open();
   } catch (...) {

@@ -296,7 +296,12 @@ MessagePtr standing_message(const Standing& standing, const RunResult& result) {
 
 MessagePtr answer_message(std::uint64_t id, const Issues& issues) {
   Json list = Json::array();
-  for (const Issue& issue : issues) list.push_back({{"keys", issue.keys}, {"text", issue.text}});
+  for (const Issue& issue : issues)
+    list.push_back({{"keys", issue.keys},
+                    {"place", issue.place},
+                    {"text", issue.text},
+                    {"value", issue.value},
+                    {"limit", issue.limit}});
   return make_message({{"type", "answer"}, {"id", id}, {"issues", std::move(list)}},
                       Message::Kind::answer);
 }

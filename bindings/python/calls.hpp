@@ -13,15 +13,47 @@
 #include <span>
 #include <string>
 #include <thread>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "microswarm/config/former_keys.hpp"
+#include "microswarm/config/settings.hpp"
 #include "microswarm/core/execution/stop.hpp"
 #include "microswarm/geometry/vec2.hpp"
+
+namespace pybind11::detail {
+
+/// In Python a setting is a pair of texts, key and value.
+template <>
+class type_caster<microswarm::Setting> {
+ public:
+  PYBIND11_TYPE_CASTER(microswarm::Setting, const_name("tuple[str, str]"));
+
+  bool load(handle source, bool convert) {
+    make_caster<Pair> pair;
+    if (!pair.load(source, convert)) return false;
+    std::tie(value.key, value.value) = cast_op<Pair>(std::move(pair));
+    return true;
+  }
+  static handle cast(const microswarm::Setting& setting, return_value_policy policy,
+                     handle parent) {
+    return make_caster<Pair>::cast(Pair(setting.key, setting.value), policy, parent);
+  }
+
+ private:
+  using Pair = std::pair<std::string, std::string>;
+};
+
+}  // namespace pybind11::detail
 
 namespace microswarm::python {
 
 namespace py = pybind11;
+
+/// Settings from a caller; the place of a mistake in them is the key alone.
+using Given = std::vector<Setting>;
+inline Settings settings_of(Given given) { return {std::move(given), ""}; }
 
 /// Rows of numbers from a caller, contiguous or not, of any numeric type.
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;

@@ -15,9 +15,9 @@ namespace microswarm::python {
 namespace {
 
 template <class Rules>
-Rules rules_of(const std::vector<std::string>& settings) {
+Rules rules_of(const Given& settings) {
   Rules rules;
-  for (const std::string& one : settings) set_value(rules, one, "rules");
+  warn(set_values(rules, settings_of(settings)));
   return rules;
 }
 
@@ -55,8 +55,8 @@ using Navigation = Environments<NavigationTask, NavigationEpisode, float>;
 
 std::unique_ptr<Guarded<Gathering>> open_gathering(
     const py::array_t<std::uint8_t, py::array::c_style>& free,
-    const std::optional<std::array<int, 2>>& goal, const std::vector<std::string>& settings,
-    std::size_t count, int threads) {
+    const std::optional<std::array<int, 2>>& goal, const Given& settings, std::size_t count,
+    int threads) {
   if (free.ndim() != 2) throw InputError("a maze must have 2 dimensions");
   const auto rules = rules_of<GatheringRules>(settings);
   std::optional<MazePlace> place;
@@ -73,8 +73,8 @@ std::unique_ptr<Guarded<Gathering>> open_gathering(
 }
 
 std::unique_ptr<Guarded<Navigation>> open_navigation(const ScenarioText& scenario,
-                                                     const std::vector<std::string>& settings,
-                                                     std::size_t count, int threads) {
+                                                     const Given& settings, std::size_t count,
+                                                     int threads) {
   const auto rules = rules_of<NavigationRules>(settings);
   auto made = interruptible([&](const Stop&) {
     NavigationTask task(scenario.open(), rules);

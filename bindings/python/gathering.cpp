@@ -12,13 +12,13 @@ namespace {
 /// A session that gathers, its tick [s], and notes on the map.
 py::tuple gather(const NamedMap& map, const std::array<double, 2>& goal, int robots,
                  const Numbers& starts, std::optional<double> channel_width, int max_steps,
-                 const std::vector<std::string>& settings, std::uint64_t seed) {
+                 const Given& settings, std::uint64_t seed) {
   const GatherQuery query{.goal = {goal[0], goal[1]},
                           .robots = robots,
                           .starts = places(starts, "robots_um"),
                           .channel_width = channel_width,
                           .max_steps = max_steps,
-                          .settings = settings,
+                          .settings = settings_of(settings),
                           .seed = seed};
   Notes notes;
   std::vector<std::string> unmet;

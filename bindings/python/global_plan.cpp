@@ -8,11 +8,11 @@ namespace microswarm::python {
 namespace {
 
 py::dict global_plan(const NamedMap& map, const Numbers& starts, const Numbers& goals,
-                     const std::vector<std::string>& settings, std::uint64_t seed, bool shorten,
+                     const Given& settings, std::uint64_t seed, bool shorten,
                      std::optional<double> time_limit) {
   const GlobalQuery query{.starts = places(starts, "robots_um"),
                           .goals = places(goals, "goals_um"),
-                          .settings = settings,
+                          .settings = settings_of(settings),
                           .seed = seed,
                           .shorten = shorten};
   std::optional<Stop::Clock::duration> budget;

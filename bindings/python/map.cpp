@@ -15,7 +15,7 @@ namespace {
 
 NamedMap load(const std::string& file, std::optional<double> um_per_px) {
   return interruptible([&](const Stop&) {
-    const MapSpec spec = guess_map_spec(file, um_per_px);
+    const MapSpec spec = guess_map_spec(file, um_per_px, "um_per_px");
     return NamedMap{Snapshot(load_map(spec).map), file, spec};
   });
 }
@@ -110,14 +110,13 @@ py::array_t<bool> are_free(const NamedMap& map, const Numbers& array, double cle
 }
 
 py::dict plan_of(const NamedMap& map, const std::vector<double>& start,
-                 const std::vector<double>& goal, const std::vector<std::string>& settings,
-                 std::uint64_t seed) {
+                 const std::vector<double>& goal, const Given& settings, std::uint64_t seed) {
   if (start.size() != 2 && start.size() != 3)
     throw InputError("start must be (x_um, y_um) or (x_um, y_um, heading_rad)");
   if (goal.size() != 2) throw InputError("goal must be (x_um, y_um)");
   const PathQuery query{.start = {{start[0], start[1]}, start.size() > 2 ? start[2] : 0},
                         .goal = {goal[0], goal[1]},
-                        .settings = settings,
+                        .settings = settings_of(settings),
                         .seed = seed};
   const auto kept = std::make_shared<const PathAnswer>(
       interruptible([&](const Stop& stop) { return answer(map.world, query, map.name, stop); }));

@@ -2,6 +2,7 @@
 // The module microswarm._core, which the package microswarm wraps.
 #include "calls.hpp"
 
+#include <string_view>
 #include <thread>
 
 #include "microswarm/core/errors/error.hpp"
@@ -37,6 +38,27 @@ void warn(const Notes& notes) {
     if (PyErr_WarnEx(PyExc_FutureWarning, note.c_str(), 2) != 0) throw py::error_already_set();
 }
 
+namespace {
+
+py::object python_text(std::string_view text) {
+  const auto size = static_cast<py::ssize_t>(text.size());
+  return py::reinterpret_steal<py::object>(PyUnicode_DecodeUTF8(text.data(), size, "replace"));
+}
+
+/// Sets the current error of Python, with the issues.
+void raise_input_error(const InputError& error) {
+  const auto errors = py::module_::import("microswarm.errors");
+  py::list issues;
+  for (const Issue& one : error.issues())
+    issues.append(errors.attr("Issue")(python_text(one.keys.empty() ? "" : one.keys.front()),
+                                       python_text(one.place), python_text(one.text),
+                                       python_text(one.value), python_text(one.limit)));
+  const py::object type = errors.attr("InputError");
+  PyErr_SetObject(type.ptr(), type(python_text(error.what()), issues).ptr());
+}
+
+}  // namespace
+
 std::vector<Vec2> places(const Numbers& array, const char* name) {
   const bool none = array.size() == 0;
   if (!none && (array.ndim() != 2 || array.shape(1) != 2))
@@ -66,13 +88,12 @@ PYBIND11_MODULE(_core, module) {
   namespace py = pybind11;
   module.doc() = "What the package microswarm is made of; use that.";
   module.attr("version") = std::string(version);
-  static py::exception<InputError> input_error(module, "InputError", PyExc_ValueError);
   static py::exception<HardwareError> hardware_error(module, "HardwareError", PyExc_RuntimeError);
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const InputError& error) {
-      input_error(error.what());
+      python::raise_input_error(error);
     } catch (const HardwareError& error) {
       hardware_error(error.what());
     }

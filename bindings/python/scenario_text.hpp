@@ -21,7 +21,7 @@ struct ScenarioText {
   std::string text;
   std::string name;
   std::filesystem::path base;
-  std::vector<std::string> settings{};
+  Given settings{};
   Scenario value{};
   Scenario unset{};  ///< without the settings
 
@@ -32,23 +32,23 @@ struct ScenarioText {
   static ScenarioText of(std::string text, std::string name, std::filesystem::path base) {
     ScenarioText made{std::move(text), std::move(name), std::move(base)};
     KeyLocations keys;
-    Mistakes mistakes;
-    made.value = read_yaml_text<Scenario>(made.text, made.name, {}, keys, mistakes);
-    mistakes.require_none();
+    Issues issues;
+    made.value = read_yaml_text<Scenario>(made.text, made.name, {}, keys, issues);
+    if (!issues.empty()) throw InputError(issues);
     warn(keys.notes());
     made.unset = made.value;
     return made;
   }
-  void set(const std::string& setting) {
+  void set(const Setting& setting) {
     Notes notes;
-    const auto present = set_value(value, setting, "set", notes);
+    const auto present = set_value(value, setting, "", notes);
     warn(notes);
     if (!present) return;
     const std::string now = to_json_text(value);
-    settings = with_setting(settings, *present, [&](const std::vector<std::string>& list) {
+    settings = with_setting(settings, *present, [&](const Given& list) {
       try {
         Scenario other = unset;
-        set_values(other, Settings(list, "set"));
+        set_values(other, settings_of(list));
         return to_json_text(other) == now;
       } catch (const InputError&) {
         return false;
@@ -56,7 +56,7 @@ struct ScenarioText {
     });
   }
   Experiment open(std::optional<std::uint64_t> seed = {}) const {
-    return open_experiment_text(text, name, base, settings, seed);
+    return open_experiment_text(text, name, base, settings_of(settings), seed);
   }
 };
 

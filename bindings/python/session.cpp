@@ -210,9 +210,8 @@ void add_session(py::module_& module) {
       .def("set",
            [](OpenSession& open, const std::string& key, const std::string& value) {
              open.use([&](Session& session) {
-               std::vector<std::string> lines;
-               for (const Issue& issue : session.set(key, value)) lines.push_back(issue.text);
-               if (!lines.empty()) throw InputError(lines);
+               if (const Issues issues = session.set(key, value); !issues.empty())
+                 throw InputError(issues);
              });
            })
       .def("view", [](OpenSession& open) { return open.use(view_of); })

@@ -2,6 +2,7 @@
 #include "setting_list.hpp"
 
 #include <algorithm>
+#include <string>
 #include <string_view>
 
 #include "microswarm/config/yaml_node.hpp"
@@ -11,16 +12,6 @@ namespace microswarm::python {
 namespace {
 
 constexpr std::string_view type_word = ".type";
-
-std::string_view key_of(std::string_view setting) { return setting.substr(0, setting.find('=')); }
-
-std::string_view value_of(std::string_view setting) {
-  return setting.substr(std::min(setting.find('=') + 1, setting.size()));
-}
-
-bool is_at_or_within(std::string_view key, std::string_view outer) {
-  return key.starts_with(outer) && (key.size() == outer.size() || key[outer.size()] == '.');
-}
 
 /// Keys of a map, nested ones in brackets; empty for another value.
 std::string keys_in(const YamlNode& node) {
@@ -33,9 +24,9 @@ std::string keys_in(const YamlNode& node) {
   return keys + "}";
 }
 
-std::string keys_in_value(std::string_view setting) {
+std::string keys_in_value(const Setting& setting) {
   try {
-    return keys_in(parse_yaml(value_of(setting), "set"));
+    return keys_in(parse_yaml(setting.value, setting.key));
   } catch (const InputError&) {
     return {};
   }
@@ -43,16 +34,15 @@ std::string keys_in_value(std::string_view setting) {
 
 }  // namespace
 
-std::vector<std::string> with_setting(
-    const std::vector<std::string>& settings, const std::string& added,
-    const std::function<bool(const std::vector<std::string>&)>& is_same) {
-  const std::string_view key = key_of(added);
-  std::vector<std::string> list = settings;
+std::vector<Setting> with_setting(const std::vector<Setting>& settings, const Setting& added,
+                                  const std::function<bool(const std::vector<Setting>&)>& is_same) {
+  const std::string_view key = added.key;
+  std::vector<Setting> list = settings;
   if (key.ends_with(type_word)) {
     const std::string_view variant = key.substr(0, key.size() - type_word.size());
-    const auto is_part = [&](const std::string& s) { return is_at_or_within(key_of(s), variant); };
+    const auto is_part = [&](const Setting& s) { return is_in_key(s.key, variant); };
     // The same alternative as before: settings within it are kept.
-    std::erase_if(list, [&](const std::string& s) { return key_of(s) == key; });
+    std::erase_if(list, [&](const Setting& s) { return s.key == key; });
     list.insert(std::ranges::find_if(list, is_part), added);
     if (is_same(list)) return list;
     if (is_same(settings)) return settings;
@@ -60,10 +50,9 @@ std::vector<std::string> with_setting(
     list = settings;
     std::erase_if(list, is_part);
   } else if (const std::string keys = keys_in_value(added); keys.empty()) {
-    std::erase_if(list, [&](const std::string& s) { return is_at_or_within(key_of(s), key); });
+    std::erase_if(list, [&](const Setting& s) { return is_in_key(s.key, key); });
   } else {  // keys that the map does not name are kept
-    std::erase_if(
-        list, [&](const std::string& s) { return key_of(s) == key && keys_in_value(s) == keys; });
+    std::erase_if(list, [&](const Setting& s) { return s.key == key && keys_in_value(s) == keys; });
   }
   const bool is_plain = list.size() == settings.size();
   list.push_back(added);

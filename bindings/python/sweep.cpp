@@ -12,20 +12,16 @@ namespace microswarm::python {
 namespace {
 
 using Grid = std::vector<std::pair<std::string, std::vector<std::string>>>;
-using Methods = std::vector<std::pair<std::string, std::vector<std::string>>>;
+using Methods = std::vector<std::pair<std::string, Given>>;
 using namespace py::literals;  // NOLINT(google-build-using-namespace): _a
 using Rows = std::vector<std::span<const SqlValue>>;
 
-std::string key_of(const std::string& setting) { return setting.substr(0, setting.find('=')); }
-
 /// The scenario's settings without those that the sweep varies or sets.
-std::vector<std::string> unvaried(const std::vector<std::string>& settings, const Grid& grid,
-                                  bool has_seed) {
-  std::vector<std::string> all;
-  std::ranges::copy_if(settings, std::back_inserter(all), [&](const std::string& setting) {
-    const std::string key = key_of(setting);
-    return !(has_seed && key == "seed") &&
-           std::ranges::none_of(grid, [&](const auto& one) { return one.first == key; });
+Given unvaried(const Given& settings, const Grid& grid, bool has_seed) {
+  Given all;
+  std::ranges::copy_if(settings, std::back_inserter(all), [&](const Setting& setting) {
+    return !(has_seed && setting.key == "seed") &&
+           std::ranges::none_of(grid, [&](const auto& one) { return one.first == setting.key; });
   });
   return all;
 }
@@ -65,10 +61,10 @@ py::object sweep_column(const Rows& rows, std::size_t column, SweepColumnKind ki
 py::tuple sweep_scenario(const ScenarioText& scenario, const Grid& grid, const Methods& methods,
                          int trials, std::optional<std::uint64_t> seed, int jobs,
                          const py::object& report) {
-  Sweep asked{
-      .set = unvaried(scenario.settings, grid, seed.has_value()), .trials = trials, .seed = seed};
+  const Given base = unvaried(scenario.settings, grid, seed.has_value());
+  Sweep asked{.set = settings_of(base).texts(), .trials = trials, .seed = seed};
   for (const auto& [key, values] : grid) asked.grid.push_back({key, values});
-  for (const auto& [name, set] : methods) asked.methods.push_back({name, set});
+  for (const auto& [name, set] : methods) asked.methods.push_back({name, settings_of(set).texts()});
   std::atomic<double> done = 0;
   SweepPlan plan;
   std::unique_ptr<SweepTable> table;

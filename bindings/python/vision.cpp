@@ -12,12 +12,10 @@
 namespace microswarm::python {
 namespace {
 
-using Texts = std::vector<std::string>;
-
-/// Segments a photograph, given as an array or a file name.
-py::dict segment(const py::object& photo, double um_per_px, double smooth, const Texts& settings) {
+/// Segments a photograph, an array or the name of a file.
+py::dict segment(const py::object& photo, double um_per_px, double smooth, const Given& settings) {
   VesselParams params;
-  warn(set_values(params, Settings(settings, "segment")));
+  warn(set_values(params, settings_of(settings)));
   Image image;
   std::string name = "image";
   if (py::isinstance<py::str>(photo)) {
@@ -45,9 +43,9 @@ py::dict segment(const py::object& photo, double um_per_px, double smooth, const
   return out;
 }
 
-TrackSettings track_settings(const Texts& texts) {
+TrackSettings track_settings(const Given& given) {
   TrackSettings settings;
-  warn(set_values(settings, Settings(texts, "track")));
+  warn(set_values(settings, settings_of(given)));
   return settings;
 }
 
@@ -82,7 +80,7 @@ py::dict tracks_of(const TrackResult& result) {
 /// Tracks robots in pictures that the caller passes one by one.
 class ArrayTracker {
  public:
-  explicit ArrayTracker(const Texts& settings)
+  explicit ArrayTracker(const Given& settings)
       : result_{.settings = track_settings(settings), .promised = {}, .rows = {}, .events = {}},
         tracker_(result_.settings, 1 / result_.settings.rate.value_or(1)) {}
 
@@ -119,8 +117,8 @@ class ArrayTracker {
 };
 
 /// Tracks the robots of a video file or a folder of pictures.
-py::dict track_file(const std::string& file, const Texts& texts, const py::object& report) {
-  const TrackSettings settings = track_settings(texts);
+py::dict track_file(const std::string& file, const Given& given, const py::object& report) {
+  const TrackSettings settings = track_settings(given);
   std::atomic<double> done = 0;
   std::string ended;
   const auto work = [&](const Stop& stop) {
@@ -146,8 +144,8 @@ py::dict track_file(const std::string& file, const Texts& texts, const py::objec
   return out;
 }
 
-Texts track_keys() {
-  Texts keys;
+std::vector<std::string> track_keys() {
+  std::vector<std::string> keys;
   for (const SettingKey& key : setting_keys(type_of<TrackSettings>())) keys.push_back(key.key);
   return keys;
 }
@@ -163,7 +161,7 @@ void add_vision(py::module_& module) {
                check_image_size(width, height, name);
              });
   py::class_<ArrayTracker>(module, "ArrayTracker")
-      .def(py::init<const Texts&>())
+      .def(py::init<const Given&>())
       .def("step", &ArrayTracker::step)
       .def("finish", &ArrayTracker::finish);
 }

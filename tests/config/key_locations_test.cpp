@@ -35,9 +35,12 @@ TEST(KeyLocations, AKeyThatIsNotGivenStandsWhereItWould) {
 }
 
 TEST(KeyLocations, OfSeveralKeysTheFirstThatIsGiven) {
-  EXPECT_EQ(keys().line({{"navigator.x", "navigator.speed_um_per_s"}, "no"}), "a.yaml:4:19: no");
-  EXPECT_EQ(keys().line({{"navigator.x", "y"}, "no"}), "a.yaml:3:3: no");
-  EXPECT_EQ(keys().line({{}, "b.csv:3: no"}), "b.csv:3: no");
+  const auto line = [](std::vector<std::string> of, std::string text) {
+    return to_string(keys().located(Issue{std::move(of), std::move(text)}));
+  };
+  EXPECT_EQ(line({"navigator.x", "navigator.speed_um_per_s"}, "no"), "a.yaml:4:19: no");
+  EXPECT_EQ(line({"navigator.x", "y"}, "no"), "a.yaml:3:3: no");
+  EXPECT_EQ(line({}, "b.csv:3: no"), "b.csv:3: no");
 }
 
 TEST(KeyLocations, WhatWasSetStandsThere) {

@@ -38,16 +38,22 @@ struct Recorded {
   MetricsListener metrics;
 };
 
+Issues change(OpenRun& run, std::string_view text) {
+  const std::size_t equals = std::min(text.find('='), text.size());
+  return run.change(std::string(text.substr(0, equals)),
+                    std::string(text.substr(std::min(equals + 1, text.size()))));
+}
+
 std::string first(const Issues& issues) { return issues.empty() ? "" : issues.begin()->text; }
 
 TEST(OpenRun, WhatIsChangedHoldsFromTheNextTickOnAndIsRepeated) {
   const Scenario scenario = small_flight();
   Recorded run(scenario);
   run.step(5);
-  EXPECT_EQ(first(run.open.change("navigator.speed_um_per_s=31")), "");
+  EXPECT_EQ(first(change(run.open, "navigator.speed_um_per_s=31")), "");
   run.step(5);
-  EXPECT_EQ(first(run.open.change("goal_tolerance_um=77")), "");
-  EXPECT_EQ(first(run.open.change("hold_limit_s=7")), "");
+  EXPECT_EQ(first(change(run.open, "goal_tolerance_um=77")), "");
+  EXPECT_EQ(first(change(run.open, "hold_limit_s=7")), "");
   const Record record = run.finish();
   ASSERT_GT(record.frames.size(), 12u);
   EXPECT_NE(record.frames[4].command.speed, 31);
@@ -72,9 +78,9 @@ TEST(OpenRun, WhatIsChangedHoldsFromTheNextTickOnAndIsRepeated) {
 
 TEST(OpenRun, ARecordKeepsItsChanges) {
   Recorded run(small_flight());
-  EXPECT_EQ(first(run.open.change("hold_limit_s=9")), "");  // before the first tick
+  EXPECT_EQ(first(change(run.open, "hold_limit_s=9")), "");  // before the first tick
   run.step(3);
-  EXPECT_EQ(first(run.open.change("navigator.speed_um_per_s=25")), "");
+  EXPECT_EQ(first(change(run.open, "navigator.speed_um_per_s=25")), "");
   const Record record = run.finish();
   const auto file = empty_folder("changed_record") / "run.h5";
   write_record(record, file);
@@ -132,7 +138,7 @@ TEST(OpenRun, AnObstacleThatIsPutInTheWayIsMet) {
   scenario.obstacles = {disc(60, Still{.position = {500, 900}})};
   Recorded run(scenario, std::make_unique<GoStraight>(*scenario.goal, 60));
   run.step(3);
-  EXPECT_EQ(first(run.open.change("obstacles.0.motion.position_um=[600, 500]")), "");
+  EXPECT_EQ(first(change(run.open, "obstacles.0.motion.position_um=[600, 500]")), "");
   const Record record = run.finish();
   EXPECT_EQ(record.result.status, Status::collided);
   ASSERT_FALSE(record.events.empty());
@@ -148,14 +154,14 @@ TEST(OpenRun, WhatCannotBeChangedIsSaidAndNothingChanges) {
         "goal_um=[-500, 20]", "navigator.speed_um_per_s=fast", "navigator.clearance_um=5000",
         "obstacles=[{shape: {type: polygon, vertices_um: [[0, 0]]}, motion: {type: still}}]",
         "hold_limit_s=1\ntick_s=3", "navigator.follower={kind: learned, model: m.yaml}", ""})
-    EXPECT_FALSE(run.open.change(setting).empty()) << setting;
+    EXPECT_FALSE(change(run.open, setting).empty()) << setting;
   EXPECT_EQ(scenario_text(run.open.scenario()), before);
   EXPECT_TRUE(run.finish().changes.empty());
 
   Recorded theirs(open_room(), std::make_unique<GoStraight>(Vec2{1, 1}, 5));
-  EXPECT_FALSE(theirs.open.change("navigator.speed_um_per_s=3").empty());
-  EXPECT_FALSE(theirs.open.change("goal_um=[500, 500]").empty());
-  EXPECT_TRUE(theirs.open.change("hold_limit_s=3").empty());
+  EXPECT_FALSE(change(theirs.open, "navigator.speed_um_per_s=3").empty());
+  EXPECT_FALSE(change(theirs.open, "goal_um=[500, 500]").empty());
+  EXPECT_TRUE(change(theirs.open, "hold_limit_s=3").empty());
 }
 
 }  // namespace

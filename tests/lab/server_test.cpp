@@ -165,7 +165,10 @@ TEST(Server, WhatIsSetIsInTheRecordAndWhatIsWrongIsTold) {
                                   {"key", "navigator"},
                                   {"value", "{type: radar, typo: 1, speed_um_per_s: bad}"}});
   EXPECT_EQ(wrong.size(), 2u);
-  EXPECT_EQ(wrong[0]["keys"][0], "navigator");
+  EXPECT_EQ(wrong[0]["keys"][0], "navigator.typo");
+  EXPECT_EQ(wrong[1]["keys"][0], "navigator.speed_um_per_s");
+  EXPECT_EQ(wrong[1]["value"], "bad");
+  EXPECT_EQ(wrong[1]["limit"], "a number");
   for (const char* radius : {"30", "20"})
     page.does({{"do", "set"}, {"key", "obstacles.0.shape.radius_um"}, {"value", radius}});
   page.does({{"do", "step"}});
@@ -187,7 +190,11 @@ TEST(Server, ARestartWithABadSettingKeepsTheSession) {
   for (int i = 0; i < 3; ++i) page.does({{"do", "step"}});
   const Json issues =
       page.issues({{"do", "restart"}, {"settings", {"swarm.radius_um=-1", "seed=x"}}});
-  EXPECT_GE(issues.size(), 1u);
+  ASSERT_EQ(issues.size(), 2u);
+  EXPECT_EQ(issues[0]["keys"][0], "swarm.radius_um");
+  EXPECT_EQ(issues[0]["place"], "swarm.radius_um");
+  EXPECT_EQ(issues[0]["value"], "-1");
+  EXPECT_EQ(issues[1]["keys"][0], "seed");
   page.does({{"do", "step"}});
   EXPECT_FALSE(
       page.until("frame", [](const Json& frame) { return frame["number"] == 3; }).is_null());

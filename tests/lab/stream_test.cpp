@@ -114,6 +114,12 @@ TEST(Stream, AnswersAndStandingsSayWhatIsWrong) {
   EXPECT_EQ(answer["id"], 7);
   EXPECT_EQ(answer["issues"][0]["keys"][0], "goal_um");
   EXPECT_EQ(answer["issues"][0]["text"], "is in a wall");
+  EXPECT_EQ(answer["issues"][0]["place"], "");
+  issues.add(Issue{{"tick_s"}, "is 0", "a.yaml:3:9", "0", "at least 0.001 s"});
+  const Json located = decoded(answer_message(8, issues))["issues"][1];
+  EXPECT_EQ(located["place"], "a.yaml:3:9");
+  EXPECT_EQ(located["value"], "0");
+  EXPECT_EQ(located["limit"], "at least 0.001 s");
   const Json standing =
       decoded(standing_message({.plays = true, .speed = 0, .trouble = "the disk is full"}, {}));
   EXPECT_EQ(standing["plays"], true);

@@ -8,6 +8,7 @@ import { metricsTable } from './metrics';
 import type { Page } from './page';
 import { Parameters } from './parameters';
 import { Plots } from './plots';
+import { said } from './protocol';
 import { combine, keyOf } from './settings';
 import { stageFor } from './stage';
 import { tabs } from './tabs';
@@ -22,7 +23,7 @@ export async function openCopy(live: Live, parameters: Parameters): Promise<void
   const photo = live.hello?.photo;
   const beneath = photo ? { photo: photo.file, um_per_px: photo.um_per_px } : {};
   const answer = await parameters.restart();
-  if (answer.issues.length > 0) throw new Error(answer.issues.map((one) => one.text).join(' '));
+  if (answer.issues.length > 0) throw new Error(said(answer));
   const { session } = await open({ file: live.hello?.name, ...beneath }).catch(() => open({}));
   location.hash = `#/compare/${live.session}/${session}`;
 }

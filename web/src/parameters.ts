@@ -5,7 +5,7 @@ import { type Field, field, menu } from './field';
 import type { Live } from './live';
 import { mayBeginAnew } from './loss';
 import { words } from './numbers';
-import type { Answer, Json, Scenario } from './protocol';
+import { type Answer, type Issue, type Json, type Scenario, said } from './protocol';
 import { type Schema, alternative, allowsNull, described, isGroup, kinds, withoutNull } from './schema';
 import { at, combine, keyOf, text } from './settings';
 
@@ -281,15 +281,15 @@ export class Parameters {
   /** Shows each issue at its field, at the nearest enclosing group, or above the form. */
   private showIssues(answer: Answer, asked: string[]): void {
     for (const one of this.fields) one.setIssue('');
-    const loose: string[] = [];
+    const loose: Issue[] = [];
     for (const issue of answer.issues) {
       const keys = issue.keys.length > 0 ? issue.keys : asked;
       const found = keys.map((key) => this.fieldFor(key, asked)).find((one) => one !== undefined);
       if (found) found.setIssue(issue.text);
-      else loose.push(issue.text);
+      else loose.push(issue);
     }
     this.trouble.hidden = loose.length === 0;
-    this.trouble.textContent = loose.join(' ');
+    this.trouble.textContent = said({ ...answer, issues: loose });
   }
 
   private fieldFor(key: string, asked: string[]): Field | undefined {

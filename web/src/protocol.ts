@@ -203,7 +203,25 @@ export interface Controls {
 export interface Answer {
   type: 'answer';
   id: number;
-  issues: { keys: string[]; text: string }[];
+  issues: Issue[];
+}
+
+/** One mistake. */
+export interface Issue {
+  /** Keys concerned, from the top of the scenario. */
+  keys: string[];
+  text: string;
+  /** Place where the value was given, "flight.yaml:12:3"; empty for one that was just set. */
+  place?: string;
+  /** Value as written; empty if unknown. */
+  value?: string;
+  /** Allowed range or words; empty if unknown. */
+  limit?: string;
+}
+
+/** The issues on one line. */
+export function said(answer: Answer | undefined): string {
+  return (answer?.issues ?? []).map((one) => (one.place ? `${one.place}: ${one.text}` : one.text)).join(' ');
 }
 
 export type Message =

@@ -2,7 +2,7 @@
 import { element } from './dom';
 import type { Drive } from './drive';
 import type { Live } from './live';
-import type { Controls, RigInfo, RigStanding } from './protocol';
+import { type Controls, type RigInfo, type RigStanding, said } from './protocol';
 import { number } from './numbers';
 
 const badges = {
@@ -29,7 +29,7 @@ export function rigConsole(live: Live, drive: Drive, say: (text: string, isTroub
   const isHot = () => !isLost && (arms || rig?.state === 'armed' || rig?.state === 'opening');
   const ask = async (request: Parameters<Live['ask']>[0]) => {
     const answer = await live.ask(request);
-    say(answer.issues.map((one) => one.text).join(' '));
+    say(said(answer));
   };
   const stop = () => void live.ask({ do: 'stop' });
 

@@ -2,7 +2,7 @@
 import { element } from './dom';
 import type { Live } from './live';
 import type { Parameters } from './parameters';
-import type { Json, Point } from './protocol';
+import { type Json, type Point, said } from './protocol';
 import { at, text } from './settings';
 import type { Scene, Touch } from './scene/scene';
 
@@ -141,12 +141,12 @@ export class Hands {
   private async apply(key: string, value: Json): Promise<void> {
     if (!this.parameters.isAtOnce(key)) return this.restart([`${key}=${text(value)}`]);
     const answer = await this.parameters.change(key, value);
-    this.say(answer?.issues.map((one) => one.text).join(' ') ?? '');
+    this.say(said(answer));
   }
 
   private async restart(settings: string[]): Promise<void> {
     const answer = await this.parameters.restart(settings);
-    const trouble = answer.issues.map((one) => one.text).join(' ');
+    const trouble = said(answer);
     this.say(trouble || 'The run restarts.', trouble !== '');
   }
 }

@@ -36,14 +36,7 @@ void note_width(const GatherOptions& o, double measured) {
 
 /// Map specification; the user's --um-per-px belongs to the photograph.
 MapSpec map_spec(const GatherOptions& o) {
-  try {
-    return guess_map_spec(o.map, o.um_per_px);
-  } catch (const InputError& error) {
-    std::string what = error.what();
-    if (const auto at = what.find("--um-per-px"); at != std::string::npos)
-      what.replace(at, 2, "--map-");
-    throw InputError(what);
-  }
+  return guess_map_spec(o.map, o.um_per_px, "--map-um-per-px");
 }
 
 int gather_command(const GatherOptions& o, const Context& context) {

@@ -2,7 +2,8 @@
 """Plans, steers, gathers and measures magnetic microrobot swarms.
 
 Lengths are in µm, times in s, angles in rad, fields in mT, currents in A. Positions are arrays of
-shape (n, 2), y points up. Bad input raises InputError, a ValueError with a line for each mistake.
+shape (n, 2), y points up. Bad input raises InputError, a ValueError with a line for each mistake;
+its list `issues` has the mistakes as fields.
 
     import microswarm as ms
     scenario = ms.Scenario.load("first_flight.yaml")
@@ -11,8 +12,9 @@ shape (n, 2), y points up. Bad input raises InputError, a ValueError with a line
     print(result.status, result.metrics["length_um"], result.frames["x_um"])
 """
 
-from ._core import HardwareError, InputError, version as __version__
+from ._core import HardwareError, version as __version__
 from .coils import Coils
+from .errors import InputError, Issue
 from .gathering import Gathering, gather
 from .global_input import GlobalPlan, global_plan
 from .maps import Map, Path, plan, planners
@@ -30,6 +32,7 @@ __all__ = [
     "GlobalPlan",
     "HardwareError",
     "InputError",
+    "Issue",
     "Map",
     "Navigator",
     "Path",

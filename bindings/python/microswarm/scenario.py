@@ -161,7 +161,7 @@ class Scenario(Group):
         return f"Scenario({self._core.name!r})\n" + super().__repr__()
 
 
-def _restored(text: str, name: str, base: str, settings: list[str]) -> Scenario:
+def _restored(text: str, name: str, base: str, settings: list[tuple[str, str]]) -> Scenario:
     """A scenario from its parts."""
     core = _core.Scenario.of(text, name, base)
     for one in settings:

@@ -12,7 +12,7 @@ from typing import Any, Optional
 
 import numpy as np
 
-from ._core import InputError
+from .errors import InputError
 
 
 def told(value: Any) -> str:
@@ -137,9 +137,9 @@ def key_of(key: Any) -> str:
     return text("a key of a scenario", key)
 
 
-def setting(key: Any, value: Any) -> str:
-    """A setting as text, KEY=VALUE."""
-    return f"{key_of(key)}={text_of(key, value)}"
+def setting(key: Any, value: Any) -> tuple[str, str]:
+    """Key and value as in a scenario file."""
+    return key_of(key), text_of(key, value)
 
 
 def text_of(key: str, value: Any) -> str:

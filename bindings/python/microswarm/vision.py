@@ -121,7 +121,7 @@ def track(
     return (tracks, structured(made["events"])) if return_events else tracks
 
 
-def track_arrays(frames: Any, settings: list[str], report: Any, times: Optional[np.ndarray]) -> dict[str, Any]:
+def track_arrays(frames: Any, settings: list[tuple[str, str]], report: Any, times: Optional[np.ndarray]) -> dict[str, Any]:
     """Tracks pictures in memory one by one."""
     if isinstance(frames, np.ndarray) and (frames.ndim not in (3, 4) or (frames.ndim == 3 and frames.shape[2] == 3)):
         raise InputError(f"frames has the shape {frames.shape}, must be (n, height, width) or (n, height, width, 3)")
@@ -143,8 +143,8 @@ def track_arrays(frames: Any, settings: list[str], report: Any, times: Optional[
     return tracker.finish()
 
 
-def track_settings(values: dict[str, Any]) -> list[str]:
-    """Settings KEY=VALUE of the values; a key without a group gets its group."""
+def track_settings(values: dict[str, Any]) -> list[tuple[str, str]]:
+    """Settings of the values; a key without a group gets its group."""
     keys = {key.rpartition(".")[2]: key for key in _core.track_keys()}
     for own in ("um_per_px", "rate_hz"):
         if own in values:

@@ -146,7 +146,8 @@ bool use_present_keys_in_value(const Type& type, YamlNode& value, std::string_vi
     if (one.to.empty())
       renaming.retire(value, inside, one.from);
     else if (value_of(value, inside))
-      throw InputError(fmt::format("{}: '{}' is now '{}': set that", name, one.from, one.to));
+      throw InputError(std::string(name), 0, 0,
+                       fmt::format("'{}' is now '{}': set that", one.from, one.to));
   }
   renaming.rename(type, value);
   return notes.size() > before;

@@ -45,16 +45,15 @@ struct Document {
 
   std::optional<std::string> operator()(std::string_view key, KeyLocations::Seek seek) const {
     const bool itself = seek == KeyLocations::Seek::itself;
-    for (const std::string_view assignment : assignments.texts) {
-      const std::string_view path = assignment.substr(0, assignment.find('='));
-      const bool found = sets(path, assignment.substr(path.size() + 1), key);
+    for (const auto& [path, value] : assignments.list) {
+      const bool found = sets(path, value, key);
       if (itself && found && path != key) {
-        const Change change = change_of(path, assignment, key);
+        const Change change = change_of(path, value, key);
         if (change == Change::dropped) return std::nullopt;
         if (change == Change::none) continue;
       }
       if (found || (seek == KeyLocations::Seek::all_of_it && is_in_key(path, key)))
-        return fmt::format("{} {}", assignments.option, one_line(path));
+        return place_of_setting(assignments.option, path);
     }
     const YamlNode* node = node_at(root, key);
     if (!node) return std::nullopt;
@@ -65,13 +64,12 @@ struct Document {
 
   /// Effect on a key of an assignment to something that contains it: a map may hold the key, and a
   /// map with a type drops the keys it does not hold.
-  static Change change_of(std::string_view path, std::string_view assignment,
-                          std::string_view key) {
+  static Change change_of(std::string_view path, std::string_view value, std::string_view key) {
     if (!key.starts_with(path)) return Change::dropped;  // by a type
-    const YamlNode value = parse_yaml(assignment.substr(path.size() + 1), path);
-    if (node_at(value, key.substr(path.size() + 1))) return Change::written;
-    return value.kind == YamlNode::Kind::map && !child(value, "type") ? Change::none
-                                                                      : Change::dropped;
+    const YamlNode node = parse_yaml(value, path);
+    if (node_at(node, key.substr(path.size() + 1))) return Change::written;
+    return node.kind == YamlNode::Kind::map && !child(node, "type") ? Change::none
+                                                                    : Change::dropped;
   }
 
   /// Choosing a type other than the document's resets all keys beside it.
@@ -93,36 +91,40 @@ IsGiven KeyLocations::is_given() const {
   return [keys = *this](std::string_view key) { return keys.given(key); };
 }
 
-std::string KeyLocations::line(const Issue& issue) const {
-  const auto at = [&](const std::string& location) {
-    return location.empty() ? issue.text : location + ": " + issue.text;
-  };
-  if (issue.keys.empty()) return issue.text;
-  if (!find_) return at(name_);
-  for (const std::string& key : issue.keys)
-    if (const auto location = find_(key, Seek::all_of_it)) return at(*location);
-  std::string key = issue.keys.front();
+std::string KeyLocations::place_of(const std::vector<std::string>& keys) const {
+  if (!find_) return name_;
+  for (const std::string& key : keys)
+    if (const auto place = find_(key, Seek::all_of_it)) return *place;
+  std::string key = keys.front();
   for (std::size_t dot = key.rfind('.'); dot != std::string::npos; dot = key.rfind('.')) {
     key.resize(dot);
-    if (const auto location = find_(key, Seek::missing_in_it)) return at(*location);
+    if (const auto place = find_(key, Seek::missing_in_it)) return *place;
   }
-  return at(name_);
+  return name_;
+}
+
+Issue KeyLocations::located(Issue issue) const {
+  if (!issue.keys.empty() && issue.place.empty()) issue.place = place_of(issue.keys);
+  return issue;
+}
+
+Issues KeyLocations::located(const Issues& issues) const {
+  Issues all;
+  for (const Issue& issue : issues) all.add(located(issue));
+  return all;
 }
 
 void KeyLocations::require_none(const Issues& issues) const {
-  if (issues.empty()) return;
-  std::vector<std::string> lines;
-  for (const Issue& issue : issues) lines.push_back(line(issue));
-  throw InputError(std::move(lines));
+  if (!issues.empty()) throw InputError(located(issues));
 }
 
 InputError KeyLocations::error(std::string_view key, const std::string& what) const {
-  return InputError(line({{std::string(key)}, what}));
+  return InputError(located(Issue{{std::string(key)}, what}));
 }
 
 KeyLocations locations_of(YamlNode document, const std::string& name, Settings assignments,
                           Notes notes) {
-  std::reverse(assignments.texts.begin(), assignments.texts.end());
+  std::ranges::reverse(assignments.list);
   const auto found =
       std::make_shared<const Document>(Document{std::move(document), name, std::move(assignments)});
   return {name,

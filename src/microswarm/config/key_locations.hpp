@@ -16,19 +16,18 @@
 
 namespace microswarm {
 
-/// Positions of the keys of a parameter file, for issues found after reading.
+/// Places of the keys of a parameter file, for issues found after reading.
 class KeyLocations {
  public:
   /// Kind of location: of a key or anything in it; for reporting something missing in it; of the
   /// key itself, only if it is given.
   enum class Seek { all_of_it, missing_in_it, itself };
-  /// Location that a message begins with: "flight.yaml:12:3"; nothing for a key that is not given.
+  /// Place of a key: "flight.yaml:12:3"; nothing for a key that is not given.
   using Find = std::function<std::optional<std::string>(std::string_view key, Seek seek)>;
 
-  /// Messages without a location.
+  /// Locates nothing.
   KeyLocations() = default;
-  /// Messages begin with the location from `find`, or with `name`. A name alone can serve as
-  /// KeyLocations.
+  /// The place of an issue is that from `find`, or `name`. A name alone can serve as KeyLocations.
   KeyLocations(std::string name, Find find) : name_(std::move(name)), find_(std::move(find)) {}
   KeyLocations(std::string name) : name_(std::move(name)) {}  // NOLINT(google-explicit-constructor)
   KeyLocations(const char* name) : name_(name) {}             // NOLINT(google-explicit-constructor)
@@ -46,15 +45,18 @@ class KeyLocations {
   /// The same as a function that owns a copy.
   IsGiven is_given() const;
 
-  /// "flight.yaml:12:3: obstacle 4: WHAT", located at the first key that is given, else at the
-  /// nearest enclosing key of the first one.
-  std::string line(const Issue& issue) const;
-  /// Throws InputError with a line for each issue, if any.
+  /// The issue with its place: that of the first key that is given, else of the nearest enclosing
+  /// key of the first one. An issue without a key, or with a place, stays as it is.
+  Issue located(Issue issue) const;
+  Issues located(const Issues& issues) const;
+  /// Throws InputError with the issues, located, if any.
   void require_none(const Issues& issues) const;
   /// InputError for one issue found while something is opened.
   InputError error(std::string_view key, const std::string& what) const;
 
  private:
+  std::string place_of(const std::vector<std::string>& keys) const;
+
   std::string name_;
   Find find_;
   Notes notes_;

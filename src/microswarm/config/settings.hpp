@@ -3,22 +3,47 @@
 
 #include <initializer_list>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace microswarm {
 
-/// Assignments KEY=VALUE applied after a file is read, and the command-line option that gave them,
-/// for messages.
+/// An assignment to a key: keys joined by dots, list entries by index, and a value as in a file
+/// (text needs no quotes).
+struct Setting {
+  std::string key;
+  std::string value;
+
+  bool operator==(const Setting&) const = default;
+};
+
+/// "KEY=VALUE".
+std::string to_string(const Setting& setting);
+/// Splits KEY=VALUE. Throws InputError, which names the option, for a text that is none.
+Setting parse_setting(std::string_view text, std::string_view option = "--set");
+
+/// Assignments applied after a file is read, and the command-line option that gave them, for the
+/// places of issues. Without an option a place is the key alone.
 struct Settings {
   Settings() = default;
-  Settings(std::initializer_list<std::string> list) : texts(list) {}
+  Settings(std::initializer_list<std::string> texts, std::string from = "--set")
+      : Settings(std::vector<std::string>(texts), std::move(from)) {}
+  /// From KEY=VALUE each; throws InputError for a text that is none.
   // NOLINTNEXTLINE(google-explicit-constructor): a plain list belongs to --set
-  Settings(std::vector<std::string> list, std::string from = "--set")
-      : texts(std::move(list)), option(std::move(from)) {}
+  Settings(const std::vector<std::string>& texts, std::string from = "--set");
+  Settings(std::vector<Setting> settings, std::string from)
+      : list(std::move(settings)), option(std::move(from)) {}
 
-  std::vector<std::string> texts;
+  bool empty() const { return list.empty(); }
+  /// KEY=VALUE each.
+  std::vector<std::string> texts() const;
+
+  std::vector<Setting> list;
   std::string option = "--set";
 };
+
+/// Place of an issue in an assignment: "--set planner.step_um", or the key alone without an option.
+std::string place_of_setting(std::string_view option, std::string_view key);
 
 }  // namespace microswarm

@@ -88,43 +88,49 @@ const Field* nearest_field(const Type& record, std::string_view key) {
 
 }  // namespace
 
-void Mistakes::add(const std::string& key, const std::string& line) {
-  constexpr std::size_t most = 1000;
-  if (lines.size() < most) lines.push_back(line);
-  if (std::ranges::find(keys, key) == keys.end()) keys.push_back(key);
-}
-
-void Mistakes::require_none() const {
-  if (!lines.empty()) throw InputError(lines);
-}
-
-void ValueReader::fail(const YamlNode& node, const std::string& what) const {
-  throw InputError(std::string(name_), places_ ? node.line : 0, node.column, what);
+void ValueReader::fail(const YamlNode& at, std::string what, std::string value,
+                       std::string limit) const {
+  Issue issue{{}, std::move(what), std::string(name_), std::move(value), std::move(limit)};
+  if (!key_.empty()) issue.keys.push_back(key_);
+  if (places_) issue.place += fmt::format(":{}:{}", at.line, at.column);
+  throw InputError(std::move(issue));
 }
 
 template <class Body>
-void ValueReader::attempt(Body&& body) {
+void ValueReader::attempt(std::string_view part, Body&& body) {
+  constexpr std::size_t most = 1000;
+  const std::size_t outer = key_.size();
+  if (outer > 0) key_ += '.';
+  key_ += part;
   try {
     body();
   } catch (const InputError& error) {
-    mistakes_.add(key_, error.what());
+    if (issues_.size() >= most) throw;
+    issues_.add(error.issues());
+    if (issues_.size() >= most) throw InputError(issues_);
   }
+  key_.resize(outer);
 }
 
 void ValueReader::fail_kind(const Type& type, std::string_view label, const YamlNode& node) {
-  fail(node, fmt::format("{} must be {}, not {}", label.empty() ? "the document" : label,
-                         expected(type), found(node)));
+  fail(node,
+       fmt::format("{} must be {}, not {}", label.empty() ? "the document" : label, expected(type),
+                   found(node)),
+       shown_value(node), expected(type));
 }
 
-void ValueReader::fail_unknown_key(const Type& record, const YamlNode& key) const {
-  if (const Field* former = record.former_field(key.text))
-    fail(key, fmt::format("{} is the former name of '{}', which is given too", quote(key.text),
-                          former->key));
-  if (const Field* near = nearest_field(record, key.text))
-    fail(key, fmt::format("unknown key {}, did you mean '{}'?", quote(key.text), near->key));
+void ValueReader::fail_unknown_key(const Type& record, const YamlNode& key,
+                                   std::string value) const {
   std::vector<std::string_view> keys;
   for (const Field& field : record.fields) keys.push_back(field.key);
-  fail(key, fmt::format("unknown key {}, allowed: {}", quote(key.text), fmt::join(keys, ", ")));
+  const std::string allowed = fmt::format("{}", fmt::join(keys, ", "));
+  std::string what = fmt::format("unknown key {}, allowed: {}", quote(key.text), allowed);
+  if (const Field* former = record.former_field(key.text))
+    what = fmt::format("{} is the former name of '{}', which is given too", quote(key.text),
+                       former->key);
+  else if (const Field* near = nearest_field(record, key.text))
+    what = fmt::format("unknown key {}, did you mean '{}'?", quote(key.text), near->key);
+  fail(key, std::move(what), std::move(value), allowed);
 }
 
 long double ValueReader::checked_number(const Type& type, const FieldInfo& info, const Range& range,
@@ -132,14 +138,19 @@ long double ValueReader::checked_number(const Type& type, const FieldInfo& info,
   if (!node.is_plain()) fail_kind(type, label, node);
   const std::optional<long double> number = exact_number(node.text);
   if (!number && spells_no_finite_number(node.text))
-    fail(node, fmt::format("{} is {}, must be finite", label, one_line(node.text)));
+    fail(node, fmt::format("{} is {}, must be finite", label, one_line(node.text)),
+         shown_value(node), "a finite number");
   if (!number) fail_kind(type, label, node);
   if (type.kind != TypeKind::number && *number != std::floor(*number)) fail_kind(type, label, node);
   // Rounded to double like the limits: 0.001 is not less than the double nearest to 0.001.
   const double shown = static_cast<double>(*number);
-  if (shown < range.min || shown > range.max)
-    fail(node, fmt::format("{} is {}{}, allowed {}", label, number_text(shown),
-                           spaced_symbol(info.unit), range_text(range, info.unit)));
+  if (shown < range.min || shown > range.max) {
+    const std::string allowed = range_text(range, info.unit);
+    fail(node,
+         fmt::format("{} is {}{}, allowed {}", label, number_text(shown), spaced_symbol(info.unit),
+                     allowed),
+         shown_value(node), allowed);
+  }
   return *number;
 }
 
@@ -156,7 +167,8 @@ void ValueReader::read_whole(const FieldInfo& info, std::string_view label, Int&
   const Range range{std::max(info.range.min, static_cast<double>(least)), info.range.max};
   const long double number = checked_number(type_of<Int>(), info, range, label, node);
   if (number > static_cast<long double>(most))
-    fail(node, fmt::format("{} is {}, allowed at most {}", label, one_line(node.text, 40), most));
+    fail(node, fmt::format("{} is {}, allowed at most {}", label, one_line(node.text, 40), most),
+         shown_value(node), fmt::format("at most {}", most));
   value = static_cast<Int>(number);
 }
 
@@ -166,7 +178,8 @@ void ValueReader::read_list(const Type& type, const FieldInfo& info, std::string
   type.set_count(value, 0);
   type.set_count(value, node.items.size());
   for (std::size_t i = 0; i < node.items.size(); ++i)
-    attempt([&] { read(*type.parts[0], info, label, type.part(value, i), node.items[i]); });
+    attempt(std::to_string(i),
+            [&] { read(*type.parts[0], info, label, type.part(value, i), node.items[i]); });
 }
 
 void ValueReader::read_record(const Type& type, std::string_view label, void* value,
@@ -177,10 +190,9 @@ void ValueReader::read_record(const Type& type, std::string_view label, void* va
   for (std::size_t i = 0; i < node.items.size(); i += 2) {
     const YamlNode& key = node.items[i];
     if (has_type_key && key.text == "type") continue;
-    if (label.empty()) key_ = key.text;
-    attempt([&] {
+    attempt(key.text, [&] {
       const Field* field = type.field(key.text);
-      if (!field) fail_unknown_key(type, key);
+      if (!field) fail_unknown_key(type, key, shown_value(node.items[i + 1]));
       given.push_back(field);
       read(*field->type, field->info, field->key, field->in(value), node.items[i + 1]);
     });
@@ -188,8 +200,7 @@ void ValueReader::read_record(const Type& type, std::string_view label, void* va
   for (const Field& field : type.fields) {
     if (!field.info.required || std::find(given.begin(), given.end(), &field) != given.end())
       continue;
-    if (label.empty()) key_ = field.key;
-    attempt([&] {
+    attempt(field.key, [&] {
       fail(node,
            fmt::format("missing key '{}'{}{}", field.key, label.empty() ? "" : " in ", label));
     });
@@ -199,9 +210,11 @@ void ValueReader::read_record(const Type& type, std::string_view label, void* va
 void ValueReader::choose(const Type& type, std::string_view label, void* value,
                          const YamlNode& node) {
   const auto word = std::find(type.words.begin(), type.words.end(), node.text);
-  if (node.kind != Kind::scalar || word == type.words.end())
-    fail(node,
-         fmt::format("{} is {}, allowed: {}", label, found(node), fmt::join(type.words, ", ")));
+  if (node.kind != Kind::scalar || word == type.words.end()) {
+    const std::string allowed = fmt::format("{}", fmt::join(type.words, ", "));
+    fail(node, fmt::format("{} is {}, allowed: {}", label, found(node), allowed), shown_value(node),
+         allowed);
+  }
   type.set_count(value, static_cast<std::size_t>(word - type.words.begin()));
 }
 
@@ -211,10 +224,14 @@ void ValueReader::read_variant(const Type& type, std::string_view label, void* v
   const YamlNode* chosen = nullptr;
   for (std::size_t i = 0; i < node.items.size(); i += 2)
     if (node.items[i].text == "type") chosen = &node.items[i + 1];
-  if (!chosen)
-    fail(node,
-         fmt::format("missing key 'type' in {}, allowed: {}", label, fmt::join(type.words, ", ")));
+  const std::size_t outer = key_.size();  // cut by `attempt` if this throws
+  key_ += outer > 0 ? ".type" : "type";
+  if (!chosen) {
+    const std::string allowed = fmt::format("{}", fmt::join(type.words, ", "));
+    fail(node, fmt::format("missing key 'type' in {}, allowed: {}", label, allowed), "", allowed);
+  }
   choose(type, fmt::format("type of {}", label), value, *chosen);
+  key_.resize(outer);
   read_record(*type.parts[type.count(value)], label, type.part(value, 0), node, true);
 }
 

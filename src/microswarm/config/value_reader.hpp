@@ -3,42 +3,39 @@
 
 #include <string>
 #include <string_view>
-#include <vector>
+#include <utility>
 
 #include "microswarm/config/type.hpp"
 #include "microswarm/config/yaml_node.hpp"
+#include "microswarm/core/errors/issue.hpp"
 
 namespace microswarm {
-
-/// Mistakes found in a document.
-struct Mistakes {
-  std::vector<std::string> lines;
-  std::vector<std::string> keys;  ///< top-level keys whose values contain them
-
-  bool empty() const { return lines.empty(); }
-  void add(const std::string& key, const std::string& line);
-  /// Throws InputError with all lines, if any.
-  void require_none() const;
-};
 
 /// Reads parsed YAML into described values and writes the error messages.
 class ValueReader {
  public:
-  /// `name` begins every message; with `places`, the node's line and column follow it.
-  ValueReader(std::string_view name, bool places) : name_(name), places_(places) {}
+  /// `name` is the place of every issue; with `places`, the node's line and column follow it. `key`
+  /// is that of the value read; empty for a whole document.
+  ValueReader(std::string_view name, bool places, std::string key = {})
+      : name_(name), places_(places), key_(std::move(key)) {}
 
   /// Reads the node into a value of this type. `info` gives unit and range of the numbers in it;
   /// `label` names it in messages and is empty for a whole document.
   void read(const Type& type, const FieldInfo& info, std::string_view label, void* value,
             const YamlNode& node);
-  /// Mistakes in records and lists, which are read to the end.
-  const Mistakes& mistakes() const { return mistakes_; }
+  /// Mistakes in records and lists, which are read to the end; the thousandth ends it with an
+  /// InputError.
+  const Issues& issues() const { return issues_; }
 
   /// Switches a variant (or an optional's variant) to the alternative named by the node.
   void choose(const Type& type, std::string_view label, void* value, const YamlNode& node);
 
-  [[noreturn]] void fail(const YamlNode& node, const std::string& what) const;
-  [[noreturn]] void fail_unknown_key(const Type& record, const YamlNode& key) const;
+  /// Throws an issue of the current key. `value` is as written.
+  [[noreturn]] void fail(const YamlNode& at, std::string what, std::string value = {},
+                         std::string limit = {}) const;
+  /// `value` is what the unknown key is given.
+  [[noreturn]] void fail_unknown_key(const Type& record, const YamlNode& key,
+                                     std::string value) const;
 
  private:
   void read_number(const FieldInfo& info, std::string_view label, double& value,
@@ -55,14 +52,14 @@ class ValueReader {
   void read_variant(const Type& type, std::string_view label, void* value, const YamlNode& node);
   [[noreturn]] void fail_kind(const Type& type, std::string_view label, const YamlNode& node);
 
-  /// Calls `body` and adds its InputError to the mistakes.
+  /// Calls `body` for the part of that name and adds the issues of its InputError.
   template <class Body>
-  void attempt(Body&& body);
+  void attempt(std::string_view part, Body&& body);
 
   std::string_view name_;
   bool places_;
-  std::string key_;  ///< top-level key being read
-  Mistakes mistakes_;
+  std::string key_;  ///< being read, from the top: "obstacles.3.shape"
+  Issues issues_;
 };
 
 }  // namespace microswarm

@@ -2,11 +2,9 @@
 #include "microswarm/config/yaml.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
-#include <nlohmann/json.hpp>
 
 #include "microswarm/config/value_reader.hpp"
 #include "microswarm/core/errors/error.hpp"
@@ -15,14 +13,6 @@
 namespace microswarm {
 namespace {
 
-/// Current position within an assignment's path.
-struct Place {
-  const Type* type;
-  FieldInfo info;
-  std::string label;
-  void* value;
-};
-
 YamlNode word_node(std::string_view word) {
   YamlNode node;
   node.kind = YamlNode::Kind::scalar;
@@ -30,72 +20,94 @@ YamlNode word_node(std::string_view word) {
   return node;
 }
 
-void enter_content(Place& place) {
-  while (place.type->kind == TypeKind::optional) {
-    if (place.type->count(place.value) == 0) place.type->set_count(place.value, 1);
-    place = {place.type->parts[0], place.info, place.label, place.type->part(place.value, 0)};
+/// A walk along an assignment's key to the part that it sets.
+struct Walk {
+  const Type* type;
+  FieldInfo info;
+  std::string label;
+  void* value;
+  std::string key{};  ///< current key of that part
+  const Setting& setting;
+  const ValueReader& reader;
+
+  [[noreturn]] void fail(const std::string& what) const {
+    reader.fail({}, what, one_line(setting.value));
   }
-}
 
-void enter_entry(Place& place, const YamlNode& word, const ValueReader& reader) {
-  const std::size_t size = place.type->count(place.value);
-  std::size_t i = size;
-  const char* end = word.text.data() + word.text.size();
-  if (std::from_chars(word.text.data(), end, i).ptr != end || i >= size)
-    reader.fail(word, fmt::format("{} has {} entries, counted from 0, and none is {}", place.label,
-                                  size, quote(word.text)));
-  place = {place.type->parts[0], place.info, place.label, place.type->part(place.value, i)};
-}
-
-void enter_key(Place& place, const YamlNode& word, const ValueReader& reader) {
-  const Field* field = place.type->field(word.text);
-  if (!field) field = place.type->former_field(word.text);
-  if (!field) reader.fail_unknown_key(*place.type, word);
-  place = {field->type, field->info, field->key, field->in(place.value)};
-}
-
-/// Enters the part of that name or index; returns its current name.
-std::string enter(Place& place, std::string_view word, const ValueReader& reader) {
-  const YamlNode node = word_node(word);
-  enter_content(place);
-  switch (place.type->kind) {
-    case TypeKind::variant:
-      place = {place.type->parts[place.type->count(place.value)], place.info, place.label,
-               place.type->part(place.value, 0)};
-      [[fallthrough]];
-    case TypeKind::record:
-      enter_key(place, node, reader);
-      return place.label;
-    case TypeKind::list:
-      enter_entry(place, node, reader);
-      return std::string(word);
-    default:
-      reader.fail(node, fmt::format("{} has no parts, so no {}", place.label, quote(word)));
+  void enter_content() {
+    while (type->kind == TypeKind::optional) {
+      if (type->count(value) == 0) type->set_count(value, 1);
+      value = type->part(value, 0);
+      type = type->parts[0];
+    }
   }
-}
+
+  void enter_entry(std::string_view word) {
+    const std::size_t size = type->count(value);
+    std::size_t i = size;
+    const char* end = word.data() + word.size();
+    if (std::from_chars(word.data(), end, i).ptr != end || i >= size)
+      fail(fmt::format("{} has {} entries, counted from 0, and none is {}", label, size,
+                       quote(word)));
+    value = type->part(value, i);
+    type = type->parts[0];
+    key += word;
+  }
+
+  void enter_key(std::string_view word) {
+    const Field* field = type->field(word);
+    if (!field) field = type->former_field(word);
+    if (!field) reader.fail_unknown_key(*type, word_node(word), one_line(setting.value));
+    type = field->type;
+    info = field->info;
+    label = field->key;
+    value = field->in(value);
+    key += field->key;
+  }
+
+  /// Enters the part of that name or index.
+  void enter(std::string_view word) {
+    enter_content();
+    switch (type->kind) {
+      case TypeKind::variant: {
+        const std::size_t chosen = type->count(value);
+        value = type->part(value, 0);
+        type = type->parts[chosen];
+        return enter_key(word);
+      }
+      case TypeKind::record:
+        return enter_key(word);
+      case TypeKind::list:
+        return enter_entry(word);
+      default:
+        fail(fmt::format("{} has no parts, so no {}", label, quote(word)));
+    }
+  }
+
+  /// Enters the part that the path names, or the variant whose `type` it names: then true.
+  bool enter_path(std::string_view path) {
+    for (bool more = true; more;) {
+      const std::size_t dot = path.find('.');
+      const std::string_view word = path.substr(0, dot);
+      more = dot != std::string_view::npos;
+      if (more) path.remove_prefix(dot + 1);
+      if (!more && word == "type") {
+        enter_content();
+        if (type->kind == TypeKind::variant) {
+          key += word;
+          return true;
+        }
+      }
+      enter(word);
+      if (more) key += '.';
+    }
+    return false;
+  }
+};
 
 bool holds_text(const Type& type) {
   return type.kind == TypeKind::text ||
          (type.kind == TypeKind::optional && holds_text(*type.parts[0]));
-}
-
-/// The value on one line, as it may stand in an assignment.
-std::string flow_text(const YamlNode& node) {
-  std::vector<std::string> items;
-  switch (node.kind) {
-    case YamlNode::Kind::null:
-      return "null";
-    case YamlNode::Kind::scalar:
-      return node.quoted ? nlohmann::json(node.text).dump() : node.text;
-    case YamlNode::Kind::list:
-      for (const YamlNode& item : node.items) items.push_back(flow_text(item));
-      return fmt::format("[{}]", fmt::join(items, ", "));
-    case YamlNode::Kind::map:
-      for (std::size_t i = 0; i < node.items.size(); i += 2)
-        items.push_back(flow_text(node.items[i]) + ": " + flow_text(node.items[i + 1]));
-      return fmt::format("{{{}}}", fmt::join(items, ", "));
-  }
-  return "";
 }
 
 YamlNode value_node(const Type& type, std::string_view text, std::string_view name) {
@@ -105,38 +117,52 @@ YamlNode value_node(const Type& type, std::string_view text, std::string_view na
   return word_node(text);
 }
 
+/// Sets the part at `path`; returns the assignment with its current keys.
+Setting assign(const Type& type, void* value, const Setting& setting, std::string_view path,
+               const std::string& name, std::span<const MovedKey> moved, Notes& notes) {
+  const ValueReader of_key(name, false, setting.key);
+  Walk to{&type, {}, "", value, {}, setting, of_key};
+  if (to.enter_path(path)) {
+    const YamlNode chosen = parse_yaml(setting.value, name);
+    if (chosen.text != to.type->words[to.type->count(to.value)])  // else it stays
+      ValueReader(of_key).choose(*to.type, fmt::format("type of {}", to.label), to.value, chosen);
+    return {to.key, setting.value};
+  }
+  YamlNode node = value_node(*to.type, setting.value, name);
+  const bool renamed = use_present_keys_in_value(*to.type, node, name, to.key, moved, notes);
+  ValueReader reader(name, false, to.key);
+  reader.read(*to.type, to.info, to.label, to.value, node);
+  if (!reader.issues().empty()) throw InputError(reader.issues());
+  return {to.key, renamed ? flow_text(node) : setting.value};
+}
+
 }  // namespace
 
 YamlNode read_yaml(const Type& type, void* value, std::string_view text, std::string_view name,
-                   Mistakes& mistakes, Notes& notes, std::span<const MovedKey> moved) {
+                   Issues& issues, Notes& notes, std::span<const MovedKey> moved) {
   YamlNode node = parse_yaml(text, name);
   if (node.line == 0) node.line = node.column = 1;  // an empty document
   use_present_keys(type, node, name, moved, notes);
   ValueReader reader(name, true);
   reader.read(type, {}, "", value, node);
-  mistakes = reader.mistakes();
+  issues.add(reader.issues());
   return node;
 }
 
 YamlNode read_yaml(const Type& type, void* value, std::string_view text, std::string_view name,
                    std::span<const MovedKey> moved) {
-  Mistakes mistakes;
+  Issues issues;
   Notes notes;
-  YamlNode node = read_yaml(type, value, text, name, mistakes, notes, moved);
-  mistakes.require_none();
+  YamlNode node = read_yaml(type, value, text, name, issues, notes, moved);
+  if (!issues.empty()) throw InputError(issues);
   return node;
 }
 
-std::optional<std::string> set_value(const Type& type, void* value, std::string_view assignment,
-                                     std::string_view option, std::span<const MovedKey> moved,
-                                     Notes& notes) {
-  const std::size_t equals = assignment.find('=');
-  if (equals == std::string_view::npos || equals == 0)
-    throw InputError(fmt::format("{} {}: must be KEY=VALUE", option, quote(assignment)));
-  const std::string_view given = assignment.substr(0, equals);
-  std::string_view path = given;
-  std::string text(assignment.substr(equals + 1));
-  const std::string name = fmt::format("{} {}", option, one_line(path));
+std::optional<Setting> set_value(const Type& type, void* value, const Setting& setting,
+                                 std::string_view option, std::span<const MovedKey> moved,
+                                 Notes& notes) {
+  const std::string name = place_of_setting(option, setting.key);
+  std::string_view path = setting.key;
   if (const auto at = std::ranges::find(moved, path, &MovedKey::from); at != moved.end()) {
     if (at->to.empty()) {
       notes.push_back(name + ": has no meaning any more");
@@ -144,48 +170,35 @@ std::optional<std::string> set_value(const Type& type, void* value, std::string_
     }
     path = at->to;
   }
-  ValueReader reader(name, false);
-
-  Place place{&type, {}, "", value};
-  std::string key;
-  const auto present = [&] {
-    if (key != given) notes.push_back(fmt::format("{}: is now '{}'", name, key));
-    return key + "=" + text;
-  };
-  for (bool more = true; more;) {
-    const std::size_t dot = path.find('.');
-    const std::string_view word = path.substr(0, dot);
-    more = dot != std::string_view::npos;
-    if (more) path.remove_prefix(dot + 1);
-    if (!more && word == "type") {
-      enter_content(place);
-      if (place.type->kind == TypeKind::variant) {
-        const YamlNode chosen = parse_yaml(text, name);
-        key += "type";
-        if (chosen.text != place.type->words[place.type->count(place.value)])  // else it stays
-          reader.choose(*place.type, fmt::format("type of {}", place.label), place.value, chosen);
-        return present();
-      }
+  try {
+    Setting present = assign(type, value, setting, path, name, moved, notes);
+    if (present.key != setting.key)
+      notes.push_back(fmt::format("{}: is now '{}'", name, present.key));
+    return present;
+  } catch (const InputError& error) {
+    Issues issues;
+    for (Issue issue : error.issues()) {
+      if (issue.keys.empty()) issue.value = one_line(setting.value);
+      if (issue.keys.empty()) issue.keys.push_back(setting.key);
+      issues.add(std::move(issue));
     }
-    key += enter(place, word, reader) + (more ? "." : "");
+    throw InputError(std::move(issues));
   }
-  YamlNode node = value_node(*place.type, text, name);
-  if (use_present_keys_in_value(*place.type, node, name, key, moved, notes)) text = flow_text(node);
-  reader.read(*place.type, place.info, place.label, place.value, node);
-  reader.mistakes().require_none();
-  return present();
 }
 
 void check_types_first(const Settings& given) {
-  const std::vector<std::string>& assignments = given.texts;
-  for (std::size_t i = 0; i < assignments.size(); ++i) {
-    const std::string key = assignments[i].substr(0, assignments[i].find('='));
+  for (std::size_t i = 0; i < given.list.size(); ++i) {
+    const auto& [key, value] = given.list[i];
     if (!key.ends_with(".type")) continue;
-    const std::string part = key.substr(0, key.size() - 4);  // including the dot
+    const std::string_view part = std::string_view(key).substr(0, key.size() - 4);  // with its dot
     for (std::size_t k = 0; k < i; ++k)
-      if (assignments[k].starts_with(part) && !assignments[k].starts_with(key + "="))
-        throw InputError(fmt::format("{} {}: comes after {}, which it may drop: give it first",
-                                     given.option, key, quote(assignments[k])));
+      if (const Setting& other = given.list[k]; other.key.starts_with(part) && other.key != key)
+        throw InputError(
+            Issue{.keys = {key},
+                  .text = fmt::format("comes after {}, which it may drop: give it first",
+                                      quote(to_string(other))),
+                  .place = place_of_setting(given.option, key),
+                  .value = one_line(value)});
   }
 }
 

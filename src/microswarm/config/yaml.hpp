@@ -14,7 +14,7 @@
 #include "microswarm/config/key_locations.hpp"
 #include "microswarm/config/settings.hpp"
 #include "microswarm/config/type.hpp"
-#include "microswarm/config/value_reader.hpp"
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/file.hpp"
 
 namespace microswarm {
@@ -23,10 +23,10 @@ inline constexpr std::size_t max_yaml_bytes = 16 << 20;
 
 /// Reads YAML text into the value and returns the document with its current keys. Values not given
 /// by the text are kept. Throws InputError for text that is no YAML. Mistakes in keys and values go
-/// into `mistakes`; the overload without it throws them, one line each. A value with a mistake is
+/// into `issues`; the overload without it throws them, one line each. A value with a mistake is
 /// unchanged or partly read.
 YamlNode read_yaml(const Type& type, void* value, std::string_view text, std::string_view name,
-                   Mistakes& mistakes, Notes& notes, std::span<const MovedKey> moved = {});
+                   Issues& issues, Notes& notes, std::span<const MovedKey> moved = {});
 YamlNode read_yaml(const Type& type, void* value, std::string_view text, std::string_view name,
                    std::span<const MovedKey> moved = {});
 
@@ -40,9 +40,9 @@ constexpr std::span<const MovedKey> moved_keys_of() {
 }
 
 /// Type-erased implementation of `set_value<T>`.
-std::optional<std::string> set_value(const Type& type, void* value, std::string_view assignment,
-                                     std::string_view option, std::span<const MovedKey> moved,
-                                     Notes& notes);
+std::optional<Setting> set_value(const Type& type, void* value, const Setting& setting,
+                                 std::string_view option, std::span<const MovedKey> moved,
+                                 Notes& notes);
 
 /// Parameter struct from YAML text; `name` stands for the file in messages. Strict: throws
 /// InputError with a line for each unknown or missing key, wrong type, number that is out of range
@@ -61,24 +61,24 @@ T read_yaml_file(const std::filesystem::path& path) {
   return read_yaml_text<T>(read_file(path, max_yaml_bytes), path.string());
 }
 
-/// Applies one assignment of `--set` or a similar option, "planner.step_um=60": keys joined by
-/// dots, list entries by index, then a value as in a file (text needs no quotes). Setting a
-/// variant's `type` to another alternative resets it to that alternative's defaults; its other keys
-/// can only be set once it is chosen. Errors are as in a file, after "--set planner.stpe_um: ", and
-/// leave `value` unchanged. Returns the assignment with its current keys; nothing for a key that no
-/// longer has a meaning.
+/// Applies one assignment of `--set` or a similar option. Setting a variant's `type` to another
+/// alternative resets it to that alternative's defaults; its other keys can only be set once it is
+/// chosen. Issues are as in a file, with the place "--set planner.stpe_um", and leave `value`
+/// unchanged. Returns the assignment with its current keys; nothing for a key that no longer has a
+/// meaning.
 template <HasFields T>
-std::optional<std::string> set_value(T& value, std::string_view assignment, std::string_view option,
-                                     Notes& notes) {
+std::optional<Setting> set_value(T& value, const Setting& setting, std::string_view option,
+                                 Notes& notes) {
   T changed = value;
-  auto present = set_value(type_of<T>(), &changed, assignment, option, moved_keys_of<T>(), notes);
+  auto present = set_value(type_of<T>(), &changed, setting, option, moved_keys_of<T>(), notes);
   value = std::move(changed);
   return present;
 }
+/// The same for KEY=VALUE.
 template <HasFields T>
-void set_value(T& value, std::string_view assignment, std::string_view option = "--set") {
+void set_value(T& value, std::string_view text, std::string_view option = "--set") {
   Notes notes;
-  set_value(value, assignment, option, notes);
+  set_value(value, parse_setting(text, option), option, notes);
 }
 
 /// Throws InputError if an assignment chooses a variant's `type` after another has set a part of
@@ -90,28 +90,28 @@ template <HasFields T>
 Notes set_values(T& value, const Settings& assignments) {
   Notes notes;
   check_types_first(assignments);
-  for (const std::string& text : assignments.texts)
-    set_value(value, text, assignments.option, notes);
+  for (const Setting& setting : assignments.list)
+    set_value(value, setting, assignments.option, notes);
   return notes;
 }
 
 /// Parameter struct from YAML text, with assignments applied after it. Mistakes in keys and values
-/// go into `mistakes`; `locations` receives the location of each key and the notes on former keys.
+/// go into `issues`; `locations` receives the location of each key and the notes on former keys.
 template <HasFields T>
 T read_yaml_text(std::string_view text, const std::string& name, const Settings& assignments,
-                 KeyLocations& locations, Mistakes& mistakes) {
+                 KeyLocations& locations, Issues& issues) {
   T value{};
   Notes notes;
   YamlNode document =
-      read_yaml(type_of<T>(), &value, text, name, mistakes, notes, moved_keys_of<T>());
+      read_yaml(type_of<T>(), &value, text, name, issues, notes, moved_keys_of<T>());
   check_types_first(assignments);
-  Settings present({}, assignments.option);
-  for (const std::string& one : assignments.texts) {
+  Settings present(std::vector<Setting>(), assignments.option);
+  for (const Setting& setting : assignments.list) {
     try {
-      auto applied = set_value(value, one, assignments.option, notes);
-      if (applied) present.texts.push_back(std::move(*applied));
+      auto applied = set_value(value, setting, assignments.option, notes);
+      if (applied) present.list.push_back(std::move(*applied));
     } catch (const InputError& error) {
-      mistakes.add(one.substr(0, one.find_first_of(".=")), error.what());
+      issues.add(error.issues());
     }
   }
   locations = locations_of(std::move(document), name, std::move(present), std::move(notes));
@@ -121,18 +121,18 @@ T read_yaml_text(std::string_view text, const std::string& name, const Settings&
 /// The same from a file; messages name the path as given.
 template <HasFields T>
 T read_yaml_file(const std::filesystem::path& path, const Settings& assignments,
-                 KeyLocations& locations, Mistakes& mistakes) {
+                 KeyLocations& locations, Issues& issues) {
   return read_yaml_text<T>(read_file(path, max_yaml_bytes), path.string(), assignments, locations,
-                           mistakes);
+                           issues);
 }
 
 /// The same, but throws InputError with a line for each mistake.
 template <HasFields T>
 T read_yaml_file(const std::filesystem::path& path, const Settings& assignments,
                  KeyLocations& locations) {
-  Mistakes mistakes;
-  T value = read_yaml_file<T>(path, assignments, locations, mistakes);
-  mistakes.require_none();
+  Issues issues;
+  T value = read_yaml_file<T>(path, assignments, locations, issues);
+  if (!issues.empty()) throw InputError(issues);
   return value;
 }
 

@@ -2,11 +2,13 @@
 #include "microswarm/config/yaml_node.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/parser.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "microswarm/config/yaml.hpp"
@@ -152,6 +154,29 @@ YamlNode parse_yaml(std::string_view text, std::string_view name) {
                      "YAML: " + error.msg);
   }
   return builder.take_root();
+}
+
+std::string flow_text(const YamlNode& node) {
+  std::vector<std::string> items;
+  switch (node.kind) {
+    case YamlNode::Kind::null:
+      return "null";
+    case YamlNode::Kind::scalar:
+      return node.quoted ? nlohmann::json(node.text).dump() : node.text;
+    case YamlNode::Kind::list:
+      for (const YamlNode& item : node.items) items.push_back(flow_text(item));
+      return fmt::format("[{}]", fmt::join(items, ", "));
+    case YamlNode::Kind::map:
+      for (std::size_t i = 0; i < node.items.size(); i += 2)
+        items.push_back(flow_text(node.items[i]) + ": " + flow_text(node.items[i + 1]));
+      return fmt::format("{{{}}}", fmt::join(items, ", "));
+  }
+  return "";
+}
+
+std::string shown_value(const YamlNode& node) {
+  if (node.kind == YamlNode::Kind::null) return {};
+  return one_line(node.kind == YamlNode::Kind::scalar ? node.text : flow_text(node));
 }
 
 }  // namespace microswarm

@@ -30,4 +30,10 @@ void check_characters(std::string_view text, std::string_view name);
 /// MB or two million values.
 YamlNode parse_yaml(std::string_view text, std::string_view name);
 
+/// The value on one line of YAML, as it may stand in an assignment.
+std::string flow_text(const YamlNode& node);
+
+/// The value as written, for an issue: on one line of at most 200 bytes; empty for null.
+std::string shown_value(const YamlNode& node);
+
 }  // namespace microswarm

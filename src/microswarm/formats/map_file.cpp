@@ -146,11 +146,12 @@ std::vector<MapSpec> every_kind() {
   (std::make_index_sequence<std::variant_size_v<MapSpec>>());
 }
 
-/// Sets the scale of a map whose file is set; `fail` throws.
+/// Sets the scale of a map whose file is set; `option` gave it, and `fail` throws.
 template <class Fail>
-void set_scale(MapSpec& spec, std::optional<double> um_per_px, Fail&& fail) {
+void set_scale(MapSpec& spec, std::optional<double> um_per_px, const std::string& option,
+               Fail&& fail) {
   std::visit(Overloaded{[&](ImageMap& s) {
-                          if (!um_per_px) fail("µm per px is missing: give --um-per-px");
+                          if (!um_per_px) fail("µm per px is missing: give " + option);
                           s.um_per_px = *um_per_px;
                         },
                         [&](RosMap& s) {
@@ -159,7 +160,7 @@ void set_scale(MapSpec& spec, std::optional<double> um_per_px, Fail&& fail) {
                         },
                         [&](MovingAiMap& s) { s.um_per_cell = um_per_px.value_or(1); },
                         [&](OneOf<GeoJsonMap, RectanglesMap, PolygonsMap, ChannelMap> auto&) {
-                          if (um_per_px) fail("has no pixels: leave out --um-per-px");
+                          if (um_per_px) fail("has no pixels: leave out " + option);
                         }},
              spec);
 }
@@ -217,7 +218,8 @@ std::string map_formats() {
   return fmt::format("{} or {}", fmt::join(names, ", "), last);
 }
 
-MapSpec guess_map_spec(const fs::path& path, std::optional<double> um_per_px) {
+MapSpec guess_map_spec(const fs::path& path, std::optional<double> um_per_px,
+                       std::string_view option) {
   const std::string file = path.string();
   const auto fail = [&](const std::string& why) { throw InputError(file + ": " + why); };
   std::error_code error;
@@ -231,7 +233,7 @@ MapSpec guess_map_spec(const fs::path& path, std::optional<double> um_per_px) {
         std::ranges::find(format->extensions, lower_extension(path)) == format->extensions.end())
       continue;
     *file_of(spec) = file;
-    set_scale(spec, um_per_px, fail);
+    set_scale(spec, um_per_px, std::string(option), fail);
     return std::move(spec);
   }
   throw InputError(fmt::format("{}: no map that is known, expected: {}", file, map_formats()));

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "microswarm/config/key_locations.hpp"
 #include "microswarm/core/fields/fields.hpp"
@@ -39,10 +40,11 @@ const std::string* file_of(const MapSpec& spec);
 /// Formats of the files that guess_map_spec takes, in words: "picture, …".
 std::string map_formats();
 
-/// Spec of a map file from the command line, from its extension and content. `um_per_px` is the
-/// side of a pixel or cell; an image needs it: "x.png: µm per px is missing: give --um-per-px".
-/// Throws InputError for other files.
+/// Spec of a map file, from its extension and content. `um_per_px`, which the caller calls
+/// `option`, is the side of a pixel or cell; an image needs it: "x.png: µm per px is missing: give
+/// --um-per-px". Throws InputError for other files.
 MapSpec guess_map_spec(const std::filesystem::path& path,
-                       std::optional<double> um_per_px = std::nullopt);
+                       std::optional<double> um_per_px = std::nullopt,
+                       std::string_view option = "--um-per-px");
 
 }  // namespace microswarm

@@ -20,7 +20,7 @@ struct GatherQuery {
   std::vector<Vec2> starts{};             ///< start of each robot [µm]
   std::optional<double> channel_width{};  ///< scales all lengths [µm]; default: measured
   int max_steps = 100'000;
-  std::vector<std::string> settings{};  ///< KEY=VALUE of the scenario, as for --set
+  Settings settings{};  ///< of the scenario
   std::uint64_t seed = 1;
 };
 

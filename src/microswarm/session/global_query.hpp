@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "microswarm/config/former_keys.hpp"
+#include "microswarm/config/settings.hpp"
 #include "microswarm/planning/global_input/global_rrt.hpp"
 #include "microswarm/planning/global_input/global_search.hpp"
 #include "microswarm/planning/global_input/global_shorten.hpp"
@@ -26,8 +27,7 @@ using GlobalChoice = PlannerChoice<GlobalPlannerParams>;
 struct GlobalQuery {
   std::vector<Vec2> starts;  ///< [µm]
   std::vector<Vec2> goals;   ///< [µm], in the same order
-  /// `planner.KEY=VALUE`, as for --set.
-  std::vector<std::string> settings{};
+  Settings settings{};       ///< of keys within `planner`
   std::uint64_t seed = 1;
   bool shorten = true;     ///< remove superfluous inputs
   bool keep_tree = false;  ///< grow a tree to its limits and keep it; goals may then be missing

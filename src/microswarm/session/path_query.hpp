@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "microswarm/config/former_keys.hpp"
+#include "microswarm/config/settings.hpp"
 #include "microswarm/config/type.hpp"
 #include "microswarm/contracts/plan.hpp"
 #include "microswarm/core/execution/stop.hpp"
@@ -18,8 +19,8 @@ namespace microswarm {
 struct PathQuery {
   Pose2 start;
   Vec2 goal;
-  /// `planner.KEY=VALUE`, as for --set. Other values are fitted to the map, see fit_to_map.
-  std::vector<std::string> settings{};
+  /// Of keys within `planner`. Other values are fitted to the map, see fit_to_map.
+  Settings settings{};
   std::uint64_t seed = 1;
 };
 

@@ -93,7 +93,7 @@ Issues Session::set(const std::string& key, const std::string& value) {
   else if (key.empty() || key.find('=') != std::string::npos)
     issues.add(key, key.empty() ? "a key is missing" : "a key has no '='");
   else
-    issues = std::get<0>(source_)->run.change(key + "=" + value);
+    issues = std::get<0>(source_)->run.change(key, value);
   return issues;
 }
 

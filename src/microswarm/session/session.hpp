@@ -21,7 +21,7 @@ namespace microswarm {
 
 /// Options for opening a scenario.
 struct SessionOptions {
-  std::vector<std::string> settings{};  ///< KEY=VALUE of the scenario, as for --set
+  Settings settings{};                  ///< of the scenario
   std::optional<std::uint64_t> seed{};  ///< overrides the scenario's seed
   std::uint32_t trial = 0;              ///< selects the random streams
   std::filesystem::path rig{};          ///< file of a rig to simulate; empty for none

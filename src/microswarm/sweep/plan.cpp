@@ -14,6 +14,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/execution/parallel.hpp"
 #include "microswarm/core/maths/hash.hpp"
+#include "microswarm/core/text/text.hpp"
 #include "microswarm/experiment/scenario/validate.hpp"
 
 namespace microswarm {
@@ -68,7 +69,7 @@ std::string cell_name(const SweepPlan& plan, const SweepCell& cell) {
 KeyLocations locations_of(const SweepPlan& plan, const SweepCell& cell) {
   using Seek = KeyLocations::Seek;
   const std::string name = cell_name(plan, cell);
-  const KeyLocations written = locations_of(plan.scenario_document, name, cell.settings);
+  const KeyLocations written = locations_of(plan.scenario_document, name, {cell.settings, ""});
   return {name, [written](std::string_view key, Seek seek) -> std::optional<std::string> {
             if (seek != Seek::itself || !written.given(key)) return std::nullopt;
             return "";
@@ -81,53 +82,42 @@ struct Loader {
   std::filesystem::path folder;
   MapCache& maps;
 
-  /// Applies a setting and stores it with its current keys; messages call it `what`.
+  /// Applies a setting and stores it with its current keys; places of issues begin with `what`.
   /// False for a key that no longer exists, which becomes a note.
-  bool apply(SweepCell& cell, const std::string& setting, const std::string& what) const {
-    try {
-      Notes notes;
-      auto present = set_value(cell.scenario, setting, what, notes);
-      for (const std::string& note : notes)
-        cell.notes.push_back(fmt::format("{}: {}", plan.file, note));
-      if (present) cell.settings.push_back(std::move(*present));
-      return present.has_value();
-    } catch (const InputError& error) {
-      throw InputError(fmt::format("{}: {}", plan.file, error.what()));
-    }
-  }
-
-  void check_order(const SweepCell& cell, const SweepMethod& method) const {
-    std::vector<std::string> all = plan.sweep.set;
-    all.insert(all.end(), method.set.begin(), method.set.end());
-    for (std::size_t i = 0; i < cell.values.size(); ++i) all.push_back(grid_setting(cell, i));
-    try {
-      check_types_first({all, fmt::format("method '{}':", method.name)});
-    } catch (const InputError& error) {
-      throw InputError(fmt::format("{}: {}", plan.file, error.what()));
-    }
-  }
-
-  std::string grid_setting(const SweepCell& cell, std::size_t parameter) const {
-    return plan.sweep.grid[parameter].key + "=" + cell.values[parameter];
+  bool apply(SweepCell& cell, const Setting& setting, const std::string& what) const {
+    Notes notes;
+    auto present = set_value(cell.scenario, setting, what, notes);
+    for (const std::string& note : notes)
+      cell.notes.push_back(fmt::format("{}: {}", plan.file, note));
+    if (present) cell.settings.push_back(std::move(*present));
+    return present.has_value();
   }
 
   /// The base with the cell's settings.
   void set_up(SweepCell& cell, const SweepMethod& method) const {
     cell.scenario = base;
-    check_order(cell, method);
-    for (const std::string& setting : plan.sweep.set) apply(cell, setting, "set:");
-    for (const std::string& setting : method.set)
-      apply(cell, setting, fmt::format("method '{}':", method.name));
-    for (std::size_t i = 0; i < cell.values.size(); ++i) {
-      if (!apply(cell, grid_setting(cell, i), "grid:")) continue;
-      const std::string& last = cell.settings.back();
-      const std::string key = last.substr(0, last.find('=') + 1);
+    const std::string of_method = fmt::format("method '{}':", method.name);
+    const Settings set(plan.sweep.set, "set:"), its(method.set, of_method);
+    std::vector<Setting> grid;
+    for (std::size_t i = 0; i < cell.values.size(); ++i)
+      grid.push_back({plan.sweep.grid[i].key, cell.values[i]});
+    Settings all = set;
+    all.list.insert(all.list.end(), its.list.begin(), its.list.end());
+    all.list.insert(all.list.end(), grid.begin(), grid.end());
+    all.option = of_method;
+    check_types_first(all);
+    for (const Setting& setting : set.list) apply(cell, setting, set.option);
+    for (const Setting& setting : its.list) apply(cell, setting, its.option);
+    for (const Setting& setting : grid) {
+      if (!apply(cell, setting, "grid:")) continue;
+      const std::string& key = cell.settings.back().key;
       if (std::any_of(cell.settings.begin(), cell.settings.end() - 1,
-                      [&](const std::string& other) { return other.starts_with(key); }))
-        throw InputError(
-            fmt::format("{}: {} is varied by the grid and set a second time, in the "
-                        "grid, in 'set' or by method '{}'",
-                        plan.file, quote(key.substr(0, key.size() - 1)), method.name));
+                      [&](const Setting& other) { return other.key == key; }))
+        throw InputError(Issue{
+            .keys = {key},
+            .text = fmt::format("{} is varied by the grid and set a second time, in the grid, "
+                                "in 'set' or by method '{}'",
+                                quote(key), method.name)});
     }
     if (plan.sweep.seed) cell.scenario.seed = *plan.sweep.seed;
   }
@@ -147,7 +137,11 @@ struct Loader {
       cell.values[i] = values[index % values.size()];
       index /= values.size();
     }
-    set_up(cell, method);
+    try {
+      set_up(cell, method);
+    } catch (const InputError& error) {
+      throw InputError(error.issues().placed_in(plan.file));
+    }
     const Scene scene = load_scene(cell.scenario, folder, cell_name(plan, cell));
     cell.input_hash = scene.hash();
     cell.world = maps.world_of(scene);

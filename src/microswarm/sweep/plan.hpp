@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "microswarm/config/former_keys.hpp"
+#include "microswarm/config/settings.hpp"
 #include "microswarm/config/yaml_node.hpp"
 #include "microswarm/core/execution/stop.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
@@ -17,11 +18,11 @@ namespace microswarm {
 struct SweepCell {
   std::vector<std::string> values;  ///< one per grid parameter
   std::string method;
-  std::vector<std::string> settings;  ///< all, in order of application
-  Scenario scenario;                  ///< with the samples of its tracks
-  World world;                        ///< cells with the same walls share their map
-  Notes notes;                        ///< about former keys in the settings
-  std::string input_hash;             ///< of scenario, map and tracks, as Scene::hash()
+  std::vector<Setting> settings;  ///< all, in order of application
+  Scenario scenario;              ///< with the samples of its tracks
+  World world;                    ///< cells with the same walls share their map
+  Notes notes;                    ///< about former keys in the settings
+  std::string input_hash;         ///< of scenario, map and tracks, as Scene::hash()
 };
 
 /// A sweep with the contents of all files it names. Cells are ordered with the method varying

@@ -87,7 +87,7 @@ FoundScale from_grid(const ScaleOptions& o, const Image& picture) {
   try {
     points = find_grid(picture, params);
   } catch (const InputError& error) {
-    throw InputError(o.picture + ": " + error.what());
+    throw InputError(error.issues().placed_in(o.picture));
   }
   if (o.mirrored)  // the grid is mirrored, too
     for (ScalePoint& p : points) p.position.y = (params.rows - 1) * params.pitch - p.position.y;

@@ -1,30 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/core/errors/error.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+#include <cassert>
+#include <utility>
 
 namespace microswarm {
 namespace {
 
-std::string located(const std::string& file, int line, int column, const std::string& what) {
-  if (line <= 0) return fmt::format("{}: {}", file, what);
-  if (column <= 0) return fmt::format("{}:{}: {}", file, line, what);
-  return fmt::format("{}:{}:{}: {}", file, line, column, what);
+std::string place_of(const std::string& file, int line, int column) {
+  if (line <= 0) return file;
+  const std::string place = file + ":" + std::to_string(line);
+  return column <= 0 ? place : place + ":" + std::to_string(column);
+}
+
+Issues list_of(Issue issue) {
+  Issues issues;
+  issues.add(std::move(issue));
+  return issues;
 }
 
 }  // namespace
 
-InputError::InputError(const std::string& file, int line, int column, const std::string& what)
-    : InputError(located(file, line, column, what)) {}
+InputError::InputError(const std::string& what) : InputError(Issue{.text = what}) {}
 
-InputError::InputError(std::vector<std::string> lines)
-    : InputError([&] {
-        constexpr std::size_t most = 20;
-        const std::size_t more = lines.size() > most ? lines.size() - most : 0;
-        lines.resize(lines.size() - more);
-        if (more > 0) lines.push_back(fmt::format("and {} more", more));
-        return fmt::format("{}", fmt::join(lines, "\n"));
-      }()) {}
+InputError::InputError(const std::string& file, int line, int column, const std::string& what)
+    : InputError(Issue{.text = what, .place = place_of(file, line, column)}) {}
+
+InputError::InputError(Issue issue) : InputError(list_of(std::move(issue))) {}
+
+InputError::InputError(Issues issues)
+    : std::runtime_error(to_string(issues)),
+      issues_(std::make_shared<const Issues>(std::move(issues))) {
+  assert(!issues_->empty());
+}
+
+Issues issues_of(const std::exception& error) {
+  if (const auto* input = dynamic_cast<const InputError*>(&error)) return input->issues();
+  return list_of(Issue{.text = error.what()});
+}
 
 }  // namespace microswarm

@@ -1,23 +1,46 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <stdexcept>
 #include <string>
-#include <vector>
+#include <string_view>
+
+#include "microswarm/core/errors/issue.hpp"
 
 namespace microswarm {
 
-/// Bad input from outside: a file, a key or a value. Thrown once, with one line per mistake that
-/// names the file, position, value and limit. The command-line tool prints the lines and exits with
-/// 2.
+/// Bad input from outside: a file, a key or a value. Thrown once, with an issue for each mistake;
+/// `what` has a line for each of the first 20. The command-line tool prints the lines and exits
+/// with 2.
 class InputError : public std::runtime_error {
  public:
-  explicit InputError(const std::string& what) : std::runtime_error(what) {}
+  /// One issue that is only a text.
+  explicit InputError(const std::string& what);
   /// "file:line:column: what"; line and column count from 1, 0 leaves them out.
   InputError(const std::string& file, int line, int column, const std::string& what);
-  /// Several lines, at least one; only the first 20 are listed, the rest are counted.
-  explicit InputError(std::vector<std::string> lines);
+  /// At least one issue, located.
+  explicit InputError(Issues issues);
+  explicit InputError(Issue issue);
+
+  const Issues& issues() const { return *issues_; }
+
+ private:
+  std::shared_ptr<const Issues> issues_;  // shared: an exception is copied without throwing
 };
+
+/// Issues of an InputError; the text of any other exception as one.
+Issues issues_of(const std::exception& error);
+
+/// Calls `read` and adds the issues of its InputError as issues about `key`.
+template <class Read>
+void attempt(Issues& issues, std::string_view key, Read&& read) {
+  try {
+    read();
+  } catch (const InputError& error) {
+    issues.add_about(key, error.issues());
+  }
+}
 
 /// A device is missing, does not answer or refuses. The command-line tool prints the message and
 /// exits with 4.

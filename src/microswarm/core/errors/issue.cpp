@@ -5,23 +5,25 @@
 
 namespace microswarm {
 
+std::string to_string(const Issue& issue) {
+  return issue.place.empty() ? issue.text : issue.place + ": " + issue.text;
+}
+
+std::string to_string(const Issues& issues) {
+  constexpr std::size_t most = 20;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(issues.size(), most); ++i)
+    text += (i == 0 ? "" : "\n") + to_string(issues[i]);
+  if (issues.size() > most) text += "\nand " + std::to_string(issues.size() - most) + " more";
+  return text;
+}
+
 void Issues::add(std::initializer_list<std::string_view> keys, std::string text) {
   list_.push_back({{keys.begin(), keys.end()}, std::move(text)});
 }
 
 void Issues::add(const Issues& more) {
   list_.insert(list_.end(), more.list_.begin(), more.list_.end());
-}
-
-void Issues::add_lines(std::string_view key, std::string_view text) {
-  while (true) {
-    const std::size_t end = text.find('\n');
-    Issue issue{{}, std::string(text.substr(0, end))};
-    if (!key.empty()) issue.keys.emplace_back(key);
-    list_.push_back(std::move(issue));
-    if (end == text.npos) return;
-    text.remove_prefix(end + 1);
-  }
 }
 
 void Issues::add_within(std::string_view key, const Issues& part, const std::string& words) {
@@ -31,6 +33,24 @@ void Issues::add_within(std::string_view key, const Issues& part, const std::str
     if (!words.empty()) issue.text.insert(0, words + ": ");
     list_.push_back(std::move(issue));
   }
+}
+
+void Issues::add_about(std::string_view key, const Issues& of_file) {
+  for (const Issue& issue : of_file)
+    list_.push_back({{std::string(key)}, to_string(issue), {}, issue.value, issue.limit});
+}
+
+Issues Issues::placed_in(std::string_view outer) const {
+  Issues same = *this;
+  for (Issue& issue : same.list_)
+    issue.place = std::string(outer) + (issue.place.empty() ? "" : ": ") + issue.place;
+  return same;
+}
+
+Issues Issues::unplaced() const {
+  Issues same = *this;
+  for (Issue& issue : same.list_) issue.place.clear();
+  return same;
 }
 
 void Issues::drop(const std::vector<std::string>& keys) {

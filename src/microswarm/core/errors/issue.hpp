@@ -7,36 +7,47 @@
 #include <string_view>
 #include <vector>
 
-#include "microswarm/core/errors/error.hpp"
-
 namespace microswarm {
 
 /// One mistake in a value.
 struct Issue {
-  /// Keys concerned; the message locates the first one present in the file. Empty if the text names
-  /// a file itself.
-  std::vector<std::string> keys;
-  std::string text;
+  /// Keys concerned; the first one present in the file gives the place. Empty if no key is.
+  std::vector<std::string> keys{};
+  std::string text{};
+  /// Place where the value was given, in words of who gave it: "flight.yaml:12:3", "--set seed", a
+  /// file. Empty as long as it is not located.
+  std::string place{};
+  std::string value{};  ///< the value as written, cut if it is long; empty if unknown
+  std::string limit{};  ///< what is allowed: "1..1e5 µm", "slide, stop"; empty if unknown
 };
+
+/// "PLACE: TEXT", or the text alone.
+std::string to_string(const Issue& issue);
 
 /// List of all mistakes in a value. Keys are relative to it and joined by dots; list entries count
 /// from 0: "obstacles.3.shape.radius_um". Validation returns issues and knows no file; KeyLocations
-/// adds the file positions.
+/// adds the places.
 class Issues {
  public:
+  void add(Issue issue) { list_.push_back(std::move(issue)); }
   void add(std::initializer_list<std::string_view> keys, std::string text);
   void add(std::string_view key, std::string text) { add({key}, std::move(text)); }
   void add(const Issues& more);
-  /// Adds an issue about `key` for each line of the text; an empty key means the text names a file.
-  void add_lines(std::string_view key, std::string_view text);
   /// Adds the issues of the part held by `key`; `words` (e.g. "obstacle 4") is put before each
   /// text.
   void add_within(std::string_view key, const Issues& part, const std::string& words = {});
+  /// Adds the issues of a file or text that `key` names: their places become part of the texts.
+  void add_about(std::string_view key, const Issues& of_file);
+  /// The same issues, with `outer` before their places: "sweep.yaml: --set seed".
+  Issues placed_in(std::string_view outer) const;
+  /// The same issues without places, for one who gave the key.
+  Issues unplaced() const;
   /// Removes issues about any of these keys or anything within them.
   void drop(const std::vector<std::string>& keys);
 
   bool empty() const { return list_.empty(); }
   std::size_t size() const { return list_.size(); }
+  const Issue& operator[](std::size_t i) const { return list_[i]; }
   auto begin() const { return list_.begin(); }
   auto end() const { return list_.end(); }
 
@@ -44,16 +55,8 @@ class Issues {
   std::vector<Issue> list_;
 };
 
-/// Calls `read` and adds the lines of its InputError as issues about `key`; an empty key means the
-/// text names a file.
-template <class Read>
-void attempt(Issues& issues, std::string_view key, Read&& read) {
-  try {
-    read();
-  } catch (const InputError& error) {
-    issues.add_lines(key, error.what());
-  }
-}
+/// One line for each issue; only the first 20 are listed, the rest are counted.
+std::string to_string(const Issues& issues);
 
 /// Whether `key` is `outer` or lies within it.
 bool is_in_key(std::string_view key, std::string_view outer);

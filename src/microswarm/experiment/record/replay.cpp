@@ -129,7 +129,8 @@ class Changes : public RunListener {
   void apply() {
     const std::vector<Change>& changes = record_.changes;
     for (; next_ < changes.size() && changes[next_].frame == frame_; ++next_) {
-      const Issues issues = open_.change(changes[next_].setting);
+      const Setting setting = parse_setting(changes[next_].setting, "set");
+      const Issues issues = open_.change(setting.key, setting.value);
       if (!issues.empty() && refused_.empty())
         refused_ = "change '" + changes[next_].setting + "' before frame " +
                    std::to_string(frame_) + " is refused: " + issues.begin()->text;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <sstream>
 #include <string_view>
 
 #include "microswarm/config/yaml.hpp"
@@ -29,18 +28,6 @@ bool names_another_model(const Scenario& a, const Scenario& b) {
   return second && !second->model.empty() && (!first || first->model != second->model);
 }
 
-/// Adds an issue for each line "set KEY: TEXT" or "set KEY:1:8: TEXT" of a mistake.
-void add_mistakes(Issues& issues, const std::string& wanted, const std::string& mistake) {
-  const std::string key = wanted.substr(0, wanted.find('='));
-  std::istringstream lines(mistake);
-  for (std::string line; std::getline(lines, line);) {
-    const std::string begin = "set " + key + ":";
-    if (line.starts_with(begin)) line.erase(0, begin.size());
-    if (line.starts_with(' ')) line.erase(0, 1);
-    issues.add(key, line);
-  }
-}
-
 /// Issues of a scenario after a change of `key` with the swarm at `pose`.
 Issues validate_change(Scenario scenario, const World& world, std::string_view key, Pose2 pose) {
   Issues issues;
@@ -49,11 +36,10 @@ Issues validate_change(Scenario scenario, const World& world, std::string_view k
                       "obstacle " + std::to_string(i + 1));
   if (scenario.start) scenario.start = pose;
   const World walls{world.map, {}};
-  Issues found;
-  for (const Issue& issue : validate(scenario, walls))
-    if (std::ranges::any_of(issue.keys, [&](const auto& k) { return is_in_key(k, key); }))
-      found.add(key, issue.text);
-  issues.add(found);
+  for (Issue issue : validate(scenario, walls)) {
+    std::erase_if(issue.keys, [&](const std::string& other) { return !is_in_key(other, key); });
+    if (!issue.keys.empty()) issues.add(std::move(issue));
+  }
   return issues;
 }
 
@@ -86,31 +72,32 @@ const Tick* OpenRun::step(const Stop& stop) {
   return tick;
 }
 
-Issues OpenRun::change(const std::string& wanted) {
+Issues OpenRun::change(const std::string& wanted_key, const std::string& value) {
   Issues issues;
   if (episode_.over()) {
     issues.add({}, "the run has ended");
     return issues;
   }
   Scenario changed = scenario_;
-  std::string setting = wanted, mistake;
+  Setting setting{wanted_key, value};
+  Issues misread;
   try {
     Notes notes;
-    const auto present = set_value(changed, wanted, "set", notes);
+    const auto present = set_value(changed, setting, "", notes);
     if (!present) return issues;
     setting = *present;
   } catch (const InputError& error) {
-    mistake = error.what();
+    misread = error.issues();
   }
-  const std::string key = setting.substr(0, setting.find_first_of(".="));
+  const std::string key = setting.key.substr(0, setting.key.find('.'));
   if (std::ranges::find(changeable, key) == changeable.end())
     issues.add(key, key + " cannot be changed while the experiment runs");
-  if (wanted.find_first_of("\n\r") != std::string::npos)
+  if ((wanted_key + value).find_first_of("\n\r") != std::string::npos)
     issues.add(key, key + " is set in more than one line");
   const bool steers_anew = key == "navigator" || key == "goal_um" || key == "goal_tolerance_um";
   if (steers_anew && has_external_navigator_)
     issues.add(key, "an external navigator cannot be told of another " + key);
-  if (issues.empty()) add_mistakes(issues, wanted, mistake);
+  if (issues.empty()) issues = misread.unplaced();
   if (!issues.empty()) return issues;
 
   if (names_another_model(scenario_, changed))
@@ -125,11 +112,11 @@ Issues OpenRun::change(const std::string& wanted) {
   world_.obstacles = scenario_.obstacles;
   if (steers_anew) {
     std::unique_ptr<Navigator> next = made();
-    episode_.change(setting, *next);
+    episode_.change(to_string(setting), *next);
     if (!last_navigator_) last_navigator_ = std::move(navigator_);
     navigator_ = std::move(next);
   } else {
-    episode_.change(setting, *navigator_);
+    episode_.change(to_string(setting), *navigator_);
   }
   return issues;
 }

@@ -38,11 +38,11 @@ class OpenRun {
   /// Steps to the end and passes the remaining ticks to the listeners.
   RunResult finish(std::span<RunListener* const> listeners = {}, const Stop& stop = {});
 
-  /// Sets a scenario value from the next tick on, for example "navigator.speed_um_per_s=60": a
+  /// Sets a scenario value from the next tick on, for example "navigator.speed_um_per_s" to "60": a
   /// value of the navigator, which is rebuilt, of the goal, of an obstacle, or a limit of the run.
-  /// If there are issues, nothing changes. An obstacle may be set onto the swarm, which is a
-  /// contact.
-  Issues change(const std::string& setting);
+  /// If there are issues, which have no place, nothing changes. An obstacle may be set onto the
+  /// swarm, which is a contact.
+  Issues change(const std::string& key, const std::string& value);
 
   /// Manual operation: pause, steer, end.
   Operation& operation() { return operation_; }

@@ -14,49 +14,56 @@ namespace {
 
 /// Whether a key that others are validated against was misread. Then only reading errors are
 /// reported.
-bool misread_basis(const Mistakes& mistakes) {
+bool misread_basis(const std::vector<std::string>& misread) {
   constexpr const char* basis[] = {"map",     "obstacles",        "swarm", "robots", "start",
                                    "goal_um", "goal_tolerance_um"};
-  return std::ranges::any_of(basis, [&](const char* key) {
-    return std::ranges::find(mistakes.keys, key) != mistakes.keys.end();
-  });
+  return std::ranges::any_of(
+      basis, [&](const char* key) { return std::ranges::find(misread, key) != misread.end(); });
 }
 
+/// Top-level keys that the issues are about.
+std::vector<std::string> top_keys(const Issues& issues) {
+  std::vector<std::string> tops;
+  for (const Issue& issue : issues)
+    for (const std::string& key : issue.keys) tops.push_back(key.substr(0, key.find('.')));
+  return tops;
+}
+
+/// Opens what was read with these issues.
 Experiment open(Scenario scenario, const std::filesystem::path& base, const KeyLocations& keys,
-                Mistakes mistakes) {
-  Issues issues;
-  Experiment opened{load_scene(std::move(scenario), base, issues), {}, keys};
-  if (issues.empty() && !misread_basis(mistakes)) {
+                Issues issues) {
+  const std::vector<std::string> misread = top_keys(issues);
+  Issues more;
+  Experiment opened{load_scene(std::move(scenario), base, more), {}, keys};
+  if (more.empty() && !misread_basis(misread)) {
     opened.world = build_world(opened.scene);
-    issues = validate(opened.scenario(), opened.world, keys.is_given());
+    more = validate(opened.scenario(), opened.world, keys.is_given());
   }
-  issues.drop(mistakes.keys);
-  for (const Issue& issue : issues) mistakes.lines.push_back(keys.line(issue));
-  mistakes.require_none();
+  more.drop(misread);
+  issues.add(more);
+  keys.require_none(issues);
   return opened;
 }
 
 }  // namespace
 
-Experiment open_experiment(const std::filesystem::path& file,
-                           const std::vector<std::string>& settings,
+Experiment open_experiment(const std::filesystem::path& file, const Settings& settings,
                            std::optional<std::uint64_t> seed) {
   return open_experiment_text(read_file(file, max_yaml_bytes), file.string(), file.parent_path(),
                               settings, seed);
 }
 
 Experiment open_experiment_text(std::string_view text, const std::string& name,
-                                const std::filesystem::path& base,
-                                const std::vector<std::string>& settings,
+                                const std::filesystem::path& base, const Settings& settings,
                                 std::optional<std::uint64_t> seed) {
   if (text.size() > max_yaml_bytes)
     throw InputError(
         fmt::format("{}: {} bytes, a scenario has at most {}", name, text.size(), max_yaml_bytes));
   KeyLocations keys;
-  Mistakes mistakes;
-  auto scenario = read_yaml_text<Scenario>(text, name, settings, keys, mistakes);
+  Issues issues;
+  auto scenario = read_yaml_text<Scenario>(text, name, settings, keys, issues);
   if (seed) scenario.seed = *seed;
-  return open(std::move(scenario), base, keys, std::move(mistakes));
+  return open(std::move(scenario), base, keys, std::move(issues));
 }
 
 Experiment open_experiment(Scenario scenario, const std::filesystem::path& base,

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "microswarm/config/key_locations.hpp"
+#include "microswarm/config/settings.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/world/world.hpp"
 
@@ -23,18 +24,16 @@ struct Experiment {
   const Scenario& scenario() const { return scene.scenario; }
 };
 
-/// Opens a scenario file. `settings` are `key.path=value` texts, as from --set, applied after the
+/// Opens a scenario file. `settings` are applied after the
 /// file; the seed is applied last. Throws InputError with one line per issue: of a key, a value, a
 /// referenced file, or of their combination.
-Experiment open_experiment(const std::filesystem::path& file,
-                           const std::vector<std::string>& settings = {},
+Experiment open_experiment(const std::filesystem::path& file, const Settings& settings = {},
                            std::optional<std::uint64_t> seed = std::nullopt);
 
 /// The same from the text of a scenario file, at most 16 MB; `name` is its name in messages, and
 /// file names in it are relative to `base`.
 Experiment open_experiment_text(std::string_view text, const std::string& name,
-                                const std::filesystem::path& base,
-                                const std::vector<std::string>& settings = {},
+                                const std::filesystem::path& base, const Settings& settings = {},
                                 std::optional<std::uint64_t> seed = std::nullopt);
 
 /// Opens a scenario that was already read; file names are relative to `base`.

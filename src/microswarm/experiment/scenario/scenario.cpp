@@ -9,15 +9,18 @@ namespace microswarm {
 
 template const Type& type_of<Scenario>();
 
-Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& settings,
+Scenario read_scenario(const std::filesystem::path& file, const Settings& settings,
                        KeyLocations& keys) {
   return read_yaml_file<Scenario>(file, settings, keys);
 }
 
-Scenario read_scenario(const std::filesystem::path& file,
-                       const std::vector<std::string>& settings) {
+Scenario read_scenario(const std::filesystem::path& file, const Settings& settings) {
   KeyLocations keys;
   return read_scenario(file, settings, keys);
+}
+
+Scenario read_scenario(const std::filesystem::path& file) {
+  return read_scenario(file, Settings());
 }
 
 std::string scenario_text(const Scenario& scenario) {

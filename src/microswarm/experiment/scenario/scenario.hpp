@@ -19,6 +19,7 @@
 namespace microswarm {
 
 class KeyLocations;
+struct Settings;
 
 /// Model of the camera and the image processing: delay, noise and missed detections.
 struct SensingParams {
@@ -108,13 +109,12 @@ struct Scenario {
   }
 };
 
-/// Reads a scenario; `settings` are `key.path=value` texts, as from --set, applied after the file.
-/// `keys` receives the locations of its keys. Throws InputError with file, line and column, one
-/// line per issue.
-Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& settings,
+/// Reads a scenario; `settings` are applied after the file. `keys` receives the locations of its
+/// keys. Throws InputError with file, line and column, one line per issue.
+Scenario read_scenario(const std::filesystem::path& file, const Settings& settings,
                        KeyLocations& keys);
-Scenario read_scenario(const std::filesystem::path& file,
-                       const std::vector<std::string>& settings = {});
+Scenario read_scenario(const std::filesystem::path& file, const Settings& settings);
+Scenario read_scenario(const std::filesystem::path& file);
 
 /// The scenario as YAML with every key; reading it gives equal fields.
 std::string scenario_text(const Scenario& scenario);

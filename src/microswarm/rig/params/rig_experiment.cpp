@@ -3,8 +3,7 @@
 
 namespace microswarm {
 
-RigExperiment open_rig_experiment(const std::filesystem::path& scenario,
-                                  const std::vector<std::string>& settings,
+RigExperiment open_rig_experiment(const std::filesystem::path& scenario, const Settings& settings,
                                   const std::filesystem::path& rig,
                                   const std::vector<std::string>& rig_settings,
                                   std::optional<std::uint64_t> seed) {

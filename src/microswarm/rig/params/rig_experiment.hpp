@@ -20,10 +20,9 @@ struct RigExperiment {
   const Scenario& scenario() const { return experiment.scenario(); }
 };
 
-/// Reads both files; settings are texts as from --set and --set-rig. Throws InputError with one
+/// Reads both files; `rig_settings` are texts as from --set-rig. Throws InputError with one
 /// line per issue.
-RigExperiment open_rig_experiment(const std::filesystem::path& scenario,
-                                  const std::vector<std::string>& settings,
+RigExperiment open_rig_experiment(const std::filesystem::path& scenario, const Settings& settings,
                                   const std::filesystem::path& rig,
                                   const std::vector<std::string>& rig_settings,
                                   std::optional<std::uint64_t> seed = std::nullopt);
