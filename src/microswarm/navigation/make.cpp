@@ -17,6 +17,10 @@ namespace {
 
 using Made = std::unique_ptr<Navigator>;
 
+/// A navigator that is not made below would otherwise be taken for its base.
+template <class Forgotten>
+Made make(const Forgotten& params, const Task& task, Rng rng) = delete;
+
 Made make(const HierarchicalParams& p, const Task& task, Rng rng) {
   return std::make_unique<HierarchicalNavigator>(p, task.swarm, *task.goal, task.goal_tolerance,
                                                  rng, task.frame_timeout);
