@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "microswarm/geometry/shapes.hpp"
+#include "microswarm/geometry/uniform_grid.hpp"
 
 namespace microswarm {
 
@@ -33,9 +34,9 @@ class EdgeGrid {
   bool empty() const { return edges_.empty(); }
   const Segment& edge(std::size_t i) const { return edges_[i]; }
   std::uint32_t body_of(std::size_t i) const { return bodies_[i]; }
-  const Box& box() const { return box_; }
+  const Box& box() const { return grid_.box(); }
   /// Side of a cell [µm].
-  double cell() const { return cell_; }
+  double cell() const { return grid_.cell().x; }
 
   /// Distance [µm] from `p` to the nearest edge, or `limit` if none is nearer.
   double distance(Vec2 p, double limit) const;
@@ -56,56 +57,37 @@ class EdgeGrid {
   void for_each_in(const Box& box, Visit&& visit) const;
 
  private:
-  /// Cell, numbered row · columns_ + column. Its edges are ids_[first .. first of the next cell).
+  using Run = UniformGrid::Run;
+  /// The edges of a cell are ids_[first .. first of the next cell).
   struct Cell {
     std::uint32_t first = 0;
     /// Winding number of the rings around the cell's centre.
     std::int32_t winding = 0;
   };
-  /// Range of columns or rows; empty if first > last.
-  struct Run {
-    int first;
-    int last;
-  };
-  /// Cells within a given distance of a segment, row by row.
-  class Sweep;
   class Seen;
   struct Found {
     double squared;
     std::size_t edge;
   };
 
-  int column_of(double x) const { return index(x - box_.lo.x, columns_); }
-  int row_of(double y) const { return index(y - box_.lo.y, rows_); }
-  int index(double offset, int count) const {
-    const double i = offset * per_cell_;
-    const double last = count - 1;
-    return static_cast<int>(i > 0 ? (i < last ? i : last) : 0);
-  }
-  Vec2 centre_of(int column, int row) const {
-    return {box_.lo.x + (column + 0.5) * cell_, box_.lo.y + (row + 0.5) * cell_};
-  }
+  UniformGrid::Sweep sweep(Segment s, double reach) const { return {grid_, s, reach, slack_}; }
   double reach_of(Segment s, double r) const;
   bool disc_free(Vec2 p, double r) const;
-  void choose_cells(double cell);
+  double choose_cell(const Box& box, double cell);
   void fill_cells();
   void find_windings();
   Found search(Vec2 p, double squared_limit) const;
   void scan(Vec2 p, int row, Run columns, Found& best) const;
   std::span<const std::uint32_t> edges_in(int row, Run columns) const {
-    const Cell* cells = cells_.data() + static_cast<std::size_t>(row) * columns_;
+    const Cell* cells = cells_.data() + grid_.number(0, row);
     return {ids_.data() + cells[columns.first].first, ids_.data() + cells[columns.last + 1].first};
   }
   bool first_seen_in(std::uint32_t edge, int column, int row, Run wanted, int first_row) const;
   Run columns_of_edge(std::uint32_t edge, int row) const;
 
-  Box box_;
-  double cell_ = 1;
-  double per_cell_ = 1;
+  UniformGrid grid_;
   /// Exceeds any rounding error of a cell border.
   double slack_ = 0;
-  int columns_ = 0;
-  int rows_ = 0;
   std::vector<Segment> edges_;
   std::vector<std::uint32_t> bodies_;
   std::vector<Cell> cells_;
@@ -140,10 +122,9 @@ class EdgeGrid::Seen {
 
 template <class Visit>
 void EdgeGrid::for_each_in(const Box& box, Visit&& visit) const {
-  if (empty() || !box.overlaps(box_)) return;
-  const Run wanted{column_of(box.lo.x), column_of(box.hi.x)};
-  const int first_row = row_of(box.lo.y);
-  const int last_row = row_of(box.hi.y);
+  if (empty() || !box.overlaps(grid_.box())) return;
+  const Run wanted = grid_.columns_of(box);
+  const auto [first_row, last_row] = grid_.rows_of(box);
   std::size_t count = 0;
   for (int row = first_row; row <= last_row; ++row) count += edges_in(row, wanted).size();
   if (count <= Seen::most) {

@@ -113,27 +113,23 @@ class CellSearch {
 
 }  // namespace
 
-NodeLookup::NodeLookup(const Map& map, const PointGrid& grid, const Stop& stop)
-    : origin_(map.bounds().lo) {
+NodeLookup::NodeLookup(const Map& map, const PointGrid& grid, const Stop& stop) {
   assert(!grid.empty());
   const Box& bounds = map.bounds();
   const double wanted =
       std::min(cells_per_node * static_cast<double>(grid.size()) + 1000, max_lookup_cells);
   const double side = std::sqrt(bounds.width() * bounds.height() / wanted);
-  columns_ = static_cast<int>(std::clamp(bounds.width() / side, 1.0, wanted));
-  rows_ = static_cast<int>(std::clamp(bounds.height() / side, 1.0, wanted));
-  const Vec2 cell{bounds.width() / columns_, bounds.height() / rows_};
-  per_cell_ = {1 / cell.x, 1 / cell.y};
-  CellSearch search(map, grid, cell);
-  for (int row = 0; row < rows_; ++row) {
-    for (int column = 0; column < columns_; ++column) {
+  grid_ = {bounds, static_cast<int>(std::clamp(bounds.width() / side, 1.0, wanted)),
+           static_cast<int>(std::clamp(bounds.height() / side, 1.0, wanted))};
+  CellSearch search(map, grid, grid_.cell());
+  for (int row = 0; row < grid_.rows(); ++row) {
+    for (int column = 0; column < grid_.columns(); ++column) {
       first_.push_back(static_cast<std::uint32_t>(listed_.size()));
       if (stop()) {
         listed_.push_back(0);
         continue;
       }
-      const Vec2 offset{(column + 0.5) * cell.x, (row + 0.5) * cell.y};
-      const auto nodes = search.nodes_around(origin_ + offset);
+      const auto nodes = search.nodes_around(grid_.centre_of(column, row));
       listed_.insert(listed_.end(), nodes.begin(), nodes.end());
     }
   }
@@ -142,17 +138,16 @@ NodeLookup::NodeLookup(const Map& map, const PointGrid& grid, const Stop& stop)
 
 std::optional<std::uint32_t> NodeLookup::nearest_visible(const Map& map, Vec2 p,
                                                          std::span<const Vec2> nodes) const {
-  const int column = column_of(p.x);
-  const int row = row_of(p.y);
-  const double side = std::min(1 / per_cell_.x, 1 / per_cell_.y);
+  const int column = grid_.column_of(p.x), row = grid_.row_of(p.y);
+  const double side = std::min(grid_.cell().x, grid_.cell().y);
   std::optional<std::uint32_t> best;
   double least = std::numeric_limits<double>::infinity();
   for (int ring = 0; ring <= max_rings && (ring - 1) * side < least; ++ring) {
-    for (int j = std::max(0, row - ring); j <= std::min(rows_ - 1, row + ring); ++j) {
+    for (int j = std::max(0, row - ring); j <= std::min(grid_.rows() - 1, row + ring); ++j) {
       const int stride = std::abs(j - row) == ring ? 1 : std::max(1, 2 * ring);
       for (int i = column - ring; i <= column + ring; i += stride) {
-        if (i < 0 || i >= columns_) continue;
-        for (const std::uint32_t node : listed(i, j)) {
+        if (i < 0 || i >= grid_.columns()) continue;
+        for (const std::uint32_t node : listed(grid_.number(i, j))) {
           const double d = distance(p, nodes[node]);
           if (d >= least || !map.is_free(Segment{p, nodes[node]}, 0)) continue;
           least = d;

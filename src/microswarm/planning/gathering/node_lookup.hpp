@@ -8,6 +8,7 @@
 
 #include "microswarm/core/execution/stop.hpp"
 #include "microswarm/geometry/point_grid.hpp"
+#include "microswarm/geometry/uniform_grid.hpp"
 #include "microswarm/world/map/map.hpp"
 
 namespace microswarm {
@@ -26,7 +27,7 @@ class NodeLookup {
   /// Nearest node visible from the cell of `p`, the lowest among equals. Points outside the bounds
   /// use the nearest cell. `nodes` must be those of the constructor.
   std::uint32_t nearest(Vec2 p, std::span<const Vec2> nodes) const {
-    const std::span<const std::uint32_t> some = listed(column_of(p.x), row_of(p.y));
+    const std::span<const std::uint32_t> some = listed(grid_.number_at(p));
     std::uint32_t best = some[0];
     double least = squared_norm(nodes[best] - p);
     for (const std::uint32_t node : some.subspan(1)) {
@@ -44,24 +45,11 @@ class NodeLookup {
                                                std::span<const Vec2> nodes) const;
 
  private:
-  int column_of(double x) const { return clamped((x - origin_.x) * per_cell_.x, columns_); }
-  int row_of(double y) const { return clamped((y - origin_.y) * per_cell_.y, rows_); }
-  static int clamped(double i, int count) {
-    return static_cast<int>(i > 0 ? (i < count - 1 ? i : count - 1) : 0);
-  }
-  std::size_t cell(int column, int row) const {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-           static_cast<std::size_t>(column);
-  }
-  std::span<const std::uint32_t> listed(int column, int row) const {
-    const std::size_t i = cell(column, row);
-    return {listed_.data() + first_[i], listed_.data() + first_[i + 1]};
+  std::span<const std::uint32_t> listed(std::size_t cell) const {
+    return {listed_.data() + first_[cell], listed_.data() + first_[cell + 1]};
   }
 
-  Vec2 origin_;
-  Vec2 per_cell_{1, 1};
-  int columns_ = 1;
-  int rows_ = 1;
+  UniformGrid grid_;
   std::vector<std::uint32_t> first_;   ///< one per cell, and the end
   std::vector<std::uint32_t> listed_;  ///< candidate nodes of each cell, ascending
 };

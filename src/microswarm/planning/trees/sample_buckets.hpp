@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "microswarm/geometry/shapes.hpp"
+#include "microswarm/geometry/uniform_grid.hpp"
 
 namespace microswarm {
 
@@ -28,16 +28,8 @@ class SampleBuckets {
     Vec2 position;
     std::uint32_t index = 0;
   };
-  int index(double offset, int count) const {
-    const double i = offset / cell_;
-    return static_cast<int>(i > 0 ? std::min(i, count - 1.0) : 0);
-  }
-
   double radius_ = 1;
-  double cell_ = 1;
-  Box box_;
-  int columns_ = 1;
-  int rows_ = 1;
+  UniformGrid grid_;
   std::vector<std::uint32_t> first_;  ///< start of each cell in placed_, and the end
   std::vector<Placed> placed_;
 };

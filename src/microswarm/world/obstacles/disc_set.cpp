@@ -44,29 +44,25 @@ void DiscSet::assign(std::span<const Body> bodies) {
 }
 
 void DiscSet::fill_buckets() {
-  box_ = {};
+  Box box;
   double diameters = 0;
   for (const Disc& d : discs_) {
     const Box b = bounding_box(d);
-    box_.include(b.lo);
-    box_.include(b.hi);
+    box.include(b.lo);
+    box.include(b.hi);
     diameters += 2 * d.radius;
   }
   const double count = static_cast<double>(size());
-  const double longest = std::max(box_.width(), box_.height());
-  cell_ = std::max({std::sqrt(box_.width() * box_.height() / (2 * count)), 0.5 * diameters / count,
-                    longest / (4 * count), std::numeric_limits<double>::min()});
-  per_cell_ = 1 / cell_;
-  columns_ = static_cast<int>(box_.width() * per_cell_) + 1;
-  rows_ = static_cast<int>(box_.height() * per_cell_) + 1;
-  first_.assign(static_cast<std::size_t>(columns_) * rows_ + 1, 0);
+  const double longest = std::max(box.width(), box.height());
+  grid_ = {box,
+           std::max({std::sqrt(box.width() * box.height() / (2 * count)), 0.5 * diameters / count,
+                     longest / (4 * count), std::numeric_limits<double>::min()})};
+  first_.assign(grid_.size() + 1, 0);
   auto for_each_cell = [&](const Disc& d, auto&& visit) {
-    const Box b = bounding_box(d);
-    for (int row = row_of(b.lo.y); row <= row_of(b.hi.y); ++row) {
-      for (int column = column_of(b.lo.x); column <= column_of(b.hi.x); ++column) {
-        visit(first_[static_cast<std::size_t>(row) * columns_ + column]);
-      }
-    }
+    const Run columns = grid_.columns_of(bounding_box(d)), rows = grid_.rows_of(bounding_box(d));
+    for (int row = rows.first; row <= rows.last; ++row)
+      for (int column = columns.first; column <= columns.last; ++column)
+        visit(first_[grid_.number(column, row)]);
   };
   for (const Disc& d : discs_) for_each_cell(d, [](std::uint32_t& n) { ++n; });
   std::uint32_t total = 0;
@@ -81,47 +77,24 @@ void DiscSet::fill_buckets() {
 template <class Visit>
 bool DiscSet::all_near(const Box& box, Visit&& is_clear_of) const {
   if (!bucketed()) return std::all_of(discs_.begin(), discs_.end(), is_clear_of);
-  if (!box.overlaps(box_)) return true;
-  const Run columns{column_of(box.lo.x), column_of(box.hi.x)};
-  const Run rows{row_of(box.lo.y), row_of(box.hi.y)};
-  for (int row = rows.first; row <= rows.last; ++row) {
-    const std::uint32_t* first = first_.data() + static_cast<std::size_t>(row) * columns_;
-    for (std::uint32_t k = first[columns.first]; k < first[columns.last + 1]; ++k) {
-      if (!is_clear_of(discs_[ids_[k]])) return false;
-    }
-  }
+  if (!box.overlaps(grid_.box())) return true;
+  const Run columns = grid_.columns_of(box), rows = grid_.rows_of(box);
+  for (int row = rows.first; row <= rows.last; ++row)
+    for (const std::uint32_t id : discs_in(row, columns))
+      if (!is_clear_of(discs_[id])) return false;
   return true;
 }
 
 /// The same along a segment: in each row only the columns that the capsule may pass.
 template <class Visit>
 bool DiscSet::all_near(Segment s, double r, Visit&& is_clear_of) const {
-  const Box box = box_of(s).grown(r);
-  if (!bucketed() || row_of(box.lo.y) == row_of(box.hi.y)) return all_near(box, is_clear_of);
-  if (!box.overlaps(box_)) return true;
-  const bool rises = s.a.y < s.b.y;
-  const Vec2 low = rises ? s.a : s.b, high = rises ? s.b : s.a;
-  // Exceeds any rounding error here.
-  const double margin =
-      r + 1e-9 * (cell_ + std::abs(low.x) + std::abs(low.y) + std::abs(high.x) + std::abs(high.y));
-  const double slope = (high.x - low.x) / (high.y - low.y);
-  const bool is_slanted = high.y - low.y > margin - r;
-  const auto x_at = [&](double y) {
-    return low.x + (std::clamp(y, low.y, high.y) - low.y) * slope;
-  };
-  const Run rows{row_of(box.lo.y), row_of(box.hi.y)};
-  for (int row = rows.first; row <= rows.last; ++row) {
-    double left = box.lo.x, right = box.hi.x;
-    if (is_slanted) {
-      const double bottom = box_.lo.y + row * cell_ - margin;
-      const double enter = x_at(bottom), leave = x_at(bottom + cell_ + 2 * margin);
-      left = std::max(left, std::min(enter, leave) - margin);
-      right = std::min(right, std::max(enter, leave) + margin);
-    }
-    const std::uint32_t* first = first_.data() + static_cast<std::size_t>(row) * columns_;
-    for (std::uint32_t k = first[column_of(left)]; k < first[column_of(right) + 1]; ++k)
-      if (!is_clear_of(discs_[ids_[k]])) return false;
-  }
+  if (!bucketed()) return std::all_of(discs_.begin(), discs_.end(), is_clear_of);
+  const double slack = 1e-9 * (grid_.cell().x + std::abs(s.a.x) + std::abs(s.a.y) +
+                               std::abs(s.b.x) + std::abs(s.b.y));
+  const UniformGrid::Sweep near(grid_, s, r, slack);
+  for (int row = near.rows().first; row <= near.rows().last; ++row)
+    for (const std::uint32_t id : discs_in(row, near.columns(row)))
+      if (!is_clear_of(discs_[id])) return false;
   return true;
 }
 
@@ -155,15 +128,13 @@ std::size_t DiscSet::nearest(Vec2 p, double limit) const {
     for (std::size_t i = 0; i < size(); ++i) ask(i);
     return found;
   }
-  const int column = column_of(p.x);
-  const int row = row_of(p.y);
+  const int column = grid_.column_of(p.x), row = grid_.row_of(p.y);
   auto scan = [&](int r, int left, int right) {
-    const std::uint32_t* first = first_.data() + static_cast<std::size_t>(r) * columns_;
-    for (std::uint32_t k = first[left]; k < first[right + 1]; ++k) ask(ids_[k]);
+    for (const std::uint32_t id : discs_in(r, {left, right})) ask(id);
   };
   for (int k = 0;; ++k) {
-    const Run columns{std::max(column - k, 0), std::min(column + k, columns_ - 1)};
-    const Run rows{std::max(row - k, 0), std::min(row + k, rows_ - 1)};
+    const Run columns{std::max(column - k, 0), std::min(column + k, grid_.columns() - 1)};
+    const Run rows{std::max(row - k, 0), std::min(row + k, grid_.rows() - 1)};
     for (int r = rows.first; r <= rows.last; ++r) {
       if (r == row - k || r == row + k) {
         scan(r, columns.first, columns.last);
@@ -172,13 +143,9 @@ std::size_t DiscSet::nearest(Vec2 p, double limit) const {
       if (columns.first == column - k) scan(r, columns.first, columns.first);
       if (columns.last == column + k) scan(r, columns.last, columns.last);
     }
-    double gap = infinity;
-    const Vec2 o = p - box_.lo;
-    if (columns.first > 0) gap = std::min(gap, o.x - columns.first * cell_);
-    if (columns.last < columns_ - 1) gap = std::min(gap, (columns.last + 1) * cell_ - o.x);
-    if (rows.first > 0) gap = std::min(gap, o.y - rows.first * cell_);
-    if (rows.last < rows_ - 1) gap = std::min(gap, (rows.last + 1) * cell_ - o.y);
-    if (gap == infinity || gap - 1e-9 * cell_ > best) return found;
+    const auto [left, right, bottom, top] = grid_.beyond(columns, rows, p);
+    const double gap = std::min({left, right, bottom, top});
+    if (gap == infinity || gap - 1e-9 * grid_.cell().x > best) return found;
   }
 }
 

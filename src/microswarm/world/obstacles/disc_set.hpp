@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "microswarm/geometry/distance.hpp"
+#include "microswarm/geometry/uniform_grid.hpp"
 #include "microswarm/world/obstacles/body.hpp"
 
 namespace microswarm {
@@ -35,19 +36,13 @@ class DiscSet {
   void for_each_in(const Box& box, Visit&& visit) const;
 
  private:
-  struct Run {
-    int first;
-    int last;
-  };
+  using Run = UniformGrid::Run;
   bool bucketed() const { return !first_.empty(); }
-  int column_of(double x) const { return index(x - box_.lo.x, columns_); }
-  int row_of(double y) const { return index(y - box_.lo.y, rows_); }
-  int index(double offset, int count) const {
-    const double last = count - 1;
-    const double i = offset * per_cell_;
-    return static_cast<int>(i > 0 ? (i < last ? i : last) : 0);
-  }
   void fill_buckets();
+  std::span<const std::uint32_t> discs_in(int row, Run columns) const {
+    const std::uint32_t* first = first_.data() + grid_.number(0, row);
+    return {ids_.data() + first[columns.first], ids_.data() + first[columns.last + 1]};
+  }
   template <class Visit>
   bool all_near(const Box& box, Visit&& is_clear) const;
   template <class Visit>
@@ -55,11 +50,7 @@ class DiscSet {
 
   std::vector<Disc> discs_;
   std::vector<std::uint32_t> bodies_;
-  Box box_;
-  double cell_ = 1;
-  double per_cell_ = 1;
-  int columns_ = 0;
-  int rows_ = 0;
+  UniformGrid grid_;
   std::vector<std::uint32_t> first_;  ///< start of each cell in ids_; one entry more than cells
   std::vector<std::uint32_t> ids_;
 };
@@ -70,18 +61,17 @@ void DiscSet::for_each_in(const Box& box, Visit&& visit) const {
     for (std::size_t i = 0; i < size(); ++i) visit(i);
     return;
   }
-  if (!box.overlaps(box_)) return;
-  const Run columns{column_of(box.lo.x), column_of(box.hi.x)};
-  const Run rows{row_of(box.lo.y), row_of(box.hi.y)};
+  if (!box.overlaps(grid_.box())) return;
+  const Run columns = grid_.columns_of(box);
+  const Run rows = grid_.rows_of(box);
   for (int row = rows.first; row <= rows.last; ++row) {
     for (int column = columns.first; column <= columns.last; ++column) {
-      const std::size_t cell = static_cast<std::size_t>(row) * columns_ + column;
-      for (std::uint32_t k = first_[cell]; k < first_[cell + 1]; ++k) {
-        const Disc& d = discs_[ids_[k]];
+      for (const std::uint32_t id : discs_in(row, {column, column})) {
+        const Disc& d = discs_[id];
         const bool first_seen =
-            column == std::max(columns.first, column_of(d.centre.x - d.radius)) &&
-            row == std::max(rows.first, row_of(d.centre.y - d.radius));
-        if (first_seen) visit(std::size_t{ids_[k]});
+            column == std::max(columns.first, grid_.column_of(d.centre.x - d.radius)) &&
+            row == std::max(rows.first, grid_.row_of(d.centre.y - d.radius));
+        if (first_seen) visit(std::size_t{id});
       }
     }
   }
