@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/planning/common/free_goal.hpp"
+#include "microswarm/core/maths/heap_entry.hpp"
 
 #include <numbers>
 #include <queue>
@@ -9,21 +10,13 @@ namespace microswarm {
 namespace {
 
 constexpr int finest_level = 6;
-constexpr int max_squares = 5'000;
+constexpr std::size_t max_squares = 5'000;
 
-/// Square of a quadtree around the goal. The queue returns the one nearest to the goal first, among
-/// equals the coarser and earlier one.
+/// Square of a quadtree around the goal.
 struct Square {
   Vec2 centre;
   double half = 0;
-  double nearest = 0;  ///< minimum distance of its points from the goal
   int level = 0;
-  int number = 0;
-
-  friend bool operator<(const Square& a, const Square& b) {
-    if (a.nearest != b.nearest) return a.nearest > b.nearest;
-    return a.number > b.number;
-  }
 };
 
 /// Moves a blocked point along the clearance gradient until it is free; nothing if that fails.
@@ -53,13 +46,15 @@ std::optional<Vec2> search(const Snapshot& world, Vec2 goal, double tolerance, d
                            bool pushing) {
   std::optional<Vec2> best;
   double best_distance = tolerance;
-  std::priority_queue<Square> squares;
-  int number = 0;
-  squares.push({goal, tolerance, 0, 0, number++});
-  while (!squares.empty() && number < max_squares) {
-    const Square square = squares.top();
-    squares.pop();
-    if (square.nearest > best_distance || (best && square.nearest == best_distance)) break;
+  std::vector<Square> squares{{goal, tolerance, 0}};
+  // By the minimum distance from the goal, among equals the coarser and earlier one.
+  std::priority_queue<HeapEntry<double>> open;
+  open.push({0, 0});
+  while (!open.empty() && squares.size() < max_squares) {
+    const auto [nearest, number] = open.top();
+    const Square square = squares[number];
+    open.pop();
+    if (nearest > best_distance || (best && nearest == best_distance)) break;
     // Clearance changes by at most 1 µm per µm, so no point of the square can have enough.
     const double reach = square.half * std::numbers::sqrt2;
     if (world.clearance(square.centre) + reach < clearance) continue;
@@ -74,7 +69,8 @@ std::optional<Vec2> search(const Snapshot& world, Vec2 goal, double tolerance, d
     const double half = square.half / 2;
     for (const Vec2 corner : {Vec2{-1, -1}, Vec2{1, -1}, Vec2{-1, 1}, Vec2{1, 1}}) {
       const Vec2 centre = square.centre + half * corner;
-      squares.push({centre, half, min_distance(goal, centre, half), square.level + 1, number++});
+      open.push({min_distance(goal, centre, half), static_cast<std::uint32_t>(squares.size())});
+      squares.push_back({centre, half, square.level + 1});
     }
   }
   return best;

@@ -8,6 +8,7 @@
 #include <queue>
 #include <utility>
 
+#include "microswarm/core/maths/heap_entry.hpp"
 #include "microswarm/world/snapshot.hpp"
 
 namespace microswarm {
@@ -15,14 +16,6 @@ namespace {
 
 constexpr float unknown = -1;
 constexpr auto unreached = static_cast<float>(infinity);
-
-struct OpenNode {
-  float length;
-  std::uint32_t node;
-  friend bool operator<(const OpenNode& a, const OpenNode& b) {  // nearest first
-    return a.length != b.length ? a.length > b.length : a.node > b.node;
-  }
-};
 
 constexpr std::array<std::array<int, 2>, 8> neighbours{
     {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}}};
@@ -85,7 +78,7 @@ DistanceField DistanceField::over(const Map& map, Vec2 goal, int cells) {
 
 void DistanceField::spread() {
   std::ranges::fill(lengths_, unreached);
-  std::priority_queue<OpenNode> open;
+  std::priority_queue<HeapEntry<float>> open;
   const auto reach = [&](std::size_t node, double length) {
     lengths_[node] = static_cast<float>(length);
     open.push({lengths_[node], static_cast<std::uint32_t>(node)});

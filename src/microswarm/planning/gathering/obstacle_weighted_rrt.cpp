@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
+#include <functional>
 #include <queue>
 #include <utility>
+#include <vector>
 
 #include "microswarm/core/maths/heap_entry.hpp"
 #include "microswarm/core/maths/infinity.hpp"
@@ -98,10 +101,7 @@ struct Link {
   double weight;
   std::uint32_t node;
   std::uint32_t from;
-  friend bool operator<(const Link& a, const Link& b) {
-    if (a.weight != b.weight) return a.weight > b.weight;
-    return a.node != b.node ? a.node > b.node : a.from > b.from;
-  }
+  auto operator<=>(const Link&) const = default;
 };
 
 /// Alg 2 [gather]: V* and the routes over it.
@@ -148,7 +148,7 @@ class Router {
     std::vector<std::uint8_t> joined(tree_.nodes.size(), 0);
     std::size_t wanted = 0;
     for (const std::uint8_t m : tree_.medial) wanted += m;
-    std::priority_queue<Link> open;
+    std::priority_queue<Link, std::vector<Link>, std::greater<>> open;
     open.push({0, 0, 0});
     while (!open.empty() && wanted > 0) {
       const Link top = open.top();

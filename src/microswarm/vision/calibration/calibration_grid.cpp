@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <deque>
 #include <limits>
 #include <map>
@@ -10,7 +11,6 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <string>
-#include <tuple>
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/maths/statistics.hpp"
@@ -89,9 +89,7 @@ std::vector<Vec2> corners_in(const Image& grey, std::size_t wanted) {
 struct Node {
   int column = 0;
   int row = 0;
-  friend bool operator<(const Node& a, const Node& b) {
-    return std::tie(a.column, a.row) < std::tie(b.column, b.row);
-  }
+  auto operator<=>(const Node&) const = default;
 };
 using Lattice = std::map<Node, std::size_t>;  ///< the point at each node
 
