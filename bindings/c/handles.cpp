@@ -23,9 +23,15 @@ Registry& registry() {
   return *all;
 }
 
-std::string& error_text() {
-  thread_local std::string text;
-  return text;
+/// Why the last call of the thread that failed did.
+struct Failure {
+  Issues issues;
+  std::string text;
+};
+
+Failure& failure() {
+  thread_local Failure last;
+  return last;
 }
 
 }  // namespace
@@ -55,13 +61,23 @@ bool forget(std::uint64_t handle) {
   return true;
 }
 
-std::int32_t fail(ms_code code, const std::string& text) noexcept {
+std::int32_t fail(ms_code code, const Issues& issues) noexcept {
   try {
-    error_text() = text;
+    failure() = {issues, to_string(issues)};
   } catch (...) {
-    error_text().clear();
+    failure() = {};
   }
   return code;
+}
+
+std::int32_t fail(ms_code code, const std::string& text) noexcept {
+  try {
+    Issues issues;
+    issues.add(Issue{.text = text});
+    return fail(code, issues);
+  } catch (...) {
+    return fail(code, Issues());
+  }
 }
 
 std::int32_t guarded(const std::function<std::int32_t()>& work) noexcept {
@@ -70,7 +86,7 @@ std::int32_t guarded(const std::function<std::int32_t()>& work) noexcept {
   } catch (const BadCall& bad) {
     return fail(MS_BAD_CALL, bad.text);
   } catch (const InputError& error) {
-    return fail(MS_BAD_INPUT, error.what());
+    return fail(MS_BAD_INPUT, error.issues());
   } catch (const std::bad_alloc&) {
     return fail(MS_NO_MEMORY, "there is not enough memory");
   } catch (const std::exception& error) {
@@ -80,17 +96,17 @@ std::int32_t guarded(const std::function<std::int32_t()>& work) noexcept {
   }
 }
 
-std::vector<std::string> texts(const char* const* settings, std::size_t count) {
+Settings settings_of(const char* const* texts, std::size_t count) {
   std::vector<std::string> all;
-  if (count > 0) require(settings, "settings");
+  if (count > 0) require(texts, "settings");
   constexpr std::size_t most = 100'000;
   if (count > most) throw BadCall{"there are more than 100000 settings"};
   all.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
-    require(settings[i], "a setting");
-    all.emplace_back(settings[i]);
+    require(texts[i], "a setting");
+    all.emplace_back(texts[i]);
   }
-  return all;
+  return {all, ""};
 }
 
 std::int32_t show(Object& object, std::span<const Vec2> places, const double** xy,
@@ -110,7 +126,16 @@ using namespace microswarm;
 
 const char* ms_version(void) { return version.data(); }
 int32_t ms_interface(void) { return MS_INTERFACE; }
-const char* ms_error_text(void) { return c::error_text().c_str(); }
+const char* ms_error_text(void) { return c::failure().text.c_str(); }
+size_t ms_issue_count(void) { return c::failure().issues.size(); }
+
+int32_t ms_issue_at(size_t i, ms_issue* issue) {
+  if (!issue || i >= ms_issue_count()) return MS_BAD_CALL;
+  const Issue& one = c::failure().issues[i];
+  *issue = {one.keys.empty() ? "" : one.keys.front().c_str(), one.place.c_str(), one.text.c_str(),
+            one.value.c_str(), one.limit.c_str()};
+  return MS_OK;
+}
 
 int32_t ms_close(uint64_t handle) {
   return c::guarded([&]() -> int32_t {

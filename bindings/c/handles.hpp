@@ -54,7 +54,8 @@ bool forget(std::uint64_t handle);
 
 /// Calls `work`, which returns a code, and converts exceptions into a code and a text.
 std::int32_t guarded(const std::function<std::int32_t()>& work) noexcept;
-/// Sets ms_error_text and returns the code.
+/// Keeps the issues for ms_error_text and ms_issue_at; returns the code.
+std::int32_t fail(ms_code code, const Issues& issues) noexcept;
 std::int32_t fail(ms_code code, const std::string& text) noexcept;
 
 /// Throws BadCall if the pointer is null.
@@ -62,8 +63,9 @@ inline void require(const void* pointer, const char* name) {
   if (!pointer) throw BadCall{std::string(name) + " is null"};
 }
 
-/// The texts of an array; throws BadCall for a null one.
-std::vector<std::string> texts(const char* const* settings, std::size_t count);
+/// The settings KEY=VALUE of an array; throws BadCall for a null one. The place of a mistake is its
+/// key alone.
+Settings settings_of(const char* const* texts, std::size_t count);
 
 /// Calls `work` with the object of a handle, if it has the `part` and no other thread uses it.
 template <class Part, class Work>

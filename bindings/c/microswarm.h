@@ -43,6 +43,19 @@ const char* ms_version(void);
 int32_t ms_interface(void);
 /* Reason of this thread's last failed call; empty before. */
 const char* ms_error_text(void);
+/* One mistake of that call. No text is null; one is empty where it is unknown. */
+typedef struct ms_issue {
+  const char* key;   /* the value's, from the top: "obstacles.3.shape.radius_um" */
+  const char* place; /* where it was given: "flight.yaml:12:3", or the key of a setting */
+  const char* text;  /* what is wrong */
+  const char* value; /* as written */
+  const char* limit; /* what is allowed: "0..1e5 um", or words */
+} ms_issue;
+/* The mistakes behind ms_error_text, of which it shows 20; the texts are valid as long as that. An
+ * error that is not MS_BAD_INPUT is one issue with a text. MS_BAD_CALL if there is no issue i,
+ * counted from 0. */
+size_t ms_issue_count(void);
+int32_t ms_issue_at(size_t i, ms_issue* issue);
 /* Closes a session, navigator, map or path. */
 int32_t ms_close(uint64_t handle);
 /* Ends the call of another thread with a map or a navigator, and the run of a session

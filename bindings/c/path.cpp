@@ -20,7 +20,7 @@ int32_t ms_map_open(const char* file, double um_per_px, uint64_t* map) {
   return c::guarded([&]() -> int32_t {
     c::require(file, "file"), c::require(map, "map");
     const auto scale = um_per_px != 0 ? std::optional(um_per_px) : std::nullopt;
-    *map = c::keep(of(load_map(guess_map_spec(file, scale)).map, file));
+    *map = c::keep(of(load_map(guess_map_spec(file, scale, "um_per_px")).map, file));
     return MS_OK;
   });
 }
@@ -62,7 +62,7 @@ int32_t ms_plan(uint64_t handle, const ms_query* query, ms_path* path) {
         answer(map.world,
                {.start = {{query->start_x_um, query->start_y_um}, query->start_heading_rad},
                 .goal = {query->goal_x_um, query->goal_y_um},
-                .settings = c::texts(query->settings, query->setting_count),
+                .settings = c::settings_of(query->settings, query->setting_count),
                 .seed = query->seed},
                map.name, Stop(&object.stops));
     object.why = made.why_none();

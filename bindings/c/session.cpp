@@ -26,13 +26,14 @@ std::unique_ptr<c::Object> of(std::unique_ptr<StandaloneNavigator> navigator) {
 Experiment experiment_of(const char* text, const char* folder, const char* const* settings,
                          std::size_t count) {
   c::require(text, "text");
-  return open_experiment_text(text, "scenario", folder ? folder : "", c::texts(settings, count));
+  return open_experiment_text(text, "scenario", folder ? folder : "",
+                              c::settings_of(settings, count));
 }
 
 Experiment experiment_of(const ms_scenario& given) {
   if (given.text)
     return experiment_of(given.text, given.folder, given.settings, given.setting_count);
-  return open_experiment(given.file, c::texts(given.settings, given.setting_count));
+  return open_experiment(given.file, c::settings_of(given.settings, given.setting_count));
 }
 
 void require_one_source(const ms_scenario* given) {
@@ -97,7 +98,7 @@ int32_t ms_session_open(const char* file, const char* const* settings, size_t co
                         uint64_t* session) {
   return c::guarded([&]() -> int32_t {
     c::require(file, "file"), c::require(session, "session");
-    *session = c::keep(of(open_session(file, {.settings = c::texts(settings, count)})));
+    *session = c::keep(of(open_session(file, {.settings = c::settings_of(settings, count)})));
     return MS_OK;
   });
 }
@@ -116,7 +117,7 @@ int32_t ms_session_open_trial(const ms_scenario* scenario, uint64_t* session) {
     require_one_source(scenario), c::require(session, "session");
     if (scenario->file)
       *session = c::keep(of(open_session(
-          scenario->file, {.settings = c::texts(scenario->settings, scenario->setting_count),
+          scenario->file, {.settings = c::settings_of(scenario->settings, scenario->setting_count),
                            .trial = scenario->trial})));
     else
       *session = c::keep(of(std::make_unique<Session>(experiment_of(*scenario), scenario->trial)));
@@ -145,10 +146,8 @@ int32_t ms_session_finish(uint64_t handle) {
 int32_t ms_session_set(uint64_t handle, const char* key, const char* value) {
   return c::with_session(handle, [&](Session& session, c::Object&) -> int32_t {
     c::require(key, "key"), c::require(value, "value");
-    std::string text;
-    for (const Issue& issue : session.set(key, value))
-      text += (text.empty() ? "" : "\n") + issue.text;
-    return text.empty() ? MS_OK : c::fail(MS_BAD_INPUT, text);
+    const Issues issues = session.set(key, value);
+    return issues.empty() ? MS_OK : c::fail(MS_BAD_INPUT, issues);
   });
 }
 
@@ -247,8 +246,8 @@ int32_t ms_navigator_open(const char* file, const char* const* settings, size_t 
                           uint64_t* navigator) {
   return c::guarded([&]() -> int32_t {
     c::require(file, "file"), c::require(navigator, "navigator");
-    *navigator = c::keep(of(
-        std::make_unique<StandaloneNavigator>(open_experiment(file, c::texts(settings, count)))));
+    *navigator = c::keep(of(std::make_unique<StandaloneNavigator>(
+        open_experiment(file, c::settings_of(settings, count)))));
     return MS_OK;
   });
 }

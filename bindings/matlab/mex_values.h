@@ -13,13 +13,15 @@
 #include "mex.h"
 #include "microswarm.h"
 
+/* What was refused here; empty if the library was the last to fail. */
+static char refused[1000];
+
 static void fail(const char* id, const char* format, ...) {
-  char text[1000];
   va_list values;
   va_start(values, format);
-  vsnprintf(text, sizeof text, format, values);
+  vsnprintf(refused, sizeof refused, format, values);
   va_end(values);
-  mexErrMsgIdAndTxt(id, "%s", text);
+  mexErrMsgIdAndTxt(id, "%s", refused);
 }
 
 #define REFUSE(...) fail("microswarm:bad_input", __VA_ARGS__)
@@ -30,6 +32,7 @@ static void check(int32_t code) {
                                     "microswarm:bad_call", "microswarm:no_memory",
                                     "microswarm:fault"};
   if (code == MS_OK || code == MS_END) return;
+  refused[0] = 0;
   mexErrMsgIdAndTxt(ids[code >= MS_BAD_INPUT && code <= MS_FAULT ? code - MS_BAD_INPUT : 4], "%s",
                     ms_error_text());
 }

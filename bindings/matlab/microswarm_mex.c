@@ -84,6 +84,26 @@ static mxArray* version(arguments in) {
   return mxCreateString(ms_version());
 }
 
+/* message of an error: its issues, or the message alone if it is not that of the last error */
+static mxArray* issues(arguments in) {
+  static const char* names[] = {"key", "place", "text", "value", "limit"};
+  const char* message = text_of(in[0], "the message");
+  const int is_known = !refused[0] && strcmp(message, ms_error_text()) == 0;
+  const size_t count = is_known ? ms_issue_count() : 1;
+  mxArray* made = mxCreateStructMatrix(count, 1, 5, names);
+  ms_issue issue = {"", "", message, "", ""};
+  size_t i;
+  for (i = 0; i < count; ++i) {
+    if (is_known) ms_issue_at(i, &issue);
+    mxSetFieldByNumber(made, i, 0, mxCreateString(issue.key));
+    mxSetFieldByNumber(made, i, 1, mxCreateString(issue.place));
+    mxSetFieldByNumber(made, i, 2, mxCreateString(issue.text));
+    mxSetFieldByNumber(made, i, 3, mxCreateString(issue.value));
+    mxSetFieldByNumber(made, i, 4, mxCreateString(issue.limit));
+  }
+  return made;
+}
+
 static mxArray* close_handle(arguments in) {
   const uint64_t handle = handle_of(in[0]);
   size_t i;
@@ -347,29 +367,18 @@ static const struct {
   command_function function;
   int arguments;
 } commands[] = {
-    COMMAND(version, 0),
-    {"close", close_handle, 1},
-    COMMAND(session_open, 3),
-    COMMAND(session_open_text, 3),
-    COMMAND(session_step, 1),
-    COMMAND(session_advance, 2),
-    COMMAND(session_frames, 1),
-    COMMAND(session_set, 3),
-    COMMAND(session_status, 1),
-    COMMAND(session_metrics, 1),
-    COMMAND(session_hash, 1),
-    COMMAND(session_record, 2),
-    COMMAND(session_robots, 1),
-    COMMAND(session_path, 1),
-    COMMAND(session_obstacles, 1),
-    COMMAND(navigator_open, 3),
-    COMMAND(navigator_open_text, 3),
-    COMMAND(navigator_step, 8),
-    COMMAND(navigator_path, 1),
-    COMMAND(map_open, 2),
-    COMMAND(map_bounds, 1),
-    COMMAND(map_clearance, 2),
-    COMMAND(plan, 5),
+    COMMAND(version, 0),           COMMAND(issues, 1),
+    {"close", close_handle, 1},    COMMAND(session_open, 3),
+    COMMAND(session_open_text, 3), COMMAND(session_step, 1),
+    COMMAND(session_advance, 2),   COMMAND(session_frames, 1),
+    COMMAND(session_set, 3),       COMMAND(session_status, 1),
+    COMMAND(session_metrics, 1),   COMMAND(session_hash, 1),
+    COMMAND(session_record, 2),    COMMAND(session_robots, 1),
+    COMMAND(session_path, 1),      COMMAND(session_obstacles, 1),
+    COMMAND(navigator_open, 3),    COMMAND(navigator_open_text, 3),
+    COMMAND(navigator_step, 8),    COMMAND(navigator_path, 1),
+    COMMAND(map_open, 2),          COMMAND(map_bounds, 1),
+    COMMAND(map_clearance, 2),     COMMAND(plan, 5),
 };
 
 void mexFunction(int out_count, mxArray* out[], int in_count, const mxArray* in[]) {

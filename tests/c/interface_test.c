@@ -56,6 +56,31 @@ static void columns_are_whole(uint64_t session, size_t frames) {
   }
 }
 
+static void issues(void) {
+  const char* settings[] = {"tick_s=0", "navigator.sped_um_per_s=3"};
+  const char* none[] = {"tick_s"};
+  uint64_t session = 0;
+  ms_issue issue;
+  EXPECT(ms_session_open_text(scenario, NULL, settings, 2, &session) == MS_BAD_INPUT);
+  EXPECT(strstr(ms_error_text(), "--set") == NULL);
+  EXPECT(ms_issue_count() == 2);
+  EXPECT(ms_issue_at(0, &issue) == MS_OK);
+  EXPECT(strcmp(issue.key, "tick_s") == 0 && strcmp(issue.place, "tick_s") == 0);
+  EXPECT(strcmp(issue.value, "0") == 0 && strcmp(issue.limit, "0.001..10 s") == 0);
+  EXPECT(strstr(issue.text, "tick_s is 0 s") == issue.text);
+  EXPECT(ms_issue_at(1, &issue) == MS_OK);
+  EXPECT(strcmp(issue.key, "navigator.sped_um_per_s") == 0 && strcmp(issue.value, "3") == 0);
+  EXPECT(strstr(issue.limit, "speed_um_per_s") != NULL);
+  EXPECT(ms_issue_at(2, &issue) == MS_BAD_CALL && ms_issue_at(0, NULL) == MS_BAD_CALL);
+  EXPECT(ms_issue_count() == 2); /* asking changes nothing */
+  EXPECT(ms_session_open_text("seed: a\n", NULL, NULL, 0, &session) == MS_BAD_INPUT);
+  EXPECT(ms_issue_at(0, &issue) == MS_OK && strcmp(issue.place, "scenario:1:7") == 0);
+  EXPECT_ERROR(ms_session_open_text(scenario, NULL, none, 1, &session), MS_BAD_INPUT, "KEY=VALUE");
+  EXPECT_ERROR(ms_session_step(0, NULL), MS_BAD_CALL, "closed");
+  EXPECT(ms_issue_count() == 1 && ms_issue_at(0, &issue) == MS_OK);
+  EXPECT(strcmp(issue.text, ms_error_text()) == 0 && *issue.key == 0 && *issue.limit == 0);
+}
+
 static void sessions(const char* file) {
   const char* settings[] = {"time_limit_s=60", "seed=3"};
   uint64_t session = 0, again = 0, playback = 0;
@@ -320,6 +345,7 @@ int main(int count, char** arguments) {
   EXPECT(ms_interface() >= MS_INTERFACE);
   EXPECT(strchr(ms_version(), '.') != NULL);
   EXPECT(ms_error_text()[0] == '\0');
+  issues();
   sessions(arguments[1]);
   columns();
   bad_sessions();

@@ -3,7 +3,7 @@ function tests = test_runs()
 % test_runs  Runs, sessions and records.
   tests = {@a_run_is_that_of_the_program, @settings_in_every_form, @a_scenario_from_text, ...
            @a_session_step_by_step, @a_record_is_the_run, ...
-           @frames_have_what_a_record_has, @robots_are_shown, @a_run_among_many};
+           @frames_have_what_a_record_has, @robots_are_shown, @a_run_among_many, @mistakes_are_fields};
 end
 
 function a_run_is_that_of_the_program(world)
@@ -19,6 +19,36 @@ function a_run_is_that_of_the_program(world)
     assert(result.metrics.length_um == told.metrics.length_um);
     fprintf('        %s: record hash %s\n', name{1}, result.hash);
   end
+end
+
+function problem = problem_of(call)
+  problem = [];
+  try
+    call();
+  catch problem
+  end
+  assert(~isempty(problem), func2str(call));
+end
+
+function mistakes_are_fields(world)
+  problem = problem_of(@() microswarm.run(world.flight, 'tick_s', 0, 'navigator.sped_um_per_s', 3));
+  assert(isempty(strfind(problem.message, '--set')), problem.message);
+  issues = microswarm.issues_of(problem);
+  assert(isequal(size(issues), [2 1]));
+  assert(strcmp(issues(1).key, 'tick_s') && strcmp(issues(1).place, 'tick_s'));
+  assert(strcmp(issues(1).value, '0') && strcmp(issues(1).limit, '0.001..10 s'));
+  assert(~isempty(strfind(issues(1).text, 'tick_s is 0 s')));
+  assert(strcmp(issues(2).key, 'navigator.sped_um_per_s') && strcmp(issues(2).value, '3'));
+  session = microswarm.Session(world.flight);
+  issues = microswarm.issues_of(problem_of(@() session.set('goal_um', 'x')));
+  assert(isscalar(issues) && strcmp(issues.key, 'goal_um') && strcmp(issues.value, 'x'));
+  assert(strcmp(issues.limit, '[x, y]') && isempty(issues.place));
+  % Of an older error, or of one that is not the library's, there is the text.
+  issues = microswarm.issues_of(problem);
+  assert(isscalar(issues) && strcmp(issues.text, problem.message) && isempty(issues.key));
+  problem = problem_of(@() session.advance('a'));
+  issues = microswarm.issues_of(problem);
+  assert(isscalar(issues) && strcmp(issues.text, problem.message));
 end
 
 function settings_in_every_form(world)
