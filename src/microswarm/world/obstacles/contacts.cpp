@@ -33,9 +33,10 @@ bool leads_into(const Sector& s, Vec2 v, Vec2 d) {
   return after_start > 0 || before_end > 0;
 }
 
+/// Of two sectors that overlap, one contains the start of the other. If both start in the same
+/// direction, so do two edges, which overlap themselves.
 bool overlap(const Sector& s, const Sector& t, Vec2 v) {
-  return leads_into(s, v, t.start) || leads_into(s, v, t.end) || leads_into(t, v, s.start) ||
-         leads_into(t, v, s.end);
+  return leads_into(s, v, t.start) || leads_into(t, v, s.start);
 }
 
 /// The edges of all polygons with their neighbours in the ring.
