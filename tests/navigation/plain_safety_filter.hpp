@@ -44,6 +44,8 @@ class PlainSafetyFilter {
       wall_keep_ = std::clamp(world.map().clearance(start.position) - 1e-6, 0.0,
                               start.radius + params_.wall_gap);
       instead = checked(wanted, world.map(), std::max(tick, params_.commitment));
+    } else {
+      committed_.reset();
     }
     if (!instead) waited_ = 0;
     if (instead && instead->speed == 0) waited_ += tick;

@@ -232,6 +232,47 @@ TEST(SafetyFilter, DecidesAsThePlainOne) {
   EXPECT_GT(sum.held, 5);
 }
 
+/// Discs all round the swarm that close in.
+std::vector<Body> closing_ring(double t, std::uint32_t first, Rng rng) {
+  std::vector<Body> bodies;
+  for (int i = 0; i < 9; ++i) {
+    const Vec2 towards = unit_vector(wrap(2 * pi * i / 9 + rng.uniform(-0.2, 0.2)));
+    const double away = rng.uniform(150, 260) - t * rng.uniform(20, 120);
+    bodies.push_back({.shape = Disc{Vec2{2000, 2000} + away * towards, 60}, .obstacle = first++});
+  }
+  return bodies;
+}
+
+// An escape that was commanded is not kept to once nothing moves nearby.
+TEST(SafetyFilter, ForgetsItsEscapeWhenTheDangerIsOver) {
+  int overruled = 0;
+  for (std::uint32_t trial = 0; trial < 40; ++trial) {
+    SafetyFilter filter({}, guard_speed);
+    SafetyFilter fresh({}, guard_speed);
+    for (int k = 0; k < 9; ++k) {
+      const double t = guard_tick * k;
+      std::vector<Body> bodies;
+      if (k < 4) bodies = closing_ring(t, 0, Rng(1, Purpose::test, trial));
+      if (k > 5) bodies = closing_ring(t - 0.6, 100, Rng(2, Purpose::test, trial));
+      const Snapshot world(open_ground(), t, std::move(bodies));
+      const Observation seen{.now = t,
+                             .seen = t,
+                             .swarm = SwarmPose{{{2000, 2000}, 0}, guard_radius},
+                             .robots = {},
+                             .world = borrowed(world)};
+      const EscapeStart start{{2000, 2000}, guard_radius, t};
+      filter.update(seen);
+      const auto command = filter.filter({0, guard_speed}, start, world, guard_tick);
+      if (k <= 5) continue;
+      fresh.update(seen);
+      const auto expected = fresh.filter({0, guard_speed}, start, world, guard_tick);
+      EXPECT_TRUE(same_bits(command, expected)) << trial << ", tick " << k;
+      overruled += command ? 1 : 0;
+    }
+  }
+  EXPECT_GT(overruled, 80);
+}
+
 /// Rooms with up to three walls about the swarm, some hardly wider than it.
 std::vector<std::shared_ptr<const Map>> rooms(int count) {
   Rng rng(5, Purpose::scene);
