@@ -87,9 +87,11 @@ TEST(GlobalSearch, EveryPlanReplaysInRandomWorlds) {
 TEST(GlobalSearch, SameSeedSameBits) {
   const GlobalSearch a = search(4, 3, {}, 5);
   const GlobalSearch b = search(4, 3, {}, 5);
+  const GlobalSearch c = search(4, 3, {}, 6);
   EXPECT_EQ(a.plan.inputs, b.plan.inputs);
   EXPECT_EQ(a.plan.configurations, b.plan.configurations);
   EXPECT_EQ(a.counts.samples, b.counts.samples);
+  EXPECT_NE(a.plan.inputs, c.plan.inputs);
 }
 
 TEST(GlobalSearch, EndsAtItsLimitsAndWhenTold) {
