@@ -113,10 +113,7 @@ std::uint64_t commands_hash(std::uint64_t seed) {
   return hash.digest();
 }
 
-TEST(Hierarchical, SameSeedSameBits) {
-  EXPECT_EQ(commands_hash(5), commands_hash(5));
-  EXPECT_NE(commands_hash(5), commands_hash(6));
-}
+TEST(Hierarchical, AnotherSeedPlansOtherwise) { EXPECT_NE(commands_hash(5), commands_hash(6)); }
 
 /// Drives a ribbon for `seconds` in a world of discs that go straight; what came of it.
 struct Driven {
@@ -199,6 +196,91 @@ TEST(Hierarchical, AsPublishedLooksNotAheadAndPlansOnWhatIsSeen) {
   const std::vector<StraightDisc> oncoming{{{1500, 500}, {-55, 0}, 80}};
   EXPECT_LT(drive({{200, 500}, 0}, {1800, 500}, 80, oncoming, published).least, 90);
   EXPECT_GE(drive({{200, 500}, 0}, {1800, 500}, 80, oncoming).least, 90);
+}
+
+TEST(Hierarchical, AsPublishedSwitchesOffEveryAdditionOfOurs) {
+  HierarchicalParams params{.as_published = true};
+  params.follower = {.kind = FollowerKind::learned, .correct_flow = true};
+  const HierarchicalParams published = params.in_effect();
+  EXPECT_EQ(published.extra_clearance, 0);
+  EXPECT_EQ(published.target_horizon, 0);
+  EXPECT_EQ(published.guide, Guide::straight);
+  EXPECT_EQ(published.follower.kind, FollowerKind::pure_pursuit);
+  EXPECT_FALSE(published.follower.correct_flow);
+  EXPECT_FALSE(published.planner.straighten);
+  EXPECT_FALSE(published.planner.arcs);
+}
+
+/// The steps at which it plans, of some on the straight path to the goal.
+int plans_on_the_path(const HierarchicalParams& params, Vec2 from, int steps) {
+  const Snapshot world = room_with();
+  HierarchicalNavigator navigator(params, limits_of(RibbonParams{}), room_goal, room_tolerance,
+                                  Rng(1, Purpose::planner));
+  navigator.prepare(world, {});
+  Pose2 pose{from, 0};
+  int plans = 0;
+  for (int k = 0; k < steps; ++k) {
+    const Command c = navigator.step(update(world, pose.position, pose.heading, 0.1 * k), {});
+    plans += navigator.view().planned;
+    pose = unicycle_step(pose, c, RibbonParams{}.max_turn_rate, 0.1);
+  }
+  return plans;
+}
+
+// The first path reaches the goal, 200 µm ahead.
+TEST(Hierarchical, PlansOnceWhereThePathHolds) {
+  for (const bool as_published : {false, true})
+    EXPECT_EQ(plans_on_the_path({.as_published = as_published}, room_goal - Vec2{200, 0}, 20), 1)
+        << as_published;
+}
+
+TEST(Hierarchical, ShowsAPhasedGoalOfItsRouteOnly) {
+  const Snapshot world = room_with();
+  for (const Guide guide : {Guide::straight, Guide::route}) {
+    HierarchicalNavigator n({.guide = guide}, limits_of(RibbonParams{}), room_goal, room_tolerance,
+                            Rng(1, Purpose::planner));
+    n.prepare(world, {});
+    n.step(update(world, {300, 500}), {});
+    EXPECT_EQ(n.view().phased_goal.has_value(), guide == Guide::route);
+  }
+}
+
+// Extra clearance is kept where it fits: not in a passage that is too narrow for it.
+TEST(Hierarchical, PathsKeepTheExtraClearanceWhereItFits) {
+  for (const double half : {95.0, 130.0}) {
+    const Snapshot world =
+        room_with({{{{500, 0}, {900, 0}, {900, 500 - half}, {500, 500 - half}}, {}},
+                   {{{500, 500 + half}, {900, 500 + half}, {900, 1000}, {500, 1000}}, {}}});
+    HierarchicalNavigator n({.extra_clearance = 30}, limits_of(RibbonParams{}), room_goal,
+                            room_tolerance, Rng(1, Purpose::planner));
+    n.prepare(world, {});
+    n.step(update(world, {300, 520}), {});
+    const auto path = n.view().path;
+    ASSERT_GE(path.size(), 2u);
+    double least = 1e9;
+    for (std::size_t i = 1; i < path.size(); ++i)
+      least = std::min(least, world.clearance(Segment{path[i - 1], path[i]}));
+    EXPECT_GE(least, half > 120 ? 120 - 1e-9 : 90 - 1e-9) << half;
+  }
+}
+
+// A drift across its path is compensated, once it is known.
+TEST(Hierarchical, CorrectsTheFlow) {
+  HierarchicalParams params;
+  params.follower.correct_flow = true;
+  const Snapshot world = room_with();
+  HierarchicalNavigator navigator(params, limits_of(RibbonParams{}), room_goal, room_tolerance,
+                                  Rng(1, Purpose::planner));
+  navigator.prepare(world, {});
+  Pose2 pose{{300, 500}, 0};
+  Command last;
+  for (int k = 0; k < 80; ++k) {
+    last = navigator.step(update(world, pose.position, pose.heading, 0.1 * k), {});
+    pose = unicycle_step(pose, last, RibbonParams{}.max_turn_rate, 0.1);
+    pose.position.y += 0.1 * 20;
+  }
+  EXPECT_NEAR(last.speed * std::sin(last.heading), -20, 4);
+  EXPECT_NEAR(pose.position.y, 500, 15);
 }
 
 TEST(Hierarchical, AsPublishedRefusesWhatIsNotThePapers) {

@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "microswarm/core/maths/angles.hpp"
-#include "microswarm/core/maths/hash.hpp"
 #include "microswarm/swarm/body/unicycle.hpp"
 #include "microswarm/world/world.hpp"
 #include "tests/navigation/room.hpp"
@@ -26,12 +25,10 @@ struct PredictiveDrive {
   SwarmLimits swarm = slow_vortex;
   Pose2 pose{{200, 500}, 0};
   PredictiveParams params{};
-  std::uint64_t seed = 1;
   double min_gap = infinity;  ///< from edge to edge [µm]
   double time = 0;
   bool arrived = false;
   std::vector<NavigatorState> states{};
-  Hash hash{};
 
   bool was(NavigatorState state) const {
     return std::find(states.begin(), states.end(), state) != states.end();
@@ -41,7 +38,7 @@ struct PredictiveDrive {
     constexpr double substep = 0.01;
     const World world{std::make_shared<const Map>(Box{{0, 0}, {2000, 1000}}, walls), obstacles};
     PredictiveNavigator navigator(params, swarm, room_goal, room_tolerance,
-                                  Rng(seed, Purpose::planner));
+                                  Rng(1, Purpose::planner));
     navigator.prepare(world.at(0), {});
     std::vector<Pose2> was_there(6, pose);
     std::vector<Command> pending(10);
@@ -55,8 +52,6 @@ struct PredictiveDrive {
                                               .world = borrowed(now)},
                                              {});
       states.push_back(navigator.view().state);
-      hash.value(command.heading);
-      hash.value(command.speed);
       for (int k = 0; k < 10; ++k, time += substep) {
         pending.push_back(command);
         pose = unicycle_step(pose, pending.front(), swarm.max_turn_rate, substep);
@@ -154,17 +149,13 @@ TEST(Predictive, ThroughAChannelWithMovingWalls) {
   EXPECT_GT(drive.min_gap, 0);
 }
 
-TEST(Predictive, SameSeedSameBits) {
-  const auto digest = [](std::uint64_t seed) {
-    PredictiveDrive drive{
-        .obstacles = {{DiscShape{80}, HarmonicLine{{900, 500}, {100, 300}, 9, 0}},
-                      {BoxShape{90, 60}, HarmonicArc{{1300, 500}, 200, 0, 2, 12, 0}}},
-        .seed = seed};
-    drive.run(60);
-    EXPECT_TRUE(drive.arrived);
-    return drive.hash.digest();
-  };
-  EXPECT_EQ(digest(5), digest(5));
+TEST(Predictive, ArrivesAmongWhatSwings) {
+  PredictiveDrive drive{
+      .obstacles = {{DiscShape{80}, HarmonicLine{{900, 500}, {100, 300}, 9, 0}},
+                    {BoxShape{90, 60}, HarmonicArc{{1300, 500}, 200, 0, 2, 12, 0}}}};
+  drive.run(60);
+  EXPECT_TRUE(drive.arrived);
+  EXPECT_GT(drive.min_gap, 0);
 }
 
 TEST(Predictive, HoldsWhenBlindAndGoesOn) {

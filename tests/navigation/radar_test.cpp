@@ -384,27 +384,5 @@ TEST(Radar, WaypointsInAWallAreRefused) {
   EXPECT_TRUE(validate(params, task, *map).empty());
 }
 
-TEST(RadarRoute, GivenWaypointsAreVisitedInOrder) {
-  const Map map(Box{{0, 0}, {3000, 1500}}, {});
-  RadarRoute route({{1000, 1200}, {2000, 300}, {2700, 750}}, false);
-  EXPECT_EQ(route.target(map, {300, 750}, 100, 20), (Vec2{1000, 1200}));
-  EXPECT_EQ(route.target(map, {900, 1100}, 100, 20), (Vec2{1000, 1200}));
-  EXPECT_EQ(route.target(map, {995, 1195}, 100, 20), (Vec2{2000, 300}));
-  EXPECT_EQ(route.target(map, {1300, 1200}, 100, 20), (Vec2{2000, 300}));  // driven off
-  EXPECT_EQ(route.target(map, {2040, 330}, 100, 20), (Vec2{2700, 750}));   // nearly, and beyond
-}
-
-TEST(RadarRoute, NeverRunsBack) {
-  const Map map(Box{{0, 0}, {3000, 1500}}, {scenes::rectangle({{1400, 0}, {1450, 1000}})});
-  RadarRoute route({{300, 1200}, {1300, 1250}, {1600, 1250}, {2300, 400}}, true);
-  EXPECT_EQ(route.target(map, {300, 300}, 100, 20), (Vec2{1300, 1250}));  // the farthest seen
-  EXPECT_TRUE(route.in_sight());
-  EXPECT_EQ(route.target(map, {1290, 1250}, 100, 20), (Vec2{1600, 1250}));
-  // Thrown back behind the wall: the next one stays, seen or not.
-  EXPECT_EQ(route.target(map, {1200, 200}, 100, 20), (Vec2{1600, 1250}));
-  EXPECT_FALSE(route.in_sight());
-  EXPECT_EQ(route.target(map, {1800, 1250}, 100, 20), (Vec2{2300, 400}));
-}
-
 }  // namespace
 }  // namespace microswarm
