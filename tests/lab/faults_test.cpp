@@ -252,6 +252,7 @@ TEST(LabFaults, TooManyConnectionsAreClosed) {
   EXPECT_TRUE(lines.front().heard().starts_with("HTTP/1.1 200"));
 }
 
+// Whatever its clients are in the midst of, their connections are closed.
 TEST(LabFaults, ItEndsAmidEverything) {
   for (int i = 0; i < 8; ++i) {
     Lab lab;
@@ -273,6 +274,15 @@ TEST(LabFaults, ItEndsAmidEverything) {
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(3 * i));
     lab.end();
+    for (TestPage* one : {&page, &second}) {
+      while (!one->next().is_null()) {
+      }
+      EXPECT_FALSE(one->stream().is_open()) << i;
+    }
+    for (Line& line : lines) {
+      line.heard();
+      EXPECT_TRUE(line.closed) << i;
+    }
   }
 }
 
