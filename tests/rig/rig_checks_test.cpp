@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/rig/runtime/rig_checks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+
+#include "microswarm/actuation/drivers/coil_driver.hpp"
+#include "tests/messages.hpp"
+#include "tests/rig/coil_rig.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr const char* limited =
+    "[{max_current_a: 9, max_voltage_v: 40, max_temperature_degc: 90},"
+    " {max_current_a: 9, max_voltage_v: 40, max_temperature_degc: 90},"
+    " {max_current_a: 9, max_voltage_v: 40, max_temperature_degc: 90}]";
+
+/// Gives these answers and then says that it is enough.
+class AnsweringDriver : public CoilDriver {
+ public:
+  AnsweringDriver(std::vector<DriveStatus> answers, bool stops)
+      : answers_(answers), stops_(stops) {}
+  int channels() const override { return 6; }
+  std::span<const double> currents() const override { return currents_; }
+  DriveStatus drive(std::span<const double> currents) override {
+    EXPECT_EQ(currents.size(), 6u);
+    EXPECT_TRUE(std::ranges::all_of(currents, [](double i) { return i == 0; }));
+    const DriveStatus answer = answers_[given++];
+    if (given == answers_.size()) enough = true;
+    return answer;
+  }
+  bool stop() noexcept override { return stops_; }
+
+  std::size_t given = 0;
+  std::atomic<bool> enough = false;
+
+ private:
+  std::vector<DriveStatus> answers_;
+  bool stops_;
+  std::array<double, 6> currents_{};
+};
+
+class RigChecks : public testing::Test {
+ protected:
+  struct Driven {
+    std::vector<RigCheck> checks;
+    std::size_t given = 0;
+    /// Whether all checks of that name are good, and there is one.
+    bool good(const std::string& what) const {
+      const auto is = [&](const RigCheck& check) { return check.what == what; };
+      return std::ranges::any_of(checks, is) &&
+             std::ranges::all_of(checks, [&](const RigCheck& c) { return c.good || !is(c); });
+    }
+    /// All that checks of that name say.
+    std::string answer(const std::string& what) const {
+      std::string text;
+      for (const RigCheck& check : checks)
+        if (check.what == what) text += check.answer + "\n";
+      return text;
+    }
+  };
+  Driven exchange(std::vector<DriveStatus> answers, bool stops = true) const {
+    AnsweringDriver driver(std::move(answers), stops);
+    Driven out;
+    out.checks = check_driver(driver, test::coil_rig(folder, limited), 1e6, Stop(&driver.enough));
+    out.given = driver.given;
+    return out;
+  }
+
+  test::Folder folder;
+};
+
+TEST_F(RigChecks, TheCoilsHoldTheFieldOrSayHowMuchOfIt) {
+  const RigCheck good = check_field(test::coil_rig(folder, limited));
+  EXPECT_TRUE(good.good) << good.answer;
+  EXPECT_FALSE(test::names(good.answer, "limit")) << good.answer;
+  const RigCheck unlimited = check_field(test::coil_rig(folder, "[{}, {}, {}]"));
+  EXPECT_TRUE(unlimited.good);
+  EXPECT_TRUE(test::is_one_line_naming(unlimited.answer, "", {"voltage", "temperature"}));
+  const RigCheck weak =
+      check_field(test::coil_rig(folder, "[{max_current_a: 0.01}, {max_current_a: 0.01}, {}]"));
+  EXPECT_FALSE(weak.good);
+  EXPECT_TRUE(test::is_one_line_naming(weak.answer, "", {"mT"}));
+}
+
+TEST_F(RigChecks, MissingLimitsAreNamed) {
+  EXPECT_TRUE(missing_limits(test::coil_rig(folder, limited)).empty());
+  const auto text = [&](const std::string& drive) {
+    const Issues issues = missing_limits(test::coil_rig(folder, "[" + drive + ", " + drive +
+                                                                    ", {max_current_a: 1, "
+                                                                    "max_temperature_degc: 90}]"));
+    return issues.empty() ? "" : issues.begin()->text;
+  };
+  EXPECT_TRUE(test::names(text("{max_current_a: 1}"), "the temperature"));
+  EXPECT_FALSE(test::names(text("{max_current_a: 1}"), "the current"));
+  EXPECT_TRUE(test::names(text("{max_temperature_degc: 90}"), "the current"));
+  EXPECT_FALSE(test::names(text("{max_temperature_degc: 90}"), "the temperature"));
+  EXPECT_TRUE(test::names(text("{}"), "the current and the temperature"));
+}
+
+using enum DriveStatus;
+
+TEST_F(RigChecks, ADriverThatAnswersIsGood) {
+  const Driven all = exchange({driven, driven, scaled});
+  EXPECT_EQ(all.given, 3u) << "until it is told to stop";
+  EXPECT_TRUE(all.good("driver"));
+  EXPECT_TRUE(all.good("stop"));
+  EXPECT_TRUE(test::names(all.answer("driver"), "3")) << all.answer("driver");
+}
+
+TEST_F(RigChecks, AMissedAnswerIsNoted) {
+  const Driven once = exchange({driven, no_answer, driven, no_answer, driven});
+  EXPECT_EQ(once.given, 5u);
+  EXPECT_FALSE(once.good("driver"));
+  EXPECT_TRUE(test::names(once.answer("driver"), "2 without")) << once.answer("driver");
+}
+
+TEST_F(RigChecks, ADriverThatIsGoneIsAskedNoMore) {
+  EXPECT_EQ(exchange({driven, gone, driven}).given, 2u);
+  EXPECT_EQ(exchange({no_answer, no_answer, no_answer, driven}).given, 3u);
+  for (const DriveStatus trouble : {refused, not_armed, emergency, mismatched, gone, resumed})
+    EXPECT_FALSE(exchange({driven, trouble, driven}).good("driver")) << to_string(trouble);
+}
+
+TEST_F(RigChecks, AStopThatIsNotConfirmedIsNoGoodOne) {
+  EXPECT_FALSE(exchange({driven}, false).good("stop"));
+}
+
+TEST_F(RigChecks, WithoutTimesThereAreNoQuantiles) {
+  EXPECT_EQ(quantiles({}), "–");
+  Durations times;
+  for (int i = 0; i <= 100; ++i) times.add(1e-3 * i);
+  EXPECT_EQ(quantiles(times), "50.00 / 95.00 / 99.00 ms");
+}
+
+}  // namespace
+}  // namespace microswarm
