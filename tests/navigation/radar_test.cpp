@@ -382,6 +382,8 @@ TEST(Radar, WaypointsInAWallAreRefused) {
   EXPECT_EQ(issues.begin()->text, "waypoint 2 is 20 µm inside wall 1");
   params.waypoints.pop_back();
   EXPECT_TRUE(validate(params, task, *map).empty());
+  params.waypoints.front() = {1420, 500};
+  EXPECT_EQ(validate(params, task, *map).size(), 1u);
 }
 
 }  // namespace
