@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "microswarm/formats/images/pnm.hpp"
+#include "microswarm/formats/images/samples.hpp"
 #include "tests/files.hpp"
 #include "tests/formats/png.hpp"
 #include "tests/messages.hpp"
@@ -98,6 +99,19 @@ TEST(Image, APhotographHasTheBitsThatItsLargestSampleNeeds) {
   expect_image(read_image(file), 3, 1, 1, {0, 8, 16});
   const cv::Mat eight = (cv::Mat_<std::uint8_t>(1, 2) << 7, 9);
   expect_image(read_photograph(folder.with("eight.png", encoded(".png", eight))), 2, 1, 1, {7, 9});
+}
+
+TEST(Image, SixteenBitsAreScaledToTheBitAsOpenCvDoes) {
+  cv::Mat all(1, 65536, CV_16UC1), scaled;
+  std::vector<std::uint16_t> samples;
+  for (int k = 0; k < 65536; ++k)
+    samples.push_back(all.at<std::uint16_t>(k) = static_cast<std::uint16_t>(k));
+  std::vector<std::uint8_t> out(samples.size());
+  for (int depth = 8; depth <= 16; ++depth) {
+    all.convertTo(scaled, CV_8U, 255.0 / ((1 << depth) - 1));
+    to_8_bits(samples, depth, out);
+    EXPECT_TRUE(std::equal(out.begin(), out.end(), scaled.ptr())) << depth;
+  }
 }
 
 TEST(Image, PaletteIsLookedUp) {

@@ -5,18 +5,16 @@
 #include <turbojpeg.h>
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
 #include <memory>
-#include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "microswarm/core/errors/error.hpp"
-#include "microswarm/formats/images/image.hpp"
+#include "microswarm/formats/images/samples.hpp"
 #include "microswarm/formats/images/tiff.hpp"
 #include "microswarm/formats/media/media.hpp"
 
@@ -50,36 +48,13 @@ Sample over_white(Sample sample, std::uint64_t alpha) {
 }
 
 template <class Sample>
-cv::Mat over_white(const cv::Mat& rgba) {
-  cv::Mat rgb(rgba.rows, rgba.cols, CV_MAKETYPE(rgba.depth(), 3));
-  const auto* in = rgba.ptr<Sample>();
-  auto* out = rgb.ptr<Sample>();
-  for (std::size_t i = 0; i < rgba.total(); ++i, in += 4)
-    for (int k = 0; k < 3; ++k) *out++ = over_white(in[k], in[3]);
-  return rgb;
-}
-
-/// Colours of packed indices. libspng would map an index beyond the palette to black.
-cv::Mat looked_up(const cv::Mat& packed, const spng_ihdr& header, const spng_plte& palette,
-                  const spng_trns& of_colours, std::string_view name) {
-  const std::uint32_t bits = header.bit_depth;
-  cv::Mat rgb(packed.rows, static_cast<int>(header.width), CV_8UC3);
-  for (int row = 0; row < rgb.rows; ++row) {
-    const auto* in = packed.ptr<std::uint8_t>(row);
-    auto* out = rgb.ptr<std::uint8_t>(row);
-    for (std::uint32_t column = 0; column < header.width; ++column) {
-      const std::uint32_t at = column * bits;
-      const std::uint32_t index = (in[at / 8] >> (8 - bits - at % 8)) & ((1U << bits) - 1);
-      if (index >= palette.n_entries)
-        fail_image(name, "damaged PNG: index " + std::to_string(index) + " of a palette of " +
-                             std::to_string(palette.n_entries) + " colours");
-      const spng_plte_entry& c = palette.entries[index];
-      const std::uint8_t alpha =
-          index < of_colours.n_type3_entries ? of_colours.type3_alpha[index] : 255;
-      for (const std::uint8_t sample : {c.red, c.green, c.blue}) *out++ = over_white(sample, alpha);
-    }
-  }
-  return rgb;
+std::vector<Sample> over_white(const std::vector<Sample>& rgba, int channels) {
+  std::vector<Sample> out;
+  out.reserve(rgba.size() / 4 * static_cast<std::size_t>(channels));
+  for (std::size_t i = 0; i < rgba.size(); i += 4)
+    for (int k = 0; k < channels; ++k)
+      out.push_back(over_white(rgba[i + static_cast<std::size_t>(k)], rgba[i + 3]));
+  return out;
 }
 
 /// A PNG that is being decoded.
@@ -97,11 +72,15 @@ struct OpenPng {
   void check(int code) const {
     if (code) fail_image(name, std::string("damaged PNG: ") + spng_strerror(code));
   }
-  void decode(cv::Mat& pixels, int format) const {
-    check(spng_decode_image(png.get(), pixels.data, pixels.total() * pixels.elemSize(), format,
+  template <class Sample>
+  void decode(std::vector<Sample>& samples, int format) const {
+    check(spng_decode_image(png.get(), samples.data(), samples.size() * sizeof(Sample), format,
                             SPNG_DECODE_TRNS));
     check(spng_decode_chunks(png.get()));  // up to IEND
   }
+  int width() const { return static_cast<int>(header.width); }
+  int height() const { return static_cast<int>(header.height); }
+  std::size_t pixels() const { return std::size_t{header.width} * header.height; }
 
   std::string_view name;
   std::unique_ptr<spng_ctx, void (*)(spng_ctx*)> png{spng_ctx_new(0), spng_ctx_free};
@@ -110,36 +89,56 @@ struct OpenPng {
   bool transparent = false;  ///< whether pixels may be transparent
 };
 
-cv::Mat decode_png(Bytes bytes, std::string_view name) {
+/// Colours of packed indices. libspng would map an index beyond the palette to black.
+Image decode_indexed(const OpenPng& png) {
+  const std::uint32_t bits = png.header.bit_depth, width = png.header.width;
+  const std::size_t in_row = (std::size_t{width} * bits + 7) / 8;
+  std::vector<std::uint8_t> packed(in_row * png.header.height);
+  png.decode(packed, SPNG_FMT_PNG);
+  spng_plte palette{};
+  png.check(spng_get_plte(png.png.get(), &palette));
+  Image image{png.width(), png.height(), 3, {}};
+  image.pixels.reserve(3 * png.pixels());
+  for (std::size_t row = 0; row < packed.size(); row += in_row)
+    for (std::uint32_t column = 0; column < width; ++column) {
+      const std::uint32_t at = column * bits;
+      const std::uint32_t index =
+          (packed[row + at / 8] >> (8 - bits - at % 8)) & ((1U << bits) - 1);
+      if (index >= palette.n_entries)
+        fail_image(png.name, "damaged PNG: index " + std::to_string(index) + " of a palette of " +
+                                 std::to_string(palette.n_entries) + " colours");
+      const spng_plte_entry& c = palette.entries[index];
+      const std::uint8_t alpha =
+          index < png.of_colours.n_type3_entries ? png.of_colours.type3_alpha[index] : 255;
+      for (const std::uint8_t sample : {c.red, c.green, c.blue})
+        image.pixels.push_back(over_white(sample, alpha));
+    }
+  return image;
+}
+
+template <class Sample>
+std::vector<Sample> decode_samples(const OpenPng& png, int channels) {
+  constexpr bool deep = sizeof(Sample) > 1;
+  if (png.transparent) {
+    std::vector<Sample> rgba(4 * png.pixels());
+    png.decode(rgba, deep ? SPNG_FMT_RGBA16 : SPNG_FMT_RGBA8);
+    return over_white(rgba, channels);
+  }
+  std::vector<Sample> samples(png.pixels() * static_cast<std::size_t>(channels));
+  png.decode(samples, deep ? SPNG_FMT_PNG : channels == 1 ? SPNG_FMT_G8 : SPNG_FMT_RGB8);
+  return samples;
+}
+
+DecodedImage decode_png(Bytes bytes, std::string_view name) {
   const OpenPng png(bytes, name);
-  const spng_ihdr& header = png.header;
-  const auto width = static_cast<int>(header.width), height = static_cast<int>(header.height);
-  const bool grey = header.color_type == SPNG_COLOR_TYPE_GRAYSCALE ||
-                    header.color_type == SPNG_COLOR_TYPE_GRAYSCALE_ALPHA;
-  cv::Mat pixels;
-  int format = SPNG_FMT_PNG;
-  if (header.color_type == SPNG_COLOR_TYPE_INDEXED) {
-    pixels.create(height, (width * header.bit_depth + 7) / 8, CV_8UC1);
-  } else if (png.transparent) {
-    pixels.create(height, width, header.bit_depth == 16 ? CV_16UC4 : CV_8UC4);
-    format = header.bit_depth == 16 ? SPNG_FMT_RGBA16 : SPNG_FMT_RGBA8;
-  } else if (header.bit_depth == 16) {
-    pixels.create(height, width, grey ? CV_16UC1 : CV_16UC3);
-  } else {
-    pixels.create(height, width, grey ? CV_8UC1 : CV_8UC3);
-    format = grey ? SPNG_FMT_G8 : SPNG_FMT_RGB8;
-  }
-  png.decode(pixels, format);
-  if (header.color_type == SPNG_COLOR_TYPE_INDEXED) {
-    spng_plte palette{};
-    png.check(spng_get_plte(png.png.get(), &palette));
-    return looked_up(pixels, header, palette, png.of_colours, name);
-  }
-  if (png.transparent)
-    pixels = pixels.depth() == CV_16U ? over_white<std::uint16_t>(pixels)
-                                      : over_white<std::uint8_t>(pixels);
-  if (grey && pixels.channels() > 1) cv::extractChannel(pixels, pixels, 0);
-  return pixels;
+  const int kind = png.header.color_type;
+  if (kind == SPNG_COLOR_TYPE_INDEXED) return decode_indexed(png);
+  const bool grey = kind == SPNG_COLOR_TYPE_GRAYSCALE || kind == SPNG_COLOR_TYPE_GRAYSCALE_ALPHA;
+  const int channels = grey ? 1 : 3;
+  if (png.header.bit_depth == 16)
+    return DeepImage{png.width(), png.height(), channels,
+                     decode_samples<std::uint16_t>(png, channels)};
+  return Image{png.width(), png.height(), channels, decode_samples<std::uint8_t>(png, channels)};
 }
 
 // --- JPEG and BMP: checked here, then decoded by OpenCV ------------------------------------------
@@ -199,13 +198,19 @@ void check_bmp(Bytes bytes, std::string_view name) {
     fail_image(name, "truncated BMP: " + std::to_string(needed) + " bytes of pixels expected");
 }
 
-cv::Mat decode_with_opencv(Bytes bytes, std::string_view name) {
-  const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8UC1,
-                    const_cast<std::byte*>(bytes.data()));
-  cv::Mat pixels = media().decode(raw);
-  if (pixels.empty()) fail_image(name, "damaged image: its pixels cannot be decoded");
-  if (pixels.channels() == 3) cv::cvtColor(pixels, pixels, cv::COLOR_BGR2RGB);
-  return pixels;
+Image decode_with_opencv(Bytes bytes, std::string_view name) {
+  Photograph decoded = media().decode(bytes);
+  if (decoded.samples.empty()) fail_image(name, "damaged image: its pixels cannot be decoded");
+  return {decoded.width, decoded.height, decoded.channels, std::move(decoded.samples)};
+}
+
+/// The same image with three channels.
+Image in_colours(Image image) {
+  if (image.channels == 3) return image;
+  Image out{image.width, image.height, 3, {}};
+  out.pixels.reserve(3 * image.pixels.size());
+  for (const std::uint8_t grey : image.pixels) out.pixels.insert(out.pixels.end(), 3, grey);
+  return out;
 }
 
 }  // namespace
@@ -240,16 +245,15 @@ std::vector<std::uint8_t> transparency_of(Bytes bytes, std::string_view name) {
   if (!is_png(bytes)) return {};
   const OpenPng png(bytes, name);
   if (!png.transparent) return {};
-  cv::Mat rgba(static_cast<int>(png.header.height), static_cast<int>(png.header.width), CV_8UC4);
+  std::vector<std::uint8_t> rgba(4 * png.pixels()), out(png.pixels());
   png.decode(rgba, SPNG_FMT_RGBA8);
-  std::vector<std::uint8_t> out(rgba.total());
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = rgba.data[4 * i + 3] < 255;
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = rgba[4 * i + 3] < 255;
   return out;
 }
 
 bool is_png(Bytes bytes) { return starts_with(bytes, "\x89PNG\r\n\x1a\n"); }
 
-cv::Mat decode_pixels(Bytes bytes, std::string_view name) {
+DecodedImage decode_pixels(Bytes bytes, std::string_view name) {
   if (bytes.empty()) fail_image(name, "empty file");
   if (is_png(bytes)) return decode_png(bytes, name);
   if (starts_with(bytes, "\xff\xd8")) {
@@ -260,24 +264,20 @@ cv::Mat decode_pixels(Bytes bytes, std::string_view name) {
   if (!starts_with(bytes, "BM"))
     fail_image(name, "not an image (PNG, JPEG, BMP, TIFF, PGM, PPM or PBM)");
   check_bmp(bytes, name);
-  cv::Mat pixels = decode_with_opencv(bytes, name);
-  if (pixels.channels() == 1) cv::cvtColor(pixels, pixels, cv::COLOR_GRAY2RGB);
-  return pixels;
+  return in_colours(decode_with_opencv(bytes, name));
 }
 
-int depth_of(const cv::Mat& pixels) {
-  double largest = 0;
-  cv::minMaxIdx(pixels.reshape(1), nullptr, &largest);
-  return std::clamp(static_cast<int>(std::bit_width(static_cast<unsigned>(largest))), 8, 16);
-}
-
-void take_pixels(const cv::Mat& pixels, int depth, Image& image) {
-  image.width = pixels.cols;
-  image.height = pixels.rows;
-  image.channels = pixels.channels();
-  image.pixels.resize(image.index(0, image.height));
-  cv::Mat out(image.height, image.width, CV_8UC(image.channels), image.pixels.data());
-  pixels.convertTo(out, CV_8U, pixels.depth() == CV_16U ? 255.0 / ((1 << depth) - 1) : 1.0);
+void take_pixels(DecodedImage decoded, int depth, Image& image) {
+  if (auto* plain = std::get_if<Image>(&decoded)) {
+    image = std::move(*plain);
+    return;
+  }
+  const DeepImage& deep = std::get<DeepImage>(decoded);
+  image.width = deep.width;
+  image.height = deep.height;
+  image.channels = deep.channels;
+  image.pixels.resize(deep.samples.size());
+  to_8_bits(deep.samples, depth, image.pixels);
 }
 
 }  // namespace microswarm

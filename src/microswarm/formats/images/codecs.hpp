@@ -8,11 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "microswarm/formats/images/image.hpp"
-
-namespace cv {
-class Mat;
-}  // namespace cv
+#include "microswarm/formats/images/deep_image.hpp"
 
 namespace microswarm {
 
@@ -24,7 +20,7 @@ bool is_png(std::span<const std::byte> bytes);
 /// checksum and a truncated file are errors, and the size is checked before decoding. A JPEG is
 /// rotated according to its EXIF; a BMP always has three channels. Throws
 /// InputError "NAME: WHY".
-cv::Mat decode_pixels(std::span<const std::byte> bytes, std::string_view name);
+DecodedImage decode_pixels(std::span<const std::byte> bytes, std::string_view name);
 
 /// 1 for each pixel of a PNG that is not opaque, else 0; empty for a picture without transparency.
 /// Throws as `decode_pixels`.
@@ -33,10 +29,7 @@ std::vector<std::uint8_t> transparency_of(std::span<const std::byte> bytes, std:
 /// Encodes an image as an 8-bit PNG. Throws InputError "cannot encode a PNG: WHY".
 std::string encode_png(const Image& image);
 
-/// Bits, 8 to 16, that the largest sample of 16-bit pixels needs.
-int depth_of(const cv::Mat& pixels);
-
-/// Copies pixels into `image` and reuses its memory; 16-bit samples are numbers of `depth` bits.
-void take_pixels(const cv::Mat& pixels, int depth, Image& image);
+/// Moves or converts pixels into `image`; 16-bit samples are numbers of `depth` bits.
+void take_pixels(DecodedImage decoded, int depth, Image& image);
 
 }  // namespace microswarm

@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <opencv2/core.hpp>
 #include <string>
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/formats/images/codecs.hpp"
 #include "microswarm/formats/images/pnm.hpp"
+#include "microswarm/formats/images/samples.hpp"
 #include "microswarm/formats/images/tiff.hpp"
 
 namespace microswarm {
@@ -62,9 +62,9 @@ std::optional<int> sample_depth(const std::filesystem::path& path) {
   const std::string bytes = read_file(path, max_file_bytes);
   const auto raw = std::as_bytes(std::span(bytes.data(), bytes.size()));
   if (!is_png(raw) && !is_tiff(raw)) return std::nullopt;
-  const cv::Mat pixels = decode_pixels(raw, path.string());
-  if (pixels.depth() != CV_16U) return std::nullopt;
-  return depth_of(pixels);
+  const DecodedImage decoded = decode_pixels(raw, path.string());
+  const auto* deep = std::get_if<DeepImage>(&decoded);
+  return deep ? std::optional(depth_of(deep->samples)) : std::nullopt;
 }
 
 Image read_photograph(const std::filesystem::path& path) {

@@ -3,11 +3,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <opencv2/core.hpp>
 #include <string>
 
 #include "microswarm/core/errors/error.hpp"
-#include "microswarm/formats/images/codecs.hpp"
 
 namespace microswarm {
 namespace {
@@ -31,6 +29,17 @@ int depth_of(std::span<const std::uint16_t> samples) {
   return std::clamp(static_cast<int>(std::bit_width(largest)), 8, 16);
 }
 
+void to_8_bits(std::span<const std::uint16_t> samples, int depth, std::span<std::uint8_t> out) {
+  // Added to a number below 2^22, it leaves the nearest whole one in the low bits.
+  constexpr float rounding = 0x1.8p23F;
+  const auto scale = static_cast<float>(255.0 / ((1 << depth) - 1));
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const float shifted = static_cast<float>(samples[i]) * scale + rounding;
+    const std::uint32_t whole = std::bit_cast<std::uint32_t>(shifted) & 0xffffU;
+    out[i] = static_cast<std::uint8_t>(std::min(whole, 255U));
+  }
+}
+
 void take_samples(const Samples2d<std::uint8_t>& picture, std::string_view name, Image& image) {
   check(picture, name);
   image.width = picture.width;
@@ -42,9 +51,11 @@ void take_samples(const Samples2d<std::uint8_t>& picture, std::string_view name,
 void take_samples(const Samples2d<std::uint16_t>& picture, int depth, std::string_view name,
                   Image& image) {
   check(picture, name);
-  const cv::Mat pixels(picture.height, picture.width, CV_16UC(picture.channels),
-                       const_cast<std::uint16_t*>(picture.samples.data()));
-  take_pixels(pixels, depth, image);
+  image.width = picture.width;
+  image.height = picture.height;
+  image.channels = picture.channels;
+  image.pixels.resize(picture.samples.size());
+  to_8_bits(picture.samples, depth, image.pixels);
 }
 
 }  // namespace microswarm

@@ -21,6 +21,9 @@ struct Samples2d {
 /// Bits, 8 to 16, that the largest sample needs.
 int depth_of(std::span<const std::uint16_t> samples);
 
+/// Scales numbers of `depth` bits to 8 bits, rounded to the nearest; what is larger becomes 255.
+void to_8_bits(std::span<const std::uint16_t> samples, int depth, std::span<std::uint8_t> out);
+
 /// The picture as an Image, whose memory is used again: copied, or from numbers of `depth` bits as
 /// `read_image` scales those of a file. Throws InputError as check_image_size, and unless there are
 /// as many samples as the sizes say. `name` stands for the picture in messages.

@@ -10,11 +10,10 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
-#include <opencv2/core.hpp>
+#include <optional>
 #include <vector>
 
 #include "microswarm/core/errors/error.hpp"
-#include "microswarm/formats/images/image.hpp"
 
 namespace microswarm {
 namespace {
@@ -55,16 +54,17 @@ struct SampleLayout {
     const std::size_t after = (8 - end % 8) % 8;
     return static_cast<std::uint16_t>(value >> after & ((1u << bits) - 1));
   }
-  /// Copies `count` pixels of a row.
-  void place(const std::uint8_t* row, cv::Mat& pixels, cv::Point to, int count) const {
-    const int channels = pixels.channels();
-    std::uint16_t* out = pixels.ptr<std::uint16_t>(to.y) + std::ptrdiff_t{to.x} * channels;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i, out += channels) {
+  /// Copies `count` pixels of a row to column `x` of row `y`.
+  void place(const std::uint8_t* row, DeepImage& image, std::uint32_t x, std::uint32_t y,
+             std::uint32_t count) const {
+    const auto channels = static_cast<std::size_t>(image.channels);
+    auto* out = &image.samples[(y * static_cast<std::size_t>(image.width) + x) * channels];
+    for (std::size_t i = 0; i < count; ++i, out += channels) {
       const std::size_t first = i * static_cast<std::size_t>(step);
       if (plane >= 0)
         out[plane] = at(row, first);
       else
-        for (int c = 0; c < channels; ++c) out[c] = at(row, first + static_cast<std::size_t>(c));
+        for (std::size_t c = 0; c < channels; ++c) out[c] = at(row, first + c);
     }
   }
 };
@@ -143,51 +143,53 @@ struct TiffPages::File {
   }
 
   /// Decodes samples of at most 8 bits by libtiff's own conversion to red, green, blue.
-  bool decode_8(const Page& p, cv::Mat& pixels) const {
+  std::optional<DecodedImage> decode_8(const Page& p) const {
     std::vector<std::uint32_t> rgba(std::size_t{p.width} * p.height);
     if (!TIFFReadRGBAImageOriented(tiff, p.width, p.height, rgba.data(), ORIENTATION_TOPLEFT, 1))
-      return false;
+      return std::nullopt;
     const bool grey =
         p.photometric == PHOTOMETRIC_MINISBLACK || p.photometric == PHOTOMETRIC_MINISWHITE;
-    pixels.create(static_cast<int>(p.height), static_cast<int>(p.width), grey ? CV_8UC1 : CV_8UC3);
-    std::uint8_t* out = pixels.data;
+    Image image{static_cast<int>(p.width), static_cast<int>(p.height), grey ? 1 : 3, {}};
+    image.pixels.resize(image.index(0, image.height));
+    std::uint8_t* out = image.pixels.data();
     for (const std::uint32_t pixel : rgba) {
       *out++ = static_cast<std::uint8_t>(TIFFGetR(pixel));
       if (grey) continue;
       *out++ = static_cast<std::uint8_t>(TIFFGetG(pixel));
       *out++ = static_cast<std::uint8_t>(TIFFGetB(pixel));
     }
-    return true;
+    return image;
   }
 
   /// Decodes samples of 9 to 16 bits: grey, or the first three samples.
-  bool decode_deep(const Page& p, cv::Mat& pixels) const {
+  std::optional<DecodedImage> decode_deep(const Page& p) const {
     const int channels = p.samples >= 3 ? 3 : 1;
-    pixels =
-        cv::Mat::zeros(static_cast<int>(p.height), static_cast<int>(p.width), CV_16UC(channels));
+    DeepImage image{static_cast<int>(p.width), static_cast<int>(p.height), channels, {}};
+    image.samples.resize(std::size_t{p.width} * p.height * static_cast<std::size_t>(channels));
     const bool apart = p.planes == PLANARCONFIG_SEPARATE;
     for (int plane = 0; plane < (apart ? channels : 1); ++plane) {
       const SampleLayout layout{p.bits, apart ? 1 : p.samples, apart ? plane : -1};
-      if (!(TIFFIsTiled(tiff) ? decode_tiles(p, layout, pixels) : decode_rows(p, layout, pixels)))
-        return false;
+      if (!(TIFFIsTiled(tiff) ? decode_tiles(p, layout, image) : decode_rows(p, layout, image)))
+        return std::nullopt;
     }
     if (p.photometric == PHOTOMETRIC_MINISWHITE)
-      cv::subtract(cv::Scalar::all((1 << p.bits) - 1), pixels, pixels);
-    return true;
+      for (std::uint16_t& sample : image.samples)
+        sample = static_cast<std::uint16_t>((1 << p.bits) - 1 - sample);
+    return image;
   }
 
-  bool decode_rows(const Page& p, const SampleLayout& layout, cv::Mat& pixels) const {
+  bool decode_rows(const Page& p, const SampleLayout& layout, DeepImage& image) const {
     const std::size_t size = layout.bytes(p.width);
     if (TIFFScanlineSize64(tiff) != size) return false;
     std::vector<std::uint8_t> row(size);
     for (std::uint32_t y = 0; y < p.height; ++y) {
       if (TIFFReadScanline(tiff, row.data(), y, layout.plane_number()) != 1) return false;
-      layout.place(row.data(), pixels, {0, static_cast<int>(y)}, pixels.cols);
+      layout.place(row.data(), image, 0, y, p.width);
     }
     return true;
   }
 
-  bool decode_tiles(const Page& p, const SampleLayout& layout, cv::Mat& pixels) const {
+  bool decode_tiles(const Page& p, const SampleLayout& layout, DeepImage& image) const {
     std::uint32_t width = 0, height = 0;
     TIFFGetField(tiff, TIFFTAG_TILEWIDTH, &width);
     TIFFGetField(tiff, TIFFTAG_TILELENGTH, &height);
@@ -201,8 +203,7 @@ struct TiffPages::File {
       for (std::uint32_t x = 0; x < p.width; x += width) {
         if (TIFFReadTile(tiff, tile.data(), x, y, 0, layout.plane_number()) < 0) return false;
         for (std::uint32_t k = 0; k < std::min(height, p.height - y); ++k)
-          layout.place(&tile[k * in_row], pixels, {static_cast<int>(x), static_cast<int>(y + k)},
-                       static_cast<int>(std::min(width, p.width - x)));
+          layout.place(&tile[k * in_row], image, x, y + k, std::min(width, p.width - x));
       }
     return true;
   }
@@ -243,7 +244,7 @@ void TiffPages::count_pages() {
   if (count_ == 0) throw InputError(name_ + ": holds no picture");
 }
 
-cv::Mat TiffPages::next() {
+DecodedImage TiffPages::next() {
   TIFF* const tiff = file_->tiff;
   const auto damaged = [&] {
     return InputError(
@@ -255,13 +256,11 @@ cv::Mat TiffPages::next() {
   const bool whole = page.format == SAMPLEFORMAT_UINT || page.format == SAMPLEFORMAT_VOID;
   if (!whole || page.samples < 1 || page.samples > 16 || page.bits > 16)
     throw InputError(fmt::format("{}: picture {} has no samples of 1 to 16 bits", name_, next_));
-  cv::Mat pixels;
-  const bool deep = page.bits > 8;
-  if (!file_->is_all_there() ||
-      !(deep ? file_->decode_deep(page, pixels) : file_->decode_8(page, pixels)))
-    throw damaged();
+  if (!file_->is_all_there()) throw damaged();
+  auto picture = page.bits > 8 ? file_->decode_deep(page) : file_->decode_8(page);
+  if (!picture) throw damaged();
   ++next_;
-  return pixels;
+  return *std::move(picture);
 }
 
 }  // namespace microswarm

@@ -8,9 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace cv {
-class Mat;
-}  // namespace cv
+#include "microswarm/formats/images/deep_image.hpp"
 
 namespace microswarm {
 
@@ -30,10 +28,9 @@ class TiffPages {
   TiffPages& operator=(const TiffPages&) = delete;
 
   int count() const { return count_; }
-  /// Pixels of the next page: one channel (grey) or three (red, green, blue) of 8 or 16 bits,
-  /// which hold samples of up to 8 or of 9 to 16 bits; without transparency. May be called at most
-  /// `count()` times.
-  cv::Mat next();
+  /// Pixels of the next page: one channel (grey) or three (red, green, blue) without
+  /// transparency. May be called at most `count()` times.
+  DecodedImage next();
 
  private:
   struct File;

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
+#include <vector>
 
 namespace cv {
 class Mat;
@@ -12,6 +16,14 @@ namespace microswarm {
 
 // Photographs and videos by OpenCV's imgcodecs and videoio. These depend on some 150 shared
 // libraries, 0.2 s of a program's start, so they form a module that is loaded at the first use.
+
+/// A photograph: rows of 8-bit samples, grey or red, green, blue.
+struct Photograph {
+  int width = 0;     ///< [px]
+  int height = 0;    ///< [px]
+  int channels = 1;  ///< 1 or 3
+  std::vector<std::uint8_t> samples;
+};
 
 /// A video that is open for reading.
 class VideoInput {
@@ -50,9 +62,8 @@ struct VideoForm {
 class Media {
  public:
   virtual ~Media() = default;
-  /// Pixels of a JPEG or BMP, grey or blue, green, red; empty if they cannot be decoded. `bytes` is
-  /// one row of 8 bits.
-  virtual cv::Mat decode(const cv::Mat& bytes) const = 0;
+  /// A JPEG or BMP; without samples if they cannot be decoded.
+  virtual Photograph decode(std::span<const std::byte> bytes) const = 0;
   /// Opens a video; null if it cannot be read.
   virtual std::unique_ptr<VideoInput> open(const std::filesystem::path& file) const = 0;
   /// Creates a video; null without such an encoder, or if the file cannot be written.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // libmicroswarm_media.so, the only part that is linked with OpenCV's imgcodecs and videoio.
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
 #include "microswarm/formats/media/media.hpp"
@@ -49,9 +50,19 @@ class OpenCvOutput : public VideoOutput {
 
 class OpenCvMedia : public Media {
  public:
-  cv::Mat decode(const cv::Mat& bytes) const override {
+  Photograph decode(std::span<const std::byte> bytes) const override {
     try {
-      return cv::imdecode(bytes, cv::IMREAD_ANYCOLOR);
+      const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8UC1,
+                        const_cast<std::byte*>(bytes.data()));
+      const cv::Mat pixels = cv::imdecode(raw, cv::IMREAD_ANYCOLOR);
+      Photograph photograph{pixels.cols, pixels.rows, pixels.channels(), {}};
+      photograph.samples.resize(pixels.total() * pixels.elemSize());
+      cv::Mat out(pixels.rows, pixels.cols, pixels.type(), photograph.samples.data());
+      if (photograph.channels == 3)
+        cv::cvtColor(pixels, out, cv::COLOR_BGR2RGB);
+      else
+        pixels.copyTo(out);
+      return photograph;
     } catch (const cv::Exception&) {
       return {};
     }

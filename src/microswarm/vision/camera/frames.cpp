@@ -13,6 +13,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/formats/images/codecs.hpp"
+#include "microswarm/formats/images/samples.hpp"
 #include "microswarm/formats/images/tiff.hpp"
 #include "microswarm/formats/media/media.hpp"
 #include "microswarm/vision/image/mat.hpp"
@@ -96,9 +97,10 @@ bool is_tiff(const fs::path& file) {
 
 /// Reads the next page; the first page that needs a depth sets it.
 void take_page(TiffPages& pages, std::optional<int>& depth, Image& picture) {
-  const cv::Mat page = pages.next();
-  if (!depth && page.depth() == CV_16U) depth = depth_of(page);
-  take_pixels(page, depth.value_or(16), picture);
+  DecodedImage page = pages.next();
+  const auto* deep = std::get_if<DeepImage>(&page);
+  if (!depth && deep) depth = depth_of(deep->samples);
+  take_pixels(std::move(page), depth.value_or(16), picture);
 }
 
 /// Reads the only picture of a TIFF; in a folder a file holds one picture.
