@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "microswarm/core/errors/error.hpp"
-#include "microswarm/session/session.hpp"
+#include "microswarm/experiment/session/session.hpp"
 
 int main(int argc, char** argv) {
   using namespace microswarm;

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "microswarm/session/session.hpp"
+#include "microswarm/experiment/session/session.hpp"
 
 using namespace microswarm;
 

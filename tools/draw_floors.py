@@ -18,8 +18,9 @@ ABOVE = [("apps", "the command-line tool, and the benches with their peers")]
 # Fill and edge of the boxes up to and with this floor, and what they have in common.
 GROUPS = [
     ("navigation", "#dbe9f6", "#2f5d8a", "the algorithms"),
+    ("experiment", "#fbeedb", "#96631d", "the loop: a scenario runs without any device"),
     ("vision", "#e6f2e3", "#3f7a3a", "devices; navigation, actuation and vision never see each other"),
-    ("reproduce", "#fbeedb", "#96631d", "the loop and its results"),
+    ("reproduce", "#f6e0e0", "#8a3434", "rigs and results"),
     ("apps", "#eee7f5", "#63478c", "programs"),
 ]
 ROW, BOX, TOP, WIDTH = 46, 38, 56, 900

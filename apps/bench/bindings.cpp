@@ -16,8 +16,8 @@
 #include "bench/temporary_folder.hpp"
 #include "microswarm.h"
 #include "microswarm/core/maths/statistics.hpp"
-#include "microswarm/session/session.hpp"
-#include "microswarm/session/standalone_navigator.hpp"
+#include "microswarm/experiment/session/session.hpp"
+#include "microswarm/experiment/session/standalone_navigator.hpp"
 
 namespace microswarm::bench {
 namespace {

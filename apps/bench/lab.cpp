@@ -58,7 +58,7 @@ std::uint64_t number_of(const std::string& frame) {
 /// CPU time of the simulation alone from one frame to another [s].
 double simulation_time(const fs::path& file, const std::vector<std::string>& settings,
                        std::uint64_t from, std::uint64_t to) {
-  const auto session = open_session(file, {.settings = settings});
+  const auto session = open_session(file, settings);
   double began = 0;
   for (std::uint64_t k = 0; k <= to && session->step(); ++k)
     if (k == from) began = cpu_time(RUSAGE_THREAD);
@@ -74,7 +74,7 @@ Watched watch(const fs::path& scenarios, int watchers, double duration) {
   LabClient first(lab.url(), number);
   first.ask({{"do", "step"}});  // plans
   first.next("answer");
-  const double tick = open_session(file, {.settings = settings})->scenario().tick;
+  const double tick = open_session(file, settings)->scenario().tick;
   first.ask({{"do", "speed"}, {"number", tick * ticks_a_second}});
   first.ask({{"do", "play"}});
   const std::uint64_t begin = number_of(first.next("frame"));

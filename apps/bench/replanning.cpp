@@ -4,7 +4,7 @@
 #include "bench/ompl_peer.hpp"
 #include "bench/planning.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
-#include "microswarm/experiment/trials.hpp"
+#include "microswarm/experiment/session/session.hpp"
 
 namespace microswarm::bench {
 namespace {
@@ -42,11 +42,11 @@ std::vector<BenchRow> one_world(const char* name, const std::filesystem::path& f
   PeerListener peer(*scene.scenario.goal, 90);
   for (int trial = 0; trial < trials && !stop(); ++trial) {
     const auto number = static_cast<std::uint32_t>(trial);
-    const RunResult r = simulate(scene.scenario, world, number, {}, stop);
+    const RunResult r = simulate(scene.scenario, world, {.trial = number}, {}, stop);
     ours.insert(ours.end(), r.timing.planning.begin(), r.timing.planning.end());
     if (trial >= 5) continue;
     RunListener* const listeners[] = {&peer};
-    simulate(scene.scenario, world, number, listeners, stop);
+    simulate(scene.scenario, world, {.trial = number}, listeners, stop);
   }
   const TimeSummary mine = summarise(ours);
   const TimeSummary theirs = summarise(peer.times());

@@ -150,7 +150,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     if (path == "/api/scenarios") return list();
     if (path == "/api/thumbnail") return draw(query_of(view(request_.target()), "file"));
     if (path == "/api/schema")
-      return write(respond(request_, http::status::ok, "application/json", session_schema()));
+      return write(respond(request_, http::status::ok, "application/json", scenario_schema()));
     if (path == "/api/vessel-schema")
       return write(respond(request_, http::status::ok, "application/json", vessel_schema()));
     if (path.starts_with(sessions_path)) return download(path.substr(sessions_path.size()));

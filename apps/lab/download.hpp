@@ -9,7 +9,7 @@
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/execution/descriptor.hpp"
-#include "microswarm/session/session.hpp"
+#include "microswarm/experiment/session/session.hpp"
 
 namespace microswarm::lab {
 

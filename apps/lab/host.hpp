@@ -15,7 +15,8 @@
 
 #include "lab/publisher.hpp"
 #include "lab/request.hpp"
-#include "microswarm/session/session.hpp"
+#include "microswarm/experiment/session/session.hpp"
+#include "microswarm/rig/session/open_on_rig.hpp"
 
 namespace microswarm::lab {
 
@@ -31,7 +32,7 @@ struct RigOpening {
 /// Source of a session.
 struct Opening {
   std::filesystem::path file;  ///< scenario or record
-  SessionOptions options{};
+  RigSessionOptions options{};
   /// Throws InputError for settings that are not allowed to a page.
   std::function<void(const Settings& settings)> check{};
   std::optional<BackgroundPhoto> photo{};

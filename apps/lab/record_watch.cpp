@@ -9,7 +9,7 @@
 #include <system_error>
 
 #include "microswarm/core/execution/descriptor.hpp"
-#include "microswarm/session/growing_record.hpp"
+#include "microswarm/experiment/session/growing_record.hpp"
 
 namespace microswarm::lab {
 namespace {

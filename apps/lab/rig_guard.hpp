@@ -9,7 +9,7 @@
 #include <string>
 #include <thread>
 
-#include "microswarm/session/live_session.hpp"
+#include "microswarm/rig/session/live_session.hpp"
 
 namespace microswarm::lab {
 

@@ -42,7 +42,7 @@ Image shrunk(const Image& picture, int factor) {
 
 void add_run(Json& json, const LiveSession& run) {
   const LiveStatus status = run.status();
-  const RigTiming timing = run.timing();
+  const RigTiming timing = run.live().timing();
   const CoilOutput& output = status.coils.output;
   json["t_s"] = status.t;
   json["field_mt"] = {output.wanted.x(), output.wanted.y(), output.wanted.z()};

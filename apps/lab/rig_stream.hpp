@@ -7,7 +7,7 @@
 
 #include "lab/message.hpp"
 #include "lab/stream.hpp"
-#include "microswarm/session/live_session.hpp"
+#include "microswarm/rig/session/live_session.hpp"
 
 namespace microswarm::lab {
 

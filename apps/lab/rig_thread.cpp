@@ -93,7 +93,7 @@ void RigThread::ask(std::uint64_t page, Request request) {
 
 /// The current run, or the record of the previous one.
 Session& RigThread::session() {
-  if (live_) return *live_;
+  if (live_) return live_->session();
   if (!last_) throw InputError("the rig is not open");
   return *last_;
 }
@@ -110,7 +110,7 @@ void RigThread::close() {
 
 /// Reopens the rig.
 void RigThread::begin_run(bool dry, std::uint64_t stops) {
-  const SessionOptions& o = opening_.options;
+  const RigSessionOptions& o = opening_.options;
   if (opening_.check) opening_.check(o.settings);
   RigExperiment on = open_rig_experiment(opening_.file, o.settings, o.rig, o.rig_settings);
   if (dry) be_patient(on.rig.params.safety);
@@ -128,10 +128,10 @@ void RigThread::begin_run(bool dry, std::uint64_t stops) {
   standing_ = {.state = RigState::opening, .folder = options.folder.string()};
   tell_rig();
   drives_ = !dry;
-  live_ = LiveSession::open(on, options);
+  live_ = std::make_shared<LiveSession>(on, options);
   guard_.watch(live_, !dry, stops);
   if (!options.folder.empty())
-    growing_ = std::make_unique<GrowingRecord>(*live_, options.folder / record_name);
+    growing_ = std::make_unique<GrowingRecord>(live_->session(), options.folder / record_name);
   warnings_ = live_->warnings();
   if (const std::string unusual = unusual_field(on.rig, on.scenario()); !unusual.empty())
     warnings_.push_back(unusual);
@@ -139,7 +139,7 @@ void RigThread::begin_run(bool dry, std::uint64_t stops) {
   publisher_.clear();
   publisher_.standing.speed = 1;
   publisher_.standing.plays = true;
-  pictures_.offer(live_->picture(), live_->camera_scale(), 0);
+  pictures_.offer(live_->live().picture(), live_->live().scale(), 0);
 }
 
 /// Closes the devices, and keeps the record.
@@ -148,7 +148,7 @@ void RigThread::keep_last() {
   if (!live_) return;
   if (runs()) end_run();
   guard_.release();
-  last_ = std::make_unique<Session>(Record(live_->record()));
+  last_ = std::make_unique<Session>(Record(live_->session().record()));
   live_.reset();
 }
 
@@ -177,10 +177,10 @@ void RigThread::serve() {
 }
 
 void RigThread::step() {
-  const Tick* tick = live_->step(Stop(&ends_));
+  const Tick* tick = live_->session().step(Stop(&ends_));
   if (tick) publisher_.take(*tick);
   if (tick && !tick->fault.empty()) standing_.why = tick->fault;
-  pictures_.offer(live_->picture(), live_->camera_scale(), tick ? tick->frame.t : 0);
+  pictures_.offer(live_->live().picture(), live_->live().scale(), tick ? tick->frame.t : 0);
   if (!tick || tick->end) {
     end_run();
     tell_rig();
@@ -196,14 +196,14 @@ void RigThread::end_run() {
   standing_.state = RigState::ended;
   std::string lost = live_->close();
   drives_ = false;
-  if (standing_.why.empty()) standing_.why = to_string(live_->result().status);
+  if (standing_.why.empty()) standing_.why = to_string(live_->session().result().status);
   if (drove) {
-    standing_.zero_is_confirmed = live_->zero_is_confirmed();
-    standing_.stop_trouble = live_->stop_trouble();
+    standing_.zero_is_confirmed = live_->live().zero_is_confirmed();
+    standing_.stop_trouble = live_->live().stop_trouble();
   }
   try {
     if (!standing_.folder.empty())
-      live_->record_to(std::filesystem::path(standing_.folder) / record_name);
+      live_->session().record_to(std::filesystem::path(standing_.folder) / record_name);
   } catch (const InputError& error) {
     lost += (lost.empty() ? "" : "; ") + std::string(error.what());
   }
@@ -222,7 +222,7 @@ void RigThread::fail(const std::string& why) {
 
 void RigThread::welcome(std::uint64_t page) {
   const MessagePtr hello =
-      live_ ? rig_hello_message(*live_, source_of(opening_), live_->rig(), warnings_)
+      live_ ? rig_hello_message(live_->session(), source_of(opening_), live_->rig(), warnings_)
             : hello_message(session(), source_of(opening_));
   publisher_.welcome(page, hello, session(), shown(), shown().view());
   if (page != 0) {

@@ -10,7 +10,7 @@
 #include "lab/picture_sender.hpp"
 #include "lab/rig_guard.hpp"
 #include "lab/rig_stream.hpp"
-#include "microswarm/session/growing_record.hpp"
+#include "microswarm/experiment/session/growing_record.hpp"
 
 namespace microswarm::lab {
 

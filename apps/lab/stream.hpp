@@ -12,7 +12,7 @@
 #include "lab/message.hpp"
 #include "lab/request.hpp"
 #include "microswarm/core/errors/issue.hpp"
-#include "microswarm/session/session.hpp"
+#include "microswarm/experiment/session/session.hpp"
 
 namespace microswarm::lab {
 

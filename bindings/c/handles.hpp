@@ -12,9 +12,9 @@
 
 #include "microswarm.h"
 #include "microswarm/core/errors/error.hpp"
-#include "microswarm/session/path_query.hpp"
-#include "microswarm/session/session.hpp"
-#include "microswarm/session/standalone_navigator.hpp"
+#include "microswarm/experiment/queries/path_query.hpp"
+#include "microswarm/experiment/session/session.hpp"
+#include "microswarm/experiment/session/standalone_navigator.hpp"
 
 namespace microswarm::c {
 

@@ -98,7 +98,7 @@ int32_t ms_session_open(const char* file, const char* const* settings, size_t co
                         uint64_t* session) {
   return c::guarded([&]() -> int32_t {
     c::require(file, "file"), c::require(session, "session");
-    *session = c::keep(of(open_session(file, {.settings = c::settings_of(settings, count)})));
+    *session = c::keep(of(open_session(file, c::settings_of(settings, count))));
     return MS_OK;
   });
 }
@@ -116,11 +116,12 @@ int32_t ms_session_open_trial(const ms_scenario* scenario, uint64_t* session) {
   return c::guarded([&]() -> int32_t {
     require_one_source(scenario), c::require(session, "session");
     if (scenario->file)
-      *session = c::keep(of(open_session(
-          scenario->file, {.settings = c::settings_of(scenario->settings, scenario->setting_count),
-                           .trial = scenario->trial})));
+      *session = c::keep(of(
+          open_session(scenario->file, c::settings_of(scenario->settings, scenario->setting_count),
+                       {.trial = scenario->trial})));
     else
-      *session = c::keep(of(std::make_unique<Session>(experiment_of(*scenario), scenario->trial)));
+      *session = c::keep(of(std::make_unique<Session>(experiment_of(*scenario),
+                                                      SessionParts{.trial = scenario->trial})));
     return MS_OK;
   });
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Gathering of many robots under one input.
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/experiment/queries/gather_query.hpp"
 #include "microswarm/formats/write_map.hpp"
-#include "microswarm/session/gather_query.hpp"
 #include "named_map.hpp"
 #include "session.hpp"
 

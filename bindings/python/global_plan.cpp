@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Global inputs that bring each of several robots to its own goal.
 #include "calls.hpp"
-#include "microswarm/session/global_query.hpp"
+#include "microswarm/experiment/queries/global_query.hpp"
 #include "named_map.hpp"
 
 namespace microswarm::python {

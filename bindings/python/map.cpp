@@ -4,10 +4,10 @@
 #include "drawing.hpp"
 #include "microswarm/config/type.hpp"
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/experiment/queries/path_query.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/formats/pixel_map.hpp"
 #include "microswarm/formats/write_map.hpp"
-#include "microswarm/session/path_query.hpp"
 #include "named_map.hpp"
 
 namespace microswarm::python {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Navigators in the caller's loop. A step takes a few µs, so its arguments are read here instead of
 // by converters.
-#include "microswarm/session/standalone_navigator.hpp"
+#include "microswarm/experiment/session/standalone_navigator.hpp"
 
 #include "guarded.hpp"
 #include "scenario_text.hpp"

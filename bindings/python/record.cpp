@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Records as NumPy arrays: a column for every recorded quantity, from its declaration.
-#include "microswarm/experiment/record/record.hpp"
+#include "record.hpp"
 #include "calls.hpp"
 #include "drawing.hpp"
 #include "microswarm/config/write.hpp"
+#include "microswarm/experiment/session/replay.hpp"
 #include "microswarm/io/columns.hpp"
 #include "microswarm/io/tables.hpp"
-#include "record.hpp"
 
 namespace microswarm::python {
 namespace {

@@ -100,7 +100,8 @@ std::unique_ptr<OpenSession> open(const ScenarioText& scenario, std::optional<st
   std::unique_ptr<Navigator> own;
   if (!navigator.is_none()) own = std::make_unique<OwnNavigator>(navigator);
   auto session = interruptible([&](const Stop&) {
-    return std::make_unique<Session>(scenario.open(seed), trial, nullptr, std::move(own));
+    return std::make_unique<Session>(scenario.open(seed),
+                                     SessionParts{.trial = trial, .navigator = std::move(own)});
   });
   return std::make_unique<OpenSession>(std::move(session), navigator);
 }
@@ -199,7 +200,7 @@ void add_session(py::module_& module) {
            })
       .def_readonly("name", &ScenarioText::name)
       .def_readonly("settings", &ScenarioText::settings);
-  module.def("schema", session_schema);
+  module.def("schema", scenario_schema);
 
   py::class_<OpenSession>(module, "Session", py::custom_type_setup(collect_garbage))
       .def(py::init(&open))

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "calls.hpp"
-#include "microswarm/session/session.hpp"
+#include "microswarm/experiment/session/session.hpp"
 
 namespace microswarm::python {
 

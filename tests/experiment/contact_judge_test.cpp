@@ -32,7 +32,7 @@ std::vector<ContactVerdict> judged(const Scenario& s, Navigator& navigator,
   KinematicPlant plant(s, world);
   ContactLog log;
   RunListener* const listeners[] = {&log};
-  run(s, plant, navigator, listeners);
+  test::run(s, plant, navigator, listeners);
   return judge_contacts(s, world, 0, log, params);
 }
 
@@ -103,7 +103,7 @@ TEST(ContactJudge, TheVerdictIsAboutTheSwarmAsItDrifted) {
     GoStraight straight({600, 500}, speed);
     ContactLog log;
     RunListener* const listeners[] = {&log};
-    run(s, plant, straight, listeners);
+    test::run(s, plant, straight, listeners);
     for (const ContactVerdict& verdict : judge_contacts(s, world, trial, log))
       EXPECT_LE(verdict.decided, verdict.contact.t);
   }
@@ -117,7 +117,7 @@ TEST(ContactJudge, SameRunSameVerdicts) {
     GoStraight straight(*s.goal, limits_of(s.swarm).max_speed);
     ContactLog log;
     RunListener* const listeners[] = {&log};
-    run(s, plant, straight, listeners);
+    test::run(s, plant, straight, listeners);
     return judge_contacts(s, world, 0, log);
   };
   const auto a = once();

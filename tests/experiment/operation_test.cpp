@@ -7,8 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "microswarm/experiment/run/metrics_listener.hpp"
-#include "microswarm/experiment/run/open_run.hpp"
+#include "microswarm/experiment/session/session.hpp"
 #include "tests/experiment/scenes.hpp"
 
 namespace microswarm {
@@ -16,39 +15,27 @@ namespace {
 
 /// A run that is recorded tick by tick.
 struct Operated {
-  explicit Operated(const Scenario& scenario)
-      : open(scenario, world_of(scenario)), recorder(load_scene(scenario, {})), metrics(scenario) {}
-  bool step(const Stop& stop = {}) {
-    const Tick* tick = open.step(stop);
-    if (!tick) return false;
-    recorder.on_tick(*tick);
-    metrics.on_tick(*tick);
-    return true;
-  }
+  explicit Operated(const Scenario& scenario) : session(open_experiment(scenario, {})) {}
   void step(int ticks) {
-    for (int i = 0; i < ticks; ++i) ASSERT_TRUE(step());
+    for (int i = 0; i < ticks; ++i) ASSERT_TRUE(session.step());
   }
   /// Steps until the goal is reached, a minute at most.
   void arrive() {
-    const auto& events = recorder.record().events;
+    const auto& events = session.record().events;
     for (int i = 0; i < 600; ++i) {
       if (std::ranges::count(events, EventKind::goal_reached, &RunEvent::kind) > 0) return;
-      ASSERT_TRUE(step());
+      ASSERT_TRUE(session.step());
     }
     FAIL() << "not at the goal";
   }
   Record finish(const Stop& stop = {}) {
-    while (step(stop)) {
-    }
-    recorder.on_end(metrics.result());
-    return recorder.record();
+    session.finish(stop);
+    return session.record();
   }
-  Operation& operation() { return open.operation(); }
-  const Frame& newest() { return recorder.record().frames.back(); }
+  Operation& operation() { return *session.operation(); }
+  const Frame& newest() { return session.record().frames.back(); }
 
-  OpenRun open;
-  Recorder recorder;
-  MetricsListener metrics;
+  Session session;
 };
 
 void expect_repeated(const Record& record) {
@@ -233,12 +220,12 @@ TEST(Operation, AnotherGoalEndsTheHold) {
   scenario.hold_at_goal = 5;
   Operated run(scenario);
   const auto reached = [&] {
-    return std::ranges::count(run.recorder.record().events, EventKind::goal_reached,
+    return std::ranges::count(run.session.record().events, EventKind::goal_reached,
                               &RunEvent::kind);
   };
   run.arrive();
   run.step(10);
-  EXPECT_TRUE(run.open.change("goal_um=[1000, 500]").empty());
+  EXPECT_TRUE(run.session.set("goal_um", "[1000, 500]").empty());
   const Record record = run.finish();
   EXPECT_EQ(reached(), 2);
   EXPECT_EQ(record.result.status, Status::solved);

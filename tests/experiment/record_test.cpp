@@ -34,7 +34,7 @@ TEST(Record, AStraightFlightIsTheSameBitsInEveryBuild) {
   GoStraight navigator(*scenario.goal, 60);
   Recorder recorder(scene);
   RunListener* const listeners[] = {&recorder};
-  run(scenario, plant, navigator, listeners);
+  test::run(scenario, plant, navigator, listeners);
   EXPECT_EQ(recorder.record().hash(), "60fe8e7adc43bf4f");
 }
 
@@ -172,12 +172,12 @@ TEST(Record, ARunThatWasStoppedIsWhole) {
       if (++frames == 20) flag = true;
     }
   } stop_at;
-  Recorder recorder(scene);
-  RunListener* const listeners[] = {&recorder, &stop_at};
-  simulate(scene.scenario, build_world(scene), 0, listeners, Stop(&stop_at.flag));
-  EXPECT_EQ(recorder.record().result.status, Status::stopped);
-  EXPECT_EQ(recorder.record().frames.size(), 21u);
-  const ReplayResult again = replay(recorder.record());
+  Session session({scene, build_world(scene), {}});
+  session.listen(stop_at);
+  session.finish(Stop(&stop_at.flag));
+  EXPECT_EQ(session.record().result.status, Status::stopped);
+  EXPECT_EQ(session.record().frames.size(), 21u);
+  const ReplayResult again = replay(session.record());
   EXPECT_TRUE(again.identical) << again.difference;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/experiment/run/run.hpp"
+#include "tests/runs.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ Told run_with(const Scenario& scenario, Navigator& navigator, const Stop& stop =
   Told told;
   KinematicPlant plant(scenario, world_of(scenario));
   RunListener* const listeners[] = {&told};
-  told.result = run(scenario, plant, navigator, listeners, stop);
+  told.result = test::run(scenario, plant, navigator, listeners, stop);
   return told;
 }
 
@@ -71,7 +71,7 @@ TEST(Run, ASwarmThatTurnsSlowlyTouchesNoWall) {
                          rng.uniform(0, 1) < 0.5 ? 466.0 : 534.0};
     for (const NavigatorParams& navigator : {NavigatorParams{drrt}, NavigatorParams{predictive}}) {
       scenario.navigator = navigator;
-      const RunResult result = simulate(scenario, world_of(scenario), 0);
+      const RunResult result = simulate(scenario, world_of(scenario));
       EXPECT_NE(result.status, Status::collided)
           << trial << ", navigator " << navigator.index() << ", " << result.metrics.time;
     }
@@ -206,7 +206,7 @@ TEST(Run, WithoutTheTruthWhatIsSeenCounts) {
   const Scenario scenario = open_room();
   Blind plant(scenario, world_of(scenario));
   GoStraight navigator(*scenario.goal, 60);
-  const RunResult result = run(scenario, plant, navigator);
+  const RunResult result = test::run(scenario, plant, navigator);
   EXPECT_EQ(result.status, Status::solved);
   EXPECT_NEAR(result.metrics.length, 1550, 6);
   EXPECT_NEAR(result.metrics.walls.clearance, 200, 1e-9);

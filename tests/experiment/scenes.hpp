@@ -14,6 +14,9 @@
 #include "microswarm/experiment/record/record.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/experiment/scenario/validate.hpp"
+#include "microswarm/experiment/session/replay.hpp"
+#include "microswarm/experiment/session/session.hpp"
+#include "tests/runs.hpp"
 
 namespace microswarm {
 
@@ -90,11 +93,7 @@ inline World world_of(const Scenario& scenario) { return build_world(load_scene(
 
 /// Runs one trial in the world of the scenario and keeps it.
 inline Record record_of(const Scenario& scenario, std::uint32_t trial = 0) {
-  const Scene scene = load_scene(scenario, {});
-  Recorder recorder(scene, trial);
-  RunListener* const listeners[] = {&recorder};
-  simulate(scene.scenario, build_world(scene), trial, listeners);
-  return recorder.take();
+  return test::record_of(load_scene(scenario, {}), {.trial = trial});
 }
 
 /// A folder of its own for a test, empty. Tests of one fixture may run in several processes.

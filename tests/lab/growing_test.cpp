@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "lab/record_watch.hpp"
-#include "microswarm/session/growing_record.hpp"
+#include "microswarm/experiment/session/growing_record.hpp"
 #include "tests/lab/client.hpp"
 
 namespace microswarm::lab {

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <thread>
 
+#include "microswarm/experiment/session/replay.hpp"
 #include "tests/lab/client.hpp"
 #include "tests/messages.hpp"
 
@@ -21,7 +22,7 @@ Record record_of(const Lab& lab, std::uint64_t session) {
 
 /// Of the command line.
 std::string hash_of(const std::string& file, const std::vector<std::string>& settings = {}) {
-  const auto session = open_session(file, {.settings = settings});
+  const auto session = open_session(file, settings);
   session->finish();
   return session->record().hash();
 }

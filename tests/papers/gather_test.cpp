@@ -3,9 +3,9 @@
 // project.
 #include <gtest/gtest.h>
 
-#include "microswarm/experiment/run/run.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/experiment/scenario/validate.hpp"
+#include "microswarm/experiment/session/session.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "tests/cases.hpp"
 #include "tests/files.hpp"

@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "microswarm/core/maths/angles.hpp"
-#include "microswarm/experiment/run/run.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
+#include "microswarm/experiment/session/session.hpp"
 
 namespace microswarm {
 namespace {

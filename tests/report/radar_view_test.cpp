@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "microswarm/experiment/run/run.hpp"
 #include "tests/files.hpp"
+#include "tests/runs.hpp"
 
 namespace microswarm {
 namespace {
@@ -21,11 +21,7 @@ class RadarView : public testing::Test {
 
   static Record recorded() {
     const std::filesystem::path file = MICROSWARM_SOURCE_DIR "/scenarios/papers/radar/single.yaml";
-    const Scene scene = load_scene(read_scenario(file), file.parent_path());
-    Recorder recorder(scene);
-    RunListener* const listeners[] = {&recorder};
-    simulate(scene.scenario, build_world(scene), 0, listeners, {});
-    return recorder.take();
+    return test::record_of(load_scene(read_scenario(file), file.parent_path()));
   }
 
   /// Blue of the picture beside the centre of the obstacle in a frame, off its velocity's arrow.

@@ -6,7 +6,6 @@
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/file.hpp"
-#include "microswarm/experiment/run/run.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/report/page.hpp"
 #include "microswarm/report/picture.hpp"
@@ -121,11 +120,8 @@ TEST_F(Report, EveryStyleIsUnderstoodByGnuplotInEveryKindOfFile) {
 TEST_F(Report, OfARunThatWasStoppedBeforeItsFirstTick) {
   const fs::path file = fs::path(MICROSWARM_SOURCE_DIR) / "scenarios/first_flight.yaml";
   const Scene scene = load_scene(read_scenario(file), file.parent_path());
-  Recorder recorder(scene);
-  RunListener* const listeners[] = {&recorder};
   const std::atomic<bool> stopped = true;
-  simulate(scene.scenario, build_world(scene), 0, listeners, Stop(&stopped));
-  write_run_report(recorder.record(), folder_);
+  write_run_report(test::record_of(scene, {}, Stop(&stopped)), folder_);
   EXPECT_TRUE(fs::exists(folder_ / "index.html"));
   EXPECT_TRUE(fs::exists(folder_ / "plots.png"));
 }
@@ -136,11 +132,7 @@ TEST_F(Report, ARunIsDrawnWithItsChanges) {
   scenario.start = Pose2{{100, 300}, 0};
   scenario.goal = Vec2{1000, 300};
   scenario.time_limit = 2;
-  const Scene scene = load_scene(scenario, {});
-  Recorder recorder(scene);
-  RunListener* const listeners[] = {&recorder};
-  simulate(scene.scenario, build_world(scene), 0, listeners);
-  Record record = recorder.record();
+  Record record = test::record_of(load_scene(scenario, {}));
   const auto is_goal_at = [&](Vec2 goal) {
     const Image image = draw_run(record)->raster();
     const int left = 24, top = 58;  // of the drawing

@@ -9,10 +9,10 @@
 #include <string>
 
 #include "microswarm/core/errors/error.hpp"
-#include "microswarm/experiment/run/run.hpp"
 #include "microswarm/report/picture.hpp"
 #include "microswarm/vision/camera/frames.hpp"
 #include "tests/files.hpp"
+#include "tests/runs.hpp"
 
 namespace microswarm {
 namespace {
@@ -24,10 +24,7 @@ class RunVideos : public testing::Test {
   RunVideos() {
     const fs::path file = fs::path(MICROSWARM_SOURCE_DIR) / "scenarios/first_flight.yaml";
     const Scene scene = load_scene(read_scenario(file), file.parent_path());
-    Recorder recorder(scene);
-    RunListener* const listeners[] = {&recorder};
-    simulate(scene.scenario, build_world(scene), 0, listeners);
-    record_ = recorder.take();
+    record_ = test::record_of(scene);
   }
 
   test::Folder folder_;

@@ -7,9 +7,7 @@
 #include <chrono>
 #include <thread>
 
-#include "microswarm/experiment/run/episode.hpp"
-#include "microswarm/experiment/run/run.hpp"
-#include "microswarm/navigation/make.hpp"
+#include "microswarm/experiment/session/session.hpp"
 #include "microswarm/rig/runtime/live_rig.hpp"
 #include "microswarm/rig/runtime/realtime_rig_simulator.hpp"
 
@@ -53,7 +51,7 @@ class LiveOperation : public testing::Test {
                          .max_pause = 3};
   }
   /// Runs for 8 s at most; `then` is called after 0.5 s.
-  RunResult go(const std::function<void()>& then) {
+  RunResult go(const std::function<void(Operation&)>& then) {
     const Scene scene = load_scene(
         read_scenario(scenarios / "papers/radar/single.yaml", {"obstacles=[]", "time_limit_s=30"}),
         scenarios);
@@ -63,14 +61,12 @@ class LiveOperation : public testing::Test {
     LiveRig plant(s, world.map, rig,
                   std::make_unique<FailingCamera>(simulator.camera(40), freezes, loses),
                   simulator.view().scale, simulator.coils());
-    const auto navigator = make_navigator(s.navigator, task_of(s), Rng(1, Purpose::planner, 0));
+    Session session({scene, world, {}}, {.plant = borrowed(plant)});
     std::thread person([&] {
       std::this_thread::sleep_for(std::chrono::milliseconds(500));
-      then();
+      then(*session.operation());
     });
-    Episode episode(s, plant, *navigator, &operation);
-    const Stop stop{std::chrono::seconds(8)};
-    const RunResult result = run(s, [&] { return episode.step(stop); });
+    const RunResult result = session.finish(Stop(std::chrono::seconds(8)));
     person.join();
     for (const double current : simulator.coils().currents()) EXPECT_EQ(current, 0);
     return result;
@@ -80,11 +76,10 @@ class LiveOperation : public testing::Test {
   Rig rig = read_rig(scenarios / "rigs/vortex.yaml",
                      {"camera.type=simulated", "camera.microscope.um_per_px=6"});
   std::atomic<bool> freezes = false, loses = false;
-  Operation operation{1e3};
 };
 
 TEST_F(LiveOperation, ALostSwarmEndsAPauseToo) {
-  const RunResult result = go([&] {
+  const RunResult result = go([&](Operation& operation) {
     operation.pause();
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     loses = true;
@@ -94,7 +89,7 @@ TEST_F(LiveOperation, ALostSwarmEndsAPauseToo) {
 }
 
 TEST_F(LiveOperation, FrozenPicturesEndTheSteeringByHandToo) {
-  const RunResult result = go([&] {
+  const RunResult result = go([&](Operation& operation) {
     operation.manual();
     operation.steer({0, 20});
     std::this_thread::sleep_for(std::chrono::milliseconds(300));

@@ -201,7 +201,7 @@ TEST_F(LiveRigs, ANavigatorThatHangsEndsIt) {
   LiveRig plant(s, world.map, *rig, simulator.camera(40), simulator.view().scale,
                 simulator.coils());
   Slow slow;
-  const RunResult result = run(s, plant, slow);
+  const RunResult result = test::run(s, plant, slow);
   EXPECT_EQ(result.status, Status::fault);
   EXPECT_NE(result.state.find("no command for 0.5"), std::string::npos) << result.state;
   EXPECT_EQ(coils->strongest, 0);
@@ -212,11 +212,11 @@ TEST_F(LiveRigs, ALogThatCannotBeWrittenEndsIt) {
   RealtimeRigSimulator simulator(s, world, *rig, std::make_unique<WatchedCoils>(coils));
   int moments = 0;
   LiveRig plant(s, world.map, *rig, simulator.camera(40), simulator.view().scale, simulator.coils(),
-                [&](const CoilMoment&) {
+                {.coils = [&](const CoilMoment&) {
                   if (++moments > 50) throw InputError("commands.csv: cannot write: disk full");
-                });
+                }});
   const auto navigator = make_navigator(s.navigator, task_of(s), Rng(1, Purpose::planner, 0));
-  const RunResult result = run(s, plant, *navigator);
+  const RunResult result = test::run(s, plant, *navigator);
   EXPECT_EQ(result.status, Status::fault);
   EXPECT_EQ(result.state, "commands.csv: cannot write: disk full");
   EXPECT_EQ(coils->strongest, 0);
@@ -282,7 +282,7 @@ TEST_F(LiveRigs, AVirtualObstacleInTheWayIsAvoided) {
   LiveRig plant(s, world.map, bench_rig, simulator.camera(40), simulator.view().scale,
                 simulator.coils());
   const auto navigator = make_navigator(s.navigator, task_of(s), Rng(s.seed, Purpose::planner, 0));
-  const RunResult result = run(s, plant, *navigator, {}, Stop(std::chrono::seconds(12)));
+  const RunResult result = test::run(s, plant, *navigator, {}, Stop(std::chrono::seconds(12)));
   EXPECT_EQ(result.status, Status::stopped) << result.state;
   EXPECT_GT(result.metrics.obstacles.clearance, 60);
   EXPECT_LT(result.metrics.obstacles.clearance, 240);
@@ -324,7 +324,7 @@ TEST_F(LiveRigs, AWaveformThatTheDeviceWeakensMovesTheSwarmAsItsFieldDoes) {
     LiveRig plant(s, world.map, *rig, simulator.camera(40), simulator.view().scale,
                   simulator.coils());
     const auto navigator = make_navigator(s.navigator, task_of(s), Rng(1, Purpose::planner, 0));
-    run(s, plant, *navigator, {}, Stop(std::chrono::seconds(2)));
+    test::run(s, plant, *navigator, {}, Stop(std::chrono::seconds(2)));
     return distance(simulator.swarm().pose.position, start);
   };
   EXPECT_GT(way(0.5), 0.1 * 2 * limits_of(s.swarm).max_speed);  // 4 mT turn it as 8 do
@@ -357,7 +357,7 @@ TEST_F(LiveRigs, ACameraThatFailsAtTheStartEndsIt) {
   LiveRig plant(s, world.map, *rig, std::make_unique<OnePicture>(first.picture),
                 simulator.view().scale, simulator.coils());
   const auto navigator = make_navigator(s.navigator, task_of(s), Rng(1, Purpose::planner, 0));
-  const RunResult result = run(s, plant, *navigator);
+  const RunResult result = test::run(s, plant, *navigator);
   EXPECT_EQ(result.status, Status::fault);
   EXPECT_EQ(result.state, "camera: gone");
 }

@@ -10,13 +10,13 @@
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/execution/clock.hpp"
-#include "microswarm/experiment/run/run.hpp"
 #include "microswarm/navigation/make.hpp"
 #include "microswarm/rig/runtime/live_rig.hpp"
 #include "microswarm/rig/runtime/realtime_rig_simulator.hpp"
 #include "microswarm/rig/simulation/simulated_rig.hpp"
 #include "microswarm/vision/image/threads.hpp"
 #include "tests/cases.hpp"
+#include "tests/runs.hpp"
 
 namespace microswarm::test {
 
@@ -171,9 +171,9 @@ class LiveRigs : public ::testing::Test {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
       zero_after = steady_seconds() - began;
     });
-    const RunResult result = run(s, plant, *navigator, {},
-                                 Stop(std::chrono::duration_cast<Stop::Clock::duration>(
-                                     std::chrono::duration<double>(seconds))));
+    const RunResult result = test::run(s, plant, *navigator, {},
+                                       Stop(std::chrono::duration_cast<Stop::Clock::duration>(
+                                           std::chrono::duration<double>(seconds))));
     timing = plant.timing();
     at_end = coils->strongest;
     position = simulator.swarm().pose.position;

@@ -8,7 +8,7 @@
 
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/rng.hpp"
-#include "microswarm/rig/perception/body_numbers.hpp"
+#include "microswarm/navigation/prediction/body_numbers.hpp"
 #include "microswarm/rig/perception/robot_perception.hpp"
 #include "microswarm/rig/simulation/microscope.hpp"
 #include "tests/rig/perceived.hpp"

@@ -34,7 +34,7 @@ TEST_F(RigComparison, ItsTrialsAreThoseOfTheTwoSimulationsAtAnyNumberOfThreads) 
     const ComparedTrial& both = one[static_cast<std::size_t>(k)];
     EXPECT_EQ(both.trial, k);
     const RunResult plain =
-        simulate(on_.scenario(), on_.experiment.world, static_cast<std::uint32_t>(k), {}, {});
+        simulate(on_.scenario(), on_.experiment.world, {.trial = static_cast<std::uint32_t>(k)});
     EXPECT_EQ(both.kinematic.metrics.time, plain.metrics.time);
     EXPECT_EQ(both.rig.metrics.time, two[static_cast<std::size_t>(k)].rig.metrics.time);
     EXPECT_NE(both.rig.metrics.time, both.kinematic.metrics.time);

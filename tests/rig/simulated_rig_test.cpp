@@ -6,9 +6,9 @@
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/maths/angles.hpp"
-#include "microswarm/experiment/run/run.hpp"
 #include "microswarm/navigation/make.hpp"
 #include "tests/files.hpp"
+#include "tests/runs.hpp"
 
 namespace microswarm {
 namespace {
@@ -37,7 +37,7 @@ struct Rehearsal {
     const Scenario& s = scene.scenario;
     const auto navigator =
         make_navigator(s.navigator, task_of(s), Rng(s.seed, Purpose::planner, 0));
-    return run(s, plant, *navigator, listeners);
+    return test::run(s, plant, *navigator, listeners);
   }
   RunResult in_rig() const {
     SimulatedRig plant(scene.scenario, world, rig);

@@ -5,8 +5,8 @@
 
 #include "commands/run_output.hpp"
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/experiment/queries/gather_query.hpp"
 #include "microswarm/formats/map_file.hpp"
-#include "microswarm/session/gather_query.hpp"
 
 namespace microswarm::cli {
 namespace {

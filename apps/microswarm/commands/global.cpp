@@ -11,10 +11,10 @@
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/lines.hpp"
 #include "microswarm/core/text/text.hpp"
+#include "microswarm/experiment/queries/global_query.hpp"
 #include "microswarm/experiment/record/global_tree_file.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/report/robot_picture.hpp"
-#include "microswarm/session/global_query.hpp"
 #include "support/options.hpp"
 
 namespace microswarm::cli {

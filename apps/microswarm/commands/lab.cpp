@@ -66,7 +66,7 @@ std::optional<lab::Opening> opening_of(const LabOptions& o) {
   if (report_options(o.photo).photo)  // reports an unreadable photograph
     opening.photo = lab::BackgroundPhoto{.file = o.photo.file, .um_per_px = *o.photo.um_per_px};
   if (o.rig.empty() || o.simulate) {
-    note_each(reading([&] { return open_session(opening.file, opening.options); })->notes());
+    note_each(reading([&] { return open_on_rig(opening.file, opening.options); })->notes());
     return opening;
   }
   const RigExperiment on =

@@ -7,10 +7,10 @@
 
 #include "microswarm/config/type.hpp"
 #include "microswarm/core/maths/angles.hpp"
+#include "microswarm/experiment/queries/path_query.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/planning/path/planner_params.hpp"
 #include "microswarm/report/run_picture.hpp"
-#include "microswarm/session/path_query.hpp"
 #include "support/options.hpp"
 
 namespace microswarm::cli {

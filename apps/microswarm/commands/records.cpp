@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "microswarm/experiment/record/record.hpp"
+#include "microswarm/experiment/session/replay.hpp"
 #include "microswarm/report/run_video.hpp"
 #include "support/options.hpp"
 

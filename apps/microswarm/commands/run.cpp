@@ -7,9 +7,10 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/text.hpp"
+#include "microswarm/experiment/session/session.hpp"
 #include "microswarm/experiment/trials.hpp"
 #include "microswarm/io/columns.hpp"
-#include "microswarm/session/session.hpp"
+#include "microswarm/rig/session/open_on_rig.hpp"
 #include "rig/rig_notes.hpp"
 #include "rig/rig_settings.hpp"
 
@@ -111,7 +112,7 @@ std::unique_ptr<Session> open_on_rig(const RunOptions& o) {
       [&] { return open_rig_experiment(o.scenario, o.settings, o.rig, o.rig_settings, o.seed); });
   note_each(on.experiment.keys.notes());
   note_field(on.rig, on.scenario());
-  return rig_session(on);
+  return microswarm::open_on_rig(on);
 }
 
 int run_command(const RunOptions& o, const Context& context) {

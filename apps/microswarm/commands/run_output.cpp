@@ -9,10 +9,10 @@
 #include "microswarm/config/write.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/maths/angles.hpp"
+#include "microswarm/experiment/queries/gather_query.hpp"
 #include "microswarm/experiment/record/record.hpp"
 #include "microswarm/experiment/run/progress.hpp"
 #include "microswarm/navigation/gathering/aggregation_check.hpp"
-#include "microswarm/session/gather_query.hpp"
 
 namespace microswarm::cli {
 

@@ -8,9 +8,9 @@
 #include <string_view>
 
 #include "microswarm/core/execution/stop.hpp"
+#include "microswarm/experiment/session/growing_record.hpp"
+#include "microswarm/experiment/session/session.hpp"
 #include "microswarm/report/run_report.hpp"
-#include "microswarm/session/growing_record.hpp"
-#include "microswarm/session/session.hpp"
 #include "support/options.hpp"
 
 namespace microswarm::cli {

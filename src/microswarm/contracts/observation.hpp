@@ -43,9 +43,10 @@ struct Observation {
   double age() const { return now - seen; }
 };
 
-/// Non-owning pointer to a world that outlives the Observation.
-inline std::shared_ptr<const Snapshot> borrowed(const Snapshot& world) {
-  return {std::shared_ptr<const Snapshot>(), &world};
+/// Non-owning pointer to what outlives its user, for example a world that outlives an Observation.
+template <class T>
+std::shared_ptr<T> borrowed(T& object) {
+  return {std::shared_ptr<T>(), &object};
 }
 
 }  // namespace microswarm

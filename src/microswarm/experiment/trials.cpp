@@ -2,41 +2,34 @@
 #include "microswarm/experiment/trials.hpp"
 
 #include <mutex>
+#include <utility>
 
 #include "microswarm/core/execution/parallel.hpp"
-#include "microswarm/experiment/record/record.hpp"
-#include "microswarm/experiment/scenario/scene.hpp"
+#include "microswarm/experiment/session/session.hpp"
 
 namespace microswarm {
 
-namespace {
-
-TrialResult run_trial(const Scene& scene, const World& world, std::uint32_t trial,
-                      const TrialOptions& options, const Stop& stop) {
-  Recorder recorder(scene, trial);
-  Scenario scenario = scene.scenario;
-  World varied = world;
-  if (options.vary) {
-    options.vary(scenario, trial);
-    varied.obstacles = scenario.obstacles;
-  }
-  RunListener* const listeners[] = {&recorder};
-  RunResult result = simulate(scenario, varied, trial, listeners, stop);
-  TrialResult outcome{.ran = true, .hash = recorder.record().hash(), .result = std::move(result)};
-  return outcome;
+TrialResult trial_result(Scenario scenario, World world, std::uint32_t trial, const Stop& stop) {
+  Session session({{std::move(scenario), {}}, std::move(world), {}}, {.trial = trial});
+  session.finish(stop);
+  return {.ran = true, .hash = session.record().hash(), .result = session.result()};
 }
-
-}  // namespace
 
 std::vector<TrialResult> run_trials(const Scenario& scenario, const World& world,
                                     const TrialOptions& options, const Stop& stop) {
   std::vector<TrialResult> results(static_cast<std::size_t>(options.trials));
-  const Scene scene{scenario, {}};
   std::mutex mutex;
   int done = 0;
   for_each_index(results.size(), options.jobs, [&](std::size_t i) {
     if (stop()) return;
-    TrialResult trial = run_trial(scene, world, static_cast<std::uint32_t>(i), options, stop);
+    const auto number = static_cast<std::uint32_t>(i);
+    Scenario varied = scenario;
+    World there = world;
+    if (options.vary) {
+      options.vary(varied, number);
+      there.obstacles = varied.obstacles;
+    }
+    TrialResult trial = trial_result(std::move(varied), std::move(there), number, stop);
     if (trial.result.status == Status::stopped) return;  // an interrupted trial does not count
     results[i] = std::move(trial);
     const std::lock_guard lock(mutex);

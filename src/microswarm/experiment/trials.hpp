@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
-#include "microswarm/experiment/run/run.hpp"
+#include "microswarm/core/execution/stop.hpp"
+#include "microswarm/experiment/run/run_listener.hpp"
+#include "microswarm/experiment/scenario/scenario.hpp"
+#include "microswarm/world/world.hpp"
 
 namespace microswarm {
 
@@ -14,6 +19,10 @@ struct TrialResult {
   std::string hash;  ///< see Record::hash()
   RunResult result;
 };
+
+/// Runs one trial to its end.
+TrialResult trial_result(Scenario scenario, World world, std::uint32_t trial,
+                         const Stop& stop = {});
 
 /// Settings of `run_trials`.
 struct TrialOptions {

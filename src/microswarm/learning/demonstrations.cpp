@@ -3,7 +3,7 @@
 
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/experiment/plant/plant.hpp"
-#include "microswarm/experiment/run/run.hpp"
+#include "microswarm/experiment/session/session.hpp"
 #include "microswarm/learning/follower_expert.hpp"
 #include "microswarm/navigation/following/follower_model.hpp"
 #include "microswarm/navigation/following/path_follower.hpp"
@@ -71,10 +71,11 @@ std::vector<Demonstration> demonstrate(const FollowerTask& task,
                                        const Stop& stop) {
   FollowerParams follower{.kind = FollowerKind::learned, .loaded = student};
   const Scenario scenario = with_follower(task, follower, 0.3);
-  KinematicPlant plant(scenario, task.world, task.number);
-  Demonstrator demonstrator(task, scenario, plant, student == nullptr);
-  run(scenario, plant, demonstrator, {}, stop);
-  return std::move(demonstrator.shown);
+  const auto plant = std::make_shared<KinematicPlant>(scenario, task.world, task.number);
+  const auto demonstrator =
+      std::make_shared<Demonstrator>(task, scenario, *plant, student == nullptr);
+  simulate(scenario, task.world, {.plant = plant, .navigator = demonstrator}, {}, stop);
+  return std::move(demonstrator->shown);
 }
 
 }  // namespace microswarm

@@ -9,8 +9,8 @@
 #include "microswarm/core/execution/parallel.hpp"
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/experiment/plant/plant.hpp"
-#include "microswarm/experiment/run/run.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
+#include "microswarm/experiment/session/session.hpp"
 #include "microswarm/learning/follower_expert.hpp"
 #include "microswarm/navigation/make.hpp"
 
@@ -97,16 +97,12 @@ struct Method {
 FollowedPath follow(const FollowerTask& task, const Method& method, const Stop& stop,
                     std::vector<double>* trace = nullptr) {
   const Scenario scenario = with_follower(task, method.follower, method.lookahead);
-  KinematicPlant plant(scenario, task.world, task.number);
-  std::unique_ptr<Navigator> navigator;
-  if (method.expert)
-    navigator = std::make_unique<ExpertNavigator>(task, plant);
-  else
-    navigator = make_navigator(scenario.navigator, task_of(scenario),
-                               Rng(scenario.seed, Purpose::planner, task.number));
+  const auto plant = std::make_shared<KinematicPlant>(scenario, task.world, task.number);
+  SessionParts parts{.trial = task.number, .plant = plant};
+  if (method.expert) parts.navigator = std::make_shared<ExpertNavigator>(task, *plant);
   Gauge gauge(task.path);
   RunListener* const listeners[] = {&gauge};
-  const RunResult result = run(scenario, plant, *navigator, listeners, stop);
+  const RunResult result = simulate(scenario, task.world, std::move(parts), listeners, stop);
   if (trace) *trace = std::move(gauge.trace);
   return gauge.path(result, std::get<RibbonParams>(scenario.swarm).max_speed);
 }

@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "microswarm/core/errors/error.hpp"
-#include "microswarm/experiment/record/playback.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
+#include "microswarm/experiment/session/playback.hpp"
 #include "microswarm/report/latency_rows.hpp"
 #include "microswarm/report/map_background.hpp"
 #include "microswarm/report/page.hpp"

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "microswarm/core/maths/infinity.hpp"
-#include "microswarm/experiment/record/playback.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
+#include "microswarm/experiment/session/playback.hpp"
 #include "microswarm/report/map_background.hpp"
 #include "microswarm/report/radar_marks.hpp"
 #include "microswarm/report/robots_report.hpp"

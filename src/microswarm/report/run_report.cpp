@@ -9,8 +9,8 @@
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/maths/angles.hpp"
-#include "microswarm/experiment/record/playback.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
+#include "microswarm/experiment/session/playback.hpp"
 #include "microswarm/planning/common/detection.hpp"
 #include "microswarm/report/latency_rows.hpp"
 #include "microswarm/report/map_background.hpp"

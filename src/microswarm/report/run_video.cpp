@@ -8,7 +8,7 @@
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/maths/angles.hpp"
-#include "microswarm/experiment/record/playback.hpp"
+#include "microswarm/experiment/session/playback.hpp"
 #include "microswarm/report/map_background.hpp"
 #include "microswarm/report/robot_marks.hpp"
 #include "microswarm/vision/camera/video_file_writer.hpp"
@@ -36,7 +36,7 @@ class Film {
     draw_ground(ground_, *playback_.world().map, options.report);
   }
 
-  const std::vector<Frame>& frames() const { return playback_.record().frames; }
+  const std::vector<Frame>& frames() const { return playback_.record()->frames; }
 
   /// The run at time t, which must not decrease; the background is drawn once as pixels.
   Image at(double t) {
@@ -71,7 +71,7 @@ class Film {
 
   std::string title(double t) const {
     const std::string speed = options_.speed == 1 ? "" : fmt::format(" (×{:g})", options_.speed);
-    return fmt::format("{}: {:.1f} s{}", title_of(playback_.record()), t, speed);
+    return fmt::format("{}: {:.1f} s{}", title_of(*playback_.record()), t, speed);
   }
 
   void advance() {

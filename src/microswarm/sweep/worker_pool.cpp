@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "microswarm/core/execution/parallel.hpp"
-#include "microswarm/experiment/record/record.hpp"
 
 namespace microswarm {
 
@@ -15,13 +14,7 @@ constexpr std::size_t max_ahead = 64;  // trials a thread
 
 TrialResult run_task(const SweepPlan& plan, const SweepTask& task, const Stop& stop) {
   const SweepCell& cell = plan.cells[task.cell];
-  Recorder recorder(Scene{cell.scenario, {}}, task.trial);
-  RunListener* const listeners[] = {&recorder};
-  TrialResult trial;
-  trial.result = simulate(cell.scenario, cell.world, task.trial, listeners, stop);
-  trial.ran = true;
-  trial.hash = recorder.record().hash();
-  return trial;
+  return trial_result(cell.scenario, cell.world, task.trial, stop);
 }
 
 WorkerPool::WorkerPool(const SweepPlan& plan, int jobs)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "microswarm/session/live_session.hpp"
+#include "microswarm/rig/session/live_session.hpp"
 #include "rig/keys/key_input.hpp"
 
 namespace microswarm::cli {

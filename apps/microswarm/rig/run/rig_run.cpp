@@ -7,7 +7,7 @@
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/rig/runtime/rig_checks.hpp"
-#include "microswarm/session/live_session.hpp"
+#include "microswarm/rig/session/live_session.hpp"
 #include "microswarm/vision/image/threads.hpp"
 #include "rig/keys/rig_keys.hpp"
 #include "rig/real_coils.hpp"
@@ -126,24 +126,24 @@ void note_limits(const RigTiming& t) {
 /// their currents; the latter once as long as it lasts or soon recurs.
 class DeviceNotes : public RunListener {
  public:
-  explicit DeviceNotes(const LiveSession& session) : session_(session) {}
+  explicit DeviceNotes(const LiveRig& rig) : rig_(rig) {}
   void on_tick(const Tick& tick) override {
-    const int resumed = session_.resumed();
+    const int resumed = rig_.resumed();
     if (resumed > resumed_) note("note: the coils had switched off by themselves; armed again\n");
     resumed_ = resumed;
-    const int weakened = session_.weakened();
+    const int weakened = rig_.weakened();
     if (weakened == weakened_) return;
     weakened_ = weakened;
     if (tick.frame.t - weakened_at_ > quiet)
       note("note: the device weakens the currents to {:.3g} % by its own limits\n",
-           100 * session_.weakened_to());
+           100 * rig_.weakened_to());
     weakened_at_ = tick.frame.t;
   }
 
  private:
   static constexpr double quiet = 10;  // [s] without weakening, after which it is reported again
 
-  const LiveSession& session_;
+  const LiveRig& rig_;
   int resumed_ = 0;
   int weakened_ = 0;
   double weakened_at_ = -infinity;  // [s]
@@ -178,11 +178,12 @@ void note_virtual_obstacles(const RigExperiment& on) {
 }
 
 /// Steps a session to its end with a status line.
-void drive(LiveSession& session, const Stop& stop) {
-  DeviceNotes notes(session);
+void drive(LiveSession& live, const Stop& stop) {
+  Session& session = live.session();
+  DeviceNotes notes(live.live());
   session.listen(notes);
   note_oddities(session);
-  RigStatusLine status(session);
+  RigStatusLine status(live);
   bool began = false;
   while (session.step(stop)) {
     if (!std::exchange(began, true)) note_regions(session);
@@ -240,23 +241,23 @@ int rig_run(const RigRunOptions& o, const Context& context) {
   if (!o.overwrite) require_new(o.out, o.video);
   const OutFolder hold(o.out);
   set_picture_threads(1);
-  const auto opened = LiveSession::open(on, {.dry = o.dry_run,
-                                             .folder = o.out,
-                                             .video = o.video,
-                                             .without_limits = o.coils.without_limits,
-                                             .coils_cold = o.coils.coils_cold,
-                                             .note = o.note});
-  LiveSession& session = *opened;
-  note_each(session.warnings());
+  LiveSession live(on, {.dry = o.dry_run,
+                        .folder = o.out,
+                        .video = o.video,
+                        .without_limits = o.coils.without_limits,
+                        .coils_cold = o.coils.coils_cold,
+                        .note = o.note});
+  Session& session = live.session();
+  note_each(live.warnings());
   note_virtual_obstacles(on);
   if (o.dry_run) note("dry run: no current is sent to the coils\n");
   const auto growing = grow_record(session, o.out);
-  std::string lost = operate(session, has_coil_device(on.rig) && !o.dry_run, o.seconds, context);
-  const std::optional<RecordedVideo> video = session.video();
-  const RigTiming timing = session.timing();
+  std::string lost = operate(live, has_coil_device(on.rig) && !o.dry_run, o.seconds, context);
+  const std::optional<RecordedVideo> video = live.video();
+  const RigTiming timing = live.live().timing();
   if (!lost.empty()) note("microswarm: {}\n", lost);
   if (video && !video->trouble.empty()) note("microswarm: {}\n", lost = video->trouble);
-  const bool at_zero = note_zero(session.zero_is_confirmed(), session.stop_trouble());
+  const bool at_zero = note_zero(live.live().zero_is_confirmed(), live.live().stop_trouble());
   note_limits(timing);
   note_direction(timing);
   const int code =

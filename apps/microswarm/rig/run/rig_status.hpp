@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-#include "microswarm/session/live_session.hpp"
+#include "microswarm/rig/session/live_session.hpp"
 #include "support/cli.hpp"
 
 namespace microswarm::cli {

@@ -7,7 +7,7 @@
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/maths/maths.hpp"
-#include "microswarm/experiment/run/run.hpp"
+#include "microswarm/experiment/plant/make_plant.hpp"
 #include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/swarm/body/swarm_params.hpp"
 
@@ -92,16 +92,17 @@ void NavigationEpisode::reset() {
     scenario.start =
         Pose2{random_place(map, clearance, rng), rng.uniform(-std::numbers::pi, std::numbers::pi)};
   if (rules.random_goal) scenario.goal = random_place(map, clearance, rng);
-  auto agent = std::make_unique<Agent>();
-  agent_ = agent.get();
-  auto plant = make_kinematic_plant(scenario, task_.world(), trial_);
-  run_ = std::make_unique<OpenRun>(scenario, task_.world(), std::move(plant), trial_,
-                                   std::move(agent));
-  ++trial_;
+  agent_ = std::make_shared<Agent>();
+  plant_ = make_kinematic_plant(scenario, task_.world(), trial_);
   goal_ = *scenario.goal;
+  const double goal_tolerance = scenario.goal_tolerance;
+  session_ = std::make_unique<Session>(
+      Experiment{{std::move(scenario), {}}, task_.world(), {}},
+      SessionParts{.trial = trial_, .plant = plant_, .navigator = agent_, .keep = Keep::nothing});
+  ++trial_;
   status_ = Status::running;
   look(nullptr);
-  start_distance_ = std::max(distance_, scenario.goal_tolerance);
+  start_distance_ = std::max(distance_, goal_tolerance);
 }
 
 EnvironmentStep NavigationEpisode::step(const NavigationAction& action) {
@@ -111,8 +112,8 @@ EnvironmentStep NavigationEpisode::step(const NavigationAction& action) {
             .truncated = status_ == Status::time_limit};
   agent_->command = action;
   const double before = distance_;
-  const Scenario& scenario = run_->scenario();
-  const Tick* tick = run_->step();
+  const Scenario& scenario = session_->scenario();
+  const Tick* tick = session_->step();
   if (tick && tick->end) {  // the hold limit or the number of steps is reached
     status_ = *tick->end;
     made.truncated = true;
@@ -141,7 +142,7 @@ EnvironmentStep NavigationEpisode::step(const NavigationAction& action) {
 
 /// Takes the state at the end of a tick, or the first one.
 void NavigationEpisode::look(const Tick* tick) {
-  const GroundTruth truth = *run_->plant().ground_truth();
+  const GroundTruth truth = *plant_->ground_truth();
   pose_ = truth.swarm.pose;
   double radius = truth.swarm.radius;
   if (tick && !tick->trajectory.empty()) {  // it may end with a contact or the arrival
@@ -173,7 +174,7 @@ void NavigationEpisode::see_rays(const Snapshot& world, std::span<float> out) co
 void NavigationEpisode::see_obstacles(const Snapshot& world, std::span<float> out) const {
   std::ranges::fill(out, 0.0f);
   const double past = std::max(0.0, time_ - task_.scenario().tick);
-  const Snapshot before = run_->plant().ground_truth()->world->at(past);
+  const Snapshot before = plant_->ground_truth()->world->at(past);
   const auto& bodies = world.moving().bodies();
   struct Seen {
     double gap;

@@ -9,8 +9,8 @@
 #include "microswarm/core/maths/rng.hpp"
 #include "microswarm/environments/environment_step.hpp"
 #include "microswarm/environments/navigation/navigation_rules.hpp"
-#include "microswarm/experiment/run/open_run.hpp"
 #include "microswarm/experiment/scenario/experiment.hpp"
+#include "microswarm/experiment/session/session.hpp"
 
 namespace microswarm {
 
@@ -78,8 +78,9 @@ class NavigationEpisode {
   std::uint64_t seed_;
   std::uint32_t trial_ = 0;
   std::span<float> observation_;
-  std::unique_ptr<OpenRun> run_;
-  Agent* agent_ = nullptr;
+  std::shared_ptr<Plant> plant_;
+  std::shared_ptr<Agent> agent_;
+  std::unique_ptr<Session> session_;
   Vec2 goal_;
   Pose2 pose_;
   double time_ = 0;

@@ -8,7 +8,7 @@
 
 #include "microswarm/config/type.hpp"
 #include "microswarm/experiment/record/rig_log.hpp"
-#include "microswarm/experiment/run/run.hpp"
+#include "microswarm/experiment/run/run_listener.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 
 namespace microswarm {
@@ -50,32 +50,6 @@ struct Record {
 /// Compiled once, in record.cpp; describes the whole record.
 extern template const Type& type_of<Record>();
 
-/// Keeps a run in memory. Pass it to run(), then take the record. Robot positions are kept at 64 to
-/// 128 equally spaced frames and at the end.
-class Recorder : public RunListener {
- public:
-  explicit Recorder(Scene scene, std::uint32_t trial = 0, std::string rig = {});
-  void on_tick(const Tick& tick) override;
-  void on_end(const RunResult& result) override;
-  /// Notes that the navigator is not the scenario's.
-  void note_external_navigator() { record_.navigator = "external"; }
-  /// Sets the result so far of a run that has not ended.
-  void keep(const RunResult& result) { record_.result = result; }
-
-  /// Log of a rig.
-  RigLog& rig_log() { return record_.rig_log; }
-  const Record& record() const { return record_; }
-  Record take() { return std::move(record_); }
-
- private:
-  void keep_robots(double t, std::span<const Vec2> robots);
-
-  Record record_;
-  std::size_t robot_period_ = 1;  // frames
-  std::size_t robot_frames_ = 0;
-  RobotMoment last_robots_;
-};
-
 /// Writes an HDF5 file with the layout in docs/reference/record.md, atomically through a temporary
 /// file. A symbolic link is replaced, its target is kept. Throws InputError "FILE: cannot write:
 /// REASON" and leaves no file behind; leftovers of killed processes are removed.
@@ -83,16 +57,5 @@ void write_record(const Record& record, const std::filesystem::path& file);
 
 /// Reads a record. Throws InputError if the file is not a record, is damaged or is inconsistent.
 Record read_record(const std::filesystem::path& file);
-
-/// Result of a replay.
-struct ReplayResult {
-  bool identical = false;
-  bool stopped = false;    ///< stopped by the caller
-  std::string difference;  ///< first difference, as text; empty if identical
-};
-
-/// Runs the stored scene again and compares it up to the record's last frame. Throws InputError for
-/// a run on a rig.
-ReplayResult replay(const Record& record, const Stop& stop = {});
 
 }  // namespace microswarm

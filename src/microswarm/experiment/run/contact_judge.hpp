@@ -5,7 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "microswarm/experiment/run/run.hpp"
+#include "microswarm/experiment/run/run_listener.hpp"
+#include "microswarm/experiment/scenario/scenario.hpp"
 #include "microswarm/world/world.hpp"
 
 namespace microswarm {

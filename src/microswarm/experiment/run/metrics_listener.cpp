@@ -17,9 +17,10 @@ const RunEvent* arrival_of(const Tick& tick) {
 
 }  // namespace
 
-MetricsListener::MetricsListener(const Scenario& scenario) : tick_(scenario.tick) {
+MetricsListener::MetricsListener(const Scenario& scenario, RunResult& result)
+    : tick_(scenario.tick), result_(result) {
   if (!scenario.robots) at_ = scenario.start;
-  result_.status = Status::running;
+  result_ = {.status = Status::running};
 }
 
 void MetricsListener::on_tick(const Tick& tick) {

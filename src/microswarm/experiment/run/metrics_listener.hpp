@@ -3,7 +3,8 @@
 
 #include <optional>
 
-#include "microswarm/experiment/run/run.hpp"
+#include "microswarm/experiment/run/run_listener.hpp"
+#include "microswarm/experiment/scenario/scenario.hpp"
 
 namespace microswarm {
 
@@ -12,11 +13,10 @@ namespace microswarm {
 /// clearances are computed from observations.
 class MetricsListener : public RunListener {
  public:
-  explicit MetricsListener(const Scenario& scenario);
+  /// `result` receives the result so far; its status is `running` until the last tick. It must
+  /// outlive the listener.
+  MetricsListener(const Scenario& scenario, RunResult& result);
   void on_tick(const Tick& tick) override;
-
-  /// Result so far; its status is `running` until the last tick.
-  const RunResult& result() const { return result_; }
 
  private:
   void move_to(const Pose2& pose);
@@ -34,7 +34,7 @@ class MetricsListener : public RunListener {
   double gap_sum_ = 0;  ///< [µm]
   int detected_ticks_ = 0;
   bool is_held_ = false;  ///< at the goal
-  RunResult result_;
+  RunResult& result_;
 };
 
 }  // namespace microswarm

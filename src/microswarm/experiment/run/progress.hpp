@@ -4,7 +4,8 @@
 #include <functional>
 #include <optional>
 
-#include "microswarm/experiment/run/run.hpp"
+#include "microswarm/experiment/run/run_listener.hpp"
+#include "microswarm/experiment/scenario/scenario.hpp"
 
 namespace microswarm {
 

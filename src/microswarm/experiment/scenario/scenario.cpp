@@ -2,6 +2,7 @@
 #include "microswarm/experiment/scenario/scenario.hpp"
 
 #include "microswarm/config/key_locations.hpp"
+#include "microswarm/config/schema.hpp"
 #include "microswarm/config/write.hpp"
 #include "microswarm/config/yaml.hpp"
 
@@ -28,5 +29,7 @@ std::string scenario_text(const Scenario& scenario) {
   out.navigator = in_effect(out.navigator);
   return to_yaml(out);
 }
+
+std::string scenario_schema() { return json_schema<Scenario>("microswarm scenario"); }
 
 }  // namespace microswarm

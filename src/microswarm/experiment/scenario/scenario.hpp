@@ -119,6 +119,9 @@ Scenario read_scenario(const std::filesystem::path& file);
 /// The scenario as YAML with every key; reading it gives equal fields.
 std::string scenario_text(const Scenario& scenario);
 
+/// JSON Schema of scenarios: every key with its unit, range, default and description.
+std::string scenario_schema();
+
 /// Compiled once, in scenario.cpp; describes the whole scenario.
 extern template const Type& type_of<Scenario>();
 

@@ -8,7 +8,7 @@
 
 #include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/core/text/file.hpp"
-#include "microswarm/experiment/record/record.hpp"
+#include "microswarm/experiment/session/session.hpp"
 #include "microswarm/experiment/trials.hpp"
 #include "microswarm/report/run_report.hpp"
 #include "microswarm/reproduce/drrt/drrt.hpp"
@@ -91,13 +91,12 @@ std::vector<ReproduceRow> loop_rows(const LoopFigure& f, const std::string& who,
 
 void loop_pictures(const LoopFigure& f, const std::string& who, const Scene& scene,
                    const World& world, const fs::path& out, const Stop& stop) {
-  Recorder recorder(scene);
-  RunListener* const listeners[] = {&recorder};
-  simulate(scene.scenario, world, 0, listeners, stop);
+  Session session({scene, world, {}});
+  session.finish(stop);
   const fs::path folder = out / (f.figure + who);
   make_folder(folder.string());
-  write_record(recorder.record(), folder / "run.h5");
-  write_run_report(recorder.record(), folder);
+  write_record(session.record(), folder / "run.h5");
+  write_run_report(session.record(), folder);
 }
 
 std::vector<ReproduceRow> loop_figure(const LoopFigure& f, const ReproduceOptions& options,

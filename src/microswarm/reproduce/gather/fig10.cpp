@@ -10,7 +10,7 @@
 #include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/experiment/run/progress.hpp"
-#include "microswarm/experiment/run/run.hpp"
+#include "microswarm/experiment/session/session.hpp"
 #include "microswarm/io/columns.hpp"
 #include "microswarm/reproduce/gather/gather.hpp"
 #include "microswarm/rig/simulation/simulated_rig.hpp"
@@ -99,7 +99,8 @@ void gather_fig10(const ReproduceOptions& options, const Stop& stop,
     const Scene scene =
         maze(options, rig_methods[i / trials].aggregation, population_of_fig10(trial));
     if (!stop())
-      results[i] = simulate(scene.scenario, world, static_cast<std::uint32_t>(trial), {}, stop);
+      results[i] =
+          simulate(scene.scenario, world, {.trial = static_cast<std::uint32_t>(trial)}, {}, stop);
   });
   if (stop()) return;
   std::vector<double> frames;
@@ -204,8 +205,10 @@ void gather_through_rig(const ThroughRig& how, const ReproduceOptions& options, 
       ProgressListener progress(
           scenario, [&](const RunProgress& p) { shares.tell_time(i, p.t); }, 10);
       RunListener* const listeners[] = {&progress};
-      const RunResult result = simulate_rig(scenario, world, rollers,
-                                            static_cast<std::uint32_t>(i / 2), listeners, stop);
+      const auto trial = static_cast<std::uint32_t>(i / 2);
+      auto rig = std::make_shared<SimulatedRig>(scenario, world, rollers, trial);
+      const RunResult result =
+          simulate(scenario, world, {.trial = trial, .plant = std::move(rig)}, listeners, stop);
       if (result.status != Status::stopped) results[i] = result;
       shares.tell(i, 1);
     });

@@ -3,37 +3,23 @@
 
 #include <algorithm>
 
-#include "microswarm/experiment/plant/plant.hpp"
+#include "microswarm/experiment/session/session.hpp"
 #include "microswarm/navigation/radar/radar.hpp"
 
 namespace microswarm::reproduce {
-namespace {
-
-/// Records the looks of the navigator.
-class LookListener : public RunListener {
- public:
-  explicit LookListener(const RadarNavigator& navigator) : navigator_(navigator) {}
-  void on_tick(const Tick&) override { looks_.push_back(navigator_.last_look()); }
-  std::vector<std::optional<RadarLook>> take() { return std::move(looks_); }
-
- private:
-  const RadarNavigator& navigator_;
-  std::vector<std::optional<RadarLook>> looks_;
-};
-
-}  // namespace
 
 RadarRun run_radar(const Scene& scene, const World& world, const Stop& stop, std::uint32_t trial) {
   const Scenario& scenario = scene.scenario;
-  KinematicPlant plant(scenario, world, trial);
-  RadarNavigator navigator(std::get<RadarParams>(scenario.navigator), limits_of(scenario.swarm),
-                           *scenario.goal, scenario.goal_tolerance,
-                           Rng(scenario.seed, Purpose::planner, trial));
-  Recorder recorder(scene, trial);
-  LookListener looks(navigator);
-  RunListener* const listeners[] = {&recorder, &looks};
-  run(scenario, plant, navigator, listeners, stop);
-  return {recorder.take(), looks.take()};
+  const auto navigator = std::make_shared<RadarNavigator>(
+      std::get<RadarParams>(scenario.navigator), limits_of(scenario.swarm), *scenario.goal,
+      scenario.goal_tolerance, Rng(scenario.seed, Purpose::planner, trial));
+  Session session({scene, world, {}}, {.trial = trial, .navigator = navigator});
+  RadarRun run;
+  while (session.step(stop)) run.looks.push_back(navigator->last_look());
+  run.record = session.record();
+  run.record.navigator.clear();  // it is the scenario's
+  run.record.phased_goals.clear();
+  return run;
 }
 
 std::size_t frame_at(const Record& record, double t) {

@@ -14,7 +14,7 @@
 #include "microswarm/core/execution/parallel.hpp"
 #include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/text/file.hpp"
-#include "microswarm/experiment/plant/plant.hpp"
+#include "microswarm/experiment/session/session.hpp"
 #include "microswarm/io/columns.hpp"
 #include "microswarm/scenes/avoidance_worlds.hpp"
 
@@ -96,12 +96,9 @@ void add_all(const Task& task, std::vector<Contestant>& out, std::index_sequence
 }
 
 Crossing crossed(const Scenario& scenario, const World& world, const Stop& stop) {
-  KinematicPlant plant(scenario, world);
-  const auto navigator =
-      make_navigator(scenario.navigator, task_of(scenario), Rng(scenario.seed, Purpose::planner));
   ContactLog log;
   RunListener* const listeners[] = {&log};
-  const RunResult result = run(scenario, plant, *navigator, listeners, stop);
+  const RunResult result = simulate(scenario, world, {}, listeners, stop);
   Crossing out;
   out.ran = result.status != Status::stopped;
   out.status = result.status;

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "microswarm/core/matching/assignment.hpp"
 #include "microswarm/rig/perception/perception.hpp"
 #include "microswarm/swarm/robots/robot_stepper.hpp"
-#include "microswarm/vision/tracking/assignment.hpp"
 #include "microswarm/vision/tracking/particles.hpp"
 
 namespace microswarm {

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "microswarm/formats/images/mask.hpp"
-#include "microswarm/rig/perception/body_numbers.hpp"
+#include "microswarm/navigation/prediction/body_numbers.hpp"
 #include "microswarm/rig/perception/perception.hpp"
 #include "microswarm/rig/perception/valve_leaves.hpp"
 #include "microswarm/swarm/body/swarm_limits.hpp"

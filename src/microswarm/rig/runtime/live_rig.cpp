@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/execution/clock.hpp"
@@ -66,7 +67,7 @@ void check_picture(const Rig& rig, const Scenario& scenario, const CameraScale& 
 
 LiveRig::LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const Rig& rig,
                  std::unique_ptr<FrameSource> camera, const CameraScale& scale, CoilDriver& driver,
-                 std::function<void(const CoilMoment&)> heard, FrameListener pictures)
+                 LiveRigListeners listeners)
     : rig_(rig),
       has_virtual_(rig.params.virtual_obstacles &&
                    camera_kind(rig.params) != CameraKind::simulated),
@@ -74,17 +75,17 @@ LiveRig::LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const
       scale_(scale),
       tick_(scenario.tick),
       schedule_(scenario.tick, camera->rate()),
-      camera_(std::move(camera), "camera", camera_watch(rig.params), std::move(pictures)),
+      camera_(std::move(camera), "camera", camera_watch(rig.params), listeners.pictures),
       controller_(rig.system, checked(rig, scenario).field, driver,
                   scenario.start ? scenario.start->heading : 0),
       following_(rig.params.safety.min_follow_share),
+      listeners_(std::move(listeners)),
       start_(steady_seconds()),
       load_(rig.system),
-      coils_(controller_, loop_limits(rig.params),
-             [this, heard = std::move(heard)](const CoilMoment& moment) {
-               hear(moment);
-               if (heard) heard(moment);
-             }) {
+      coils_(controller_, loop_limits(rig.params), [this](const CoilMoment& moment) {
+        hear(moment);
+        if (listeners_.coils) listeners_.coils(moment);
+      }) {
   check_workspace(rig, scenario, *world_.map);
   if (!camera_.wait(frame_, first_frame))
     throw HardwareError(fmt::format("camera: no picture within {} s", first_frame));
@@ -128,6 +129,10 @@ Observation LiveRig::observe() {
   if (fault_.empty()) take_frame();
   const double now = since_start();
   look_for_faults(now);
+  if (listeners_.detections && seen_ > reported_) {
+    reported_ = seen_;
+    listeners_.detections(*detections_, seen_);
+  }
   return observation_of(*detections_, std::make_shared<const Snapshot>(world_then()), now, seen_);
 }
 

@@ -44,6 +44,16 @@ struct RigTiming {
   std::optional<FollowDirection> direction{};  ///< of the swarm relative to its commands
 };
 
+/// Listeners to a rig.
+struct LiveRigListeners {
+  /// Called in the coils' thread after each output; an exception from it is a fault.
+  std::function<void(const CoilMoment&)> coils{};
+  /// Called in the camera's thread for each frame, also before the clock starts.
+  FrameListener pictures{};
+  /// Called in the rig's thread with the detections in a picture taken at `seen` [s].
+  std::function<void(const Detections&, double seen)> detections{};
+};
+
 /// A rig in real time. Each tick processes the newest frame, sends the command to the coils, and
 /// waits for the next tick, see TickSchedule. On any fault (SafetyParams, a failing camera or coil
 /// driver) the coils are set to zero permanently and `fault` gives the reason. Unless the camera is
@@ -51,19 +61,16 @@ struct RigTiming {
 /// the camera sees, as in the experiments of [radar] (Section V).
 class LiveRig : public Plant {
  public:
-  /// `rig` and `driver` must outlive the plant. `scale` maps camera pixels to the world. `heard` is
-  /// called in the coils' thread after each output; an exception from it is a fault. `pictures` is
-  /// called in the camera's thread for each frame, also before the clock starts. Waits for the
-  /// first frame. Throws HardwareError if there is none, InputError if rig and scenario do not fit.
+  /// `rig` and `driver` must outlive the plant. `scale` maps camera pixels to the world. Waits for
+  /// the first frame. Throws HardwareError if there is none, InputError if rig and scenario do not
+  /// fit.
   LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const Rig& rig,
           std::unique_ptr<FrameSource> camera, const CameraScale& scale, CoilDriver& driver,
-          std::function<void(const CoilMoment&)> heard = {}, FrameListener pictures = {});
+          LiveRigListeners listeners = {});
 
   /// Sets the temperatures of the coils [°C], before the first command.
   void warm(const Eigen::VectorXd& temperatures) { controller_.warm(temperatures); }
   NewestFrame& camera() { return camera_; }
-  /// Zero of the observations' clock [s], by steady_seconds().
-  double clock_zero() const { return start_; }
   Observation observe() override;
   void apply(const Command& command, double dt) override;
   /// Replaces the virtual obstacles; false if the rig cannot have any.
@@ -119,7 +126,9 @@ class LiveRig : public Plant {
   std::unique_ptr<Perception> perception_;
   LiveFrame frame_;
   Image grey_;
-  Detections unseen_;  // result before the first picture
+  LiveRigListeners listeners_;
+  double reported_ = -1;  // time of the newest frame whose detections were reported [s]
+  Detections unseen_;     // before the first picture
   const Detections* detections_ = &unseen_;
   double start_;      // [s], by steady_seconds()
   double seen_ = 0;   // time of the newest frame [s]

@@ -2,11 +2,13 @@
 #include "microswarm/rig/simulation/rig_comparison.hpp"
 
 #include <limits>
+#include <memory>
 #include <mutex>
 #include <optional>
 
 #include "microswarm/core/execution/parallel.hpp"
 #include "microswarm/core/maths/statistics.hpp"
+#include "microswarm/experiment/session/session.hpp"
 #include "microswarm/rig/simulation/simulated_rig.hpp"
 
 namespace microswarm {
@@ -22,8 +24,9 @@ std::vector<ComparedTrial> compare_with_rig(const RigExperiment& on, int trials,
   for_each_index(results.size(), jobs, [&](std::size_t i) {
     const auto trial = static_cast<std::uint32_t>(i);
     if (stop()) return;
-    ComparedTrial both{static_cast<int>(i), simulate(scenario, world, trial, {}, stop),
-                       simulate_rig(scenario, world, on.rig, trial, {}, stop)};
+    auto rig = std::make_shared<SimulatedRig>(scenario, world, on.rig, trial);
+    ComparedTrial both{static_cast<int>(i), simulate(scenario, world, {.trial = trial}, {}, stop),
+                       simulate(scenario, world, {.trial = trial, .plant = rig}, {}, stop)};
     if (stop()) return;
     results[i] = std::move(both);
     const std::lock_guard lock(mutex);

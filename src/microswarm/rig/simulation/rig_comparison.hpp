@@ -8,7 +8,7 @@
 
 #include "microswarm/core/execution/stop.hpp"
 #include "microswarm/core/fields/fields.hpp"
-#include "microswarm/experiment/run/run.hpp"
+#include "microswarm/experiment/run/run_listener.hpp"
 #include "microswarm/rig/params/rig_experiment.hpp"
 
 namespace microswarm {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "microswarm/core/errors/error.hpp"
-#include "microswarm/experiment/run/run.hpp"
+#include "microswarm/experiment/plant/make_plant.hpp"
 
 namespace microswarm {
 namespace {

@@ -2,21 +2,20 @@
 #include "microswarm/rig/simulation/simulated_rig.hpp"
 
 #include <cmath>
-
-#include "microswarm/navigation/make.hpp"
+#include <utility>
 
 namespace microswarm {
 
-SimulatedRig::SimulatedRig(const Scenario& scenario, const World& world, const Rig& rig,
+SimulatedRig::SimulatedRig(const Scenario& scenario, const World& world, Rig rig,
                            std::uint32_t trial, CoilDriver* driver)
-    : rig_(rig),
-      simulated_coils_(driver ? nullptr : simulated_coils(rig)),
+    : rig_(std::move(rig)),
+      simulated_coils_(driver ? nullptr : simulated_coils(rig_)),
       driver_(driver ? *driver : *simulated_coils_),
-      controller_(rig.system, rig.params.field, driver_,
+      controller_(rig_.system, rig_.params.field, driver_,
                   scenario.start ? scenario.start->heading : 0),
-      simulator_(scenario, world, rig, trial),
+      simulator_(scenario, world, rig_, trial),
       map_(world.map),
-      perception_(make_perception(rig.params.perception, scenario, *map_,
+      perception_(make_perception(rig_.params.perception, scenario, *map_,
                                   simulator_.ground_truth().robots, simulator_.camera())) {}
 
 Observation SimulatedRig::observe() {
@@ -39,15 +38,6 @@ void SimulatedRig::apply(const Command& command, double dt) {
     controller_.advance(piece);
     simulator_.pass(driver_.currents(), piece);
   }
-}
-
-RunResult simulate_rig(const Scenario& scenario, const World& world, const Rig& rig,
-                       std::uint32_t trial, std::span<RunListener* const> listeners,
-                       const Stop& stop) {
-  SimulatedRig plant(scenario, world, rig, trial);
-  const auto navigator = make_navigator(scenario.navigator, task_of(scenario),
-                                        Rng(scenario.seed, Purpose::planner, trial));
-  return run(scenario, plant, *navigator, listeners, stop);
 }
 
 std::unique_ptr<CoilDriver> simulated_coils(const Rig& rig) {

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "microswarm/actuation/coils/coil_controller.hpp"
-#include "microswarm/experiment/run/run.hpp"
 #include "microswarm/rig/perception/perception.hpp"
 #include "microswarm/rig/simulation/rig_simulator.hpp"
 
@@ -16,10 +15,10 @@ namespace microswarm {
 /// microscope's picture.
 class SimulatedRig : public Plant {
  public:
-  /// `rig` and `driver` must outlive the plant; if `driver` is null, the coils are simulated.
-  /// `trial` selects the random streams. Throws InputError if rig and scenario do not fit.
-  SimulatedRig(const Scenario& scenario, const World& world, const Rig& rig,
-               std::uint32_t trial = 0, CoilDriver* driver = nullptr);
+  /// `driver` must outlive the plant; if it is null, the coils are simulated. `trial` selects the
+  /// random streams. Throws InputError if rig and scenario do not fit.
+  SimulatedRig(const Scenario& scenario, const World& world, Rig rig, std::uint32_t trial = 0,
+               CoilDriver* driver = nullptr);
 
   Observation observe() override;
   void apply(const Command& command, double dt) override;
@@ -34,7 +33,7 @@ class SimulatedRig : public Plant {
   const CoilOutput& coils() const { return controller_.output(); }
 
  private:
-  const Rig& rig_;
+  const Rig rig_;
   std::unique_ptr<CoilDriver> simulated_coils_;
   CoilDriver& driver_;
   CoilController controller_;
@@ -44,11 +43,6 @@ class SimulatedRig : public Plant {
   const Image* picture_ = nullptr;
   const Detections* detections_ = nullptr;
 };
-
-/// Like simulate(), but runs the trial through a simulated rig.
-RunResult simulate_rig(const Scenario& scenario, const World& world, const Rig& rig,
-                       std::uint32_t trial = 0, std::span<RunListener* const> listeners = {},
-                       const Stop& stop = {});
 
 /// Simulated coils with the properties of the rig's driver, of any kind; opens no device.
 std::unique_ptr<CoilDriver> simulated_coils(const Rig& rig);

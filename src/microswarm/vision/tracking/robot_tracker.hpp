@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "microswarm/core/fields/fields.hpp"
+#include "microswarm/core/matching/assignment.hpp"
 #include "microswarm/geometry/vec2.hpp"
-#include "microswarm/vision/tracking/assignment.hpp"
 #include "microswarm/vision/tracking/robot_filter.hpp"
 
 namespace microswarm {

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/rig/session/live_session.hpp"
+
+#include <algorithm>
+#include <array>
+#include <ctime>
+#include <utility>
+
+#include "microswarm/config/write.hpp"
+#include "microswarm/core/text/file.hpp"
+
+namespace microswarm {
+
+namespace {
+
+/// The experiment if its rig can make the field and has all limits. Disables the following check if
+/// no current is sent to the coils or a video plays.
+RigExperiment checked(RigExperiment on, const LiveOptions& options) {
+  Issues issues;
+  if (const RigCheck field = check_field(on.rig); !field.good)
+    issues.add({"field.amplitude_mt", "field"}, field.answer);
+  if (has_coil_device(on.rig) && !options.dry && !options.without_limits)
+    issues.add(missing_limits(on.rig));
+  on.rig.keys.require_none(issues);
+  if (options.dry || camera_kind(on.rig.params) == CameraKind::video)
+    on.rig.params.safety.min_follow_share = 0;
+  return on;
+}
+
+std::unique_ptr<VideoRecorder> video_recorder(const std::filesystem::path& file,
+                                              std::optional<double> rate) {
+  constexpr double usual_rate = 30;  // [Hz]
+  if (file.empty()) return nullptr;
+  return std::make_unique<VideoRecorder>(file, rate.value_or(usual_rate));
+}
+
+SessionParts parts_of(const Rig& rig, std::shared_ptr<Plant> plant, const LiveOptions& options) {
+  return {.plant = std::move(plant), .rig = name_of(rig) + (options.dry ? ", dry run" : "")};
+}
+
+/// Date and local time, ISO 8601.
+std::string date_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  localtime_r(&now, &local);
+  std::array<char, 64> text{};
+  const std::size_t size = std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%S%z", &local);
+  return {text.data(), size};
+}
+
+/// Log of a rig at the start of an experiment.
+RigLog log_of(const Rig& rig, const std::string& note) {
+  RigLog log;
+  log.began = date_now();
+  log.note = note;
+  log.rig_file = to_yaml(rig.params);
+  log.coils_file = read_file(rig.folder / rig.params.coils, 1 << 24);
+  log.coils = rig.system.coil_names();
+  return log;
+}
+
+RigLatency latency_of(const RigTiming& timing) {
+  const Durations& times = timing.camera_to_current;
+  return {.median = times.quantile(0.5),
+          .p99 = times.quantile(0.99),
+          .longest = times.longest(),
+          .pictures = static_cast<int>(times.count()),
+          .late_currents = timing.late_currents,
+          .ticks = static_cast<int>(timing.tick.count()),
+          .missed_deadlines = timing.missed_deadlines};
+}
+
+constexpr std::size_t max_logged = 10'000'000;  // values
+constexpr double device_check = 0.3;            // [s]
+
+}  // namespace
+
+LiveSession::LiveSession(RigExperiment on, const LiveOptions& options)
+    : on_(checked(std::move(on), options)),
+      devices_(open_devices(on_, options.dry, options.idle)),
+      kept_(log_of(on_.rig, options.note)),
+      log_(options.folder, on_.rig.system, options.dry),
+      video_(video_recorder(options.video, devices_.camera_rate)),
+      plant_(std::make_shared<LiveRig>(
+          on_.scenario(), on_.experiment.world.map, on_.rig, std::move(devices_.camera),
+          devices_.scale, devices_.driver(),
+          LiveRigListeners{
+              .coils = [this](const CoilMoment& moment) { keep(moment); },
+              .pictures = video_ ? video_->input() : FrameListener(),
+              .detections = [this](const Detections& seen, double t) { keep(seen, t); }})),
+      session_(on_.experiment, parts_of(on_.rig, plant_, options)) {
+  if (video_) video_->begin(plant_->start());
+  if (device_camera(on_.rig.params))
+    require(check_camera(plant_->camera(), on_.rig, devices_.camera_rate, device_check));
+  if (has_coil_device(on_.rig) && !options.dry) open_coils(options);
+  session_.rig_log() = kept_;
+}
+
+void LiveSession::require(const std::vector<RigCheck>& checks) {
+  for (const RigCheck& check : checks) {
+    if (check.good) continue;
+    const std::string line = check.what + ": " + check.answer;
+    if (check.required) throw HardwareError(line);
+    warnings_.push_back(line);
+  }
+}
+
+void LiveSession::open_coils(const LiveOptions& options) {
+  require(check_driver(devices_.driver(), on_.rig, device_check));
+  temperatures_.emplace(on_.rig, options.coils_cold);
+  plant_->warm(temperatures_->at_start());
+  if (!temperatures_->known()) warnings_.push_back(temperatures_->why_hot());
+}
+
+/// Logs the detections of a new picture: the swarm and other bodies.
+void LiveSession::keep(const Detections& seen, double t) {
+  if (kept_.seen_at.size() >= max_logged) return;
+  if (seen.swarm) kept_.see(t, -1, seen.swarm->pose.position, seen.swarm->radius);
+  for (const Body& body : seen.moving) {
+    const Disc extent = extent_of(body);
+    kept_.see(t, body.obstacle, extent.centre, extent.radius);
+  }
+}
+
+/// In the coils' thread.
+void LiveSession::keep(const CoilMoment& moment) {
+  const double start = plant_->start();
+  log_.add(moment, start);
+  if (kept_.currents.size() < max_logged) {
+    kept_.driven_at.push_back(moment.t - start);
+    kept_.answered_at.push_back(moment.driven - start);
+    kept_.pictured_at.push_back(moment.seen - start);
+    kept_.currents.insert(kept_.currents.end(), moment.output.acknowledged.begin(),
+                          moment.output.acknowledged.end());
+  }
+  if (temperatures_) temperatures_->take(moment.output.temperatures);
+}
+
+std::string LiveSession::close() {
+  stop("the run has ended");
+  if (!kept_.empty()) {
+    kept_.latency = latency_of(plant_->timing());
+    session_.rig_log() = std::exchange(kept_, {});
+  }
+  if (video_) video_->finish();
+  return log_.finish(plant_->zero_at(), plant_->zero_is_confirmed());
+}
+
+std::optional<RecordedVideo> LiveSession::video() const {
+  return video_ ? std::optional(video_->finish()) : std::nullopt;
+}
+
+LiveStatus LiveSession::status() const {
+  const Detections& sight = plant_->sight();
+  const RigTiming timing = plant_->timing();
+  LiveStatus status{.trouble = sight.trouble,
+                    .robots = static_cast<int>(sight.robots.size()),
+                    .unseen = sight.unseen,
+                    .coils = plant_->load(),
+                    .frame_age = plant_->frame_age(),
+                    .tick_p95 = timing.tick.quantile(0.95),
+                    .missed_deadlines = timing.missed_deadlines};
+  if (sight.swarm) status.trouble = {};
+  const Tick* const tick = session_.tick();
+  if (!tick) return status;
+  status.t = tick->frame.t;
+  status.state = tick->frame.state;
+  status.holding = tick->holding;
+  status.goal_distance = tick->frame.goal_distance;
+  status.command_speed = tick->frame.command.speed;
+  status.radius = tick->frame.radius;
+  status.gap = std::min(tick->frame.wall_clearance, tick->frame.obstacle_clearance) - status.radius;
+  return status;
+}
+
+}  // namespace microswarm

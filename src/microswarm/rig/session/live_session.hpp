@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "microswarm/experiment/session/session.hpp"
+#include "microswarm/rig/runtime/coil_temperatures.hpp"
+#include "microswarm/rig/runtime/command_log.hpp"
+#include "microswarm/rig/runtime/devices.hpp"
+#include "microswarm/rig/runtime/live_rig.hpp"
+#include "microswarm/rig/runtime/rig_checks.hpp"
+#include "microswarm/vision/camera/video_recorder.hpp"
+
+namespace microswarm {
+
+/// Options for opening a rig in real time.
+struct LiveOptions {
+  bool dry = false;   ///< no current is sent to the coils
+  bool idle = false;  ///< in a dry run, a simulated swarm does not move
+  std::filesystem::path
+      folder{};  ///< folder of commands.csv; empty: the coil outputs are not logged
+  std::filesystem::path video{};  ///< file for the camera's video; empty for none
+  bool without_limits = false;  ///< allows a coil system without limits of current and temperature
+  bool coils_cold = false;      ///< assumes the coils at ambient temperature
+  std::string note{};           ///< operator's note, kept in the record
+};
+
+/// Live numbers of a run on a rig.
+struct LiveStatus {
+  double t = 0;  ///< on the record's clock [s]
+  NavigatorState state = NavigatorState::hold;
+  bool holding = false;      ///< whether the swarm is held at the goal
+  double goal_distance = 0;  ///< [µm], infinite before the first detection
+  double command_speed = 0;  ///< [µm/s]
+  double radius = 0;         ///< of the swarm [µm]
+  double gap = infinity;     ///< from its edge to walls and obstacles [µm]; infinite for robots
+  std::string_view trouble;  ///< why the swarm is not detected, see Detections; empty if it is
+  int robots = 0;            ///< individually tracked robots
+  int unseen = 0;            ///< robots not detected
+  CoilLoad coils;
+  double frame_age = 0;      ///< of the newest picture [s]
+  double tick_p95 = 0;       ///< 95th percentile of the ticks' durations [s]
+  int missed_deadlines = 0;  ///< ticks that ended too late
+};
+
+/// A session on a rig in real time, with its devices: a step takes the time of a tick. The
+/// destructor sets the coils to zero.
+class LiveSession {
+ public:
+  /// Checks and opens the rig's devices. Throws HardwareError if a device fails, InputError if rig
+  /// and scenario do not fit, if the coils cannot hold the field, or if a limit is missing.
+  LiveSession(RigExperiment on, const LiveOptions& options);
+  LiveSession(const LiveSession&) = delete;
+  LiveSession& operator=(const LiveSession&) = delete;
+
+  Session& session() { return session_; }
+  const Session& session() const { return session_; }
+  /// Warnings about the rig, found when it was opened, one line each.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+  /// Sets the coils to zero permanently; callable from any thread.
+  void stop(const std::string& why) { plant_->stop(why); }
+  /// Sets the coils to zero after the last tick, finishes the log and adds currents and detections
+  /// to the record, up to 10,000,000 values of each. Returns the reason of a failure, or an empty
+  /// string.
+  std::string close();
+  /// After close(): the recorded video, if requested.
+  std::optional<RecordedVideo> video() const;
+  /// Numbers of the newest tick; to be called in the thread that steps.
+  LiveStatus status() const;
+  const Rig& rig() const { return on_.rig; }
+  /// The rig in real time: its newest picture, its times, the result of its stop.
+  const LiveRig& live() const { return *plant_; }
+
+ private:
+  void open_coils(const LiveOptions& options);
+  void require(const std::vector<RigCheck>& checks);
+  void keep(const Detections& seen, double t);
+  void keep(const CoilMoment& moment);
+
+  RigExperiment on_;
+  Devices devices_;
+  RigLog kept_;  ///< currents are written by the coils' thread, the rest by the run's
+  CommandLog log_;
+  std::unique_ptr<VideoRecorder> video_;
+  std::vector<std::string> warnings_;
+  std::optional<CoilTemperatures> temperatures_;
+  std::shared_ptr<LiveRig> plant_;
+  Session session_;
+};
+
+}  // namespace microswarm

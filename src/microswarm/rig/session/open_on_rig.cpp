@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/rig/session/open_on_rig.hpp"
+
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/rig/simulation/simulated_rig.hpp"
+
+namespace microswarm {
+
+std::unique_ptr<Session> open_on_rig(const RigExperiment& on, std::uint32_t trial) {
+  SessionParts parts{.trial = trial, .rig = name_of(on.rig)};
+  parts.plant = std::make_shared<SimulatedRig>(on.scenario(), on.experiment.world, on.rig, trial);
+  return std::make_unique<Session>(on.experiment, std::move(parts));
+}
+
+std::unique_ptr<Session> open_on_rig(const std::filesystem::path& file,
+                                     const RigSessionOptions& options) {
+  if (is_record(file) && !(options.rig.empty() && options.rig_settings.empty()))
+    throw InputError(file.string() + ": a record accepts no options");
+  if (options.rig.empty() && !options.rig_settings.empty())
+    throw InputError("values of a rig are set, but there is no rig");
+  if (options.rig.empty()) return open_session(file, options.settings);
+  return open_on_rig(
+      open_rig_experiment(file, options.settings, options.rig, options.rig_settings));
+}
+
+}  // namespace microswarm

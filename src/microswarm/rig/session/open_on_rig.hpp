@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "microswarm/experiment/session/session.hpp"
+#include "microswarm/rig/params/rig_experiment.hpp"
+
+namespace microswarm {
+
+/// Options for opening a scenario with or without a simulated rig.
+struct RigSessionOptions {
+  Settings settings{};          ///< of the scenario
+  std::filesystem::path rig{};  ///< rig file; empty: no rig
+  Settings rig_settings{};
+};
+
+/// Opens a session through a simulated rig, as fast as possible. Throws InputError if rig and
+/// scenario do not fit.
+std::unique_ptr<Session> open_on_rig(const RigExperiment& on, std::uint32_t trial = 0);
+
+/// Opens a scenario through a simulated rig if one is named, otherwise as open_session. Throws
+/// InputError with one line per issue.
+std::unique_ptr<Session> open_on_rig(const std::filesystem::path& file,
+                                     const RigSessionOptions& options);
+
+}  // namespace microswarm

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/experiment/session/growing_record.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <optional>
+#include <thread>
+
+#include "microswarm/core/execution/stop.hpp"
+#include "tests/experiment/scenes.hpp"
+#include "tests/files.hpp"
+
+namespace microswarm {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(PartFiles, AreNamedAfterTheirRecord) {
+  EXPECT_EQ(part_of("out/run.h5"), "out/run.part.h5");
+  EXPECT_EQ(whole_of("out/run.part.h5"), "out/run.h5");
+  EXPECT_EQ(whole_of(part_of("run.h5")), "run.h5");
+  for (const char* other : {"run.h5", "out/.part.h5", "part.h5", "x.part/run.h5"})
+    EXPECT_EQ(whole_of(other), "") << other;
+}
+
+/// Of so many ticks that no computer comes to its end here.
+Scenario long_flight() {
+  Scenario scenario = small_flight();
+  scenario.tick = 0.001;
+  return scenario;
+}
+
+/// Steps until it holds; the session goes on all the time.
+bool step_until(Session& session, const std::function<bool()>& holds) {
+  const auto latest = Stop::Clock::now() + 300s;  // with a sanitizer on a busy computer
+  for (int i = 0; Stop::Clock::now() < latest; ++i) {
+    if (i % 20 == 0 && holds()) return true;
+    if (!session.step()) return holds();
+    std::this_thread::sleep_for(1ms);  // slower than the file is written
+  }
+  return false;
+}
+
+TEST(GrowingRecords, AreWholeRecordsOfTheRunSoFar) {
+  const test::Folder folder;
+  const auto part = folder / "run.part.h5";
+  Session session(open_experiment(long_flight(), {}));
+  std::optional<GrowingRecord> growing(std::in_place, session, folder / "run.h5", 1ms);
+  ASSERT_TRUE(step_until(session, [&] { return std::filesystem::exists(part); }));
+  const Record first = read_record(part);
+  EXPECT_EQ(first.result.status, Status::running);
+  EXPECT_GT(first.frames.size(), 0u);
+  EXPECT_LE(first.frames.size(), session.record().frames.size());
+  EXPECT_TRUE(replay(first).identical);
+  ASSERT_TRUE(
+      step_until(session, [&] { return read_record(part).frames.size() > first.frames.size(); }));
+  Session alone(open_experiment(long_flight(), {}));
+  while (alone.record().frames.size() < session.record().frames.size()) alone.step();
+  EXPECT_EQ(session.record().hash(), alone.record().hash());
+  growing.reset();
+  EXPECT_FALSE(std::filesystem::exists(part));
+}
+
+TEST(GrowingRecords, ARunNeverFailsForThem) {
+  const test::Folder folder;
+  Session session(open_experiment(small_flight(), {}));
+  const GrowingRecord growing(session, folder / "none/run.h5", 1ms);
+  EXPECT_EQ(session.finish().status, Status::solved);
+}
+
+}  // namespace
+}  // namespace microswarm
