@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/experiment/session/replay.hpp"
 #include "microswarm/experiment/session/session.hpp"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "bench/lab_client.hpp"
-#include "lab/server.hpp"
+#include "lab/net/server.hpp"
 #include "microswarm/core/maths/statistics.hpp"
 
 namespace microswarm::bench {

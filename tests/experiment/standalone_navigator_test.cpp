@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/experiment/plant/make_plant.hpp"
 #include "microswarm/experiment/plant/plant.hpp"
 #include "microswarm/experiment/session/session.hpp"
 #include "tests/experiment/scenes.hpp"

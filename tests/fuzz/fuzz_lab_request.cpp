@@ -7,9 +7,9 @@
 #include <cstdlib>
 #include <string>
 
-#include "lab/access.hpp"
-#include "lab/http.hpp"
-#include "lab/request.hpp"
+#include "lab/net/access.hpp"
+#include "lab/net/http.hpp"
+#include "lab/stream/request.hpp"
 #include "microswarm/core/errors/error.hpp"
 
 namespace microswarm::lab {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lab/access.hpp"
+#include "lab/net/access.hpp"
 
 #include <gtest/gtest.h>
 

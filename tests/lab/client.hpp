@@ -19,7 +19,7 @@
 #include <string>
 #include <thread>
 
-#include "lab/server.hpp"
+#include "lab/net/server.hpp"
 #include "tests/experiment/scenes.hpp"
 #include "tests/files.hpp"
 

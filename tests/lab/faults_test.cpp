@@ -4,7 +4,7 @@
 #include <boost/asio/write.hpp>
 #include <functional>
 
-#include "lab/outbox.hpp"
+#include "lab/net/outbox.hpp"
 #include "tests/lab/client.hpp"
 
 namespace microswarm::lab {

@@ -4,7 +4,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include "lab/record_watch.hpp"
+#include "lab/sessions/record_watch.hpp"
 #include "microswarm/experiment/session/growing_record.hpp"
 #include "tests/lab/client.hpp"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lab/library.hpp"
+#include "lab/files/library.hpp"
 
 #include <gtest/gtest.h>
 
-#include "lab/thumbnail.hpp"
+#include "lab/files/thumbnail.hpp"
 #include "tests/experiment/scenes.hpp"
 #include "tests/files.hpp"
 #include "tests/messages.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lab/request.hpp"
+#include "lab/stream/request.hpp"
 
 #include <gtest/gtest.h>
 
-#include "lab/http.hpp"
+#include "lab/net/http.hpp"
 #include "tests/files.hpp"
 #include "tests/messages.hpp"
 

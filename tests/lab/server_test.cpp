@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lab/server.hpp"
+#include "lab/net/server.hpp"
 
 #include <cstring>
 #include <thread>

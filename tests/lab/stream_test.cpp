@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lab/stream.hpp"
+#include "lab/stream/stream.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files from pages: what is kept, what is refused, and what is left of them.
-#include "lab/uploads.hpp"
+#include "lab/files/uploads.hpp"
 
 #include <fmt/format.h>
 #include <stdlib.h>  // mkdtemp
@@ -8,7 +8,7 @@
 #include <chrono>
 #include <fstream>
 
-#include "lab/photograph.hpp"
+#include "lab/files/photograph.hpp"
 #include "tests/lab/client.hpp"
 
 namespace microswarm::lab {

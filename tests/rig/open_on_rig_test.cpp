@@ -12,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path shipped = fs::path(MICROSWARM_SOURCE_DIR) / "scenarios";
-const fs::path channel = shipped / "papers/drrt/s_channel.yaml";
+const fs::path s_channel = shipped / "papers/drrt/s_channel.yaml";
 
 std::string hash_of(Session& session) {
   session.finish();
@@ -22,8 +22,8 @@ std::string hash_of(Session& session) {
 TEST(OpenOnRig, AShippedScenarioRunsThroughARigAndWithout) {
   const RigSessionOptions options{.settings = {"time_limit_s=1"},
                                   .rig = shipped / "rigs/ribbon.yaml"};
-  const auto plain = open_on_rig(channel, {.settings = options.settings});
-  const auto rig = open_on_rig(channel, options);
+  const auto plain = open_on_rig(s_channel, {.settings = options.settings});
+  const auto rig = open_on_rig(s_channel, options);
   EXPECT_NE(hash_of(*plain), hash_of(*rig));
   EXPECT_EQ(plain->record().rig, "");
   EXPECT_FALSE(rig->record().rig.empty());
@@ -31,15 +31,15 @@ TEST(OpenOnRig, AShippedScenarioRunsThroughARigAndWithout) {
 
 TEST(OpenOnRig, TheTrialSelectsTheStreamsOfTheRigToo) {
   const RigExperiment on =
-      open_rig_experiment(channel, {"time_limit_s=1"}, shipped / "rigs/ribbon.yaml", {});
+      open_rig_experiment(s_channel, {"time_limit_s=1"}, shipped / "rigs/ribbon.yaml", {});
   EXPECT_EQ(hash_of(*open_on_rig(on, 1)), hash_of(*open_on_rig(on, 1)));
   EXPECT_NE(hash_of(*open_on_rig(on, 1)), hash_of(*open_on_rig(on, 2)));
 }
 
 TEST(OpenOnRig, ValuesOfARigNeedARigAndRecordsNone) {
-  EXPECT_THROW(open_on_rig(channel, {.rig_settings = {"drive_rate_hz=100"}}), InputError);
+  EXPECT_THROW(open_on_rig(s_channel, {.rig_settings = {"drive_rate_hz=100"}}), InputError);
   const test::Folder folder;
-  const auto session = open_session(channel, {"time_limit_s=1"});
+  const auto session = open_session(s_channel, {"time_limit_s=1"});
   session->record_to(folder / "run.h5");
   EXPECT_TRUE(open_on_rig(folder / "run.h5", {})->is_playback());
   EXPECT_THROW(open_on_rig(folder / "run.h5", {.rig = "rig.yaml"}), InputError);

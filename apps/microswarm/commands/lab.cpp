@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "commands/commands.hpp"
-#include "lab/record_watch.hpp"
-#include "lab/server.hpp"
+#include "lab/net/server.hpp"
+#include "lab/sessions/record_watch.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/rig/params/rig_experiment.hpp"
 #include "rig/keys/rig_keys.hpp"

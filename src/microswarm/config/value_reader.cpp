@@ -252,7 +252,7 @@ void ValueReader::read(const Type& type, const FieldInfo& info, std::string_view
     case TypeKind::number:
       return read_number(info, label, *static_cast<double*>(value), node);
     case TypeKind::text:
-      if (node.kind != Kind::scalar) fail_kind(type, label, node);
+      if (node.kind != Kind::scalar || node.literal) fail_kind(type, label, node);
       *static_cast<std::string*>(value) = node.text;
       return;
     case TypeKind::point: {

@@ -11,7 +11,7 @@
 
 namespace microswarm {
 
-/// Reads parsed YAML into described values and writes the error messages.
+/// Reads parsed YAML or JSON into described values and writes the error messages.
 class ValueReader {
  public:
   /// `name` is the place of every issue; with `places`, the node's line and column follow it. `key`

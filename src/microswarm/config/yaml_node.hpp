@@ -7,11 +7,12 @@
 
 namespace microswarm {
 
-/// YAML document as a plain tree with source positions.
+/// YAML or JSON document as a plain tree with source positions.
 struct YamlNode {
   enum class Kind { null, scalar, list, map };
   Kind kind = Kind::null;
   bool quoted = false;          ///< quoted or block scalar: always text
+  bool literal = false;         ///< number, true or false of JSON: never text
   int line = 0;                 ///< from 1
   int column = 0;               ///< from 1
   std::string text;             ///< scalar

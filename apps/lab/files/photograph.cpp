@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/files/photograph.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "microswarm/config/schema.hpp"
+#include "microswarm/config/yaml.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/file.hpp"
+#include "microswarm/experiment/scenario/map_scale.hpp"
+#include "microswarm/experiment/scenario/validate.hpp"
+#include "microswarm/formats/images/jpeg.hpp"
+#include "microswarm/formats/write_map.hpp"
+#include "microswarm/planning/common/free_goal.hpp"
+#include "microswarm/vision/image/overlay.hpp"
+#include "microswarm/vision/vessels/vessel_map.hpp"
+#include "microswarm/vision/vessels/vessels.hpp"
+#include "microswarm/world/connectivity/channel_width.hpp"
+
+namespace microswarm::lab {
+namespace {
+
+constexpr double smoothing = 1;  // [px], of the outlines
+constexpr int jpeg_quality = 90;
+constexpr int max_steps = 100'000;
+
+VesselSegmentation searched(const Image& photo, const PhotoRequest& request) {
+  VesselParams params;
+  set_values(params, request.settings);
+  return segment_vessels(photo, params);
+}
+
+/// Nearest position with this clearance. Throws InputError if there is none nearby.
+Vec2 free_place(const Map& map, Vec2 at, double clearance, double width, const char* what) {
+  const auto found = free_goal(Snapshot::of(map), at, 3 * width, clearance);
+  if (!found)
+    throw InputError(fmt::format(
+        "the {} ({:.0f}, {:.0f}) µm is not in a vessel that is wide enough", what, at.x, at.y));
+  return *found;
+}
+
+}  // namespace
+
+std::string vessel_schema() { return json_schema<VesselParams>("vessels of a photograph"); }
+
+std::string jpeg_of(const std::filesystem::path& photograph) {
+  return encode_jpeg(read_photograph(photograph), jpeg_quality);
+}
+
+FoundVessels find_vessels(const std::filesystem::path& photograph, const PhotoRequest& request) {
+  const Image photo = read_photograph(photograph);
+  const VesselSegmentation found = searched(photo, request);
+  const TemporaryFile picture("overlay.png");
+  write_png(picture.path(), overlay(photo, found.vessels));
+  const nlohmann::json json{{"view_share", found.view_share},
+                            {"pieces", found.pieces},
+                            {"kept_share", found.kept_share},
+                            {"bridges", found.bridges},
+                            {"wide_width_px", found.wide_width_px}};
+  return {.png = read_file(picture.path()), .json = json.dump()};
+}
+
+std::filesystem::path make_photo_scenario(const std::filesystem::path& photograph,
+                                          const PhotoRequest& request, Uploads& uploads) {
+  const double cell = request.um_per_px;
+  if (!(cell > 0)) throw InputError("the scale is missing: um_per_px");
+  if (!request.goal) throw InputError("the goal is missing");
+  if (!request.start && request.robots < 1) throw InputError("start or robots are missing");
+  const Image photo = read_photograph(photograph);
+  const VesselSegmentation found = searched(photo, request);
+  const Map map = vessel_map(found, cell, smoothing, "photograph");
+  Rng rng(1, Purpose::planner);
+  const double width = channel_width(map, rng);
+  const std::filesystem::path file = uploads.new_file(".geojson");
+  write_map(file, map, cell);
+
+  Scenario scenario;
+  scenario.name = "photograph";
+  scenario.map = GeoJsonMap{.file = file.filename().string()};
+  if (request.start) {
+    fit_swarm(scenario, width);
+    const double clearance = 1.4 * limits_of(scenario.swarm).radius;
+    scenario.start = Pose2{free_place(map, *request.start, clearance, width, "start"), 0};
+    scenario.goal = free_place(map, *request.goal, clearance, width, "goal");
+    scenario.time_limit = 3600;
+  } else {
+    scenario.robots.emplace().count = request.robots;
+    scenario.goal = free_place(map, *request.goal, 0.05 * width, width, "place to gather");
+    scenario.navigator = AggregationParams{};
+    fit_gathering(scenario, width, max_steps);
+  }
+  const std::filesystem::path made = uploads.new_file(".yaml");
+  write_file_atomically(made, scenario_text(scenario));
+  open_experiment(made);  // reports inconsistent values
+  return made;
+}
+
+}  // namespace microswarm::lab

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/net/api.hpp"
+
+#include <fmt/format.h>
+
+#include "lab/files/download.hpp"
+#include "lab/files/photograph.hpp"
+#include "lab/net/assets.hpp"
+#include "lab/net/run_export.hpp"
+#include "lab/net/session_number.hpp"
+#include "microswarm/core/errors/error.hpp"
+
+namespace microswarm::lab {
+namespace {
+
+namespace http = boost::beast::http;
+using Json = nlohmann::json;
+
+HttpResponse json_text(const Exchange& e, std::string json) {
+  return respond(e.request(), http::status::ok, "application/json", std::move(json));
+}
+
+void list(Exchange& e, std::string_view) {
+  e.later([&e] {
+    Json list = Json::array();
+    for (const Entry& entry : e.shared().library.entries())
+      list.push_back(
+          {{"file", entry.file}, {"name", entry.name}, {"description", entry.description}});
+    Json json{{"scenarios", std::move(list)}};
+    if (e.shared().opening) json["open"] = true;
+    return respond(e.request(), json);
+  });
+}
+
+void draw_thumbnail(Exchange& e, std::string_view) {
+  e.later([&e, file = e.query("file")] {
+    return respond(e.request(), http::status::ok, "image/svg+xml",
+                   e.shared().thumbnails.of(e.shared().library.find(file)));
+  });
+}
+
+void write_schema(Exchange& e, std::string_view) { e.write(json_text(e, scenario_schema())); }
+
+void write_vessel_schema(Exchange& e, std::string_view) { e.write(json_text(e, vessel_schema())); }
+
+/// POST ?name=NAME with the file as body.
+void take_upload(Exchange& e, std::string_view) {
+  e.later([&e] {
+    const Upload made =
+        e.shared().uploads.keep(e.query("name"), e.request().body(), e.shared().library);
+    return respond(e.request(), {{"file", made.file},
+                                 {"kind", enum_name(made.kind)},
+                                 {"width_px", made.width},
+                                 {"height_px", made.height}});
+  });
+}
+
+/// POST {"file": …, "settings": […]}: the photograph with its vessels.
+void search_vessels(Exchange& e, std::string_view) {
+  e.later([&e, asked = read_photo_request(e.request().body())] {
+    FoundVessels found = find_vessels(e.shared().library.find(asked.file), asked);
+    HttpResponse response =
+        respond(e.request(), http::status::ok, "image/png", std::move(found.png));
+    response.set("Microswarm-Vessels", found.json);
+    return response;
+  });
+}
+
+void make_scenario(Exchange& e, std::string_view) {
+  e.later([&e, asked = read_photo_request(e.request().body())] {
+    const auto made =
+        make_photo_scenario(e.shared().library.find(asked.file), asked, e.shared().uploads);
+    return respond(e.request(), {{"file", made.string()}});
+  });
+}
+
+/// What a page asks to open; without a file the experiment of the command line.
+Opening opening_of(const OpenRequest& asked, const Shared& shared) {
+  Opening opening;
+  if (asked.file)
+    opening.file = shared.library.find(*asked.file);
+  else if (shared.opening)
+    opening = *shared.opening;
+  else
+    throw InputError("message: \"file\" is missing");
+  opening.check = [&library = shared.library, file = opening.file,
+                   trusted = opening.options.settings](const auto& settings) {
+    library.check(file, settings, trusted);
+  };
+  if (asked.photo)
+    opening.photo =
+        BackgroundPhoto{.file = shared.library.find(*asked.photo), .um_per_px = asked.um_per_px};
+  Settings& settings = opening.options.settings;
+  const Settings more(asked.settings, "");
+  settings.list.insert(settings.list.end(), more.list.begin(), more.list.end());
+  settings.option.clear();  // the page gave no option
+  return opening;
+}
+
+/// POST {"file": …, "settings": […]}
+void open_session(Exchange& e, std::string_view) {
+  Opening opening = opening_of(read_open_request(e.request().body()), e.shared());
+  e.wait();
+  const bool live = opening.live.has_value();
+  e.shared().hub.open(std::move(opening), [self = e.shared_from_this(),
+                                           live](const Outcome<std::uint64_t>& opened) {
+    if (opened.trouble.empty())
+      self->write(respond(self->request(), {{"session", opened.value}, {"live", live}}));
+    else
+      self->refuse(http::status::bad_request, opened.trouble);
+  });
+}
+
+/// DELETE /api/sessions/ID
+void close_session(Exchange& e, std::string_view session) {
+  const auto number = session_number(session);
+  if (!number || !e.shared().hub.has(*number)) return e.nothing();
+  e.shared().hub.close(*number);
+  e.write(respond(e.request(), Json::object()));
+}
+
+void send(Exchange& e, const std::string& name, Outcome<Download> made) {
+  if (!made.trouble.empty()) return e.refuse(http::status::internal_server_error, made.trouble);
+  const auto name_it = [&](http::fields& headers) {
+    headers.set(http::field::content_disposition, fmt::format("attachment; filename=\"{}\"", name));
+  };
+  if (!made.value.file) {
+    HttpResponse response =
+        respond(e.request(), http::status::ok, media_type_of(name), std::move(made.value.bytes));
+    name_it(response);
+    return e.write(std::move(response));
+  }
+  http::response<http::file_body> response{http::status::ok, e.request().version()};
+  boost::beast::error_code error;
+  response.body().open(made.value.file->path().c_str(), boost::beast::file_mode::scan, error);
+  if (error) return e.refuse(http::status::internal_server_error, error.message());
+  set_headers(response, media_type_of(name));
+  name_it(response);
+  response.keep_alive(e.request().keep_alive());
+  response.prepare_payload();
+  e.write(std::move(response));
+}
+
+/// Makes an export in its thread and sends it.
+void make_export(const std::shared_ptr<Exchange>& exchange, const std::string& name,
+                 const RunExport& wanted, std::shared_ptr<const Record> record) {
+  exchange->shared().export_(
+      [self = exchange, name, wanted, record = std::move(record)](const Stop& stop) mutable {
+        const auto made = std::make_shared<Outcome<Download>>();
+        try {
+          made->value = make_run_export(wanted, *record, stop);
+        } catch (const std::exception& error) {
+          made->trouble = error.what();
+        }
+        // The connection must be destroyed in the thread of input and output.
+        const auto post = self->shared().post;
+        post([self = std::move(self), name, made] {
+          if (!made->trouble.empty())
+            self->refuse(http::status::bad_request, made->trouble);
+          else
+            send(*self, name, std::move(*made));
+        });
+      });
+}
+
+/// Copies the record in the session's thread, and makes the video or picture in another one.
+void export_run(Exchange& e, std::uint64_t session, const std::string& name,
+                const RunExport& wanted) {
+  e.wait();
+  e.shared().hub.fetch<std::shared_ptr<const Record>>(
+      session,
+      [](const Session& of) { return std::make_shared<const Record>(Record(of.record())); },
+      [self = e.shared_from_this(), name,
+       wanted](const Outcome<std::shared_ptr<const Record>>& copied) {
+        if (!copied.trouble.empty())
+          self->refuse(http::status::internal_server_error, copied.trouble);
+        else
+          make_export(self, name, wanted, copied.value);
+      });
+}
+
+/// GET /api/sessions/ID/NAME
+void download_of(Exchange& e, std::string_view path) {
+  const std::size_t slash = std::min(path.find('/'), path.size());
+  const auto number = session_number(path.substr(0, slash));
+  if (!number || !e.shared().hub.has(*number) || slash == path.size()) return e.nothing();
+  const std::string name(path.substr(slash + 1));
+  if (e.shared().hub.drives(*number))
+    return e.refuse(http::status::conflict, "the coils are driven: stop the run first");
+  const Opening& opening = e.shared().hub.opening_of(*number);
+  if (name == "photo.jpg" && opening.photo)
+    return e.later([&e, file = opening.photo->file] {
+      return respond(e.request(), http::status::ok, "image/jpeg", jpeg_of(file));
+    });
+  if (auto wanted = read_run_export(name, view(e.request().target()))) {
+    wanted->photo = opening.photo;
+    return export_run(e, *number, name, *wanted);
+  }
+  auto make = download(name, opening.file.parent_path());
+  if (!make) return e.nothing();
+  e.wait();
+  e.shared().hub.fetch<Download>(*number, std::move(make),
+                                 [self = e.shared_from_this(), name](Outcome<Download> made) {
+                                   send(*self, name, std::move(made));
+                                 });
+}
+
+void write_asset(Exchange& e, std::string_view) {
+  const auto file = asset(path_of(view(e.request().target())));
+  if (!file) return e.nothing();
+  HttpResponse response =
+      respond(e.request(), http::status::ok, file->media_type, std::string(file->bytes));
+  if (!e.query("token").empty()) response.set(http::field::set_cookie, e.shared().access.cookie());
+  e.write(std::move(response));
+}
+
+/// Requests with this method and path, or a path that begins so if it ends with '/', are handled by
+/// `handle`, which gets the rest of the path.
+struct Route {
+  http::verb method;
+  std::string_view path;
+  void (*handle)(Exchange& exchange, std::string_view rest);
+
+  bool is_of(const HttpRequest& request, std::string_view target) const {
+    return request.method() == method &&
+           (path.ends_with('/') ? target.starts_with(path) : target == path);
+  }
+};
+
+/// The first that fits is taken.
+constexpr std::array<Route, 11> routes{
+    {{http::verb::get, "/api/scenarios", list},
+     {http::verb::get, "/api/thumbnail", draw_thumbnail},
+     {http::verb::get, "/api/schema", write_schema},
+     {http::verb::get, "/api/vessel-schema", write_vessel_schema},
+     {http::verb::get, "/api/sessions/", download_of},
+     {http::verb::get, "/", write_asset},
+     {http::verb::post, "/api/sessions", open_session},
+     {http::verb::post, uploads_path, take_upload},
+     {http::verb::post, "/api/vessels", search_vessels},
+     {http::verb::post, "/api/photographs", make_scenario},
+     {http::verb::delete_, "/api/sessions/", close_session}}};
+
+}  // namespace
+
+void handle(Exchange& exchange) {
+  const std::string_view path = path_of(view(exchange.request().target()));
+  for (const Route& route : routes)
+    if (route.is_of(exchange.request(), path))
+      return route.handle(exchange,
+                          path.substr(route.path.ends_with('/') ? route.path.size() : path.size()));
+  exchange.nothing();
+}
+
+}  // namespace microswarm::lab

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lab/sessions/host.hpp"
+#include "lab/sessions/limits.hpp"
+#include "microswarm/core/execution/stop.hpp"
+
+namespace microswarm::lab {
+
+/// Options of a Server.
+struct ServerOptions {
+  std::vector<std::filesystem::path> folders;  ///< folders whose files may be listed and opened
+  std::optional<Opening> opening{};            ///< experiment shown first
+  std::string listen{};                        ///< address; empty for this computer alone
+  std::uint16_t port = 0;                      ///< 0 for any free port
+  Limits limits{};
+};
+
+/// Serves the lab's page and its sessions by HTTP and WebSocket; docs/reference/lab-protocol.md
+/// describes both. Input and output use one thread, each session another one.
+class Server {
+ public:
+  /// Starts listening. Throws InputError if the address or the port is not available.
+  explicit Server(ServerOptions options);
+  ~Server();
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  /// Address of the page with its token.
+  std::string url() const;
+  /// Serves until the stop is requested. Returns whether all sessions and other work ended at once;
+  /// the destructor waits for one that still reads a large file.
+  bool run(const Stop& stop);
+  /// Sets the coils of every rig to zero; callable from any thread while it runs.
+  void stop_rigs(const std::string& why);
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace microswarm::lab

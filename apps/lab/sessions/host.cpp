@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/sessions/host.hpp"
+
+namespace microswarm::lab {
+
+Source source_of(const Opening& opening) {
+  return {.file = opening.file.string(),
+          .rig = opening.options.rig.string(),
+          .settings = opening.options.settings.texts(),
+          .rig_settings = opening.options.rig_settings,
+          .live = opening.live.has_value(),
+          .photo = opening.photo};
+}
+
+Host::Host(Opening opening, Callbacks callbacks)
+    : opening_(std::move(opening)), callbacks_(std::move(callbacks)), publisher_(callbacks_.send) {}
+
+void Host::begin() {
+  thread_ = std::thread([this] { run(); });
+}
+
+void Host::finish() {
+  end();
+  if (thread_.joinable()) thread_.join();
+}
+
+void Host::end() {
+  ends_ = true;
+  const std::lock_guard lock(mutex_);
+  wake_.notify_all();
+}
+
+void Host::join(std::uint64_t page) {
+  later([this, page] { welcome(page); });
+}
+
+void Host::leave(std::uint64_t) {}
+
+void Host::stop(const std::string&) {}
+
+void Host::ask(std::uint64_t page, Request request) {
+  later([this, page, request = std::move(request)] { answer(page, request); });
+}
+
+void Host::with(std::function<void(Session&)> work) {
+  later([this, work = std::move(work)] { work(session()); });
+}
+
+void Host::later(std::function<void()> work) {
+  const std::lock_guard lock(mutex_);
+  work_.push_back(std::move(work));
+  wake_.notify_all();
+}
+
+void Host::work_until(std::optional<Clock::time_point> latest) {
+  std::vector<std::function<void()>> work;
+  {
+    std::unique_lock lock(mutex_);
+    const auto wakes = [this] { return ends_ || !work_.empty(); };
+    if (latest)
+      wake_.wait_until(lock, *latest, wakes);
+    else
+      wake_.wait(lock, wakes);
+    work.swap(work_);
+  }
+  for (const auto& one : work) one();
+}
+
+void Host::run() {
+  std::string trouble;
+  try {
+    open();
+  } catch (const std::exception& error) {
+    trouble = error.what();
+    if (trouble.empty()) trouble = "it cannot be opened";
+  }
+  callbacks_.opened(trouble);
+  while (trouble.empty() && !ends_) {
+    try {
+      serve();
+    } catch (const std::exception& error) {
+      fail(error.what());
+    }
+  }
+  close();
+  has_ended_ = true;
+}
+
+void Host::fail(const std::string& why) {
+  Standing& standing = publisher_.standing;
+  standing.plays = false;
+  standing.ended = true;
+  standing.trouble = why;
+  publisher_.tell_standing(session());
+}
+
+void Host::answer(std::uint64_t page, const Request& request) {
+  Issues issues;
+  try {
+    obey(page, request, issues);
+    if (request.ask == Ask::clearance) callbacks_.send(page, clearance_message(session().map()));
+  } catch (const std::exception& error) {
+    issues.add(issues_of(error));
+  }
+  publisher_.changed();
+  callbacks_.send(page, answer_message(request.id, issues));
+}
+
+void Host::operate(const Request& request, Issues& issues) {
+  Operation* operation = session().operation();
+  if (!operation)
+    issues.add({}, "a record is not steered");
+  else if (request.ask == Ask::hold)
+    operation->pause(request.on);
+  else if (request.ask == Ask::manual)
+    operation->manual(request.on);
+  else if (request.ask == Ask::steer)
+    operation->steer({.heading = request.heading, .speed = request.speed});
+  else
+    operation->end();
+}
+
+void Host::look_back(double frame, Issues& issues) {
+  Standing& standing = publisher_.standing;
+  if (frame < 0 || frame > 1e15 || !publisher_.has_rows()) {
+    issues.add("number", "there is no such frame");
+    return;
+  }
+  const auto number = static_cast<std::size_t>(frame);
+  if (session().is_playback()) {
+    session().seek(number);
+    standing.ended = false;
+  } else {
+    if (!past_) past_ = std::make_unique<Session>(Record(session().record()));
+    past_->seek(number);
+    standing.looks_back = true;
+    standing.plays = false;
+  }
+  publisher_.freshen();
+}
+
+void Host::look_at_newest() {
+  if (past_) publisher_.freshen();
+  past_.reset();
+  publisher_.standing.looks_back = false;
+}
+
+}  // namespace microswarm::lab

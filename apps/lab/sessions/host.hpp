@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "lab/stream/publisher.hpp"
+#include "lab/stream/request.hpp"
+#include "microswarm/experiment/session/session.hpp"
+#include "microswarm/rig/session/open_on_rig.hpp"
+
+namespace microswarm::lab {
+
+/// Options for driving the coils of a rig in real time, as those of `rig run`.
+struct RigOpening {
+  std::filesystem::path
+      out{};  ///< parent of the folders of runs that drive the coils; empty for none
+  bool without_limits = false;
+  bool coils_cold = false;
+  bool drawn_swarm = false;
+};
+
+/// Source of a session.
+struct Opening {
+  std::filesystem::path file;  ///< scenario or record
+  RigSessionOptions options{};
+  /// Throws InputError for settings that are not allowed to a page.
+  std::function<void(const Settings& settings)> check{};
+  std::optional<BackgroundPhoto> photo{};
+  std::optional<RigOpening> live{};  ///< options for real time; without them in simulated time
+};
+Source source_of(const Opening& opening);
+
+/// A session in its own thread. Every function may be called from any thread; callbacks are called
+/// in the session's thread.
+class Host {
+ public:
+  struct Callbacks {
+    /// Called after opening; `trouble` is empty, or has a line for each issue.
+    std::function<void(const std::string& trouble)> opened;
+    /// Sends a message to one page, or to all (0). The first one for a page is its hello.
+    Publisher::Send send;
+  };
+  virtual ~Host() = default;
+  Host(const Host&) = delete;
+  Host& operator=(const Host&) = delete;
+
+  /// Requests the end and stops the step in progress.
+  virtual void end();
+  bool has_ended() const { return has_ended_; }
+  const Opening& opening() const { return opening_; }
+
+  /// Sends the full state to a new page.
+  virtual void join(std::uint64_t page);
+  virtual void leave(std::uint64_t page);
+  virtual void ask(std::uint64_t page, Request request);
+  /// Whether it drives the coils of a rig, and must not be delayed.
+  virtual bool drives() const { return false; }
+  /// Sets the coils of its rig to zero, if any.
+  virtual void stop(const std::string& why);
+  /// Calls `work` with the session between two ticks, in the session's thread.
+  void with(std::function<void(Session&)> work);
+
+ protected:
+  using Clock = Stop::Clock;
+
+  Host(Opening opening, Callbacks callbacks);
+  /// Starts the thread; to be called at the end of a constructor.
+  void begin();
+  /// Ends the thread and waits for it; to be called at the start of a destructor.
+  void finish();
+  /// Calls `work` in the session's thread.
+  void later(std::function<void()> work);
+  /// Runs queued work until `latest`; without a deadline, waits for work.
+  void work_until(std::optional<Clock::time_point> latest);
+  void answer(std::uint64_t page, const Request& request);
+  /// Applies a request for manual operation.
+  void operate(const Request& request, Issues& issues);
+
+  // Called in the session's thread.
+  virtual void open() = 0;
+  /// Handles requests and the tick that is due.
+  virtual void serve() = 0;
+  virtual Session& session() = 0;
+  virtual void welcome(std::uint64_t page) = 0;
+  virtual void obey(std::uint64_t page, const Request& request, Issues& issues) = 0;
+  /// Handles an exception of a step.
+  virtual void fail(const std::string& why);
+  /// Called before the thread ends.
+  virtual void close() {}
+  /// Shows an earlier frame; the session is paused meanwhile, unless it is a record.
+  void look_back(double frame, Issues& issues);
+  void look_at_newest();
+  bool looks_back() const { return past_ != nullptr; }
+  /// Session that is shown.
+  const Session& shown() { return past_ ? *past_ : session(); }
+
+  Opening opening_;
+  Callbacks callbacks_;
+  Publisher publisher_;
+  std::atomic<bool> ends_ = false;
+
+ private:
+  void run();
+
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::vector<std::function<void()>> work_;  ///< guarded
+  std::atomic<bool> has_ended_ = false;
+  std::unique_ptr<Session>
+      past_;  ///< playback of the record so far, while an earlier frame is shown
+  std::thread thread_;
+};
+
+}  // namespace microswarm::lab

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <list>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "lab/sessions/host.hpp"
+#include "lab/sessions/limits.hpp"
+
+namespace microswarm::lab {
+
+/// Interface of a page that watches a session.
+class Page {
+ public:
+  virtual ~Page() = default;
+  virtual void send(const MessagePtr& message) = 0;
+  /// Called when its session is closed.
+  virtual void close() = 0;
+};
+
+/// A result computed from a session, or the reason of a failure.
+template <class T>
+struct Outcome {
+  T value{};
+  std::string trouble;
+};
+
+/// The open sessions and the pages that watch them. All functions are called in the thread of input
+/// and output, to which `post` brings the sessions' messages. No function waits for a session.
+class Hub {
+ public:
+  using Post = std::function<void(std::function<void()>)>;
+  Hub(Post post, const Limits& limits);
+
+  const Limits& limits() const { return limits_; }
+
+  /// Opens a session; `opened` gets its number. The session of a rig is joined if it is open. If
+  /// there are too many, the oldest unwatched one is closed.
+  void open(Opening opening, std::function<void(const Outcome<std::uint64_t>&)> opened);
+  bool has(std::uint64_t session) const;
+  /// Source of an open session.
+  const Opening& opening_of(std::uint64_t session) const {
+    return sessions_.at(session).host->opening();
+  }
+  /// Whether it drives the coils of a rig.
+  bool drives(std::uint64_t session) const { return sessions_.at(session).host->drives(); }
+  /// Ends the session and closes its pages.
+  void close(std::uint64_t session);
+  /// Calls `make` with the session in its thread, between two ticks, then `done` with the result.
+  /// An InputError of `make` and the end of the session are failures.
+  template <class T>
+  void fetch(std::uint64_t session, std::function<T(const Session&)> make,
+             std::function<void(Outcome<T>)> done);
+
+  bool is_full() const { return pages_.size() >= limits_.pages; }
+  /// Adds a page; returns its number for leave() and ask(). The page is kept until it leaves.
+  std::uint64_t join(std::uint64_t session, std::shared_ptr<Page> page);
+  void leave(std::uint64_t page);
+  void ask(std::uint64_t page, Request request);
+
+  /// Sets the coils of every rig to zero.
+  void stop(const std::string& why);
+
+  /// Closes sessions that were unwatched since the call before the last one.
+  void sweep();
+  /// Frees ended sessions.
+  void reap();
+  /// Requests the end of all sessions, and releases pages and waiting callers.
+  void end();
+  /// Whether all sessions have ended.
+  bool has_ended() const;
+
+ private:
+  struct Seat {
+    std::uint64_t session;
+    std::shared_ptr<Page> page;
+    bool is_welcome = false;  ///< whether it got its hello; only then it gets messages for all
+  };
+  struct Running {
+    std::unique_ptr<Host> host;
+    bool is_open = false;
+    int unwatched = 0;  ///< number of sweeps
+  };
+  struct Waiting {
+    std::uint64_t session;
+    std::function<void(const std::string& trouble)> settle;
+  };
+  bool is_watched(std::uint64_t session) const;
+  void close_unwatched();
+  void deliver(std::uint64_t session, std::uint64_t page, const MessagePtr& message);
+  std::uint64_t wait(std::uint64_t session, std::function<void(const std::string&)> settle);
+  void settle(std::uint64_t waiting, const std::string& trouble);
+
+  Post post_;
+  Limits limits_;
+  std::uint64_t next_ = 1;
+  std::map<std::uint64_t, Waiting> waiting_;
+  std::map<std::uint64_t, Seat> pages_;
+  std::map<std::uint64_t, Running> sessions_;
+  std::list<std::unique_ptr<Host>> closing_;
+};
+
+template <class T>
+void Hub::fetch(std::uint64_t session, std::function<T(const Session&)> make,
+                std::function<void(Outcome<T>)> done) {
+  const auto found = sessions_.find(session);
+  if (found == sessions_.end()) return done({.trouble = "there is no such session"});
+  const auto value = std::make_shared<T>();
+  const std::uint64_t number =
+      wait(session, [value, done = std::move(done)](const std::string& trouble) {
+        done({.value = std::move(*value), .trouble = trouble});
+      });
+  found->second.host->with([this, number, value, make = std::move(make)](Session& of) {
+    std::string trouble;
+    try {
+      *value = make(of);
+    } catch (const std::exception& error) {
+      trouble = error.what();
+    }
+    post_([this, number, trouble] { settle(number, trouble); });
+  });
+}
+
+}  // namespace microswarm::lab

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "lab/sessions/host.hpp"
+#include "lab/sessions/record_watch.hpp"
+
+namespace microswarm::lab {
+
+/// A session in simulated time: steps at its speed, shows earlier frames, restarts. Follows a
+/// record that a run still writes.
+class SessionThread : public Host {
+ public:
+  SessionThread(Opening opening, Callbacks callbacks)
+      : Host(std::move(opening), std::move(callbacks)), watch_(opening_.file) {
+    begin();
+  }
+  ~SessionThread() override { finish(); }
+  SessionThread(const SessionThread&) = delete;
+  SessionThread& operator=(const SessionThread&) = delete;
+
+ private:
+  void open() override;
+  void serve() override;
+  Session& session() override { return *session_; }
+  void welcome(std::uint64_t page) override;
+  void obey(std::uint64_t page, const Request& request, Issues& issues) override;
+
+  std::optional<Clock::time_point> next_act(bool is_due) const;
+  void play(double until);
+  bool is_there();
+  void restart(const Request& request);
+  SessionView present_view();
+  void advance();
+  void look_for_more();
+  void grow();
+
+  std::unique_ptr<Session> session_;
+  Clock::time_point due_{};  ///< time of the next tick
+  double until_ = 0;         ///< time at which it pauses [s]; 0 for the end
+  RecordWatch watch_;
+  Clock::time_point looks_{};  ///< period of checks for more of a growing record
+};
+
+}  // namespace microswarm::lab

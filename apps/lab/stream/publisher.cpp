@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/stream/publisher.hpp"
+
+#include <algorithm>
+
+namespace microswarm::lab {
+
+void Publisher::clear() {
+  rows_.clear();
+  events_.clear();
+  told_rows_ = told_events_ = 0;
+  told_plans_ = 0;
+  told_aggregation_ = false;
+  standing = {.speed = standing.speed};
+  is_fresh_ = true;
+}
+
+void Publisher::take(const Record& record) {
+  take_more(record);
+  told_rows_ = rows_.size();
+  told_events_ = events_.size();
+}
+
+void Publisher::take_more(const Record& record) {
+  const auto& steps = record.result.timing.steps;
+  for (std::size_t i = rows_.size(); i < record.frames.size(); ++i)
+    rows_.push_back(
+        row_of({.frame = record.frames[i], .step_time = i < steps.size() ? steps[i] : 0}));
+  for (std::size_t i = events_.size(); i < record.events.size(); ++i)
+    events_.push_back(record.events[i]);
+  standing.frames = record.frames.size();
+}
+
+void Publisher::take(const Tick& tick) {
+  rows_.push_back(row_of(tick));
+  events_.insert(events_.end(), tick.events.begin(), tick.events.end());
+  standing.frames = rows_.size();
+  is_fresh_ = true;
+}
+
+void Publisher::welcome(std::uint64_t page, const MessagePtr& hello, Session& session,
+                        const Session& shown, const SessionView& view) {
+  tell_rows();
+  send_(page, hello);
+  send_(page, rows_message(rows_, events_, true));
+  if (!view.tree.empty()) send_(page, plan_message(view));
+  if (const auto aggregation = shown.aggregation()) send_(page, aggregation_message(*aggregation));
+  standing.frame = view.number;
+  send_(page, frame_message(view));
+  send_(page, standing_message(standing, session.result()));
+}
+
+void Publisher::set(Session& session, const Request& request, Issues& issues) {
+  issues = session.set(request.key, request.value);
+  if (!issues.empty()) return;
+  std::erase_if(standing.changes,
+                [&](const std::string& one) { return one.starts_with(request.key + "="); });
+  standing.changes.push_back(request.key + "=" + request.value);
+  tell_standing(session);  // first, so that a page with the new scenario also has the changes
+  send_(0, scenario_message(session.scenario()));
+  is_fresh_ = true;
+}
+
+void Publisher::tell_frame(Session& session, const Session& shown, const SessionView& view) {
+  is_fresh_ = false;
+  has_changed_ = true;
+  published_ = Stop::Clock::now();
+  tell_rows();
+  if (view.plans != told_plans_) send_(0, plan_message(view));
+  told_plans_ = view.plans;
+  if (!told_aggregation_ && &session == &shown) {
+    if (const auto aggregation = session.aggregation()) {
+      send_(0, aggregation_message(*aggregation));
+      told_aggregation_ = true;
+    }
+  }
+  standing.frame = view.number;
+  send_(0, frame_message(view));
+}
+
+void Publisher::tell_rows() {
+  if (told_rows_ == rows_.size() && told_events_ == events_.size()) return;
+  send_(0, rows_message(std::span(rows_).subspan(told_rows_),
+                        std::span(events_).subspan(told_events_), false));
+  told_rows_ = rows_.size();
+  told_events_ = events_.size();
+}
+
+void Publisher::tell_standing(Session& session) {
+  has_changed_ = false;
+  if (const Operation* operation = session.operation()) standing.mode = operation->mode();
+  send_(0, standing_message(standing, session.result()));
+}
+
+}  // namespace microswarm::lab
