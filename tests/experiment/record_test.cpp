@@ -123,7 +123,7 @@ TEST(Record, ForeignBytesAreOneLine) {
                                        {"HDF5", "damaged"}));
 }
 
-// What is refused is refused in one line that names the file; what is read is a record like any
+// What is refused is refused in lines that name the file; what is read is a record like any
 // other.
 TEST(Record, DamagedBytesAreErrorsOrRecordsNeverCrashes) {
   const auto folder = empty_folder("record_damaged");
@@ -141,7 +141,9 @@ TEST(Record, DamagedBytesAreErrorsOrRecordsNeverCrashes) {
     const std::string error = error_of([&] { read = read_record(file); });
     if (!read) {
       ++refused;
-      EXPECT_TRUE(test::is_one_line_naming(error, file.string(), {})) << i;
+      std::istringstream lines(error);
+      for (std::string line; std::getline(lines, line);)
+        EXPECT_TRUE(line.starts_with(file.string() + ":")) << i << ": " << line;
       continue;
     }
     const auto again = folder / "again.h5";
