@@ -114,7 +114,7 @@ TEST(LineCoilDriver, DrivesThroughASocketAndStops) {
       EXPECT_EQ(driver.currents()[1], -2.5);
       EXPECT_EQ(driver.drive(amperes), DriveStatus::driven);
       EXPECT_EQ(server.count("arm"), 1);
-      EXPECT_TRUE(driver.stop());
+      EXPECT_TRUE(driver.stop().confirmed);
       EXPECT_EQ(driver.currents()[1], 0);
       EXPECT_EQ(driver.drive(amperes), DriveStatus::driven);
       EXPECT_EQ(server.count("arm"), 2);
@@ -187,7 +187,7 @@ TEST(LineCoilDriver, SilenceAndGarbageAreNoAnswer) {
     EXPECT_LT(steady_seconds() - began, 1.5);
     EXPECT_EQ(driver->reason(), said);
     // What comes after half a line belongs to it.
-    EXPECT_EQ(driver->stop(), text.empty() || text.ends_with('\n'));
+    EXPECT_EQ(driver->stop().confirmed, text.empty() || text.ends_with('\n'));
   };
   answered("", "");
   answered("ok 2 1 -2.5 0\n", "");
@@ -229,7 +229,7 @@ TEST(LineCoilDriver, ItMustArmAndStopAtZero) {
   Server stopped(other("stop", [](const Words& w) { return "ok " + w[1] + " 0 3 0\n"; }));
   const auto driver = open(stopped);
   EXPECT_EQ(driver->drive(amperes), DriveStatus::driven);
-  EXPECT_FALSE(driver->stop());
+  EXPECT_FALSE(driver->stop().confirmed);
 }
 
 TEST(LineCoilDriver, AClosedConnectionIsNoticedAtOnce) {
@@ -239,7 +239,7 @@ TEST(LineCoilDriver, AClosedConnectionIsNoticedAtOnce) {
   EXPECT_EQ(driver->drive(amperes), DriveStatus::gone);
   EXPECT_LT(steady_seconds() - began, 0.25);
   EXPECT_TRUE(test::names(driver->reason(), "has closed the connection")) << driver->reason();
-  EXPECT_FALSE(driver->stop());
+  EXPECT_FALSE(driver->stop().confirmed);
 }
 
 TEST(LineCoilDriver, AnInterruptionDoesNotWaitForTheAnswer) {
@@ -257,7 +257,7 @@ TEST(LineCoilDriver, AnInterruptionDoesNotWaitForTheAnswer) {
   driver->interrupt();
   coils.join();
   EXPECT_LT(ended - asked, 0.2);
-  EXPECT_TRUE(driver->stop());
+  EXPECT_TRUE(driver->stop().confirmed);
 }
 
 template <class Open>
@@ -325,10 +325,10 @@ TEST_F(LineProgram, ItsEndIsToldWithItsLastWords) {
     EXPECT_EQ(driver->drive(amperes), DriveStatus::gone);
     EXPECT_LT(steady_seconds() - began, 0.25);
     EXPECT_TRUE(test::names(driver->reason(), reason)) << driver->reason();
-    EXPECT_TRUE(driver->stop());  // by another one, which drives nothing
+    EXPECT_TRUE(driver->stop().confirmed);  // by another one, which drives nothing
     EXPECT_EQ(driver->drive(amperes), DriveStatus::gone);
     EXPECT_TRUE(test::names(driver->reason(), reason)) << driver->reason();
-    EXPECT_TRUE(driver->stop());
+    EXPECT_TRUE(driver->stop().confirmed);
   };
   ended("printf 'Traceback\\n\\033[2Jno card\\n' >&2; exit 7",
         "has ended with exit code 7; its last words: ?[2Jno card");
@@ -375,9 +375,9 @@ TEST_F(LineProgram, AStopThatIsNotAnsweredBeginsOnceMore) {
   {
     const auto driver = start(script);
     EXPECT_EQ(driver->drive(amperes), DriveStatus::driven);
-    EXPECT_TRUE(driver->stop());
-    EXPECT_EQ(driver->stop_trouble(),
-              "did not answer stop; it was ended, and a second one said zero");
+    const StopReport zero = driver->stop();
+    EXPECT_TRUE(zero.confirmed);
+    EXPECT_EQ(zero.trouble, "did not answer stop; it was ended, and a second one said zero");
     EXPECT_EQ(driver->currents()[1], 0);
     EXPECT_EQ(driver->drive(amperes), DriveStatus::gone);
   }
@@ -395,9 +395,9 @@ TEST_F(LineProgram, AStopWithoutZeroBeginsOnceMore) {
           start(std::string("echo one >>begun; while read word n rest; do case $word in stop) ") +
                 "echo " + said + ";; set) echo ok $n $rest;; *) echo ok $n 0 0 0;; esac; done");
       EXPECT_EQ(driver->drive(amperes), DriveStatus::driven);
-      EXPECT_TRUE(driver->stop()) << said;
-      EXPECT_EQ(driver->stop_trouble(),
-                "did not say zero to stop; it was ended, and a second one said zero");
+      const StopReport zero = driver->stop();
+      EXPECT_TRUE(zero.confirmed) << said;
+      EXPECT_EQ(zero.trouble, "did not say zero to stop; it was ended, and a second one said zero");
       EXPECT_EQ(driver->currents()[1], 0);
       EXPECT_EQ(driver->drive(amperes), DriveStatus::gone);
     }
@@ -412,13 +412,13 @@ TEST_F(LineProgram, HalfALineOfTheOneThatEndedIsForgotten) {
                            "head -c 20000 /dev/zero | tr '\\0' x; exit 1"}) {
     const auto driver = start(answering(last));
     EXPECT_EQ(driver->drive(amperes), DriveStatus::gone) << last;
-    EXPECT_TRUE(driver->stop()) << last;
+    EXPECT_TRUE(driver->stop().confirmed) << last;
   }
   const auto flooded = start(
       "while read word n rest; do case $word in stop) exec tr '\\0' x </dev/zero;; set) echo ok $n "
       "$rest;; *) echo ok $n 0 0 0;; esac; done");
   EXPECT_EQ(flooded->drive(amperes), DriveStatus::driven);
-  EXPECT_TRUE(flooded->stop());
+  EXPECT_TRUE(flooded->stop().confirmed);
 }
 
 TEST_F(LineProgram, OneThatHangsIsKilledAfterTheStop) {

@@ -77,7 +77,7 @@ TEST(SerialCoilDriverPty, AStopDoesNotWaitForAnswersThatDoNotCome) {
     driver.interrupt();
     coils.join();
     EXPECT_LT(ended - asked, 0.1);
-    EXPECT_FALSE(driver.stop());
+    EXPECT_FALSE(driver.stop().confirmed);
     EXPECT_LT(device.first(CoilMessage::stop) - asked, 0.2);
     EXPECT_LT(steady_seconds() - asked, 3);
     mute = false;

@@ -141,7 +141,7 @@ TEST_F(FirmwareSafety, ThePressedEmergencyStopTurnsOffAndRefusesToArm) {
   EXPECT_EQ(driver.drive(some), DriveStatus::emergency);
   EXPECT_EQ(driver.ask_status()->trip, CoilTrip::emergency);
   EXPECT_TRUE(driver.ask_status()->emergency_open);
-  EXPECT_TRUE(driver.stop());
+  EXPECT_TRUE(driver.stop().confirmed);
   EXPECT_EQ(driver.drive(some), DriveStatus::emergency);  // does not let itself be armed
   mega.order("release");
   std::this_thread::sleep_for(200ms);

@@ -38,7 +38,7 @@ TEST_F(Firmware, DrivesAndStops) {
   SerialCoilDriver driver(params(mega.port()));
   EXPECT_EQ(driver.drive(some), DriveStatus::driven);
   EXPECT_TRUE(reaches(driver));
-  EXPECT_TRUE(driver.stop());
+  EXPECT_TRUE(driver.stop().confirmed);
   EXPECT_TRUE(mega.when(off));
 }
 
@@ -61,7 +61,7 @@ TEST_F(Firmware, WaitsUnarmedForTheFirstCurrents) {
   EXPECT_EQ(driver.ask_status()->trips, 0);
   EXPECT_EQ(driver.drive(some), DriveStatus::driven);
   EXPECT_TRUE(mega.when(some_outputs));
-  EXPECT_TRUE(driver.stop());
+  EXPECT_TRUE(driver.stop().confirmed);
   EXPECT_EQ(driver.drive(some), DriveStatus::driven);
 }
 
@@ -107,7 +107,7 @@ TEST_F(Firmware, CutCableTurnsOffAndTheDriverSaysSo) {
   const auto zero = mega.when(off);
   ASSERT_TRUE(zero);
   EXPECT_LE(*zero - cut, zero_within_ms);
-  EXPECT_FALSE(driver.stop());
+  EXPECT_FALSE(driver.stop().confirmed);
   mega.order("join");
   EXPECT_TRUE(reaches(driver));
   EXPECT_GE(driver.ask_status()->trips, 1);

@@ -28,7 +28,7 @@ class StoppedInAnExchange : public CoilDriver {
     if (++sendings_ == 10) std::this_thread::sleep_for(standstill);
     return DriveStatus::driven;
   }
-  bool stop() noexcept override { return true; }
+  StopReport stop() noexcept override { return {.confirmed = true}; }
   int sendings() const { return sendings_; }
 
  private:

@@ -36,7 +36,7 @@ TEST(CommandLog, HasItsFixedColumnsAndOneForEachCoil) {
   moment.t += 0.1;
   moment.output.status = DriveStatus::no_answer;
   log.add(moment, 99.5);
-  EXPECT_EQ(log.finish(100.25, true), "");
+  EXPECT_EQ(log.finish({.confirmed = true, .at = 100.25}), "");
   EXPECT_EQ(read_file(folder / "commands.csv", 1 << 20), wanted);
 }
 

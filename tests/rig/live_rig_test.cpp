@@ -304,9 +304,9 @@ class WeakenedCoils : public CoilDriver {
     return share_ < 1 ? DriveStatus::scaled : DriveStatus::driven;
   }
   std::optional<double> phase() const override { return phase_; }
-  bool stop() noexcept override {
+  StopReport stop() noexcept override {
     phase_.reset();
-    return true;
+    return {.confirmed = true};
   }
 
  private:

@@ -46,10 +46,10 @@ class WatchedCoils : public CoilDriver {
     set(made);
     return answer;
   }
-  bool stop() noexcept override {
+  StopReport stop() noexcept override {
     ++log_->stops;
     set(std::array<double, 6>{});
-    return true;
+    return {.confirmed = true};
   }
 
  private:

@@ -34,7 +34,7 @@ class AnsweringDriver : public CoilDriver {
     if (given == answers_.size()) enough = true;
     return answer;
   }
-  bool stop() noexcept override { return stops_; }
+  StopReport stop() noexcept override { return {.confirmed = stops_}; }
 
   std::size_t given = 0;
   std::atomic<bool> enough = false;

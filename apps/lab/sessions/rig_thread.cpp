@@ -197,10 +197,7 @@ void RigThread::end_run() {
   std::string lost = live_->close();
   drives_ = false;
   if (standing_.why.empty()) standing_.why = to_string(live_->session().result().status);
-  if (drove) {
-    standing_.zero_is_confirmed = live_->live().zero_is_confirmed();
-    standing_.stop_trouble = live_->live().stop_trouble();
-  }
+  if (drove) standing_.zero = live_->stop("the run has ended");
   try {
     if (!standing_.folder.empty())
       live_->session().record_to(std::filesystem::path(standing_.folder) / record_name);

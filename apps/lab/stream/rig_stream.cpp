@@ -97,9 +97,9 @@ MessagePtr rig_message(const RigStanding& standing, const LiveSession* run) {
             {"state", enum_name(standing.state)},
             {"why", standing.why},
             {"zero_confirmed", Json()},
-            {"stop_trouble", standing.stop_trouble},
+            {"stop_trouble", standing.zero ? standing.zero->trouble : ""},
             {"folder", standing.folder}};
-  if (standing.zero_is_confirmed) json["zero_confirmed"] = *standing.zero_is_confirmed;
+  if (standing.zero) json["zero_confirmed"] = standing.zero->confirmed;
   if (run) add_run(json, *run);
   return make_message(json, Message::Kind::rig);
 }

@@ -28,11 +28,9 @@ constexpr auto enum_names(RigState) {
 /// Standing of a rig, for its pages.
 struct RigStanding {
   RigState state = RigState::opening;
-  std::string why;  ///< reason of zero currents; empty while the coils are driven
-  std::optional<bool>
-      zero_is_confirmed;     ///< whether the device confirmed it; set after a run that drove them
-  std::string stop_trouble;  ///< CoilDriver::stop_trouble
-  std::string folder;        ///< folder of the run's files; empty for none
+  std::string why;                 ///< reason of zero currents; empty while the coils are driven
+  std::optional<StopReport> zero;  ///< set after a run that drove the coils
+  std::string folder;              ///< folder of the run's files; empty for none
 };
 
 /// Hello of a session on a rig in real time, with the rig's properties.

@@ -41,14 +41,14 @@ Bench::Bench(const Rig& of, const CoilOptions& o) : rig(of) {
   if (kept && !kept->known()) note("note: {}\n", kept->why_hot());
 }
 
-bool note_zero(bool confirmed, const std::string& stop_trouble) {
-  if (!confirmed)
+bool note_zero(const StopReport& zero) {
+  if (!zero.confirmed)
     note(
         "microswarm: the coil driver did not confirm that the coils are at zero; its own watchdog "
         "must do it\n");
-  else if (!stop_trouble.empty())
-    note("microswarm: the coil driver {}\n", stop_trouble);
-  return confirmed && stop_trouble.empty();
+  else if (!zero.good())
+    note("microswarm: the coil driver {}\n", zero.trouble);
+  return zero.good();
 }
 
 }  // namespace microswarm::cli

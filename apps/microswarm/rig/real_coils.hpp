@@ -40,8 +40,8 @@ struct Bench {
   bool said_how_to_stop = false;
 };
 
-/// Warns on stderr if zero currents are not confirmed, or a fallback driver confirmed them
-/// (CoilDriver::stop_trouble). Returns whether there was no reason to warn.
-bool note_zero(bool confirmed, const std::string& stop_trouble);
+/// Warns on stderr if zero currents are not confirmed, or a fallback driver confirmed them. Returns
+/// whether there was no reason to warn.
+bool note_zero(const StopReport& zero);
 
 }  // namespace microswarm::cli

@@ -115,7 +115,7 @@ int drive(Bench& bench, const ManualCommand& command, const Context& context) {
       drive_by_hand(bench.rig, *bench.driver, command, bench.temperatures, heard, context.stop);
   bar.reset();
   if (!result.why.empty()) note("microswarm: {}\n", result.why);
-  const bool at_zero = note_zero(result.zero_confirmed, result.stop_trouble);
+  const bool at_zero = note_zero(result.zero);
   if (result.min_scale < 1 - 1e-9)
     note("note: the coils' limits weakened this to {:.0f} %\n", 100 * result.min_scale);
   if (result.min_device_scale < 1 - 1e-9) note_device_limits(bench.rig, command, result);

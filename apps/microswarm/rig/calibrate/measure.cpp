@@ -113,9 +113,8 @@ class Guide {
   std::optional<double> settled_, newest_row_;  // [s]
   std::vector<Eigen::Vector3d> readings_;
   Eigen::VectorXd currents_;  // as the device has them [A]
-  bool zero_confirmed_ = true;
+  StopReport zero_;
   std::string trouble_;
-  std::string stop_trouble_;
 };
 
 /// "no current" or "2 A in coil x".
@@ -274,15 +273,14 @@ Outcome Guide::hold(const MeasurementStep& step, const std::string& what) {
   const ManualResult result = drive_by_hand(
       rig_, *bench_->driver, command, bench_->temperatures,
       [&](const ManualMoment& moment) { look(moment); }, stop_);
-  zero_confirmed_ = result.zero_confirmed;
-  stop_trouble_ = result.stop_trouble;
+  zero_ = result.zero;
   trouble_ = result.why;
   // A measurement counts even if something fails while the currents ramp down.
   if (outcome_ == Outcome::measured) {
     tell_reversal();
     log_.add(currents_, step.currents, step.position, reading_of(readings_));
   }
-  if (!trouble_.empty() || !zero_confirmed_ || !stop_trouble_.empty()) return Outcome::failed;
+  if (!trouble_.empty() || !zero_.good()) return Outcome::failed;
   if (result.status == Status::stopped) return Outcome::ended;
   return outcome_.value_or(Outcome::unanswered);
 }
@@ -329,7 +327,7 @@ int Guide::make(const std::vector<MeasurementStep>& steps) {
             fmt::format("the device reports 0 A for {}: nothing can be measured", words_for(step)));
       case Outcome::failed:
         if (!trouble_.empty()) note("\nmicroswarm: {}\n", trouble_);
-        note_zero(zero_confirmed_, stop_trouble_);
+        note_zero(zero_);
         [[fallthrough]];
       case Outcome::ended:
         goes_on = false;

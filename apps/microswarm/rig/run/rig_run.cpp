@@ -257,7 +257,7 @@ int rig_run(const RigRunOptions& o, const Context& context) {
   const RigTiming timing = live.live().timing();
   if (!lost.empty()) note("microswarm: {}\n", lost);
   if (video && !video->trouble.empty()) note("microswarm: {}\n", lost = video->trouble);
-  const bool at_zero = note_zero(live.live().zero_is_confirmed(), live.live().stop_trouble());
+  const bool at_zero = note_zero(live.stop("the run has ended"));
   note_limits(timing);
   note_direction(timing);
   const int code =

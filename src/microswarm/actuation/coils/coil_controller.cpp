@@ -9,6 +9,7 @@
 #include "microswarm/actuation/coils/currents.hpp"
 #include "microswarm/actuation/coils/turning_currents.hpp"
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/execution/clock.hpp"
 
 namespace microswarm {
 
@@ -74,11 +75,13 @@ void CoilController::send_waveform(double dt) {
 
 std::string CoilController::trouble() const { return trouble_of(driver_, output_.status); }
 
-bool CoilController::stop() noexcept {
+StopReport CoilController::stop() noexcept {
   drive_.cut();
   output_.currents.setZero();
   output_.acknowledged.setZero();
-  return driver_.stop();
+  StopReport report = driver_.stop();
+  report.at = steady_seconds();
+  return report;
 }
 
 }  // namespace microswarm

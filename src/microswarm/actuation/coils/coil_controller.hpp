@@ -51,11 +51,8 @@ class CoilController {
   /// Advances time by `dt` seconds and sends the currents for the new time. Call it much faster
   /// than the field turns, and within the device's watchdog time.
   const CoilOutput& advance(double dt);
-  /// Sets all currents to zero; false if the device did not confirm it. The next `advance`
-  /// continues with the field from before the stop.
-  bool stop() noexcept;
-  /// CoilDriver::stop_trouble of the last stop.
-  std::string stop_trouble() const { return driver_.stop_trouble(); }
+  /// Sets all currents to zero. The next `advance` continues with the field from before the stop.
+  StopReport stop() noexcept;
   /// Lets an `advance` that another thread is in return early, so that `stop` can follow.
   void interrupt() noexcept { driver_.interrupt(); }
 

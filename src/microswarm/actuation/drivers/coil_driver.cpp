@@ -86,10 +86,10 @@ DriveStatus SimulatedCoilDriver::drive_waveform(const CurrentWaveform& waveform)
   return DriveStatus::driven;
 }
 
-bool SimulatedCoilDriver::stop() noexcept {
+StopReport SimulatedCoilDriver::stop() noexcept {
   std::fill(currents_.begin(), currents_.end(), 0.0);
   phase_.reset();
-  return true;
+  return {.confirmed = true};
 }
 
 }  // namespace microswarm

@@ -46,6 +46,17 @@ struct CurrentWaveform {
   double largest(std::size_t channel) const;
 };
 
+/// Result of setting all currents to zero.
+struct StopReport {
+  bool confirmed = false;  ///< whether the device confirmed zero currents
+  double at = 0;           ///< time after the command of zero [s], by steady_seconds()
+  std::string trouble{};  ///< why a fallback driver confirmed it, as text that follows the driver's
+                          ///< name; empty if the active one did
+
+  /// Whether the driver that drove confirmed it.
+  bool good() const { return confirmed && trouble.empty(); }
+};
+
 class CoilDriver;
 /// The same with the driver's own reason, CoilDriver::reason; also for no_answer.
 std::string trouble_of(const CoilDriver& driver, DriveStatus status);
@@ -77,11 +88,8 @@ class CoilDriver {
   virtual DriveStatus drive_waveform(const CurrentWaveform&) { return DriveStatus::refused; }
   /// Phase of the waveform at the device's last answer [rad]; nothing if unknown.
   virtual std::optional<double> phase() const { return std::nullopt; }
-  /// Sets all currents to zero; false if the device did not confirm it.
-  virtual bool stop() noexcept = 0;
-  /// Why a fallback driver confirmed the last stop, as text that follows the driver's name; empty
-  /// if the active one confirmed it.
-  virtual std::string stop_trouble() const { return {}; }
+  /// Sets all currents to zero. The time of the report is set by who asks for it.
+  virtual StopReport stop() noexcept = 0;
   /// Aborts a drive() in another thread, so that stop() can run. Callable from any thread; lasts
   /// until the next stop().
   virtual void interrupt() noexcept {}
@@ -101,7 +109,7 @@ class SimulatedCoilDriver final : public CoilDriver {
   bool makes_waveforms() const override { return waveforms_; }
   DriveStatus drive_waveform(const CurrentWaveform& waveform) override;
   std::optional<double> phase() const override { return phase_; }
-  bool stop() noexcept override;
+  StopReport stop() noexcept override;
   std::span<const double> currents() const override { return currents_; }
 
  private:

@@ -157,7 +157,7 @@ DriveStatus LineCoilDriver::arm() {
   return status;
 }
 
-bool LineCoilDriver::stop() noexcept {
+StopReport LineCoilDriver::stop() noexcept {
   interrupted_ = false;
   try {
     if (gone_) return begin_again("had ended");
@@ -167,15 +167,15 @@ bool LineCoilDriver::stop() noexcept {
       return begin_again("did not say zero to stop; it was ended");
     armed_ = false;
     std::ranges::fill(currents_, 0.0);
-    return true;
+    return {.confirmed = true};
   } catch (...) {
-    return false;  // out of memory; the driver's watchdog switches off
+    return {};  // out of memory; the driver's watchdog switches off
   }
 }
 
-bool LineCoilDriver::begin_again(std::string_view trouble) {
+StopReport LineCoilDriver::begin_again(std::string_view trouble) {
   if (turned_off_anew_) return *turned_off_anew_;
-  turned_off_anew_ = false;
+  turned_off_anew_.emplace();
   const std::string reason = reason_;
   connection_.reset();
   reader_ = {};  // it may hold half a line
@@ -183,11 +183,10 @@ bool LineCoilDriver::begin_again(std::string_view trouble) {
     const double timeout = std::min(hello_wait, params_.connect_timeout);
     connection_ = open_(timeout);
     greet(timeout);
-    turned_off_anew_ = true;
-    stop_trouble_ = fmt::format("{}, and a second one said zero", trouble);
+    turned_off_anew_ = {.confirmed = true,
+                        .trouble = fmt::format("{}, and a second one said zero", trouble)};
     std::ranges::fill(currents_, 0.0);
-  } catch (const HardwareError&) {
-    turned_off_anew_ = false;
+  } catch (const HardwareError&) {  // not confirmed
   }
   gone_ = true;
   reason_ = reason;

@@ -102,14 +102,13 @@ class LineCoilDriver final : public CoilDriver {
   DriveStatus drive_field(std::span<const double, 3> field,
                           std::span<const double> currents) override;
   /// Waits at most 0.5 s for the confirmation, and about 4 s more if it connects again.
-  bool stop() noexcept override;
-  std::string stop_trouble() const override { return stop_trouble_; }
+  StopReport stop() noexcept override;
   void interrupt() noexcept override { interrupted_ = true; }
   std::string reason() const override { return reason_; }
 
  private:
   void greet(double timeout);
-  bool begin_again(std::string_view trouble);
+  StopReport begin_again(std::string_view trouble);
   bool is_possible(std::span<const double> currents) const;
   DriveStatus follow(std::span<const double> values, std::span<const double> currents);
   DriveStatus arm();
@@ -130,12 +129,11 @@ class LineCoilDriver final : public CoilDriver {
   LineReader reader_;
   std::uint32_t sequence_ = 0;
   std::atomic<bool> interrupted_ = false;
-  bool armed_ = false;  // armed by this driver and not stopped since
-  bool gone_ = false;   // permanently
-  std::optional<bool> turned_off_anew_;
-  std::string stop_trouble_;
-  double scale_ = 1;     // acknowledged
-  std::string strange_;  // last line that was no reply
+  bool armed_ = false;                         // armed by this driver and not stopped since
+  bool gone_ = false;                          // permanently
+  std::optional<StopReport> turned_off_anew_;  // by a second connection
+  double scale_ = 1;                           // acknowledged
+  std::string strange_;                        // last line that was no reply
   std::string reason_;
 };
 

@@ -153,16 +153,16 @@ DriveStatus SerialCoilDriver::follow(CoilMessage message, const CoilAim& aim) {
   return reply->result == CoilResult::limited ? DriveStatus::scaled : status;
 }
 
-bool SerialCoilDriver::stop() noexcept {
+StopReport SerialCoilDriver::stop() noexcept {
   interrupted_ = false;
   try {
     const auto reply = exchange(CoilMessage::stop);
     const bool at_zero = reply && std::all_of(reply->outputs.begin(), reply->outputs.end(),
                                               [](int output) { return output == 0; });
     armed_ = armed_ && !at_zero;
-    return at_zero;
+    return {.confirmed = at_zero};
   } catch (...) {
-    return false;  // out of memory; the device's watchdog switches off
+    return {};  // out of memory; the device's watchdog switches off
   }
 }
 

@@ -67,7 +67,7 @@ class SerialCoilDriver final : public CoilDriver {
   DriveStatus drive_waveform(const CurrentWaveform& waveform) override;
   std::optional<double> phase() const override { return phase_; }
   /// Sent also after three exchanges without an answer. Waits at most 2 s for the confirmation.
-  bool stop() noexcept override;
+  StopReport stop() noexcept override;
   void interrupt() noexcept override { interrupted_ = true; }
 
   /// Status reported by the device; nothing if it does not answer.

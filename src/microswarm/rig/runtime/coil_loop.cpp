@@ -62,34 +62,20 @@ void CoilLoop::command(const Command& command, const Eigen::Vector3d& position, 
   changed_.notify_all();
 }
 
-void CoilLoop::stop(const std::string& why) {
+StopReport CoilLoop::stop(const std::string& why) {
   std::unique_lock lock(mutex_);
   if (why_.empty()) {
     why_ = why;
     controller_.interrupt();
   }
   changed_.notify_all();
-  changed_.wait(lock, [this] { return at_zero_; });
+  changed_.wait(lock, [this] { return stopped_.has_value(); });
+  return *stopped_;
 }
 
 void CoilLoop::wait(double seconds) {
   std::unique_lock lock(mutex_);
   changed_.wait_for(lock, Seconds(std::max(0.0, seconds)), [this] { return !why_.empty(); });
-}
-
-bool CoilLoop::zero_is_confirmed() const {
-  const std::lock_guard lock(mutex_);
-  return confirmed_;
-}
-
-std::string CoilLoop::stop_trouble() const {
-  const std::lock_guard lock(mutex_);
-  return stop_trouble_;
-}
-
-double CoilLoop::zero_at() const {
-  const std::lock_guard lock(mutex_);
-  return zero_at_;
 }
 
 std::string CoilLoop::failure() const {
@@ -152,13 +138,9 @@ void CoilLoop::run() {
     if (status == DriveStatus::resumed && why_.empty()) why_ = trips.add(moment.t);
   }
   lock.unlock();
-  const bool confirmed = controller_.stop();
-  const double at_zero_at = steady_seconds();
+  StopReport report = controller_.stop();
   lock.lock();
-  zero_at_ = at_zero_at;
-  stop_trouble_ = controller_.stop_trouble();
-  confirmed_ = confirmed;
-  at_zero_ = true;
+  stopped_ = std::move(report);
   changed_.notify_all();
 }
 

@@ -57,19 +57,13 @@ class CoilLoop {
   /// the picture that it answers [s], by steady_seconds().
   void command(const Command& command, const Eigen::Vector3d& position, double seen = 0);
   /// Sets the coils to zero permanently; callable from any thread. Returns when they are at zero or
-  /// cannot be reached.
-  void stop(const std::string& why);
+  /// cannot be reached, each time with the report of the first stop.
+  StopReport stop(const std::string& why);
 
   /// Waits for `seconds`, or until the loop stops.
   void wait(double seconds);
   /// Why the coils were set to zero; empty while they are driven.
   std::string failure() const;
-  /// After stop(): whether the device confirmed zero currents.
-  bool zero_is_confirmed() const;
-  /// After stop(): CoilDriver::stop_trouble.
-  std::string stop_trouble() const;
-  /// After stop(): time at which zero was commanded [s], by steady_seconds().
-  double zero_at() const;
 
  private:
   void run();
@@ -87,10 +81,7 @@ class CoilLoop {
   bool is_new_ = false;              // whether it was not sent yet
   std::optional<double> commanded_;  // time of the last command [s]
   std::string why_;                  // reason of the stop
-  bool at_zero_ = false;
-  bool confirmed_ = false;
-  std::string stop_trouble_;
-  double zero_at_ = 0;
+  std::optional<StopReport> stopped_;
   std::thread thread_;
 };
 

@@ -122,14 +122,14 @@ void CommandLog::add(const CoilMoment& m, double start) {
                  .seen = rounded(m.seen - start, 1e4)}));
 }
 
-std::string CommandLog::finish(double zero_at, bool confirmed) noexcept {
+std::string CommandLog::finish(const StopReport& zero) noexcept {
   if (file_.empty()) return {};
   try {
     if (start_)
-      write(line_of({.t = rounded(zero_at - *start_, 1e4)}, Eigen::VectorXd::Zero(coils_),
-                    {.status = dry_        ? "dry"
-                               : confirmed ? "zero"
-                                           : "zero_not_confirmed"}));
+      write(line_of({.t = rounded(zero.at - *start_, 1e4)}, Eigen::VectorXd::Zero(coils_),
+                    {.status = dry_             ? "dry"
+                               : zero.confirmed ? "zero"
+                                                : "zero_not_confirmed"}));
     if (std::fclose(out_.release()) == 0) {
       std::filesystem::rename(part_, file_);
       return {};

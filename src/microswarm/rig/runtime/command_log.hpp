@@ -27,9 +27,9 @@ class CommandLog {
   /// InputError if the file cannot be written.
   void add(const CoilMoment& moment, double start);
 
-  /// Adds the time at which zero was commanded [s], by steady_seconds(), and renames the log to its
-  /// final name. Returns the reason of a failure, or an empty string.
-  std::string finish(double zero_at, bool confirmed) noexcept;
+  /// Adds the zero at the end and renames the log to its final name. Returns the reason of a
+  /// failure, or an empty string.
+  std::string finish(const StopReport& zero) noexcept;
 
  private:
   void write(const std::string& text);

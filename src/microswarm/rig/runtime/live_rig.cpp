@@ -230,8 +230,6 @@ void LiveRig::fail(const std::string& why) {
   if (fault_.empty()) fault_ = why;
 }
 
-void LiveRig::stop(const std::string& why) { coils_.stop(why); }
-
 int LiveRig::resumed() const {
   const std::lock_guard lock(timing_mutex_);
   return timing_.resumed;

@@ -78,14 +78,8 @@ class LiveRig : public Plant {
   std::string_view fault() const override { return fault_; }
 
   /// Sets the coils to zero permanently; callable from any thread. A tick in progress ends with its
-  /// picture, at most one camera period later.
-  void stop(const std::string& why);
-  /// After stop(): whether the device confirmed zero currents.
-  bool zero_is_confirmed() const { return coils_.zero_is_confirmed(); }
-  /// After stop(): CoilDriver::stop_trouble.
-  std::string stop_trouble() const { return coils_.stop_trouble(); }
-  /// After stop(): time at which zero was commanded [s], by steady_seconds().
-  double zero_at() const { return coils_.zero_at(); }
+  /// picture, at most one camera period later. Returns the report of the first stop.
+  StopReport stop(const std::string& why) { return coils_.stop(why); }
   /// Zero of the record's time [s], by steady_seconds().
   double start() const { return start_; }
   RigTiming timing() const;

@@ -152,8 +152,7 @@ ManualResult drive_by_hand(const Rig& rig, CoilDriver& driver, const ManualComma
     result.status = Status::fault;
   else if (moment.t < end)
     result.status = Status::stopped;
-  result.zero_confirmed = driver.stop();
-  result.stop_trouble = driver.stop_trouble();
+  result.zero = driver.stop();
   return result;
 }
 

@@ -32,8 +32,7 @@ struct ManualMoment {
 struct ManualResult {
   Status status = Status::solved;
   std::string why;              ///< reason of a fault
-  bool zero_confirmed = false;  ///< whether the device confirmed zero currents
-  std::string stop_trouble;     ///< see CoilDriver::stop_trouble
+  StopReport zero;              ///< of the zero at the end
   double min_scale = 1;         ///< minimum scale by the coils' limits
   double min_device_scale = 1;  ///< minimum scale by the device's own limits
   Eigen::VectorXd most;         ///< largest currents that the device acknowledged [A]

@@ -76,14 +76,13 @@ class RealtimeRigSimulator::Coils : public CoilDriver {
     now_ = then.now();
     return {now_.data(), static_cast<std::size_t>(now_.size())};
   }
-  bool stop() noexcept override {
+  StopReport stop() noexcept override {
     const std::lock_guard lock(owner_.mutex_);
     turning_.reset();
-    return driver_
-        ->stop();  // nothing may fail here; the simulation catches up later, without current
+    // Nothing may fail here; the simulation catches up later, without current.
+    return driver_->stop();
   }
   double device_scale() const override { return driver_->device_scale(); }
-  std::string stop_trouble() const override { return driver_->stop_trouble(); }
   void interrupt() noexcept override { driver_->interrupt(); }
   std::string reason() const override { return driver_->reason(); }
 

@@ -145,7 +145,7 @@ std::vector<RigCheck> check_driver(CoilDriver& driver, const Rig& rig, double se
     if (!trouble_of(status).empty() || unanswered) trouble = trouble_of(driver, status);
     if (status == DriveStatus::gone || unanswered) break;
   }
-  const bool zero = driver.stop();
+  const StopReport zero = driver.stop();
   std::vector<RigCheck> checks;
   if (!trouble.empty()) checks.push_back({"driver", false, trouble});
   checks.push_back(
@@ -156,11 +156,10 @@ std::vector<RigCheck> check_driver(CoilDriver& driver, const Rig& rig, double se
   if (resumed > 0)
     checks.push_back({"driver", false,
                       fmt::format("the coils had switched off by themselves {} times", resumed)});
-  const std::string stopped = driver.stop_trouble();
-  checks.push_back({"stop", zero && stopped.empty(),
-                    !zero             ? "not confirmed"
-                    : stopped.empty() ? "confirmed"
-                                      : stopped});
+  checks.push_back({"stop", zero.good(),
+                    !zero.confirmed ? "not confirmed"
+                    : zero.good()   ? "confirmed"
+                                    : zero.trouble});
   const double slow = times.quantile(0.99);
   const double rate = rig.params.drive_rate;
   checks.push_back({"pace", slow < 1 / rate,

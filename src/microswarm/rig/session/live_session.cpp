@@ -137,13 +137,13 @@ void LiveSession::keep(const CoilMoment& moment) {
 }
 
 std::string LiveSession::close() {
-  stop("the run has ended");
+  const StopReport zero = stop("the run has ended");
   if (!kept_.empty()) {
     kept_.latency = latency_of(plant_->timing());
     session_.rig_log() = std::exchange(kept_, {});
   }
   if (video_) video_->finish();
-  return log_.finish(plant_->zero_at(), plant_->zero_is_confirmed());
+  return log_.finish(zero);
 }
 
 std::optional<RecordedVideo> LiveSession::video() const {

@@ -61,8 +61,9 @@ class LiveSession {
   const Session& session() const { return session_; }
   /// Warnings about the rig, found when it was opened, one line each.
   const std::vector<std::string>& warnings() const { return warnings_; }
-  /// Sets the coils to zero permanently; callable from any thread.
-  void stop(const std::string& why) { plant_->stop(why); }
+  /// Sets the coils to zero permanently; callable from any thread. Returns the report of the first
+  /// stop.
+  StopReport stop(const std::string& why) { return plant_->stop(why); }
   /// Sets the coils to zero after the last tick, finishes the log and adds currents and detections
   /// to the record, up to 10,000,000 values of each. Returns the reason of a failure, or an empty
   /// string.
@@ -72,7 +73,7 @@ class LiveSession {
   /// Numbers of the newest tick; to be called in the thread that steps.
   LiveStatus status() const;
   const Rig& rig() const { return on_.rig; }
-  /// The rig in real time: its newest picture, its times, the result of its stop.
+  /// The rig in real time: its newest picture and its times.
   const LiveRig& live() const { return *plant_; }
 
  private:
