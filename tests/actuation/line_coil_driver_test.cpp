@@ -108,14 +108,14 @@ TEST(LineCoilDriver, DrivesThroughASocketAndStops) {
           },
           quick(), 3);
       EXPECT_EQ(server.last(), (Words{"hello", "1", "1", "currents", "3", "200"}));
-      EXPECT_EQ(driver.channels(), 3);
+      EXPECT_EQ(driver.capabilities().channels, 3);
       EXPECT_EQ(driver.drive(amperes), DriveStatus::driven);
       EXPECT_EQ(server.last(), (Words{"set", "3", "1.000000", "-2.500000", "0.000000"}));
-      EXPECT_EQ(driver.currents()[1], -2.5);
+      EXPECT_EQ(driver.report().currents[1], -2.5);
       EXPECT_EQ(driver.drive(amperes), DriveStatus::driven);
       EXPECT_EQ(server.count("arm"), 1);
       EXPECT_TRUE(driver.stop().confirmed);
-      EXPECT_EQ(driver.currents()[1], 0);
+      EXPECT_EQ(driver.report().currents[1], 0);
       EXPECT_EQ(driver.drive(amperes), DriveStatus::driven);
       EXPECT_EQ(server.count("arm"), 2);
     }
@@ -138,26 +138,29 @@ TEST(LineCoilDriver, AFieldIsSentInPlaceOfTheCurrents) {
   LineCoilDriver driver([&](double) { return connect_socket(server.path(), 0, 2); }, p, 8);
   EXPECT_EQ(server.last(), (Words{"hello", "1", "1", "field", "3", "200"}));
   std::vector<double> currents(8, 1.0);
-  EXPECT_EQ(driver.channels(), 8);
+  EXPECT_EQ(driver.capabilities().channels, 8);
   const std::array<double, 3> field{0.5, 0, -7};
-  EXPECT_EQ(driver.drive_field(field, currents), DriveStatus::driven);
+  EXPECT_EQ(driver.drive(FieldRequest{field, currents}), DriveStatus::driven);
   EXPECT_EQ(server.last(), (Words{"set", "3", "0.500000", "0.000000", "-7.000000"}));
-  EXPECT_EQ(driver.currents()[7], 1);
+  EXPECT_EQ(driver.report().currents[7], 1);
   EXPECT_EQ(driver.drive(currents), DriveStatus::refused);
   currents.assign(8, 30);  // beyond the full scale of its coils
-  EXPECT_EQ(driver.drive_field(field, currents), DriveStatus::refused);
+  EXPECT_EQ(driver.drive(FieldRequest{field, currents}), DriveStatus::refused);
   currents.assign(8, 0);
-  EXPECT_EQ(driver.drive(currents), DriveStatus::driven);
+  EXPECT_EQ(driver.drive(currents), DriveStatus::refused);
+  EXPECT_EQ(
+      driver.drive(constant_request(driver.capabilities(), std::array<double, 3>{}, currents)),
+      DriveStatus::driven);
 }
 
 TEST(LineCoilDriver, ScaledValuesAreToldAndOtherValuesAreAFault) {
   const auto answered = [](const std::string& values, DriveStatus expected, double second) {
     Server server(other("set", [=](const Words&) { return values + "\n"; }));
     const auto driver = open(server);
-    EXPECT_EQ(driver->drive(amperes), expected) << values << driver->reason();
-    EXPECT_DOUBLE_EQ(driver->currents()[1], second);
-    EXPECT_DOUBLE_EQ(driver->device_scale(), expected == DriveStatus::scaled ? 0.4 : 1);
-    EXPECT_EQ(driver->reason().empty(), expected != DriveStatus::mismatched);
+    EXPECT_EQ(driver->drive(amperes), expected) << values << driver->report().reason;
+    EXPECT_DOUBLE_EQ(driver->report().currents[1], second);
+    EXPECT_DOUBLE_EQ(driver->report().scale, expected == DriveStatus::scaled ? 0.4 : 1);
+    EXPECT_EQ(driver->report().reason.empty(), expected != DriveStatus::mismatched);
   };
   answered("ok 3 1.004 -2.495 0", DriveStatus::driven, -2.5);
   answered("limited 3 0.4 -1 0", DriveStatus::scaled, -1);
@@ -185,7 +188,7 @@ TEST(LineCoilDriver, SilenceAndGarbageAreNoAnswer) {
     const double began = steady_seconds();
     EXPECT_EQ(driver->drive(amperes), DriveStatus::no_answer);
     EXPECT_LT(steady_seconds() - began, 1.5);
-    EXPECT_EQ(driver->reason(), said);
+    EXPECT_EQ(driver->report().reason, said);
     // What comes after half a line belongs to it.
     EXPECT_EQ(driver->stop().confirmed, text.empty() || text.ends_with('\n'));
   };
@@ -212,7 +215,7 @@ TEST(LineCoilDriver, RefusalsAreToldInTheDriversWords) {
         other(word, [=](const Words& w) { return verdict + " " + w[1] + " interlock\n"; }));
     const auto driver = open(server);
     EXPECT_EQ(driver->drive(amperes), status) << word << verdict;
-    EXPECT_EQ(driver->reason(), "interlock");
+    EXPECT_EQ(driver->report().reason, "interlock");
     EXPECT_EQ(trouble_of(*driver, status), std::string(trouble_of(status)) + ": interlock");
   };
   answered("arm", "refused", DriveStatus::not_armed);
@@ -238,7 +241,8 @@ TEST(LineCoilDriver, AClosedConnectionIsNoticedAtOnce) {
   const double began = steady_seconds();
   EXPECT_EQ(driver->drive(amperes), DriveStatus::gone);
   EXPECT_LT(steady_seconds() - began, 0.25);
-  EXPECT_TRUE(test::names(driver->reason(), "has closed the connection")) << driver->reason();
+  EXPECT_TRUE(test::names(driver->report().reason, "has closed the connection"))
+      << driver->report().reason;
   EXPECT_FALSE(driver->stop().confirmed);
 }
 
@@ -324,10 +328,10 @@ TEST_F(LineProgram, ItsEndIsToldWithItsLastWords) {
     const double began = steady_seconds();
     EXPECT_EQ(driver->drive(amperes), DriveStatus::gone);
     EXPECT_LT(steady_seconds() - began, 0.25);
-    EXPECT_TRUE(test::names(driver->reason(), reason)) << driver->reason();
+    EXPECT_TRUE(test::names(driver->report().reason, reason)) << driver->report().reason;
     EXPECT_TRUE(driver->stop().confirmed);  // by another one, which drives nothing
     EXPECT_EQ(driver->drive(amperes), DriveStatus::gone);
-    EXPECT_TRUE(test::names(driver->reason(), reason)) << driver->reason();
+    EXPECT_TRUE(test::names(driver->report().reason, reason)) << driver->report().reason;
     EXPECT_TRUE(driver->stop().confirmed);
   };
   ended("printf 'Traceback\\n\\033[2Jno card\\n' >&2; exit 7",
@@ -378,7 +382,7 @@ TEST_F(LineProgram, AStopThatIsNotAnsweredBeginsOnceMore) {
     const StopReport zero = driver->stop();
     EXPECT_TRUE(zero.confirmed);
     EXPECT_EQ(zero.trouble, "did not answer stop; it was ended, and a second one said zero");
-    EXPECT_EQ(driver->currents()[1], 0);
+    EXPECT_EQ(driver->report().currents[1], 0);
     EXPECT_EQ(driver->drive(amperes), DriveStatus::gone);
   }
   EXPECT_EQ(read_file(folder_ / "begun"), "one\none\n");
@@ -398,7 +402,7 @@ TEST_F(LineProgram, AStopWithoutZeroBeginsOnceMore) {
       const StopReport zero = driver->stop();
       EXPECT_TRUE(zero.confirmed) << said;
       EXPECT_EQ(zero.trouble, "did not say zero to stop; it was ended, and a second one said zero");
-      EXPECT_EQ(driver->currents()[1], 0);
+      EXPECT_EQ(driver->report().currents[1], 0);
       EXPECT_EQ(driver->drive(amperes), DriveStatus::gone);
     }
     EXPECT_EQ(read_file(folder_ / "begun"), "one\none\n") << said;

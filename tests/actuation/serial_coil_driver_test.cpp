@@ -55,7 +55,7 @@ TEST(SerialCoilDriverPty, ATripIsToldAlsoWhenTheCurrentsAreScaled) {
   });
   SerialCoilDriver driver(params_of(device));
   EXPECT_EQ(driver.drive(some_amperes), DriveStatus::resumed);
-  EXPECT_EQ(driver.device_scale(), 0.5);
+  EXPECT_EQ(driver.report().scale, 0.5);
 }
 
 TEST(SerialCoilDriverPty, AStopDoesNotWaitForAnswersThatDoNotCome) {
@@ -132,35 +132,35 @@ TEST(SerialCoilDriverPty, AWaveformGoesOnByItselfAndTellsItsPhase) {
   const double phase = 1.5;
   // The waveform begins and each of its phases is read at some time of an exchange.
   const double begins_after = steady_seconds();
-  ASSERT_EQ(driver.drive_waveform({100, phase, none, cosine, sine}), DriveStatus::driven);
+  ASSERT_EQ(driver.drive(CurrentWaveform{100, phase, none, cosine, sine}), DriveStatus::driven);
   const double begins_before = steady_seconds();
   for (int k = 0; k < 20; ++k) {
     std::this_thread::sleep_for(std::chrono::milliseconds(7));
     // A new phase is not asked for: the waveform that runs goes on at its own.
     const double read_after = steady_seconds();
-    ASSERT_EQ(driver.drive_waveform({100, 0, none, cosine, sine}), DriveStatus::driven);
+    ASSERT_EQ(driver.drive(CurrentWaveform{100, 0, none, cosine, sine}), DriveStatus::driven);
     const double read_before = steady_seconds();
-    ASSERT_TRUE(driver.phase());
-    EXPECT_NEAR(wrap(*driver.phase() - 2 * pi * told / 65536), 0, 1e-9);
+    ASSERT_TRUE(driver.report().phase);
+    EXPECT_NEAR(wrap(*driver.report().phase - 2 * pi * told / 65536), 0, 1e-9);
     const double least = phase + 2 * pi * 100 * (read_after - begins_before);
     const double most = phase + 2 * pi * 100 * (read_before - begins_after);
-    const double off = std::abs(wrap(*driver.phase() - (least + most) / 2));
+    const double off = std::abs(wrap(*driver.report().phase - (least + most) / 2));
     EXPECT_LE(off, (most - least) / 2 + 0.001);
-    EXPECT_NEAR(driver.currents()[0], 10 * std::cos(*driver.phase()), 0.05);
-    EXPECT_NEAR(driver.currents()[1], -10 * std::sin(*driver.phase()), 0.05);
+    EXPECT_NEAR(driver.report().currents[0], 10 * std::cos(*driver.report().phase), 0.05);
+    EXPECT_NEAR(driver.report().currents[1], -10 * std::sin(*driver.report().phase), 0.05);
   }
   EXPECT_EQ(driver.drive(some_amperes), DriveStatus::driven);
-  EXPECT_FALSE(driver.phase());
+  EXPECT_FALSE(driver.report().phase);
 }
 
 TEST(SerialCoilDriverPty, RefusesWaveformsBeyondItsScale) {
   test::FakeDevice device;
   SerialCoilDriver driver(params_of(device));
   const std::array<double, 6> none{}, most{20, 0, 0, 0, 0, 0}, little{1, 0, 0, 0, 0, 0};
-  EXPECT_EQ(driver.drive_waveform({501, 0, none, little, none}), DriveStatus::refused);
-  EXPECT_EQ(driver.drive_waveform({16, 0, little, most, none}), DriveStatus::refused);
-  EXPECT_EQ(driver.drive_waveform({16, 0, none, most, little}), DriveStatus::refused);
-  EXPECT_EQ(driver.drive_waveform({-16, 0, none, most, none}), DriveStatus::driven);
+  EXPECT_EQ(driver.drive(CurrentWaveform{501, 0, none, little, none}), DriveStatus::refused);
+  EXPECT_EQ(driver.drive(CurrentWaveform{16, 0, little, most, none}), DriveStatus::refused);
+  EXPECT_EQ(driver.drive(CurrentWaveform{16, 0, none, most, little}), DriveStatus::refused);
+  EXPECT_EQ(driver.drive(CurrentWaveform{-16, 0, none, most, none}), DriveStatus::driven);
 }
 
 }  // namespace

@@ -275,7 +275,7 @@ TEST(FirmwareLimits, AreThoseGivenToMakeAndKeepTheDirection) {
   SerialCoilDriver driver(params(mega.port()));
   const std::array<double, 6> uneven{20, -4, 6, -8, 10, -8};
   EXPECT_EQ(driver.drive(uneven), DriveStatus::scaled);
-  EXPECT_NEAR(driver.device_scale(), 0.5, 0.001);
+  EXPECT_NEAR(driver.report().scale, 0.5, 0.001);
   EXPECT_TRUE(mega.when({500, -100, 150, -200, 250, -200}));
 }
 

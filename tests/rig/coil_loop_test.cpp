@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <atomic>
 #include <chrono>
 #include <functional>
@@ -22,9 +21,9 @@ constexpr std::chrono::milliseconds standstill{800};
 /// Stands still in its tenth exchange, as a program that is stopped there.
 class StoppedInAnExchange : public CoilDriver {
  public:
-  int channels() const override { return 3; }
-  std::span<const double> currents() const override { return currents_; }
-  DriveStatus drive(std::span<const double>) override {
+  Capabilities capabilities() const override { return {.channels = 3}; }
+  const DeviceReport& report() const override { return report_; }
+  DriveStatus drive(const CoilRequest&) override {
     if (++sendings_ == 10) std::this_thread::sleep_for(standstill);
     return DriveStatus::driven;
   }
@@ -32,7 +31,7 @@ class StoppedInAnExchange : public CoilDriver {
   int sendings() const { return sendings_; }
 
  private:
-  std::array<double, 3> currents_{};
+  DeviceReport report_{.currents = std::vector<double>(3)};
   std::atomic<int> sendings_ = 0;
 };
 

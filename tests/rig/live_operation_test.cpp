@@ -68,7 +68,7 @@ class LiveOperation : public testing::Test {
     });
     const RunResult result = session.finish(Stop(std::chrono::seconds(8)));
     person.join();
-    for (const double current : simulator.coils().currents()) EXPECT_EQ(current, 0);
+    for (const double current : simulator.coils().report().currents) EXPECT_EQ(current, 0);
     return result;
   }
 

@@ -291,29 +291,26 @@ TEST_F(LiveRigs, AVirtualObstacleInTheWayIsAvoided) {
 /// A device that makes waveforms and lets through a share of what it is told.
 class WeakenedCoils : public CoilDriver {
  public:
-  explicit WeakenedCoils(double share) : share_(share) {}
-  int channels() const override { return 6; }
-  std::span<const double> currents() const override { return currents_; }
-  double device_scale() const override { return share_; }
-  DriveStatus drive(std::span<const double>) override { return DriveStatus::refused; }
-  bool makes_waveforms() const override { return true; }
-  DriveStatus drive_waveform(const CurrentWaveform& waveform) override {
+  explicit WeakenedCoils(double share)
+      : report_{.currents = std::vector<double>(6), .scale = share} {}
+  Capabilities capabilities() const override { return {6, CoilInput::waveform}; }
+  const DeviceReport& report() const override { return report_; }
+  DriveStatus drive(const CoilRequest& request) override {
+    const auto* const waveform = std::get_if<CurrentWaveform>(&request);
+    if (!waveform) return DriveStatus::refused;
     const double now = steady_seconds();
-    if (!phase_) began_ = now - waveform.phase / (2 * pi * waveform.frequency);
-    phase_ = 2 * pi * waveform.frequency * (now - began_);
-    return share_ < 1 ? DriveStatus::scaled : DriveStatus::driven;
+    if (!report_.phase) began_ = now - waveform->phase / (2 * pi * waveform->frequency);
+    report_.phase = 2 * pi * waveform->frequency * (now - began_);
+    return report_.scale < 1 ? DriveStatus::scaled : DriveStatus::driven;
   }
-  std::optional<double> phase() const override { return phase_; }
   StopReport stop() noexcept override {
-    phase_.reset();
+    report_.phase.reset();
     return {.confirmed = true};
   }
 
  private:
-  double share_;
+  DeviceReport report_;
   double began_ = 0;  // [s], by steady_seconds()
-  std::optional<double> phase_;
-  std::array<double, 6> currents_{};
 };
 
 TEST_F(LiveRigs, AWaveformThatTheDeviceWeakensMovesTheSwarmAsItsFieldDoes) {

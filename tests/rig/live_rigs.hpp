@@ -33,9 +33,10 @@ class WatchedCoils : public CoilDriver {
   };
   explicit WatchedCoils(std::shared_ptr<Log> log) : log_(std::move(log)) {}
 
-  int channels() const override { return 6; }
-  std::span<const double> currents() const override { return currents_; }
-  DriveStatus drive(std::span<const double> currents) override {
+  Capabilities capabilities() const override { return {.channels = 6}; }
+  const DeviceReport& report() const override { return report_; }
+  DriveStatus drive(const CoilRequest& request) override {
+    const auto currents = std::get<std::span<const double>>(request);
     ++log_->drives;
     const DriveStatus answer = log_->answer;
     if (answer != DriveStatus::driven && answer != DriveStatus::resumed) return answer;
@@ -55,14 +56,14 @@ class WatchedCoils : public CoilDriver {
  private:
   void set(std::span<const double> currents) {
     double most = 0;
-    for (std::size_t i = 0; i < currents_.size(); ++i) {
-      currents_[i] = currents[i];
+    for (std::size_t i = 0; i < currents.size(); ++i) {
+      report_.currents[i] = currents[i];
       most = std::max(most, std::abs(currents[i]));
     }
     log_->strongest = most;
   }
   std::shared_ptr<Log> log_;
-  std::array<double, 6> currents_{};
+  DeviceReport report_{.currents = std::vector<double>(6)};
 };
 
 /// A camera between the simulator and the rig that can be made to fail.

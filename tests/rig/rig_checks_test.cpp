@@ -25,9 +25,10 @@ class AnsweringDriver : public CoilDriver {
  public:
   AnsweringDriver(std::vector<DriveStatus> answers, bool stops)
       : answers_(answers), stops_(stops) {}
-  int channels() const override { return 6; }
-  std::span<const double> currents() const override { return currents_; }
-  DriveStatus drive(std::span<const double> currents) override {
+  Capabilities capabilities() const override { return {.channels = 6}; }
+  const DeviceReport& report() const override { return report_; }
+  DriveStatus drive(const CoilRequest& request) override {
+    const auto currents = std::get<std::span<const double>>(request);
     EXPECT_EQ(currents.size(), 6u);
     EXPECT_TRUE(std::ranges::all_of(currents, [](double i) { return i == 0; }));
     const DriveStatus answer = answers_[given++];
@@ -42,7 +43,7 @@ class AnsweringDriver : public CoilDriver {
  private:
   std::vector<DriveStatus> answers_;
   bool stops_;
-  std::array<double, 6> currents_{};
+  DeviceReport report_{.currents = std::vector<double>(6)};
 };
 
 class RigChecks : public testing::Test {

@@ -54,14 +54,14 @@ TEST_F(RigKinds, ChannelsAndFullScaleAreTheDrivers) {
 }
 
 TEST_F(RigKinds, WhoTurnsTheFieldAndWhoTakesIt) {
-  EXPECT_TRUE(turns_on_device(rig("{type: simulated, waveforms: true}").params));
-  EXPECT_TRUE(turns_on_device(rig("{type: serial, waveforms: true}").params));
-  EXPECT_TRUE(takes_field(rig("{type: program, command: [a], send: field}").params));
-  EXPECT_TRUE(takes_field(rig("{type: socket, send: field}").params));
-  for (const std::string& driver : device_drivers) {
-    EXPECT_FALSE(turns_on_device(rig(driver).params)) << driver;
-    EXPECT_FALSE(takes_field(rig(driver).params)) << driver;
-  }
+  const auto input = [&](const std::string& driver) { return coil_input(rig(driver).params); };
+  EXPECT_EQ(input("{type: simulated, waveforms: true}"), CoilInput::waveform);
+  EXPECT_EQ(input("{type: serial, waveforms: true}"), CoilInput::waveform);
+  EXPECT_EQ(input("{type: program, command: [a], send: field}"), CoilInput::field);
+  EXPECT_EQ(input("{type: socket, send: field}"), CoilInput::field);
+  EXPECT_EQ(input("{type: simulated}"), CoilInput::currents);
+  for (const std::string& driver : device_drivers)
+    EXPECT_EQ(input(driver), CoilInput::currents) << driver;
 }
 
 TEST_F(RigKinds, CamerasAreSimulatedDevicesOrVideos) {

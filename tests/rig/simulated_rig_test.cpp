@@ -171,8 +171,8 @@ TEST(SimulatedRig, ANamedDeviceIsSimulatedLikeItAndNotOpened) {
       "first_rig.yaml", "bench.yaml",
       {"camera.type=simulated", "camera.microscope.um_per_px=6", "driver.port=/dev/none"});
   const auto coils = simulated_coils(r.rig);
-  EXPECT_EQ(coils->channels(), 6);
-  EXPECT_TRUE(coils->makes_waveforms());
+  EXPECT_EQ(coils->capabilities().channels, 6);
+  EXPECT_EQ(coils->capabilities().input, CoilInput::waveform);
   EXPECT_EQ(coils->drive(std::vector<double>{10, 0, 0, 0, 0, 0}), DriveStatus::driven);
   EXPECT_EQ(coils->drive(std::vector<double>{10.1, 0, 0, 0, 0, 0}), DriveStatus::refused);
   EXPECT_EQ(r.in_rig().status, Status::solved);

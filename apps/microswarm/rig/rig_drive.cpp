@@ -157,7 +157,7 @@ int rig_drive(const DriveOptions& o, const Context& context) {
     throw InputError(fmt::format("--ramp: two ramps of {:.6g} s are longer than --seconds {:.6g}",
                                  o.ramp, o.seconds));
   const Rig rig = reading([&] { return read_rig(o.rig, {o.settings, "--set"}); });
-  if (takes_field(rig.params) && (o.each || !o.currents.empty()))
+  if (coil_input(rig.params) == CoilInput::field && (o.each || !o.currents.empty()))
     throw InputError("--currents and --each are for a driver that is sent currents: give --field");
   if (o.each) {
     if (*o.each == 0) throw InputError("--each: 0 A shows nothing of a coil");

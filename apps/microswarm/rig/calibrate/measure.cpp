@@ -240,7 +240,7 @@ void Guide::look(const ManualMoment& moment) {
   if (outcome_ || !settled_ || probe_) answers_.watch();
   if (outcome_) return;
   const bool full = moment.output.scale >= weakened;
-  const auto reported = bench_->driver->currents();
+  const std::vector<double>& reported = bench_->driver->report().currents;
   currents_ = Eigen::Map<const Eigen::VectorXd>(reported.data(), currents_.size());
   if (!settled_) {
     if (moment.t >= o_.ramp + o_.settle && full)

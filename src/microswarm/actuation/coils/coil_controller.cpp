@@ -15,7 +15,7 @@ namespace microswarm {
 
 void take_answer(const CoilDriver& driver, CoilOutput& output) {
   if (!is_acknowledged(output.status)) return;
-  output.device_scale = driver.device_scale();
+  output.device_scale = driver.report().scale;
   output.acknowledged = output.device_scale * output.currents;
 }
 
@@ -27,7 +27,7 @@ CoilController::CoilController(const CoilSystem& system, const FieldGeneratorPar
       drive_(system.drives()),
       place_(system.centre()),
       actuation_(system.at(place_)),
-      channels_(static_cast<std::size_t>(driver.channels())) {
+      channels_(static_cast<std::size_t>(driver.capabilities().channels)) {
   if (system.size() > channels_.size())
     throw InputError(fmt::format("the system has {} coils, the driver {} channels", system.size(),
                                  channels_.size()));
@@ -46,7 +46,7 @@ void CoilController::aim(const Eigen::Vector3d& position) {
 
 const CoilOutput& CoilController::advance(double dt) {
   output_.wanted = generator_.advance(dt);
-  if (driver_.makes_waveforms())
+  if (driver_.capabilities().input == CoilInput::waveform)
     send_waveform(dt);
   else
     send_currents(dt);
@@ -63,14 +63,15 @@ void CoilController::send_currents(double dt) {
   output_.reached = found.reached;
   std::copy(driven.currents.begin(), driven.currents.end(), channels_.begin());
   const Eigen::Vector3d field = actuation_.field * driven.currents;
-  output_.status = driver_.drive_field(std::span<const double, 3>(field.data(), 3), channels_);
+  output_.status = driver_.drive(constant_request(
+      driver_.capabilities(), std::span<const double, 3>(field.data(), 3), channels_));
 }
 
 void CoilController::send_waveform(double dt) {
   output_.scale = drive_.turn(turning_currents(actuation_, generator_, output_.reached), dt);
   output_.currents = drive_.currents();
   output_.status = send(driver_, drive_.turning());
-  if (const auto phase = driver_.phase()) generator_.follow_phase(*phase);
+  if (const auto phase = driver_.report().phase) generator_.follow_phase(*phase);
 }
 
 std::string CoilController::trouble() const { return trouble_of(driver_, output_.status); }

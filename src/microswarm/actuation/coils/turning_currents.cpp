@@ -24,13 +24,13 @@ TurningCurrents turning_currents(const Actuation& at, const FieldGenerator& gene
 
 DriveStatus send(CoilDriver& driver, const TurningCurrents& currents) {
   const auto channels = [&](const Eigen::VectorXd& part) {
-    std::vector<double> list(static_cast<std::size_t>(driver.channels()));
+    std::vector<double> list(static_cast<std::size_t>(driver.capabilities().channels));
     std::ranges::copy(part, list.begin());
     return list;
   };
   const std::vector<double> constant = channels(currents.constant);
   const std::vector<double> cosine = channels(currents.cosine), sine = channels(currents.sine);
-  return driver.drive_waveform({currents.frequency, currents.phase, constant, cosine, sine});
+  return driver.drive(CurrentWaveform{currents.frequency, currents.phase, constant, cosine, sine});
 }
 
 }  // namespace microswarm

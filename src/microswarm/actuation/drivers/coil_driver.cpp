@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/maths/maths.hpp"
 
 namespace microswarm {
@@ -47,12 +48,8 @@ std::string_view trouble_of(DriveStatus status) {
 std::string trouble_of(const CoilDriver& driver, DriveStatus status) {
   std::string trouble(status == DriveStatus::no_answer ? "the coil driver does not answer"
                                                        : trouble_of(status));
-  const std::string reason = trouble.empty() ? std::string() : driver.reason();
+  const std::string reason = trouble.empty() ? std::string() : driver.report().reason;
   return reason.empty() ? trouble : trouble + ": " + reason;
-}
-
-DriveStatus CoilDriver::drive_field(std::span<const double, 3>, std::span<const double> currents) {
-  return drive(currents);
 }
 
 double CurrentWaveform::largest(std::size_t channel) const {
@@ -60,35 +57,48 @@ double CurrentWaveform::largest(std::size_t channel) const {
   return std::abs(constant[channel]) + std::sqrt(along * along + across * across);
 }
 
-SimulatedCoilDriver::SimulatedCoilDriver(int channels, double full_scale, bool waveforms)
-    : currents_(static_cast<std::size_t>(channels)),
-      full_scale_(full_scale),
-      waveforms_(waveforms) {}
+CoilRequest constant_request(const Capabilities& device, std::span<const double, 3> field,
+                             std::span<const double> currents) {
+  if (device.input == CoilInput::field) return FieldRequest{field, currents};
+  return currents;
+}
 
-DriveStatus SimulatedCoilDriver::drive(std::span<const double> currents) {
-  assert(currents.size() == currents_.size());
-  const bool possible = std::all_of(currents.begin(), currents.end(), [&](double i) {
-    return std::abs(i) <= full_scale_ * (1 + full_scale_slack);
-  });
+SimulatedCoilDriver::SimulatedCoilDriver(int channels, double full_scale, CoilInput input)
+    : capabilities_{channels, input},
+      full_scale_(full_scale),
+      report_{.currents = std::vector<double>(static_cast<std::size_t>(channels))} {}
+
+DriveStatus SimulatedCoilDriver::drive(const CoilRequest& request) {
+  return std::visit(Overloaded{[&](std::span<const double> currents) { return hold(currents); },
+                               [&](const FieldRequest& field) { return hold(field.currents); },
+                               [&](const CurrentWaveform& waveform) { return turn(waveform); }},
+                    request);
+}
+
+DriveStatus SimulatedCoilDriver::hold(std::span<const double> currents) {
+  assert(currents.size() == report_.currents.size());
+  const bool possible = std::ranges::all_of(
+      currents, [&](double i) { return std::abs(i) <= full_scale_ * (1 + full_scale_slack); });
   if (!possible) return DriveStatus::refused;
-  std::copy(currents.begin(), currents.end(), currents_.begin());
-  phase_.reset();
+  std::ranges::copy(currents, report_.currents.begin());
+  report_.phase.reset();
   return DriveStatus::driven;
 }
 
-DriveStatus SimulatedCoilDriver::drive_waveform(const CurrentWaveform& waveform) {
+DriveStatus SimulatedCoilDriver::turn(const CurrentWaveform& waveform) {
   const auto [sine, cosine] = maths::sincos(waveform.phase);
-  for (std::size_t c = 0; c < currents_.size(); ++c) {
+  for (std::size_t c = 0; c < report_.currents.size(); ++c) {
     if (!(waveform.largest(c) <= full_scale_ * (1 + full_scale_slack))) return DriveStatus::refused;
-    currents_[c] = waveform.constant[c] + waveform.cosine[c] * cosine + waveform.sine[c] * sine;
+    report_.currents[c] =
+        waveform.constant[c] + waveform.cosine[c] * cosine + waveform.sine[c] * sine;
   }
-  phase_ = waveform.phase;
+  report_.phase = waveform.phase;
   return DriveStatus::driven;
 }
 
 StopReport SimulatedCoilDriver::stop() noexcept {
-  std::fill(currents_.begin(), currents_.end(), 0.0);
-  phase_.reset();
+  std::ranges::fill(report_.currents, 0.0);
+  report_.phase.reset();
   return {.confirmed = true};
 }
 

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 namespace microswarm {
@@ -35,6 +36,25 @@ bool is_acknowledged(DriveStatus status);
 /// Why this status ends a run, as text; empty if it does not by itself.
 std::string_view trouble_of(DriveStatus status);
 
+/// The most that a device does by itself.
+enum class CoilInput : std::uint8_t {
+  currents,  ///< it holds the currents that it is sent
+  field,     ///< it computes the currents of a field by itself; it takes no currents
+  waveform,  ///< it turns currents by itself; it also holds constant ones
+};
+
+/// Properties of an open driver; they never change.
+struct Capabilities {
+  int channels = 0;  ///< currents of a request
+  CoilInput input = CoilInput::currents;
+};
+
+/// A field [mT] for a device that computes the currents.
+struct FieldRequest {
+  std::span<const double, 3> field;
+  std::span<const double> currents;  ///< that make it in the coil system's model [A]
+};
+
 /// Currents that the device turns by itself: constant + cosine cos φ + sine sin φ [A], one of each
 /// per channel, with a phase φ that turns at `frequency` [Hz].
 struct CurrentWaveform {
@@ -44,6 +64,24 @@ struct CurrentWaveform {
 
   /// Peak current of a channel within a turn [A].
   double largest(std::size_t channel) const;
+};
+
+/// What the coils are to do: signed currents [A], one per channel, a field, or a waveform. It
+/// refers to values that must outlive it.
+using CoilRequest = std::variant<std::span<const double>, FieldRequest, CurrentWaveform>;
+
+/// The request for constant currents [A] that make `field` [mT], as the device takes it.
+CoilRequest constant_request(const Capabilities& device, std::span<const double, 3> field,
+                             std::span<const double> currents);
+
+/// State of the coils as last reported by the device.
+struct DeviceReport {
+  std::vector<double> currents;   ///< [A]; of a field, the coil system's model
+  double scale = 1;               ///< by the device's own limits, of the last acknowledged
+                                  ///< request, in [0, 1]
+  std::optional<double> phase{};  ///< of the waveform [rad]; empty if unknown
+  std::string reason{};           ///< cause of the last trouble, one printable line; empty if
+                                  ///< unknown
 };
 
 /// Result of setting all currents to zero.
@@ -57,11 +95,8 @@ struct StopReport {
   bool good() const { return confirmed && trouble.empty(); }
 };
 
-class CoilDriver;
-/// The same with the driver's own reason, CoilDriver::reason; also for no_answer.
-std::string trouble_of(const CoilDriver& driver, DriveStatus status);
-
-/// Interface that sends currents to coils. The destructor sets all currents to zero.
+/// Interface that sends requests to the device of the coils. The destructor sets all currents to
+/// zero.
 class CoilDriver {
  public:
   CoilDriver() = default;
@@ -69,54 +104,40 @@ class CoilDriver {
   CoilDriver& operator=(const CoilDriver&) = delete;
   virtual ~CoilDriver() = default;
 
-  virtual int channels() const = 0;
-  /// Currents of the coils as last reported by the device [A].
-  virtual std::span<const double> currents() const = 0;
-  /// Factor by which the device's own limits scaled the last acknowledged command, in [0, 1].
-  virtual double device_scale() const { return 1; }
-  /// Sends signed currents [A], one per channel. Must be repeated within the watchdog time, even if
-  /// unchanged.
-  virtual DriveStatus drive(std::span<const double> currents) = 0;
-  /// Whether the device computes currents from a commanded field; drive() then accepts only zeros.
-  virtual bool takes_field() const { return false; }
-  /// Like drive(), with the field [mT] that these currents make at the swarm.
-  virtual DriveStatus drive_field(std::span<const double, 3> field,
-                                  std::span<const double> currents);
-  /// Whether the device makes waveforms.
-  virtual bool makes_waveforms() const { return false; }
-  /// Starts a waveform or changes the running one. To be repeated like drive(), which ends it.
-  virtual DriveStatus drive_waveform(const CurrentWaveform&) { return DriveStatus::refused; }
-  /// Phase of the waveform at the device's last answer [rad]; nothing if unknown.
-  virtual std::optional<double> phase() const { return std::nullopt; }
+  virtual Capabilities capabilities() const = 0;
+  /// Sends a request; refused if the device does not take its kind. Must be repeated within the
+  /// watchdog time, even if unchanged. A waveform starts or changes the running one, another
+  /// request ends it.
+  virtual DriveStatus drive(const CoilRequest& request) = 0;
+  virtual const DeviceReport& report() const = 0;
   /// Sets all currents to zero. The time of the report is set by who asks for it.
   virtual StopReport stop() noexcept = 0;
   /// Aborts a drive() in another thread, so that stop() can run. Callable from any thread; lasts
   /// until the next stop().
   virtual void interrupt() noexcept {}
-  /// Cause of the last trouble, one printable line; empty if unknown.
-  virtual std::string reason() const { return {}; }
 };
 
-/// Driver without hardware.
+/// Why this status ends a run, with the driver's own reason; also for no_answer.
+std::string trouble_of(const CoilDriver& driver, DriveStatus status);
+
+/// Driver without hardware. It takes requests of all kinds; a waveform has the commanded phase.
 class SimulatedCoilDriver final : public CoilDriver {
  public:
-  /// `full_scale` is the maximum current [A]. With `waveforms` it makes waveforms, at the commanded
-  /// phase.
-  SimulatedCoilDriver(int channels, double full_scale, bool waveforms = false);
+  /// `full_scale` is the maximum current [A].
+  SimulatedCoilDriver(int channels, double full_scale, CoilInput input = CoilInput::currents);
 
-  int channels() const override { return static_cast<int>(currents_.size()); }
-  DriveStatus drive(std::span<const double> currents) override;
-  bool makes_waveforms() const override { return waveforms_; }
-  DriveStatus drive_waveform(const CurrentWaveform& waveform) override;
-  std::optional<double> phase() const override { return phase_; }
+  Capabilities capabilities() const override { return capabilities_; }
+  DriveStatus drive(const CoilRequest& request) override;
+  const DeviceReport& report() const override { return report_; }
   StopReport stop() noexcept override;
-  std::span<const double> currents() const override { return currents_; }
 
  private:
-  std::vector<double> currents_;
+  DriveStatus hold(std::span<const double> currents);
+  DriveStatus turn(const CurrentWaveform& waveform);
+
+  Capabilities capabilities_;
   double full_scale_;
-  bool waveforms_;
-  std::optional<double> phase_;  // as last commanded
+  DeviceReport report_;
 };
 
 }  // namespace microswarm

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/text/text.hpp"
 
 namespace microswarm {
@@ -32,6 +33,11 @@ double scale_between(std::span<const double> values, std::span<const double> app
   return square > 0 ? std::clamp(product / square, 0.0, 1.0) : 1;
 }
 
+std::size_t channels_of(const LineDriverParams& params, std::size_t coils) {
+  if (params.send == DriverInput::field || !params.channels) return coils;
+  return static_cast<std::size_t>(*params.channels);
+}
+
 std::string list_of(std::span<const double> values) {
   return one_line(fmt::format("{:.6g}", fmt::join(values, " ")), 100);
 }
@@ -44,10 +50,8 @@ LineCoilDriver::LineCoilDriver(OpenConnection open, const LineDriverParams& para
       open_(std::move(open)),
       connection_(open_(params.connect_timeout)),
       params_(params),
-      currents_(takes_field()
-                    ? coils
-                    : static_cast<std::size_t>(params.channels.value_or(static_cast<int>(coils)))),
-      sent_(takes_field() ? 3 : currents_.size()) {
+      report_{.currents = std::vector<double>(channels_of(params, coils))},
+      sent_(params.send == DriverInput::field ? 3 : report_.currents.size()) {
   greet(params_.connect_timeout);
 }
 
@@ -56,9 +60,10 @@ void LineCoilDriver::greet(double timeout) {
     throw HardwareError(fmt::format("{}: {}", connection_->name(), why));
   };
   const auto reply = exchange("hello", timeout, {});
-  if (!reply && gone_) throw HardwareError(reason_);
+  if (!reply && gone_) throw HardwareError(report_.reason);
   if (!reply)
-    fail(fmt::format("no answer within {:g} s{}{}", timeout, reason_.empty() ? "" : "; ", reason_));
+    fail(fmt::format("no answer within {:g} s{}{}", timeout, report_.reason.empty() ? "" : "; ",
+                     report_.reason));
   if (reply->verdict != LineVerdict::ok) fail("refuses: " + reply->text);
   if (!is_zero(*reply))
     fail(fmt::format("acknowledges {} as its values, not {} zeros", list_of(reply->values), sent_));
@@ -72,24 +77,34 @@ bool LineCoilDriver::is_possible(std::span<const double> currents) const {
   });
 }
 
-DriveStatus LineCoilDriver::drive(std::span<const double> currents) {
-  assert(currents.size() == currents_.size());
-  if (!takes_field()) return follow(currents, currents);
-  const bool zero = std::ranges::all_of(currents, [](double current) { return current == 0; });
-  if (zero) return drive_field(std::array<double, 3>{}, currents);
-  reason_ = "it takes a field";
-  return DriveStatus::refused;
+Capabilities LineCoilDriver::capabilities() const {
+  return {static_cast<int>(report_.currents.size()), input_of(params_.send)};
 }
 
-DriveStatus LineCoilDriver::drive_field(std::span<const double, 3> field,
-                                        std::span<const double> currents) {
-  return takes_field() ? follow(field, currents) : drive(currents);
+DriveStatus LineCoilDriver::drive(const CoilRequest& request) {
+  const bool field = params_.send == DriverInput::field;
+  return std::visit(
+      Overloaded{[&](std::span<const double> currents) {
+                   return field ? refuse("it takes a field") : follow(currents, currents);
+                 },
+                 [&](const FieldRequest& wanted) {
+                   return field ? follow(wanted.field, wanted.currents)
+                                : refuse("it takes currents");
+                 },
+                 [&](const CurrentWaveform&) { return refuse("it makes no waveform"); }},
+      request);
+}
+
+DriveStatus LineCoilDriver::refuse(const char* reason) {
+  report_.reason = reason;
+  return DriveStatus::refused;
 }
 
 DriveStatus LineCoilDriver::follow(std::span<const double> values,
                                    std::span<const double> currents) {
+  assert(currents.size() == report_.currents.size());
   if (gone_) return DriveStatus::gone;
-  reason_.clear();
+  report_.reason.clear();
   const bool finite =
       std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
   if (!finite || !is_possible(currents)) return DriveStatus::refused;
@@ -107,15 +122,15 @@ DriveStatus LineCoilDriver::follow(std::span<const double> values,
   double scale = 1;
   const DriveStatus compared = compare(values, *reply, scale);
   if (compared == DriveStatus::mismatched) return compared;
-  scale_ = scale;
-  for (std::size_t i = 0; i < currents_.size(); ++i) currents_[i] = scale * currents[i];
+  report_.scale = scale;
+  for (std::size_t i = 0; i < currents.size(); ++i) report_.currents[i] = scale * currents[i];
   return status == DriveStatus::driven ? compared : status;
 }
 
 /// Status of a reply, before its values are compared.
 DriveStatus LineCoilDriver::take(const std::optional<LineReply>& reply) {
   if (!reply) return gone_ ? DriveStatus::gone : DriveStatus::no_answer;
-  reason_ = reply->text;
+  report_.reason = reply->text;
   switch (reply->verdict) {
     case LineVerdict::ok:
     case LineVerdict::limited:
@@ -140,8 +155,8 @@ DriveStatus LineCoilDriver::compare(std::span<const double> values, const LineRe
   for (std::size_t i = 0; agree && i < values.size(); ++i)
     agree = std::abs(reply.values[i] - scale * values[i]) <= params_.tolerance;
   if (agree) return limited ? DriveStatus::scaled : DriveStatus::driven;
-  reason_ = fmt::format("sent {}, acknowledged {}", list_of(values),
-                        reply.values.empty() ? "no numbers" : list_of(reply.values));
+  report_.reason = fmt::format("sent {}, acknowledged {}", list_of(values),
+                               reply.values.empty() ? "no numbers" : list_of(reply.values));
   return DriveStatus::mismatched;
 }
 
@@ -150,7 +165,7 @@ DriveStatus LineCoilDriver::arm() {
   DriveStatus status = take(reply);
   if (status == DriveStatus::refused) status = DriveStatus::not_armed;
   if (status == DriveStatus::driven && !is_zero(*reply)) {
-    reason_ = fmt::format("armed with {}, not {} zeros", list_of(reply->values), sent_);
+    report_.reason = fmt::format("armed with {}, not {} zeros", list_of(reply->values), sent_);
     status = DriveStatus::mismatched;
   }
   armed_ = status == DriveStatus::driven;
@@ -166,7 +181,7 @@ StopReport LineCoilDriver::stop() noexcept {
     if (reply->verdict != LineVerdict::ok || !is_zero(*reply))
       return begin_again("did not say zero to stop; it was ended");
     armed_ = false;
-    std::ranges::fill(currents_, 0.0);
+    std::ranges::fill(report_.currents, 0.0);
     return {.confirmed = true};
   } catch (...) {
     return {};  // out of memory; the driver's watchdog switches off
@@ -176,7 +191,7 @@ StopReport LineCoilDriver::stop() noexcept {
 StopReport LineCoilDriver::begin_again(std::string_view trouble) {
   if (turned_off_anew_) return *turned_off_anew_;
   turned_off_anew_.emplace();
-  const std::string reason = reason_;
+  const std::string reason = report_.reason;
   connection_.reset();
   reader_ = {};  // it may hold half a line
   try {
@@ -185,11 +200,11 @@ StopReport LineCoilDriver::begin_again(std::string_view trouble) {
     greet(timeout);
     turned_off_anew_ = {.confirmed = true,
                         .trouble = fmt::format("{}, and a second one said zero", trouble)};
-    std::ranges::fill(currents_, 0.0);
+    std::ranges::fill(report_.currents, 0.0);
   } catch (const HardwareError&) {  // not confirmed
   }
   gone_ = true;
-  reason_ = reason;
+  report_.reason = reason;
   return *turned_off_anew_;
 }
 
@@ -215,9 +230,9 @@ std::optional<LineReply> LineCoilDriver::exchange(std::string_view word, double 
   if (is_gone()) return std::nullopt;
   const std::string words = connection_->last_words();
   if (!strange_.empty())
-    reason_ = fmt::format("it said '{}', which is no answer", strange_);
+    report_.reason = fmt::format("it said '{}', which is no answer", strange_);
   else if (!words.empty())
-    reason_ = fmt::format("its last words: {}", words);
+    report_.reason = fmt::format("its last words: {}", words);
   return std::nullopt;
 }
 
@@ -241,8 +256,8 @@ bool LineCoilDriver::is_gone() {
   if (ended.empty()) return false;
   gone_ = true;
   const std::string words = connection_->last_words();
-  reason_ = fmt::format("{} {}{}{}", connection_->name(), ended,
-                        words.empty() ? "" : "; its last words: ", words);
+  report_.reason = fmt::format("{} {}{}{}", connection_->name(), ended,
+                               words.empty() ? "" : "; its last words: ", words);
   return true;
 }
 

@@ -28,6 +28,11 @@ constexpr auto enum_names(DriverInput) {
       {{DriverInput::currents, "currents"}, {DriverInput::field, "field"}}};
 }
 
+/// Input of a device that is sent these.
+inline CoilInput input_of(DriverInput sent) {
+  return sent == DriverInput::field ? CoilInput::field : CoilInput::currents;
+}
+
 /// Common parameters of driver programs and sockets.
 struct LineDriverParams {
   DriverInput send = DriverInput::currents;
@@ -93,23 +98,18 @@ class LineCoilDriver final : public CoilDriver {
   LineCoilDriver(const LineCoilDriver&) = delete;
   LineCoilDriver& operator=(const LineCoilDriver&) = delete;
 
-  int channels() const override { return static_cast<int>(currents_.size()); }
-  /// As acknowledged; with a field, the coil system's currents for it.
-  std::span<const double> currents() const override { return currents_; }
-  double device_scale() const override { return scale_; }
-  DriveStatus drive(std::span<const double> currents) override;
-  bool takes_field() const override { return params_.send == DriverInput::field; }
-  DriveStatus drive_field(std::span<const double, 3> field,
-                          std::span<const double> currents) override;
+  Capabilities capabilities() const override;
+  DriveStatus drive(const CoilRequest& request) override;
+  const DeviceReport& report() const override { return report_; }
   /// Waits at most 0.5 s for the confirmation, and about 4 s more if it connects again.
   StopReport stop() noexcept override;
   void interrupt() noexcept override { interrupted_ = true; }
-  std::string reason() const override { return reason_; }
 
  private:
   void greet(double timeout);
   StopReport begin_again(std::string_view trouble);
   bool is_possible(std::span<const double> currents) const;
+  DriveStatus refuse(const char* reason);
   DriveStatus follow(std::span<const double> values, std::span<const double> currents);
   DriveStatus arm();
   DriveStatus take(const std::optional<LineReply>& reply);
@@ -124,7 +124,7 @@ class LineCoilDriver final : public CoilDriver {
   OpenConnection open_;
   std::unique_ptr<LineConnection> connection_;
   LineDriverParams params_;
-  std::vector<double> currents_;
+  DeviceReport report_;
   std::size_t sent_;  // number of values in a message
   LineReader reader_;
   std::uint32_t sequence_ = 0;
@@ -132,9 +132,7 @@ class LineCoilDriver final : public CoilDriver {
   bool armed_ = false;                         // armed by this driver and not stopped since
   bool gone_ = false;                          // permanently
   std::optional<StopReport> turned_off_anew_;  // by a second connection
-  double scale_ = 1;                           // acknowledged
   std::string strange_;                        // last line that was no reply
-  std::string reason_;
 };
 
 }  // namespace microswarm

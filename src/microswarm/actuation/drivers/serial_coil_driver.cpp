@@ -17,6 +17,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/execution/clock.hpp"
 #include "microswarm/core/execution/stop.hpp"
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/maths/angles.hpp"
 
 namespace microswarm {
@@ -75,7 +76,9 @@ class SerialCoilDriver::Port {
 };
 
 SerialCoilDriver::SerialCoilDriver(const SerialCoilParams& params)
-    : params_(params), port_(std::make_unique<Port>(params.port)) {
+    : params_(params),
+      port_(std::make_unique<Port>(params.port)),
+      report_{.currents = std::vector<double>(coil_link_channels)} {
   hears_start(params_.boot_time);
   const std::array<std::uint8_t, 1> end{0};  // ends any partial message
   (*port_)->put(end, params_.reply_timeout, {});
@@ -97,22 +100,29 @@ SerialCoilDriver::SerialCoilDriver(const SerialCoilParams& params)
 
 SerialCoilDriver::~SerialCoilDriver() { stop(); }
 
-DriveStatus SerialCoilDriver::drive(std::span<const double> currents) {
+DriveStatus SerialCoilDriver::drive(const CoilRequest& request) {
+  return std::visit(Overloaded{[&](std::span<const double> currents) { return hold(currents); },
+                               [](const FieldRequest&) { return DriveStatus::refused; },
+                               [&](const CurrentWaveform& waveform) { return turn(waveform); }},
+                    request);
+}
+
+DriveStatus SerialCoilDriver::hold(std::span<const double> currents) {
   assert(currents.size() == coil_link_channels);
   CoilAim aim;
   if (!outputs_of(currents, aim.constant)) return DriveStatus::refused;
-  phase_.reset();
+  report_.phase.reset();
   return follow(CoilMessage::set, aim);
 }
 
-DriveStatus SerialCoilDriver::drive_waveform(const CurrentWaveform& waveform) {
+DriveStatus SerialCoilDriver::turn(const CurrentWaveform& waveform) {
   const double mhz = 1e3 * waveform.frequency;
   if (!(std::abs(mhz) <= coil_link_max_frequency)) return DriveStatus::refused;
   CoilAim aim{.frequency = static_cast<int>(std::lround(mhz))};
   if (!outputs_of(waveform.constant, aim.constant) || !outputs_of(waveform.cosine, aim.cosine) ||
       !outputs_of(waveform.sine, aim.sine))
     return DriveStatus::refused;
-  for (std::size_t c = 0; c < currents_.size(); ++c)
+  for (std::size_t c = 0; c < report_.currents.size(); ++c)
     if (!(waveform.largest(c) <= params_.full_scale * (1 + full_scale_slack)))
       return DriveStatus::refused;
   constexpr int turn = 65536;
@@ -148,7 +158,7 @@ DriveStatus SerialCoilDriver::follow(CoilMessage message, const CoilAim& aim) {
   if (reply->result == CoilResult::not_armed) return refusal(*reply);
   const bool obeyed = reply->result == CoilResult::ok || reply->result == CoilResult::limited;
   if (!obeyed || !check_.agrees(aim, *reply)) return DriveStatus::mismatched;
-  scale_ = static_cast<double>(reply->scale) / coil_link_unscaled;
+  report_.scale = static_cast<double>(reply->scale) / coil_link_unscaled;
   if (status == DriveStatus::resumed) return status;
   return reply->result == CoilResult::limited ? DriveStatus::scaled : status;
 }
@@ -202,9 +212,9 @@ std::optional<CoilReply> SerialCoilDriver::exchange(CoilMessage message, const C
       failures_ = 0;
       clock_ = reply->clock;
       clock_at_ = steady_seconds();
-      if (message == CoilMessage::waveform) phase_ = 2 * pi * reply->phase / 65536;
-      for (std::size_t c = 0; c < currents_.size(); ++c)
-        currents_[c] = params_.full_scale * reply->outputs[c] / coil_link_full_scale;
+      if (message == CoilMessage::waveform) report_.phase = 2 * pi * reply->phase / 65536;
+      for (std::size_t c = 0; c < report_.currents.size(); ++c)
+        report_.currents[c] = params_.full_scale * reply->outputs[c] / coil_link_full_scale;
       return reply;
     }
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -44,6 +43,11 @@ struct SerialCoilParams {
   }
 };
 
+/// Input of its device.
+inline CoilInput input_of(const SerialCoilParams& params) {
+  return params.waveforms ? CoilInput::waveform : CoilInput::currents;
+}
+
 /// Driver of six coils on an Arduino Mega 2560 with firmware/coil_driver
 /// (docs/reference/protocol.md). A Mega that was reset runs its bootloader, which takes any byte
 /// for the start of an upload and then listens for seconds. The driver therefore stays silent after
@@ -59,13 +63,9 @@ class SerialCoilDriver final : public CoilDriver {
   SerialCoilDriver(const SerialCoilDriver&) = delete;
   SerialCoilDriver& operator=(const SerialCoilDriver&) = delete;
 
-  int channels() const override { return coil_link_channels; }
-  std::span<const double> currents() const override { return currents_; }
-  double device_scale() const override { return scale_; }
-  DriveStatus drive(std::span<const double> currents) override;
-  bool makes_waveforms() const override { return params_.waveforms; }
-  DriveStatus drive_waveform(const CurrentWaveform& waveform) override;
-  std::optional<double> phase() const override { return phase_; }
+  Capabilities capabilities() const override { return {coil_link_channels, input_of(params_)}; }
+  DriveStatus drive(const CoilRequest& request) override;
+  const DeviceReport& report() const override { return report_; }
   /// Sent also after three exchanges without an answer. Waits at most 2 s for the confirmation.
   StopReport stop() noexcept override;
   void interrupt() noexcept override { interrupted_ = true; }
@@ -78,6 +78,8 @@ class SerialCoilDriver final : public CoilDriver {
  private:
   class Port;
 
+  DriveStatus hold(std::span<const double> currents);
+  DriveStatus turn(const CurrentWaveform& waveform);
   DriveStatus follow(CoilMessage message, const CoilAim& aim);
   bool outputs_of(std::span<const double> currents, CoilOutputs& outputs) const;
   std::vector<std::uint8_t> bytes_of(CoilMessage message, const CoilAim& aim) const;
@@ -95,14 +97,12 @@ class SerialCoilDriver final : public CoilDriver {
   int clock_ = 0;        // device's clock in its last reply [ms]
   double clock_at_ = 0;  // arrival of that reply [s], by steady_seconds()
   int begin_phase_ = 0;  // of the next waveform [turns / 65536]
-  std::optional<double> phase_;
-  double scale_ = 1;  // acknowledged
+  DeviceReport report_;
   double round_trip_ = 0;
   std::atomic<bool> interrupted_ = false;
-  int failures_ = 0;                                   // consecutive exchanges without an answer
-  double silent_until_ = 0;                            // [s], by steady_seconds()
-  bool armed_ = false;                                 // armed by this driver and not stopped since
-  std::array<double, coil_link_channels> currents_{};  // from the last reply [A]
+  int failures_ = 0;         // consecutive exchanges without an answer
+  double silent_until_ = 0;  // [s], by steady_seconds()
+  bool armed_ = false;       // armed by this driver and not stopped since
 };
 
 }  // namespace microswarm

@@ -57,7 +57,7 @@ struct UsualField {
 
 Issues validate(const RigParams& rig, const CoilSystem& system) {
   Issues issues;
-  const bool on_device = turns_on_device(rig);
+  const bool on_device = coil_input(rig) == CoilInput::waveform;
   const double min_rate = min_sends * rig.field.frequency;
   constexpr double max_frequency = 1e-3 * coil_link_max_frequency;
   if (on_device && rig.drive_rate > max_waveform_sends)
@@ -111,21 +111,15 @@ int channels_of(const RigParams& rig, const CoilSystem& system) {
                     rig.driver);
 }
 
-bool takes_field(const RigParams& rig) {
-  return std::visit(
-      Overloaded{[](const OneOf<SimulatedCoils, SerialCoilParams> auto&) { return false; },
-                 [](const OneOf<ProgramDriverParams, SocketDriverParams> auto& own) {
-                   return own.send == DriverInput::field;
-                 }},
-      rig.driver);
-}
-
-bool turns_on_device(const RigParams& rig) {
-  return std::visit(
-      Overloaded{
-          [](const OneOf<SimulatedCoils, SerialCoilParams> auto& coils) { return coils.waveforms; },
-          [](const OneOf<ProgramDriverParams, SocketDriverParams> auto&) { return false; }},
-      rig.driver);
+CoilInput coil_input(const RigParams& rig) {
+  return std::visit(Overloaded{[](const SimulatedCoils& coils) {
+                                 return coils.waveforms ? CoilInput::waveform : CoilInput::currents;
+                               },
+                               [](const SerialCoilParams& serial) { return input_of(serial); },
+                               [](const OneOf<ProgramDriverParams, SocketDriverParams> auto& own) {
+                                 return input_of(own.send);
+                               }},
+                    rig.driver);
 }
 
 CameraKind camera_kind(const RigParams& rig) {

@@ -144,11 +144,8 @@ double full_scale_of(const RigParams& rig);
 /// Channels of the rig's driver, as many as the system has coils unless it says otherwise.
 int channels_of(const RigParams& rig, const CoilSystem& system);
 
-/// Whether the field is sent to the rig's driver, see CoilDriver::takes_field.
-bool takes_field(const RigParams& rig);
-
-/// Whether the rig's driver turns the field, see CoilDriver::makes_waveforms.
-bool turns_on_device(const RigParams& rig);
+/// Input of the rig's driver.
+CoilInput coil_input(const RigParams& rig);
 
 /// Origin of a rig's pictures: drawn from the simulated world, a camera, or a recording.
 enum class CameraKind { simulated, device, video };

@@ -103,7 +103,7 @@ ManualResult drive_by_hand(const Rig& rig, CoilDriver& driver, const ManualComma
   Wanted wanted(rig, command);
   Watch watch;
   ManualResult result;
-  std::vector<double> channels(static_cast<std::size_t>(driver.channels()));
+  std::vector<double> channels(static_cast<std::size_t>(driver.capabilities().channels));
   const double period = 1 / rig.params.drive_rate;
   Standstill standstill(rig.params.safety.max_pause);
   const double began = steady_seconds();
@@ -117,15 +117,16 @@ ManualResult drive_by_hand(const Rig& rig, CoilDriver& driver, const ManualComma
     CoilOutput& output = moment.output;
     wanted.advance(dt, output);
     const double share = share_at(moment.t, end, command.ramp);
-    if (wanted.turns() && driver.makes_waveforms()) {
+    if (wanted.turns() && driver.capabilities().input == CoilInput::waveform) {
       output.scale = drive.turn(wanted.turning(share, output.reached), dt);
       output.status = send(driver, drive.turning());
-      if (const auto phase = driver.phase()) wanted.follow_phase(*phase);
+      if (const auto phase = driver.report().phase) wanted.follow_phase(*phase);
     } else {
       output.scale = drive.step(share * output.currents, dt).scale;
       std::ranges::copy(drive.currents(), channels.begin());
       const Eigen::Vector3d field = wanted.actuation().field * drive.currents();
-      output.status = driver.drive_field(std::span<const double, 3>(field.data(), 3), channels);
+      output.status = driver.drive(constant_request(
+          driver.capabilities(), std::span<const double, 3>(field.data(), 3), channels));
     }
     output.currents = drive.currents();
     output.temperatures = drive.temperatures();

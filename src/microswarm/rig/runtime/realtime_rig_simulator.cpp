@@ -29,48 +29,20 @@ class RealtimeRigSimulator::Coils : public CoilDriver {
   Coils(RealtimeRigSimulator& owner, std::unique_ptr<CoilDriver> driver)
       : owner_(owner), driver_(std::move(driver)) {}
 
-  int channels() const override { return driver_->channels(); }
-  std::span<const double> currents() const override { return driver_->currents(); }
-  DriveStatus drive(std::span<const double> currents) override {
+  Capabilities capabilities() const override { return driver_->capabilities(); }
+  const DeviceReport& report() const override { return driver_->report(); }
+  DriveStatus drive(const CoilRequest& request) override {
     const std::lock_guard lock(owner_.mutex_);
     owner_.catch_up();
     turning_.reset();
-    return driver_->drive(currents);
-  }
-  bool takes_field() const override { return driver_->takes_field(); }
-  DriveStatus drive_field(std::span<const double, 3> field,
-                          std::span<const double> currents) override {
-    const std::lock_guard lock(owner_.mutex_);
-    owner_.catch_up();
-    turning_.reset();
-    return driver_->drive_field(field, currents);
-  }
-  bool makes_waveforms() const override { return driver_->makes_waveforms(); }
-  std::optional<double> phase() const override { return driver_->phase(); }
-  DriveStatus drive_waveform(const CurrentWaveform& waveform) override {
-    const std::lock_guard lock(owner_.mutex_);
-    owner_.catch_up();
-    turning_.reset();
-    const DriveStatus status = driver_->drive_waveform(waveform);
-    const auto phase = driver_->phase();
-    if (phase && is_acknowledged(status)) {
-      const auto vector = [scale = driver_->device_scale()](std::span<const double> values) {
-        return Eigen::VectorXd(scale *
-                               Eigen::Map<const Eigen::VectorXd>(
-                                   values.data(), static_cast<Eigen::Index>(values.size())));
-      };
-      turning_ = {.frequency = waveform.frequency,
-                  .phase = *phase,
-                  .constant = vector(waveform.constant),
-                  .cosine = vector(waveform.cosine),
-                  .sine = vector(waveform.sine)};
-      told_at_ = steady_seconds();
-    }
+    const DriveStatus status = driver_->drive(request);
+    const auto* const waveform = std::get_if<CurrentWaveform>(&request);
+    if (waveform && is_acknowledged(status)) turn(*waveform);
     return status;
   }
   /// Currents of the coils at a time [s]; a waveform continues between two messages.
   std::span<const double> currents_at(double t) {
-    if (!turning_) return driver_->currents();
+    if (!turning_) return report().currents;
     TurningCurrents then = *turning_;
     then.phase += 2 * pi * then.frequency * (t - told_at_);
     now_ = then.now();
@@ -82,11 +54,26 @@ class RealtimeRigSimulator::Coils : public CoilDriver {
     // Nothing may fail here; the simulation catches up later, without current.
     return driver_->stop();
   }
-  double device_scale() const override { return driver_->device_scale(); }
   void interrupt() noexcept override { driver_->interrupt(); }
-  std::string reason() const override { return driver_->reason(); }
 
  private:
+  /// Notes the waveform as the device turns it.
+  void turn(const CurrentWaveform& waveform) {
+    const DeviceReport& device = report();
+    if (!device.phase) return;
+    const auto vector = [&](std::span<const double> values) {
+      return Eigen::VectorXd(device.scale *
+                             Eigen::Map<const Eigen::VectorXd>(
+                                 values.data(), static_cast<Eigen::Index>(values.size())));
+    };
+    turning_ = {.frequency = waveform.frequency,
+                .phase = *device.phase,
+                .constant = vector(waveform.constant),
+                .cosine = vector(waveform.cosine),
+                .sine = vector(waveform.sine)};
+    told_at_ = steady_seconds();
+  }
+
   RealtimeRigSimulator& owner_;
   std::unique_ptr<CoilDriver> driver_;
   std::optional<TurningCurrents> turning_;  // acknowledged
@@ -158,7 +145,8 @@ SwarmPose RealtimeRigSimulator::swarm() {
 
 void RealtimeRigSimulator::catch_up() {
   const double now = steady_seconds();
-  const std::vector<double> off(static_cast<std::size_t>(idle_ ? coils_->channels() : 0));
+  const std::vector<double> off(
+      static_cast<std::size_t>(idle_ ? coils_->capabilities().channels : 0));
   simulator_.start_trajectory();
   while (now - now_ > 1e-6) {
     const double step = std::min(longest_step, now - now_);

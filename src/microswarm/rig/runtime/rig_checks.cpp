@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 
 #include "microswarm/actuation/coils/coil_controller.hpp"
 #include "microswarm/core/execution/clock.hpp"
@@ -35,7 +36,7 @@ Weakening weakening_of(const Rig& rig) {
   constexpr double settled = 0.5;  // [s]
   constexpr double lasts = 2;      // [s]
   SimulatedCoilDriver driver(static_cast<int>(rig.system.size()), full_scale_of(rig.params),
-                             turns_on_device(rig.params));
+                             coil_input(rig.params));
   CoilController controller(rig.system, rig.params.field, driver, 0);
   Weakening most;
   const double dt = 1 / rig.params.drive_rate;
@@ -134,7 +135,10 @@ std::vector<RigCheck> check_driver(CoilDriver& driver, const Rig& rig, double se
   int failures = 0;
   int resumed = 0;
   std::string trouble;
-  const std::vector<double> nothing(static_cast<std::size_t>(driver.channels()));
+  const Capabilities device = driver.capabilities();
+  const std::vector<double> no_currents(static_cast<std::size_t>(device.channels));
+  const std::array<double, 3> no_field{};
+  const CoilRequest nothing = constant_request(device, no_field, no_currents);
   for (const double end = steady_seconds() + seconds; steady_seconds() < end && !stop();) {
     const double began = steady_seconds();
     const DriveStatus status = driver.drive(nothing);

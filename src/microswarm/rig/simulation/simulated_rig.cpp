@@ -36,13 +36,13 @@ void SimulatedRig::apply(const Command& command, double dt) {
   for (int i = 0; i < pieces; ++i) {
     controller_.aim(simulator_.place());
     controller_.advance(piece);
-    simulator_.pass(driver_.currents(), piece);
+    simulator_.pass(driver_.report().currents, piece);
   }
 }
 
 std::unique_ptr<CoilDriver> simulated_coils(const Rig& rig) {
-  return std::make_unique<SimulatedCoilDriver>(
-      channels_of(rig.params, rig.system), full_scale_of(rig.params), turns_on_device(rig.params));
+  return std::make_unique<SimulatedCoilDriver>(channels_of(rig.params, rig.system),
+                                               full_scale_of(rig.params), coil_input(rig.params));
 }
 
 }  // namespace microswarm
