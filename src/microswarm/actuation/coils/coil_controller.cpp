@@ -5,19 +5,15 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 #include "microswarm/actuation/coils/currents.hpp"
 #include "microswarm/actuation/coils/turning_currents.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/execution/clock.hpp"
+#include "microswarm/core/fields/overloaded.hpp"
 
 namespace microswarm {
-
-void take_answer(const CoilDriver& driver, CoilOutput& output) {
-  if (!is_acknowledged(output.status)) return;
-  output.device_scale = driver.report().scale;
-  output.acknowledged = output.device_scale * output.currents;
-}
 
 CoilController::CoilController(const CoilSystem& system, const FieldGeneratorParams& field,
                                CoilDriver& driver, double heading)
@@ -35,7 +31,9 @@ CoilController::CoilController(const CoilSystem& system, const FieldGeneratorPar
   output_.acknowledged = Eigen::VectorXd::Zero(output_.currents.size());
 }
 
-CoilController::~CoilController() { stop(); }
+CoilController::~CoilController() {
+  if (!at_zero_) stop();
+}
 
 void CoilController::aim(const Eigen::Vector3d& position) {
   constexpr double same_place = 50;  // [µm]; the field of a coil is constant over such a distance
@@ -44,37 +42,74 @@ void CoilController::aim(const Eigen::Vector3d& position) {
   actuation_ = system_.at(position);
 }
 
-const CoilOutput& CoilController::advance(double dt) {
-  output_.wanted = generator_.advance(dt);
-  if (driver_.capabilities().input == CoilInput::waveform)
-    send_waveform(dt);
+void CoilController::command(Setpoint setpoint) {
+  setpoint_ = std::move(setpoint);
+  if (const auto* const command = std::get_if<Command>(&setpoint_)) generator_.command(*command);
+}
+
+const CoilOutput& CoilController::advance(double dt, double share) {
+  at_zero_ = false;
+  if (turns_on_device())
+    send_waveform(dt, share);
   else
-    send_currents(dt);
-  take_answer(driver_, output_);
+    send_currents(dt, share);
+  misses_ = output_.status == DriveStatus::no_answer ? misses_ + 1 : 0;
+  output_.currents = drive_.currents();
   output_.temperatures = drive_.temperatures();
+  if (is_acknowledged(output_.status)) {
+    output_.device_scale = driver_.report().scale;
+    output_.acknowledged = output_.device_scale * output_.currents;
+  }
   return output_;
 }
 
-void CoilController::send_currents(double dt) {
-  const CurrentsForField found = currents_for(actuation_, output_.wanted);
-  const DrivenCurrents driven = drive_.step(found.currents, dt);
-  output_.currents = driven.currents;
-  output_.scale = driven.scale;
+/// Whether the device turns the setpoint's field.
+bool CoilController::turns_on_device() const {
+  return driver_.capabilities().input == CoilInput::waveform &&
+         std::holds_alternative<Command>(setpoint_);
+}
+
+/// Currents that make a field.
+Eigen::VectorXd CoilController::make(const Eigen::Vector3d& field) {
+  CurrentsForField found = currents_for(actuation_, field);
+  output_.wanted = field;
   output_.reached = found.reached;
+  return std::move(found.currents);
+}
+
+/// Currents of the setpoint after `dt` seconds, without the limits.
+Eigen::VectorXd CoilController::wanted_currents(double dt) {
+  return std::visit(Overloaded{[&](const Command&) { return make(generator_.advance(dt)); },
+                               [&](const Eigen::Vector3d& field) { return make(field); },
+                               [&](const Eigen::VectorXd& currents) {
+                                 output_.wanted = actuation_.field_of(currents);
+                                 output_.reached = true;
+                                 return currents;
+                               }},
+                    setpoint_);
+}
+
+void CoilController::send_currents(double dt, double share) {
+  const DrivenCurrents driven = drive_.step(share * wanted_currents(dt), dt);
+  output_.scale = driven.scale;
   std::copy(driven.currents.begin(), driven.currents.end(), channels_.begin());
   const Eigen::Vector3d field = actuation_.field * driven.currents;
   output_.status = driver_.drive(constant_request(
       driver_.capabilities(), std::span<const double, 3>(field.data(), 3), channels_));
 }
 
-void CoilController::send_waveform(double dt) {
-  output_.scale = drive_.turn(turning_currents(actuation_, generator_, output_.reached), dt);
-  output_.currents = drive_.currents();
+void CoilController::send_waveform(double dt, double share) {
+  output_.wanted = generator_.advance(dt);
+  const TurningCurrents wanted = turning_currents(actuation_, generator_, output_.reached);
+  output_.scale = drive_.turn(wanted.scaled(share), dt);
   output_.status = send(driver_, drive_.turning());
   if (const auto phase = driver_.report().phase) generator_.follow_phase(*phase);
 }
 
-std::string CoilController::trouble() const { return trouble_of(driver_, output_.status); }
+std::string CoilController::trouble() const {
+  const bool waits = output_.status == DriveStatus::no_answer && misses_ < max_missed_answers;
+  return waits ? std::string() : trouble_of(driver_, output_.status);
+}
 
 StopReport CoilController::stop() noexcept {
   drive_.cut();
@@ -82,6 +117,7 @@ StopReport CoilController::stop() noexcept {
   output_.acknowledged.setZero();
   StopReport report = driver_.stop();
   report.at = steady_seconds();
+  at_zero_ = report.confirmed;
   return report;
 }
 

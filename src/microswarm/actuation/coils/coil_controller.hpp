@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "microswarm/actuation/coils/coil_system.hpp"
@@ -24,13 +25,15 @@ struct CoilOutput {
   Eigen::VectorXd temperatures;  ///< of the coils, by their thermal model [°C]
 };
 
-/// Notes in `output` what the driver acknowledged, if it did.
-void take_answer(const CoilDriver& driver, CoilOutput& output);
+/// What the coils are to do: a navigator's command, a constant field at the target position [mT],
+/// or the currents [A], one per coil.
+using Setpoint = std::variant<Command, Eigen::Vector3d, Eigen::VectorXd>;
 
-/// Converts a navigator's commands to coil currents. The field changes continuously. The currents
-/// are the minimum-norm solution at the target position (Eq 4 [global]), scaled to respect all
-/// limits, and sent by the driver; as a waveform, to a device that makes them. The destructor sets
-/// all currents to zero.
+/// Converts setpoints to coil currents. The field of commands changes continuously. The currents of
+/// a field are the minimum-norm solution at the target position (Eq 4 [global]). Currents are
+/// scaled to respect all limits, and sent by the driver; those of commands as a waveform, to a
+/// device that makes them. The destructor sets all currents to zero, unless the device confirmed
+/// zero after the last output.
 class CoilController {
  public:
   /// `system` and `driver` must outlive the controller. Throws InputError if the system has more
@@ -41,16 +44,16 @@ class CoilController {
   CoilController& operator=(const CoilController&) = delete;
   ~CoilController();
 
-  /// Sets the current command.
-  void command(const Command& command) { generator_.command(command); }
+  /// Sets the setpoint; it is a command that keeps `heading` at the start.
+  void command(Setpoint setpoint);
   /// Sets the temperatures of the coils [°C].
   void warm(const Eigen::VectorXd& temperatures) { drive_.warm(temperatures); }
   const Eigen::VectorXd& temperatures() const { return drive_.temperatures(); }  ///< [°C]
   /// Sets the position at which the field is produced [µm].
   void aim(const Eigen::Vector3d& position);
-  /// Advances time by `dt` seconds and sends the currents for the new time. Call it much faster
-  /// than the field turns, and within the device's watchdog time.
-  const CoilOutput& advance(double dt);
+  /// Advances time by `dt` seconds and sends `share` of the currents for the new time. Call it much
+  /// faster than the field turns, and within the device's watchdog time.
+  const CoilOutput& advance(double dt, double share = 1);
   /// Sets all currents to zero. The next `advance` continues with the field from before the stop.
   StopReport stop() noexcept;
   /// Lets an `advance` that another thread is in return early, so that `stop` can follow.
@@ -67,17 +70,23 @@ class CoilController {
   const Actuation& actuation() const { return actuation_; }
 
  private:
-  void send_currents(double dt);
-  void send_waveform(double dt);
+  bool turns_on_device() const;
+  Eigen::VectorXd make(const Eigen::Vector3d& field);
+  Eigen::VectorXd wanted_currents(double dt);
+  void send_currents(double dt, double share);
+  void send_waveform(double dt, double share);
 
   const CoilSystem& system_;
   CoilDriver& driver_;
   FieldGenerator generator_;
+  Setpoint setpoint_;
   CoilDrive drive_;
   Eigen::Vector3d place_;
   Actuation actuation_;
   std::vector<double> channels_;
   CoilOutput output_;
+  int misses_ = 0;        // consecutive outputs without an answer
+  bool at_zero_ = false;  // confirmed after the last output
 };
 
 }  // namespace microswarm

@@ -195,6 +195,12 @@ Eigen::VectorXd TurningCurrents::now() const {
   return constant + c * cosine + s * sine;
 }
 
+TurningCurrents TurningCurrents::scaled(double factor) const {
+  TurningCurrents all = *this;
+  for (Eigen::VectorXd* part : {&all.constant, &all.cosine, &all.sine}) *part *= factor;
+  return all;
+}
+
 void CoilDrive::warm(const Eigen::VectorXd& temperatures) {
   assert(temperatures.size() == temperatures_.size());
   temperatures_ = temperatures;
@@ -310,8 +316,7 @@ DrivenCurrents CoilDrive::step(const Eigen::VectorXd& wanted, double dt) {
 double CoilDrive::turn(const TurningCurrents& wanted, double dt) {
   assert(wanted.constant.size() == currents_.size() && dt > 0);
   const double most = max_turn_scale(wanted, dt);
-  TurningCurrents to = wanted;
-  for (Eigen::VectorXd* part : {&to.constant, &to.cosine, &to.sine}) *part *= most;
+  TurningCurrents to = wanted.scaled(most);
   const double share = share_of_change(to, dt);
   const auto toward = [&](const Eigen::VectorXd& from, Eigen::VectorXd& part) {
     part = from + share * (part - from);

@@ -51,6 +51,8 @@ struct TurningCurrents {
 
   /// The currents at `phase` [A].
   Eigen::VectorXd now() const;
+  /// `factor` times these currents.
+  TurningCurrents scaled(double factor) const;
 };
 
 /// Amplifiers and coils of a system with their current state. All currents of a

@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <functional>
 #include <string>
-#include <variant>
 
 #include "microswarm/actuation/coils/coil_controller.hpp"
 #include "microswarm/core/execution/status.hpp"
@@ -13,10 +12,9 @@
 
 namespace microswarm {
 
-/// Manual command of the coils: currents [A], a constant field at the centre [mT], or the rig's
-/// field for a command.
+/// Manual command of the coils, with the target position at the centre.
 struct ManualCommand {
-  std::variant<Eigen::VectorXd, Eigen::Vector3d, Command> wanted;
+  Setpoint wanted;
   double seconds = 5;              ///< duration, both ramps included [s]
   double ramp = 0.5;               ///< duration of the ramp at the start and at the end [s]
   std::function<bool()> enough{};  ///< asked after each output; true starts the final ramp
@@ -31,11 +29,11 @@ struct ManualMoment {
 /// Result of a manual drive: `solved` after its time, `stopped`, or `fault`.
 struct ManualResult {
   Status status = Status::solved;
-  std::string why;              ///< reason of a fault
-  StopReport zero;              ///< of the zero at the end
+  std::string why{};            ///< reason of a fault
+  StopReport zero{};            ///< of the zero at the end
   double min_scale = 1;         ///< minimum scale by the coils' limits
   double min_device_scale = 1;  ///< minimum scale by the device's own limits
-  Eigen::VectorXd most;         ///< largest currents that the device acknowledged [A]
+  Eigen::VectorXd most{};       ///< largest currents that the device acknowledged [A]
 };
 
 /// Drives the coils manually at the rig's drive rate, within the limits of the coil system, and

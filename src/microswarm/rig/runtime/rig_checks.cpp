@@ -41,7 +41,7 @@ Weakening weakening_of(const Rig& rig) {
   Weakening most;
   const double dt = 1 / rig.params.drive_rate;
   for (const double heading : {0.0, 0.5 * pi, 1.0, -2.0}) {
-    controller.command({heading, 1e9});
+    controller.command(Command{heading, 1e9});
     for (int i = 0; i < static_cast<int>(lasts / dt); ++i) {
       const CoilOutput& output = controller.advance(dt);
       if (i * dt > settled) most.scale = std::min(most.scale, output.scale);
