@@ -4,14 +4,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
 #include <exception>
 #include <utility>
 
 #include "microswarm/core/execution/clock.hpp"
 #include "microswarm/rig/runtime/device_limits.hpp"
+#include "microswarm/rig/runtime/first_reason.hpp"
 #include "microswarm/rig/runtime/standstill.hpp"
-#include "microswarm/vision/camera/newest_frame.hpp"
 
 namespace microswarm {
 namespace {
@@ -22,10 +21,11 @@ using Seconds = std::chrono::duration<double>;
 class Trips {
  public:
   explicit Trips(const CoilLoopLimits& limits) : limits_(limits) {}
-  /// Adds a trip at `t` [s]. Returns why there are too many, or an empty string.
-  std::string add(double t) {
-    std::erase_if(times_, [&](double before) { return before < t - limits_.trip_window; });
-    times_.push_back(t);
+  /// Takes an output. Returns why there are too many trips, or an empty string.
+  std::string take(const CoilMoment& moment) {
+    if (moment.output.status != DriveStatus::resumed) return {};
+    std::erase_if(times_, [&](double t) { return t < moment.t - limits_.trip_window; });
+    times_.push_back(moment.t);
     if (std::ssize(times_) <= limits_.max_trips) return {};
     return fmt::format("the coils had switched off by themselves {} times in {:g} s, allowed {}",
                        times_.size(), limits_.trip_window, limits_.max_trips);
@@ -84,21 +84,17 @@ std::string CoilLoop::failure() const {
 }
 
 void CoilLoop::run() {
-  using Clock = std::chrono::steady_clock;
   const auto period = std::chrono::duration_cast<Clock::duration>(Seconds(1 / limits_.rate));
   auto due = Clock::now();
   auto last = due;
   Standstill standstill(limits_.max_pause, suspended_);
   Trips trips(limits_);
   DeviceLimits device_limits;
-  int misses = 0;
   std::unique_lock lock(mutex_);
   while (why_.empty()) {
     due += period;
     const double wait = std::max(0.0, Seconds(due - Clock::now()).count());
-    if (changed_.wait_until(lock, last + period / 2, [this] { return !why_.empty(); })) break;
-    changed_.wait_until(lock, due, [this] { return is_new_ || !why_.empty(); });
-    if (!why_.empty()) break;
+    if (!wait_until(lock, last + period / 2, due)) break;
     const auto now = Clock::now();
     due = std::min(due, now);
     if (!commanded_) {
@@ -106,36 +102,27 @@ void CoilLoop::run() {
       standstill.pass(0);  // nothing is driven yet; a suspension takes effect at the first command
       continue;
     }
-    why_ = standstill.pass(wait);
-    if (!why_.empty()) break;
-    CoilMoment moment;
-    moment.t = steady_seconds();
-    moment.command = command_;
-    moment.seen = seen_;
-    is_new_ = false;
-    moment.late = Seconds(now - due).count();
+    CoilMoment moment{.t = steady_seconds(),
+                      .seen = seen_,
+                      .command = command_,
+                      .output = {},
+                      .late = Seconds(now - due).count()};
     const Eigen::Vector3d position = place_;
-    if (moment.t - *commanded_ > limits_.deadman) {
-      why_ = fmt::format("no command for {:.2g} s", moment.t - *commanded_);
-      break;
-    }
+    why_ = first_reason({standstill.pass(wait), silence(moment.t)});
+    if (!why_.empty()) break;
+    is_new_ = false;
     lock.unlock();
-    const std::string trouble = send(moment, position, Seconds(now - last).count());
+    const std::string failed = send(moment, position, Seconds(now - last).count());
     last = now;
     if (now > due + period) due = now;  // do not make up for missed outputs
-    lock.lock();
-    const DriveStatus status = moment.output.status;
     // An exchange without an answer takes long; one with an answer is short, or the coils were
     // off meanwhile.
-    const bool answered = status != DriveStatus::no_answer;
-    const std::string stood = standstill.pass(answered ? 0 : moment.round_trip);
-    misses = status == DriveStatus::no_answer ? misses + 1 : 0;
-    if (!trouble.empty() && why_.empty()) why_ = trouble;
-    if (!stood.empty() && why_.empty()) why_ = stood;
-    const std::string limited = device_limits.take(moment.t, moment.output);
-    if (why_.empty()) why_ = limited;
-    if (misses >= max_missed_answers && why_.empty()) why_ = controller_.trouble();
-    if (status == DriveStatus::resumed && why_.empty()) why_ = trips.add(moment.t);
+    const bool answered = moment.output.status != DriveStatus::no_answer;
+    const std::string why = first_reason(
+        {failed, controller_.trouble(), standstill.pass(answered ? 0 : moment.round_trip),
+         device_limits.take(moment.t, moment.output), trips.take(moment)});
+    lock.lock();
+    if (why_.empty()) why_ = why;
   }
   lock.unlock();
   StopReport report = controller_.stop();
@@ -144,7 +131,22 @@ void CoilLoop::run() {
   changed_.notify_all();
 }
 
-/// Error message; empty on success.
+/// Waits until `due`, or from `earliest` on for a new command. False if the loop is stopped.
+bool CoilLoop::wait_until(std::unique_lock<std::mutex>& lock, Clock::time_point earliest,
+                          Clock::time_point due) {
+  const auto stopped = [this] { return !why_.empty(); };
+  if (changed_.wait_until(lock, earliest, stopped)) return false;
+  changed_.wait_until(lock, due, [&] { return is_new_ || stopped(); });
+  return !stopped();
+}
+
+/// Why too much time has passed at `t` [s] since the last command; empty if it has not.
+std::string CoilLoop::silence(double t) const {
+  const double silent = t - *commanded_;
+  return silent > limits_.deadman ? fmt::format("no command for {:.2g} s", silent) : "";
+}
+
+/// Message of an exception; empty on success.
 std::string CoilLoop::send(CoilMoment& moment, const Eigen::Vector3d& position, double dt) {
   try {
     controller_.aim(position);
@@ -153,8 +155,7 @@ std::string CoilLoop::send(CoilMoment& moment, const Eigen::Vector3d& position, 
     moment.output = controller_.advance(dt);
     moment.driven = steady_seconds();
     moment.round_trip = moment.driven - began;
-    if (!trouble_of(moment.output.status).empty()) return controller_.trouble();
-    if (heard_) heard_(moment);
+    if (trouble_of(moment.output.status).empty() && heard_) heard_(moment);
     return {};
   } catch (const std::exception& e) {
     return e.what();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <functional>
 #include <mutex>
@@ -66,7 +67,12 @@ class CoilLoop {
   std::string failure() const;
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   void run();
+  bool wait_until(std::unique_lock<std::mutex>& lock, Clock::time_point earliest,
+                  Clock::time_point due);
+  std::string silence(double t) const;
   std::string send(CoilMoment& moment, const Eigen::Vector3d& position, double dt);
 
   CoilController& controller_;
