@@ -49,7 +49,7 @@ TEST_F(VanishingRobots, DustIsNotTwentyRobots) {
   for (int i = 0; i < 20; ++i) {
     const Detections& seen = see({{1000, 600}});
     EXPECT_FALSE(seen.swarm);
-    EXPECT_EQ(seen.trouble, "robots");
+    EXPECT_EQ(seen.not_found, NotFound::robots);
     EXPECT_GE(seen.unseen, 19);
   }
 }

@@ -39,7 +39,7 @@ TEST(SwarmPerception, FollowsASwarmAmongObstacles) {
                          {{.shape = Disc{position + Vec2{0, 108}, 60}, .obstacle = 0},
                           {.shape = Disc{{900, 250}, 50}, .obstacle = 1}});
     const Detections& seen = perception.process(microscope.look(world, swarm, {}), t);
-    ASSERT_TRUE(seen.swarm) << t << " " << seen.trouble;
+    ASSERT_TRUE(seen.swarm) << t;
     EXPECT_LT(distance(seen.swarm->pose.position, position), 3) << t;
     EXPECT_NEAR(seen.swarm->radius, 40, 4);
     if (i > 5) {
@@ -156,7 +156,7 @@ TEST(SwarmPerception, NothingOfTheSwarmIsBeyondItsCircle) {
     for (int i = 0; i < 10; ++i) {
       const Detections& seen = perception.process(
           microscope.look(Snapshot(map, i), SwarmPose{{{400, 400}, 0}, 80}, {}), i);
-      ASSERT_TRUE(seen.swarm) << seen.trouble;
+      ASSERT_TRUE(seen.swarm);
       const double off = distance(seen.swarm->pose.position, Vec2{400, 400});
       EXPECT_LT(80 + off - seen.swarm->radius, 4) << trial << " " << i;  // a pixel
       EXPECT_LT(seen.swarm->radius, 84);
@@ -171,7 +171,7 @@ TEST(SwarmPerception, SaysWhyThereIsNone) {
                              view_of(microscope));
   const Detections& empty = perception.process(microscope.look(Snapshot(map), std::nullopt, {}), 0);
   EXPECT_FALSE(empty.swarm);
-  EXPECT_EQ(empty.trouble, "none");
+  EXPECT_EQ(empty.not_found, NotFound::none);
   Image black = microscope.look(Snapshot(map), std::nullopt, {});
   std::fill(black.pixels.begin(), black.pixels.end(), std::uint8_t{0});
   EXPECT_FALSE(perception.process(black, 0.1).swarm);
@@ -188,7 +188,7 @@ TEST(SwarmPerception, TwoSwarmsAreNotGuessedBetween) {
     both.pixels[i] = std::min(both.pixels[i], right.pixels[i]);
   const Detections& seen = perception.process(both, 0);
   EXPECT_FALSE(seen.swarm);
-  EXPECT_EQ(seen.trouble, "several");
+  EXPECT_EQ(seen.not_found, NotFound::several);
 }
 
 /// A swarm that goes to the right, seen for two seconds.
@@ -217,7 +217,7 @@ TEST(SwarmPerception, WhatItCannotHaveReachedIsNotTheSwarm) {
   Followed f;
   const Detections& seen = f.see(f.position + Vec2{120, 60}, 60);
   EXPECT_FALSE(seen.swarm);
-  EXPECT_EQ(seen.trouble, "far");
+  EXPECT_EQ(seen.not_found, NotFound::far);
   // It may come back to where it can have gone meanwhile.
   EXPECT_TRUE(f.see(f.position + Vec2{8, 0}, 60).swarm);
 }
@@ -227,7 +227,7 @@ TEST(SwarmPerception, WhatIsOfAnotherSizeIsNotTheSwarm) {
   for (int i = 0; i < 10; ++i) {
     const Detections& seen = f.see(f.position, 30);
     EXPECT_FALSE(seen.swarm);
-    EXPECT_EQ(seen.trouble, "size");
+    EXPECT_EQ(seen.not_found, NotFound::size);
   }
   EXPECT_TRUE(f.see(f.position, 55).swarm);
 }
@@ -266,7 +266,7 @@ TEST(SwarmPerception, ADenseSmoothSwarmIsFollowed) {
   for (int i = 0; i < 30; ++i) {
     const Disc still{{800, 500}, 60};
     const Detections& seen = f.see({{position, 60}, still});
-    ASSERT_TRUE(seen.swarm) << i << " " << seen.trouble;
+    ASSERT_TRUE(seen.swarm) << i;
     EXPECT_LT(distance(seen.swarm->pose.position, position), 3);
     ASSERT_EQ(seen.moving.size(), 1U);
     EXPECT_LT(distance(test::bounding_box(seen.moving[0]).centre(), still.centre), 5);
@@ -292,7 +292,7 @@ TEST(SwarmPerception, ASmoothBodyIsNeverTakenForASwarmThatHadTexture) {
   stain(picture, scale.to_picture(f.position), 60 / scale.um_per_px, 0.4);
   const Detections& seen = f.perception.process(picture, f.t + 0.1);
   EXPECT_FALSE(seen.swarm);
-  EXPECT_EQ(seen.trouble, "none");
+  EXPECT_EQ(seen.not_found, NotFound::none);
   EXPECT_EQ(seen.moving.size(), 1U);
 }
 
@@ -313,7 +313,7 @@ TEST(SwarmPerception, ASplitIsToldWithItsParts) {
                                {{f.position + Vec2{60, 0}, 0}, right});
     const Detections& seen = f.perception.process(picture, f.t + 0.1);
     EXPECT_FALSE(seen.swarm);
-    EXPECT_EQ(seen.trouble, "split");
+    EXPECT_EQ(seen.not_found, NotFound::split);
     ASSERT_EQ(seen.parts.size(), 2U);
     EXPECT_NEAR(std::max(seen.parts[0], seen.parts[1]), left, 6);
     EXPECT_NEAR(std::min(seen.parts[0], seen.parts[1]), right, 6);
@@ -330,7 +330,7 @@ TEST(SwarmPerception, AMergerIsToldWithWhatMerged) {
                     .swarm);
   const Detections& seen = f.see(f.position + Vec2{12, 0}, 82);
   EXPECT_FALSE(seen.swarm);
-  EXPECT_EQ(seen.trouble, "merged");
+  EXPECT_EQ(seen.not_found, NotFound::merged);
   ASSERT_EQ(seen.parts.size(), 2U);
   EXPECT_NEAR(seen.parts[0], 60, 6);
   EXPECT_NEAR(seen.parts[1], 55, 6);
@@ -341,7 +341,7 @@ TEST(SwarmPerception, SomethingNewBesideAWholeSwarmIsNoSplit) {
   const Detections& seen = f.perception.process(
       both(f.microscope, f.map, {{f.position, 0}, 60}, {{f.position + Vec2{100, 0}, 0}, 25}),
       f.t + 0.1);
-  EXPECT_NE(seen.trouble, "split");
+  EXPECT_NE(seen.not_found, NotFound::split);
   EXPECT_TRUE(seen.swarm);
 }
 

@@ -50,7 +50,7 @@ void add_run(Json& json, const LiveSession& run) {
   json["temperatures_c"] = list(output.temperatures);
   json["scale"] = status.coils.scale;
   json["device_scale"] = output.device_scale;
-  json["sight"] = status.trouble;
+  json["sight"] = status.not_found ? enum_name(*status.not_found) : "";
   json["robots"] = status.robots;
   json["unseen"] = status.unseen;
   json["gap_um"] = std::isfinite(status.gap) ? Json(status.gap) : Json();

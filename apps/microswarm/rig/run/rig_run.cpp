@@ -128,15 +128,15 @@ class DeviceNotes : public RunListener {
  public:
   explicit DeviceNotes(const LiveRig& rig) : rig_(rig) {}
   void on_tick(const Tick& tick) override {
-    const int resumed = rig_.resumed();
-    if (resumed > resumed_) note("note: the coils had switched off by themselves; armed again\n");
-    resumed_ = resumed;
-    const int weakened = rig_.weakened();
-    if (weakened == weakened_) return;
-    weakened_ = weakened;
+    const RigTiming timing = rig_.timing();
+    if (timing.resumed > resumed_)
+      note("note: the coils had switched off by themselves; armed again\n");
+    resumed_ = timing.resumed;
+    if (timing.scaled == weakened_) return;
+    weakened_ = timing.scaled;
     if (tick.frame.t - weakened_at_ > quiet)
       note("note: the device weakens the currents to {:.3g} % by its own limits\n",
-           100 * rig_.weakened_to());
+           100 * timing.device_scale);
     weakened_at_ = tick.frame.t;
   }
 

@@ -29,10 +29,20 @@ std::string state_text(const LiveStatus& s) {
 
 std::string swarm_text(const LiveStatus& s) {
   if (s.unseen > 0) return fmt::format("{} of {} unseen", s.unseen, s.robots);
-  if (s.trouble.empty()) return "seen";
-  if (s.trouble == "several") return "unseen: several";
-  if (s.trouble == "far") return "unseen: too far";
-  if (s.trouble == "size") return "unseen: other size";
+  if (!s.not_found) return "seen";
+  switch (*s.not_found) {
+    case NotFound::several:
+      return "unseen: several";
+    case NotFound::far:
+      return "unseen: too far";
+    case NotFound::size:
+      return "unseen: other size";
+    case NotFound::none:
+    case NotFound::split:
+    case NotFound::merged:
+    case NotFound::robots:
+      break;
+  }
   return "unseen";
 }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "microswarm/contracts/command.hpp"
@@ -23,15 +25,33 @@ struct CameraView {
   int height = 0;  ///< [px]
 };
 
+/// Why no swarm was found in a picture.
+enum class NotFound {
+  none,     ///< nothing like it is seen
+  far,      ///< what is seen is too far away
+  several,  ///< there are several
+  size,     ///< what is seen is of another size
+  split,    ///< it split into parts
+  merged,   ///< it merged with another body
+  robots,   ///< too few robots are seen
+};
+constexpr auto enum_names(NotFound) {
+  return std::array<std::pair<NotFound, std::string_view>, 7>{{{NotFound::none, "none"},
+                                                               {NotFound::far, "far"},
+                                                               {NotFound::several, "several"},
+                                                               {NotFound::size, "size"},
+                                                               {NotFound::split, "split"},
+                                                               {NotFound::merged, "merged"},
+                                                               {NotFound::robots, "robots"}}};
+}
+
 /// Detections in one picture.
 struct Detections {
   std::optional<SwarmPose> swarm;
   std::vector<Vec2> robots;  ///< individually tracked robots; the order never changes
   std::vector<Body> moving;  ///< obstacles with persistent numbers; leaves of a valve share one
-  /// Why no swarm was found: "none", too "far" away, "several", of another "size", "split" into
-  /// parts, "merged" with another body, or too few "robots".
-  std::string_view trouble;
-  std::vector<double> parts;      ///< radii of the parts after a split or before a merger [µm]
+  std::optional<NotFound> not_found;  ///< why no swarm was found; empty before the first picture
+  std::vector<double> parts;          ///< radii of the parts after a split or before a merger [µm]
   int unseen = 0;                 ///< robots without a spot, neither their own nor that of a pile
   double commanded_distance = 0;  ///< commanded distance since the last picture [µm]
   double followed_distance = 0;   ///< observed displacement along it [µm]; negative: opposite

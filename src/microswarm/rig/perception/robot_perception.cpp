@@ -55,7 +55,7 @@ const Detections& RobotPerception::process(const Image& picture, double t) {
   const double passed = std::max(0.0, t - seen_);
   seen_ = t;
   detections_.swarm.reset();
-  detections_.trouble = "none";
+  detections_.not_found = NotFound::none;
   detections_.unseen = static_cast<int>(count);
   detections_.commanded_distance = detections_.followed_distance = detections_.across_distance = 0;
   expect(passed);
@@ -66,8 +66,10 @@ const Detections& RobotPerception::process(const Image& picture, double t) {
   measure_following();
   learn_ground();
   const double share = 1 - static_cast<double>(detections_.unseen) / static_cast<double>(count);
-  detections_.trouble = share < min_seen_ ? "robots" : "";
-  if (share >= min_seen_) detections_.swarm = body_of(detections_.robots, command_.heading);
+  detections_.not_found = NotFound::robots;
+  if (share < min_seen_) return detections_;
+  detections_.not_found.reset();
+  detections_.swarm = body_of(detections_.robots, command_.heading);
   return detections_;
 }
 

@@ -2,6 +2,7 @@
 #include "microswarm/rig/perception/swarm_perception.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "microswarm/core/maths/infinity.hpp"
@@ -21,6 +22,22 @@ constexpr double clear_texture = 2;          // limits of texture, above which i
 constexpr double part_distance = 2;          // of a part from where the swarm was, in its radii
 constexpr double part_size = 0.85;           // maximum of a part, in the swarm's radii
 constexpr double area_tolerance = 0.5;       // of the parts' area beside the swarm's
+
+/// Why a search found no swarm.
+std::optional<NotFound> not_found(SwarmSight sight) {
+  switch (sight) {
+    case SwarmSight::found:
+      return std::nullopt;
+    case SwarmSight::none:
+      return NotFound::none;
+    case SwarmSight::far:
+      return NotFound::far;
+    case SwarmSight::several:
+      return NotFound::several;
+  }
+  assert(false);
+  return NotFound::none;
+}
 
 }  // namespace
 
@@ -57,12 +74,12 @@ const Detections& SwarmPerception::process(const Image& picture, double t) {
   const std::optional<Blob>& swarm = scene.swarm.swarm;
   detections_.swarm.reset();
   detections_.parts.clear();
-  detections_.trouble = enum_name(scene.swarm.sight);
+  detections_.not_found = not_found(scene.swarm.sight);
   detections_.commanded_distance = detections_.followed_distance = detections_.across_distance = 0;
   if (tell_split(scene.swarm)) {
-    detections_.trouble = "split";
+    detections_.not_found = NotFound::split;
   } else if (swarm && !is_of_its_size(swarm->radius_px)) {
-    detections_.trouble = tell_merger(*swarm, scene) ? "merged" : "size";
+    detections_.not_found = tell_merger(*swarm, scene) ? NotFound::merged : NotFound::size;
   } else if (swarm) {
     accept(*swarm, scene, t);
   }

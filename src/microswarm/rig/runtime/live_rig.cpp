@@ -3,7 +3,7 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "microswarm/core/errors/error.hpp"
@@ -33,21 +33,27 @@ CoilLoopLimits loop_limits(const RigParams& rig) {
 }
 
 std::string why_not_found(const Detections& seen) {
-  const auto radii = [&] {
-    std::string text;
-    for (const double radius : seen.parts)
-      text += fmt::format("{}{:.3g}", text.empty() ? "" : " and ", radius);
-    return text;
-  };
-  if (seen.trouble == "several") return " (there are several)";
-  if (seen.trouble == "far") return " (what is seen is too far from where it was)";
-  if (seen.trouble == "size") return " (what is seen is of another size)";
-  if (seen.trouble == "split")
-    return fmt::format(" (it split into parts of {} µm radius)", radii());
-  if (seen.trouble == "merged")
-    return fmt::format(" (it merged with another: they had {} µm radius)", radii());
-  if (seen.trouble == "robots")
-    return fmt::format(" ({} of {} robots are not seen)", seen.unseen, seen.robots.size());
+  if (!seen.not_found) return {};
+  std::string radii;
+  for (const double radius : seen.parts)
+    radii += fmt::format("{}{:.3g}", radii.empty() ? "" : " and ", radius);
+  switch (*seen.not_found) {
+    case NotFound::none:
+      return {};
+    case NotFound::several:
+      return " (there are several)";
+    case NotFound::far:
+      return " (what is seen is too far from where it was)";
+    case NotFound::size:
+      return " (what is seen is of another size)";
+    case NotFound::split:
+      return fmt::format(" (it split into parts of {} µm radius)", radii);
+    case NotFound::merged:
+      return fmt::format(" (it merged with another: they had {} µm radius)", radii);
+    case NotFound::robots:
+      return fmt::format(" ({} of {} robots are not seen)", seen.unseen, seen.robots.size());
+  }
+  assert(false);
   return {};
 }
 
@@ -73,7 +79,6 @@ LiveRig::LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const
                    camera_kind(rig.params) != CameraKind::simulated),
       world_{std::move(map), has_virtual_ ? scenario.obstacles : std::vector<Obstacle>{}},
       scale_(scale),
-      tick_(scenario.tick),
       schedule_(scenario.tick, camera->rate()),
       camera_(std::move(camera), "camera", camera_watch(rig.params), listeners.pictures),
       controller_(rig.system, checked(rig, scenario).field, driver,
@@ -81,9 +86,9 @@ LiveRig::LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const
       following_(rig.params.safety.min_follow_share),
       listeners_(std::move(listeners)),
       start_(steady_seconds()),
-      load_(rig.system),
+      meter_(rig.system, scenario.tick),
       coils_(controller_, loop_limits(rig.params), [this](const CoilMoment& moment) {
-        hear(moment);
+        meter_.add_output(moment);
         if (listeners_.coils) listeners_.coils(moment);
       }) {
   check_workspace(rig, scenario, *world_.map);
@@ -98,30 +103,6 @@ LiveRig::LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const
                                 {scale, picture.width, picture.height});
   start_ = steady_seconds();
   read_frame();
-}
-
-/// Called in the coils' thread.
-void LiveRig::hear(const CoilMoment& moment) {
-  const CoilOutput& output = moment.output;
-  const bool acknowledged = is_acknowledged(output.status);
-  const std::lock_guard lock(timing_mutex_);
-  if (acknowledged && moment.seen != driven_for_) {
-    driven_for_ = moment.seen;
-    timing_.camera_to_current.add(moment.driven - moment.seen);
-    timing_.late_currents += moment.driven - moment.seen > tick_;
-  }
-  timing_.coil_late.add(moment.late);
-  timing_.round_trip.add(moment.round_trip);
-  timing_.unmade += !output.reached;
-  timing_.limited += output.scale < 1 - 1e-9;
-  timing_.min_scale = std::min(timing_.min_scale, output.scale);
-  timing_.resumed += output.status == DriveStatus::resumed;
-  if (acknowledged && output.device_scale < 1 - 1e-9) {
-    ++timing_.scaled;
-    weakened_to_ = output.device_scale;
-  }
-  timing_.min_device_scale = std::min(timing_.min_device_scale, output.device_scale);
-  load_.take(moment.t, output);
 }
 
 Observation LiveRig::observe() {
@@ -179,11 +160,7 @@ void LiveRig::read_frame() {
     fail(
         fmt::format("the swarm does not follow: of {:.3g} µm that were commanded it went {:.3g} µm",
                     following_.commanded(), following_.followed()));
-  const std::lock_guard lock(timing_mutex_);
-  timing_.vision.add(took);
-  timing_.direction = angle_.direction();
-  timing_.unseen_frames += detections_->unseen > 0;
-  timing_.max_unseen = std::max(timing_.max_unseen, detections_->unseen);
+  meter_.add_picture(took, detections_->unseen, angle_.direction());
 }
 
 void LiveRig::look_for_faults(double now) {
@@ -205,18 +182,13 @@ void LiveRig::look_for_faults(double now) {
                             why_not_found(*detections_), safety.lost_swarm));
   if (missed_in_a_row_ >= safety.missed_deadlines)
     return fail(fmt::format("{} ticks in a row ended too late", missed_in_a_row_));
-  const std::lock_guard lock(timing_mutex_);
-  timing_.frame_age.add(age);
+  meter_.add_frame_age(age);
 }
 
 void LiveRig::apply(const Command& command, double dt) {
   const double now = since_start();
   const bool missed = !schedule_.end(now, dt);
-  {
-    const std::lock_guard lock(timing_mutex_);
-    timing_.tick.add(now - begun_);
-    timing_.missed_deadlines += missed;
-  }
+  meter_.add_tick(now - begun_, missed);
   missed_in_a_row_ = missed ? missed_in_a_row_ + 1 : 0;
   perception_->commanded(command, now);
   const Vec2 position =
@@ -230,32 +202,9 @@ void LiveRig::fail(const std::string& why) {
   if (fault_.empty()) fault_ = why;
 }
 
-int LiveRig::resumed() const {
-  const std::lock_guard lock(timing_mutex_);
-  return timing_.resumed;
-}
-
-int LiveRig::weakened() const {
-  const std::lock_guard lock(timing_mutex_);
-  return timing_.scaled;
-}
-
-double LiveRig::weakened_to() const {
-  const std::lock_guard lock(timing_mutex_);
-  return weakened_to_;
-}
-
-CoilLoad LiveRig::load() const {
-  const std::lock_guard lock(timing_mutex_);
-  return load_.load();
-}
-
 RigTiming LiveRig::timing() const {
-  const std::lock_guard lock(timing_mutex_);
-  RigTiming timing = timing_;
-  const CameraStatus camera = camera_.status();
-  timing.frames = static_cast<int>(timing.vision.count());
-  timing.dropped_frames = camera.dropped;
+  RigTiming timing = meter_.timing();
+  timing.dropped_frames = camera_.status().dropped;
   return timing;
 }
 

@@ -3,46 +3,20 @@
 
 #include <functional>
 #include <memory>
-#include <mutex>
-#include <optional>
 #include <string>
 
 #include "microswarm/actuation/coils/coil_controller.hpp"
 #include "microswarm/contracts/plant.hpp"
 #include "microswarm/core/execution/clock.hpp"
-#include "microswarm/core/execution/durations.hpp"
 #include "microswarm/rig/params/rig_params.hpp"
 #include "microswarm/rig/perception/perception.hpp"
-#include "microswarm/rig/runtime/coil_load.hpp"
 #include "microswarm/rig/runtime/coil_loop.hpp"
 #include "microswarm/rig/runtime/follow_monitor.hpp"
+#include "microswarm/rig/runtime/rig_meter.hpp"
 #include "microswarm/rig/runtime/tick_schedule.hpp"
 #include "microswarm/vision/camera/newest_frame.hpp"
 
 namespace microswarm {
-
-/// Durations and counts of a run on a rig.
-struct RigTiming {
-  Durations frame_age;          ///< of the newest frame at the start of a tick
-  Durations vision;             ///< processing of a frame
-  Durations tick;               ///< from a tick's start to its command
-  Durations camera_to_current;  ///< from a picture to the first currents that answer it
-  Durations coil_late;          ///< delay of currents after their due time
-  Durations round_trip;         ///< of the coil driver's exchanges
-  int resumed = 0;              ///< times the coils had switched off by themselves
-  int unmade = 0;               ///< fields that the coils cannot produce
-  int limited = 0;              ///< fields weakened by the coils' limits
-  double min_scale = 1;         ///< minimum scale of these
-  int scaled = 0;               ///< currents reduced by the device's own limits
-  double min_device_scale = 1;  ///< minimum scale of these
-  int missed_deadlines = 0;     ///< ticks that ended too late, see TickSchedule
-  int late_currents = 0;        ///< pictures whose currents came more than a tick later
-  int frames = 0;               ///< frames processed
-  int dropped_frames = 0;       ///< frames received but not processed
-  int unseen_frames = 0;        ///< frames processed in which robots were unseen
-  int max_unseen = 0;           ///< maximum number of unseen robots in a frame
-  std::optional<FollowDirection> direction{};  ///< of the swarm relative to its commands
-};
 
 /// Listeners to a rig.
 struct LiveRigListeners {
@@ -84,22 +58,15 @@ class LiveRig : public Plant {
   double start() const { return start_; }
   RigTiming timing() const;
   /// Load of the coils relative to their limits.
-  CoilLoad load() const;
+  CoilLoad load() const { return meter_.load(); }
   /// Age of the newest processed picture [s].
   double frame_age() const { return since_start() - seen_; }
-  /// Number of times the coils had switched off by themselves.
-  int resumed() const;
-  /// Number of outputs that the device's own limits weakened.
-  int weakened() const;
-  /// Scale of the last weakened output, in [0, 1].
-  double weakened_to() const;
   /// The newest picture, its scale and its detections.
   const Image& picture() const { return grey_; }
   const CameraScale& scale() const { return scale_; }
   const Detections& sight() const { return *detections_; }
 
  private:
-  void hear(const CoilMoment& moment);
   void take_frame();
   void read_frame();
   Snapshot world_then() const;
@@ -111,7 +78,6 @@ class LiveRig : public Plant {
   const bool has_virtual_;  // whether there are virtual obstacles
   World world_;             // map and virtual obstacles
   CameraScale scale_;
-  const double tick_;  // [s]
   TickSchedule schedule_;
   NewestFrame camera_;
   CoilController controller_;
@@ -130,12 +96,8 @@ class LiveRig : public Plant {
   double begun_ = 0;  // start of the tick [s]
   int missed_in_a_row_ = 0;
   std::string fault_;
-  mutable std::mutex timing_mutex_;
-  RigTiming timing_;
-  double driven_for_ = 0;   // arrival of the picture these currents answer [s] (timing_mutex_)
-  double weakened_to_ = 1;  // (timing_mutex_)
-  CoilLoadMeter load_;      // (timing_mutex_)
-  CoilLoop coils_;          // last member, since its thread uses the others
+  RigMeter meter_;
+  CoilLoop coils_;  // last member, since its thread uses the others
 };
 
 }  // namespace microswarm

@@ -153,14 +153,13 @@ std::optional<RecordedVideo> LiveSession::video() const {
 LiveStatus LiveSession::status() const {
   const Detections& sight = plant_->sight();
   const RigTiming timing = plant_->timing();
-  LiveStatus status{.trouble = sight.trouble,
+  LiveStatus status{.not_found = sight.not_found,
                     .robots = static_cast<int>(sight.robots.size()),
                     .unseen = sight.unseen,
                     .coils = plant_->load(),
                     .frame_age = plant_->frame_age(),
                     .tick_p95 = timing.tick.quantile(0.95),
                     .missed_deadlines = timing.missed_deadlines};
-  if (sight.swarm) status.trouble = {};
   const Tick* const tick = session_.tick();
   if (!tick) return status;
   status.t = tick->frame.t;

@@ -5,7 +5,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "microswarm/experiment/session/session.hpp"
 #include "microswarm/rig/runtime/coil_temperatures.hpp"
@@ -38,9 +37,9 @@ struct LiveStatus {
   double command_speed = 0;  ///< [µm/s]
   double radius = 0;         ///< of the swarm [µm]
   double gap = infinity;     ///< from its edge to walls and obstacles [µm]; infinite for robots
-  std::string_view trouble;  ///< why the swarm is not detected, see Detections; empty if it is
-  int robots = 0;            ///< individually tracked robots
-  int unseen = 0;            ///< robots not detected
+  std::optional<NotFound> not_found{};  ///< why the swarm is not detected; empty if it is
+  int robots = 0;                       ///< individually tracked robots
+  int unseen = 0;                       ///< robots not detected
   CoilLoad coils;
   double frame_age = 0;      ///< of the newest picture [s]
   double tick_p95 = 0;       ///< 95th percentile of the ticks' durations [s]
