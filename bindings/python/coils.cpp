@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "calls.hpp"
+#include "microswarm/actuation/amplifiers/amplifiers.hpp"
 #include "microswarm/actuation/coils/calibration.hpp"
 #include "microswarm/actuation/coils/currents.hpp"
-#include "microswarm/actuation/drivers/coil_drive.hpp"
 #include "microswarm/config/write.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/config/yaml_node.hpp"
@@ -121,9 +121,9 @@ py::array_t<double> allowed_shares(const Coils& coils, const Numbers& currents) 
   py::array_t<double> made(currents.shape(0));
   const double* in = currents.data();
   double* out = made.mutable_data();
-  const CoilDrive drive(coils.system.drives());
+  const Amplifiers amplifiers(coils.system.amplifiers());
   for_rows(currents.shape(0), [&](py::ssize_t i) {
-    out[i] = drive.steady(Row(in + count_of(coils) * i, count_of(coils))).scale;
+    out[i] = amplifiers.steady(Row(in + count_of(coils) * i, count_of(coils))).scale;
   });
   return made;
 }
@@ -174,7 +174,7 @@ py::tuple fit(const FieldMeasurements& measured, const std::string& name, bool o
   if (centre) options.centre = Eigen::Vector3d((*centre)[0], (*centre)[1], (*centre)[2]);
   const FittedMatrix made = fit_matrix(measured, options);
   require_effects(measured, made);
-  CoilSystemParams params{.name = name, .coils = made.coils, .drives = {}};
+  CoilSystemParams params{.name = name, .coils = made.coils, .amplifiers = {}};
   py::dict out;
   out["rms_mt"] = std::vector<double>(made.rms.begin(), made.rms.end());
   out["rms_abs_mt"] = made.total_rms;

@@ -76,7 +76,7 @@ TEST(GradientFit, FindsAnyFieldAndGradientInFreeSpaceExactly) {
     truth.centre = {1000 * dice.number(), 1000 * dice.number(), 1000 * dice.number()};
     CoilSystemParams params;
     params.coils = truth;
-    params.drives = {{.max_current = 5}};
+    params.amplifiers = {{.max_current = 5}};
     const CoilSystem system(params);
     // Three positions of a plane are enough.
     const std::vector<Eigen::Vector3d> positions{1000 * dice.vector(), 1000 * dice.vector(),

@@ -4,20 +4,20 @@
 
 #include <fstream>
 
+#include "microswarm/actuation/amplifiers/amplifiers.hpp"
 #include "microswarm/actuation/coils/measurement_log.hpp"
 #include "microswarm/actuation/coils/measurement_plan.hpp"
 #include "microswarm/actuation/coils/probe_file.hpp"
-#include "microswarm/actuation/drivers/coil_drive.hpp"
 #include "tests/files.hpp"
 #include "tests/messages.hpp"
 
 namespace microswarm {
 namespace {
 
-CoilSystem two_coils(std::vector<DriveParams> drives) {
+CoilSystem two_coils(std::vector<AmplifierParams> amplifiers) {
   CoilSystemParams params;
   params.coils = MatrixCoils{.names = {"a", "b"}, .field = {{1, 0}, {0, 1}, {0, 0}}};
-  params.drives = std::move(drives);
+  params.amplifiers = std::move(amplifiers);
   return CoilSystem(params);
 }
 
@@ -28,7 +28,7 @@ TEST(MeasurementPlan, HoldsEveryCurrentForEver) {
       measurement_plan(system, {.positions = {{0, 0, 0}, {5, 0, 0}}, .levels = 2, .pairs = true});
   ASSERT_EQ(steps.size(), 2u * (1 + 2 * 2 * 2 + 1));
   for (const MeasurementStep& step : steps)
-    EXPECT_EQ(CoilDrive(system.drives()).steady(step.currents).scale, 1);
+    EXPECT_EQ(Amplifiers(system.amplifiers()).steady(step.currents).scale, 1);
   EXPECT_TRUE(steps[0].currents.isZero());
   EXPECT_LT(steps[2].currents[0], 4.5);  // heat allows less than the current's limit
   EXPECT_NEAR(steps[1].currents[0], 0.5 * steps[2].currents[0], 1e-12);
@@ -38,9 +38,10 @@ TEST(MeasurementPlan, HoldsEveryCurrentForEver) {
 }
 
 TEST(MeasurementPlan, RefusesCurrentsThatCannotBeHeld) {
-  const auto refusal = [](const std::vector<DriveParams>& drives, std::optional<double> current) {
+  const auto refusal = [](const std::vector<AmplifierParams>& amplifiers,
+                          std::optional<double> current) {
     return test::error_of([&] {
-      measurement_plan(two_coils(drives), {.positions = {{0, 0, 0}}, .current = current});
+      measurement_plan(two_coils(amplifiers), {.positions = {{0, 0, 0}}, .current = current});
     });
   };
   EXPECT_TRUE(test::is_one_line_naming(refusal({{.max_current = 3}, {.max_current = 2}}, 2.5), "",

@@ -97,8 +97,8 @@ TEST_F(RigMeasure, AnOperatorIsGuidedToMatrixAndGradients) {
   expect_truth("fitted.yaml", 1e-5);
   const CoilSystem system = read_coil_system(at.folder / "fitted.yaml");
   EXPECT_EQ(system.name(), "bench coils");
-  EXPECT_EQ(system.drives().at(0).max_temperature, 90);
-  EXPECT_EQ(system.drives().at(0).max_current, 12);  // that of the file, not the driver's 10 A
+  EXPECT_EQ(system.amplifiers().at(0).max_temperature, 90);
+  EXPECT_EQ(system.amplifiers().at(0).max_current, 12);  // that of the file, not the driver's 10 A
   EXPECT_EQ(system.centre(), Eigen::Vector3d(2500, 2500, 0));
   const Eigen::MatrixXd gradients = system.at({0, 0, 0}).gradients / mt_per_um_of_t_per_m;
   EXPECT_LE((gradients - truth_G).cwiseAbs().maxCoeff(), 1e-3) << gradients;

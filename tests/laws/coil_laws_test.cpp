@@ -6,9 +6,9 @@
 #include <functional>
 #include <optional>
 
+#include "microswarm/actuation/amplifiers/amplifiers.hpp"
 #include "microswarm/actuation/coils/coil_system.hpp"
 #include "microswarm/actuation/coils/currents.hpp"
-#include "microswarm/actuation/drivers/coil_drive.hpp"
 #include "tests/actuation/support.hpp"
 #include "tests/laws/fields_laws.hpp"
 
@@ -161,19 +161,19 @@ TEST_P(CoilLaws, LimitsAreHonouredAndTheDirectionKept) {
   CoilSystem system = made();
   constexpr double most = 2;
   system.limit_current(most);
-  ASSERT_EQ(system.drives().size(), system.size());
-  for (const DriveParams& drive : system.drives()) {
-    ASSERT_TRUE(drive.max_current);
-    EXPECT_LE(*drive.max_current, most);
+  ASSERT_EQ(system.amplifiers().size(), system.size());
+  for (const AmplifierParams& amplifier : system.amplifiers()) {
+    ASSERT_TRUE(amplifier.max_current);
+    EXPECT_LE(*amplifier.max_current, most);
   }
   system.limit_current(2 * most);  // a limit is never widened
-  EXPECT_LE(*system.drives()[0].max_current, most);
-  const CoilDrive drive(system.drives());
+  EXPECT_LE(*system.amplifiers()[0].max_current, most);
+  const Amplifiers amplifiers(system.amplifiers());
   test::Dice dice(7);
   int cut = 0;
   for (int trial = 0; trial < 40; ++trial) {
     const VectorXd wanted = random_currents(dice, system);
-    const DrivenCurrents driven = drive.steady(wanted);
+    const LimitedCurrents driven = amplifiers.steady(wanted);
     EXPECT_LE(driven.currents.cwiseAbs().maxCoeff(), most * (1 + 1e-12));
     EXPECT_LE((driven.currents - driven.scale * wanted).norm(), 1e-12 * wanted.norm());
     EXPECT_EQ(driven.hits.empty(), wanted.cwiseAbs().maxCoeff() <= most);

@@ -5,7 +5,7 @@
 
 #include <cstdlib>
 
-#include "microswarm/actuation/drivers/coil_drive.hpp"
+#include "microswarm/actuation/amplifiers/coil_heat.hpp"
 #include "tests/messages.hpp"
 #include "tests/rig/coil_rig.hpp"
 
@@ -71,7 +71,7 @@ TEST_F(CoilTemperaturesTest, OfAKilledProgramAreThoseAfterItsLargestCurrents) {
   at_start(true);
   keep(never, true, "[50, 60, 70]");
   const Eigen::VectorXd found = at_start();
-  const Eigen::VectorXd expected = heated(rig.system.drives(), Eigen::Vector3d(50, 60, 70), 2);
+  const Eigen::VectorXd expected = heated(rig.system.amplifiers(), Eigen::Vector3d(50, 60, 70), 2);
   expect_near(found, expected);
   keep(never, false, "[50, 60, 70]");
   expect_near(at_start(), {50, 60, 70});

@@ -123,7 +123,7 @@ TEST(SimulatedRig, LimitsOfTheCoilsSlowItDown) {
   EXPECT_EQ(free.coils().scale, 1);
   CoilSystemParams weak;
   weak.coils = HelmholtzCoils{};
-  weak.drives = {DriveParams{.max_current = 0.01}};
+  weak.amplifiers = {AmplifierParams{.max_current = 0.01}};
   const Rig rig{r.rig.params, CoilSystem(weak)};
   SimulatedRig limited(r.scene.scenario, r.world, rig);
   const Vec2 start = r.scene.scenario.start->position;

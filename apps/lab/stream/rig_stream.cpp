@@ -77,9 +77,9 @@ MessagePtr rig_hello_message(const Session& session, const Source& source, const
                              const std::vector<std::string>& warnings) {
   Json json = hello_json(session, source);
   Json currents = Json::array(), temperatures = Json::array();
-  for (const DriveParams& drive : rig.system.drives()) {
-    currents.push_back(optional(drive.max_current));
-    temperatures.push_back(optional(drive.max_temperature));
+  for (const AmplifierParams& amplifier : rig.system.amplifiers()) {
+    currents.push_back(optional(amplifier.max_current));
+    temperatures.push_back(optional(amplifier.max_temperature));
   }
   json["rig_info"] = {{"name", name_of(rig)},
                       {"coils", rig.system.coil_names()},

@@ -3,7 +3,7 @@
 
 #include <unistd.h>
 
-#include "microswarm/actuation/drivers/coil_drive.hpp"
+#include "microswarm/actuation/amplifiers/amplifiers.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/rig/runtime/rig_checks.hpp"
 #include "rig/keys/key_terminal.hpp"
@@ -37,7 +37,7 @@ Bench::Bench(const Rig& of, const CoilOptions& o) : rig(of) {
   if (real && !o.without_limits) rig.keys.require_none(missing_limits(rig));
   driver = open_coils(rig);
   if (real) kept.emplace(rig, o.coils_cold);
-  temperatures = kept ? kept->at_start() : CoilDrive(rig.system.drives()).temperatures();
+  temperatures = kept ? kept->at_start() : Amplifiers(rig.system.amplifiers()).temperatures();
   if (kept && !kept->known()) note("note: {}\n", kept->why_hot());
 }
 

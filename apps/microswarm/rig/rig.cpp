@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "microswarm/actuation/amplifiers/amplifiers.hpp"
 #include "microswarm/actuation/coils/coil_system.hpp"
 #include "microswarm/actuation/coils/currents.hpp"
-#include "microswarm/actuation/drivers/coil_drive.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "rig/rig.hpp"
@@ -100,7 +100,7 @@ int field(const FieldOptions& o) {
   std::optional<CurrentsForField> found;
   if (!o.field.empty()) found = currents_for(at, triple_of(o.field));
   const Eigen::VectorXd wanted = found ? found->currents : currents_of(o.currents, system);
-  const DrivenCurrents held = CoilDrive(system.drives()).steady(wanted);
+  const LimitedCurrents held = Amplifiers(system.amplifiers()).steady(wanted);
   const Eigen::Vector3d made = at.field_of(held.currents);
   const FiveGradients slope = five_gradients(at.gradient_of(held.currents)) / mt_per_um_of_t_per_m;
   const bool unmade = found && !found->reached;

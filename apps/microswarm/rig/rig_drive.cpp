@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "microswarm/actuation/amplifiers/amplifiers.hpp"
 #include "microswarm/actuation/coils/currents.hpp"
-#include "microswarm/actuation/drivers/coil_drive.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/maths/angles.hpp"
@@ -64,11 +64,11 @@ void note_device_limits(const Rig& rig, const ManualCommand& command, const Manu
 void require_possible(const Eigen::VectorXd& currents, const CoilSystem& system,
                       std::string_view option) {
   constexpr double unlimited = 1e9;  // [A]
-  std::vector<DriveParams> cold = system.drives();
-  for (DriveParams& drive : cold) drive.max_temperature.reset();
+  std::vector<AmplifierParams> cold = system.amplifiers();
+  for (AmplifierParams& amplifier : cold) amplifier.max_temperature.reset();
   for (Eigen::Index k = 0; k < currents.size(); ++k) {
     const Eigen::VectorXd alone = unlimited * Eigen::VectorXd::Unit(currents.size(), k);
-    const double most = CoilDrive(cold).steady(alone).currents[k];
+    const double most = Amplifiers(cold).steady(alone).currents[k];
     if (std::abs(currents[k]) > most * (1 + 1e-9))
       throw InputError(fmt::format("{}: coil {} can carry {:.4g} A, not {:.6g} A", option,
                                    quote(system.coil_names()[static_cast<std::size_t>(k)]), most,

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "microswarm/actuation/amplifiers/amplifiers.hpp"
 #include "microswarm/actuation/coils/currents.hpp"
 #include "microswarm/actuation/coils/uniformity.hpp"
-#include "microswarm/actuation/drivers/coil_drive.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/text.hpp"
@@ -58,7 +58,7 @@ int map_field(const RigMapOptions& o, const Stop& stop) {
   for (double& component : b) component = tidy(component, strength);
   const double largest = tidy(map.largest(), 1);
   const bool inside = in_workspace(system, grid);
-  if (const double share = CoilDrive(system.drives()).steady(currents).scale; share < 1)
+  if (const double share = Amplifiers(system.amplifiers()).steady(currents).scale; share < 1)
     note("note: the coils' limits allow {:.3g} % of these currents\n", 100 * share);
   if (!o.out.empty()) {
     const std::filesystem::path out = o.out;

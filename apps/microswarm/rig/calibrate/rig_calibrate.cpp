@@ -120,7 +120,7 @@ int fit_and_tell(const CalibrateOptions& o, const FitOptions& options, CoilSyste
   system.coils = of.fit.coils;
   if (!o.out.empty()) {
     write_file_atomically(o.out, to_yaml(system));
-    if (system.drives.empty())
+    if (system.amplifiers.empty())
       note("note: {} names no limits of the coils: add its `drives`\n", o.out);
   }
   if (of.fit.freedom == 0)
@@ -153,7 +153,7 @@ int calibrate(const CalibrateOptions& o, const Context& context) {
       return code;
     if (!rig.system.name().empty()) system.name = rig.system.name();
     // Drives of the file, since the rig's are limited by the driver's full scale too.
-    system.drives = read_coil_system(coils).drives();
+    system.amplifiers = read_coil_system(coils).amplifiers();
   }
   return fit_and_tell(o, options, std::move(system));
 }

@@ -8,26 +8,40 @@
 #include <utility>
 
 #include "microswarm/actuation/coils/currents.hpp"
-#include "microswarm/actuation/coils/turning_currents.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/execution/clock.hpp"
 #include "microswarm/core/fields/overloaded.hpp"
 
 namespace microswarm {
+namespace {
+
+/// Sends turning currents to a driver that makes waveforms; channels without a coil get no current.
+DriveStatus send(CoilDriver& driver, const TurningCurrents& currents) {
+  const auto channels = [&](const Eigen::VectorXd& part) {
+    std::vector<double> list(static_cast<std::size_t>(driver.capabilities().channels));
+    std::ranges::copy(part, list.begin());
+    return list;
+  };
+  const std::vector<double> constant = channels(currents.constant);
+  const std::vector<double> cosine = channels(currents.cosine), sine = channels(currents.sine);
+  return driver.drive(CurrentWaveform{currents.frequency, currents.phase, constant, cosine, sine});
+}
+
+}  // namespace
 
 CoilController::CoilController(const CoilSystem& system, const FieldGeneratorParams& field,
                                CoilDriver& driver, double heading)
     : system_(system),
       driver_(driver),
       generator_(field, heading),
-      drive_(system.drives()),
+      amplifiers_(system.amplifiers()),
       place_(system.centre()),
       actuation_(system.at(place_)),
       channels_(static_cast<std::size_t>(driver.capabilities().channels)) {
   if (system.size() > channels_.size())
     throw InputError(fmt::format("the system has {} coils, the driver {} channels", system.size(),
                                  channels_.size()));
-  output_.currents = drive_.currents();
+  output_.currents = amplifiers_.currents();
   output_.acknowledged = Eigen::VectorXd::Zero(output_.currents.size());
 }
 
@@ -54,8 +68,8 @@ const CoilOutput& CoilController::advance(double dt, double share) {
   else
     send_currents(dt, share);
   misses_ = output_.status == DriveStatus::no_answer ? misses_ + 1 : 0;
-  output_.currents = drive_.currents();
-  output_.temperatures = drive_.temperatures();
+  output_.currents = amplifiers_.currents();
+  output_.temperatures = amplifiers_.temperatures();
   if (is_acknowledged(output_.status)) {
     output_.device_scale = driver_.report().scale;
     output_.acknowledged = output_.device_scale * output_.currents;
@@ -90,10 +104,10 @@ Eigen::VectorXd CoilController::wanted_currents(double dt) {
 }
 
 void CoilController::send_currents(double dt, double share) {
-  const DrivenCurrents driven = drive_.step(share * wanted_currents(dt), dt);
-  output_.scale = driven.scale;
-  std::copy(driven.currents.begin(), driven.currents.end(), channels_.begin());
-  const Eigen::Vector3d field = actuation_.field * driven.currents;
+  const LimitedCurrents limited = amplifiers_.step(share * wanted_currents(dt), dt);
+  output_.scale = limited.scale;
+  std::copy(limited.currents.begin(), limited.currents.end(), channels_.begin());
+  const Eigen::Vector3d field = actuation_.field * limited.currents;
   output_.status = driver_.drive(constant_request(
       driver_.capabilities(), std::span<const double, 3>(field.data(), 3), channels_));
 }
@@ -101,8 +115,8 @@ void CoilController::send_currents(double dt, double share) {
 void CoilController::send_waveform(double dt, double share) {
   output_.wanted = generator_.advance(dt);
   const TurningCurrents wanted = turning_currents(actuation_, generator_, output_.reached);
-  output_.scale = drive_.turn(wanted.scaled(share), dt);
-  output_.status = send(driver_, drive_.turning());
+  output_.scale = amplifiers_.turn(wanted.scaled(share), dt);
+  output_.status = send(driver_, amplifiers_.turning());
   if (const auto phase = driver_.report().phase) generator_.follow_phase(*phase);
 }
 
@@ -112,7 +126,7 @@ std::string CoilController::trouble() const {
 }
 
 StopReport CoilController::stop() noexcept {
-  drive_.cut();
+  amplifiers_.cut();
   output_.currents.setZero();
   output_.acknowledged.setZero();
   StopReport report = driver_.stop();

@@ -6,8 +6,8 @@
 #include <variant>
 #include <vector>
 
+#include "microswarm/actuation/amplifiers/amplifiers.hpp"
 #include "microswarm/actuation/coils/coil_system.hpp"
-#include "microswarm/actuation/drivers/coil_drive.hpp"
 #include "microswarm/actuation/drivers/coil_driver.hpp"
 #include "microswarm/actuation/field/field_generator.hpp"
 
@@ -47,8 +47,8 @@ class CoilController {
   /// Sets the setpoint; it is a command that keeps `heading` at the start.
   void command(Setpoint setpoint);
   /// Sets the temperatures of the coils [°C].
-  void warm(const Eigen::VectorXd& temperatures) { drive_.warm(temperatures); }
-  const Eigen::VectorXd& temperatures() const { return drive_.temperatures(); }  ///< [°C]
+  void warm(const Eigen::VectorXd& temperatures) { amplifiers_.warm(temperatures); }
+  const Eigen::VectorXd& temperatures() const { return amplifiers_.temperatures(); }  ///< [°C]
   /// Sets the position at which the field is produced [µm].
   void aim(const Eigen::Vector3d& position);
   /// Advances time by `dt` seconds and sends `share` of the currents for the new time. Call it much
@@ -80,7 +80,7 @@ class CoilController {
   CoilDriver& driver_;
   FieldGenerator generator_;
   Setpoint setpoint_;
-  CoilDrive drive_;
+  Amplifiers amplifiers_;
   Eigen::Vector3d place_;
   Actuation actuation_;
   std::vector<double> channels_;

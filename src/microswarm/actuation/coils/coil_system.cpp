@@ -47,19 +47,19 @@ CoilSystem::CoilSystem(const CoilSystemParams& params, const KeyLocations& keys,
   if (coils.empty()) check_names(coils);
   Issues issues;
   issues.add_within("coils", coils);
-  const std::size_t given = params.drives.size();
+  const std::size_t given = params.amplifiers.size();
   if (coils.empty() && given > 1 && given != size())
     issues.add("drives",
                fmt::format("drives has {} entries, must have one, or {}, one for each coil", given,
                            size()));
   keys.require_none(issues);
   for (std::size_t i = 0; i < size(); ++i)
-    drives_.push_back(given == 0 ? DriveParams{} : params.drives[given == 1 ? 0 : i]);
+    amplifiers_.push_back(given == 0 ? AmplifierParams{} : params.amplifiers[given == 1 ? 0 : i]);
 }
 
 void CoilSystem::limit_current(double most) {
-  for (DriveParams& drive : drives_)
-    drive.max_current = std::min(most, drive.max_current.value_or(most));
+  for (AmplifierParams& amplifier : amplifiers_)
+    amplifier.max_current = std::min(most, amplifier.max_current.value_or(most));
 }
 
 void CoilSystem::check_names(Issues& issues) const {

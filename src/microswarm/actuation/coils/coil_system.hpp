@@ -8,10 +8,10 @@
 #include <variant>
 #include <vector>
 
+#include "microswarm/actuation/amplifiers/amplifier_params.hpp"
 #include "microswarm/actuation/coils/mpem.hpp"
 #include "microswarm/actuation/coils/vfield.hpp"
 #include "microswarm/actuation/coils/winding.hpp"
-#include "microswarm/actuation/field/drive_params.hpp"
 #include "microswarm/actuation/field/field.hpp"
 #include "microswarm/config/key_locations.hpp"
 
@@ -118,12 +118,12 @@ struct MatrixCoils {
 struct CoilSystemParams {
   std::string name;
   std::variant<HelmholtzCoils, CubeCoils, LoopCoils, MpemCoils, VfieldCoils, MatrixCoils> coils;
-  std::vector<DriveParams> drives;
+  std::vector<AmplifierParams> amplifiers;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.name, plain("name", "Name of the system."));
     visit(self.coils, plain("coils", "The coils, by kind.").needed());
-    visit(self.drives,
+    visit(self.amplifiers,
           plain("drives", "Amplifier and limits: one entry for all coils, or one each."));
   }
 };
@@ -166,7 +166,7 @@ class CoilSystem {
   std::size_t size() const { return names_.size(); }
   const std::vector<std::string>& coil_names() const { return names_; }
   /// One entry per coil.
-  const std::vector<DriveParams>& drives() const { return drives_; }
+  const std::vector<AmplifierParams>& amplifiers() const { return amplifiers_; }
   /// Limits the current of every coil to `most` [A], the maximum of the driver.
   void limit_current(double most);
   /// Centre of the system or of its workspace [µm].
@@ -193,7 +193,7 @@ class CoilSystem {
   std::filesystem::path folder_;
   std::string name_;
   std::vector<std::string> names_;
-  std::vector<DriveParams> drives_;
+  std::vector<AmplifierParams> amplifiers_;
   Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();
   FieldGradient offset_;
   Model model_;

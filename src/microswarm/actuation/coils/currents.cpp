@@ -32,4 +32,18 @@ CurrentsForField currents_for(const Actuation& at, const Eigen::Vector3d& field)
   return result;
 }
 
+TurningCurrents turning_currents(const Actuation& at, const FieldGenerator& generator,
+                                 bool& reached) {
+  const auto [cosine, sine] = generator.turning();
+  const CurrentsForField none = currents_for(at, Eigen::Vector3d::Zero());
+  const CurrentsForField along = currents_for(at, cosine), across = currents_for(at, sine);
+  reached = along.reached && across.reached;
+  return {.frequency = generator.frequency(),
+          .max_frequency = generator.max_frequency(),
+          .phase = generator.phase(),
+          .constant = none.currents,
+          .cosine = along.currents - none.currents,
+          .sine = across.currents - none.currents};
+}
+
 }  // namespace microswarm

@@ -3,7 +3,9 @@
 
 #include <optional>
 
+#include "microswarm/actuation/amplifiers/amplifiers.hpp"
 #include "microswarm/actuation/coils/coil_system.hpp"
+#include "microswarm/actuation/field/field_generator.hpp"
 
 namespace microswarm {
 
@@ -21,5 +23,10 @@ struct CurrentsForField {
 /// Solves I = Aᵀ (A Aᵀ)⁻¹ B after subtracting the field at zero current from B. This is our reading
 /// of Eq 4 [global].
 CurrentsForField currents_for(const Actuation& at, const Eigen::Vector3d& field);
+
+/// Currents of a generator's field at every phase: minimum-norm currents are linear in the field.
+/// `reached` becomes whether the coils can produce it.
+TurningCurrents turning_currents(const Actuation& at, const FieldGenerator& generator,
+                                 bool& reached);
 
 }  // namespace microswarm

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "microswarm/actuation/drivers/coil_drive.hpp"
+#include "microswarm/actuation/amplifiers/amplifiers.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/text.hpp"
 
@@ -29,12 +29,12 @@ double two_digits(double x) {
 
 /// The largest current of each coil in the plan [A].
 Eigen::VectorXd largest_currents(const CoilSystem& system, const std::optional<double>& given) {
-  const CoilDrive drive(system.drives());
+  const Amplifiers amplifiers(system.amplifiers());
   const auto n = static_cast<Eigen::Index>(system.size());
   Eigen::VectorXd largest(n);
   for (Eigen::Index k = 0; k < n; ++k) {
     const std::string& name = system.coil_names()[static_cast<std::size_t>(k)];
-    const double held = drive.steady(unlimited * Eigen::VectorXd::Unit(n, k)).currents[k];
+    const double held = amplifiers.steady(unlimited * Eigen::VectorXd::Unit(n, k)).currents[k];
     if (given && *given > held * (1 + 1e-9))
       throw InputError(
           fmt::format("coil {} can hold {:.4g} A, not {:.6g} A", quote(name), held, *given));

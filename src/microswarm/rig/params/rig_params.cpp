@@ -93,7 +93,8 @@ Rig read_rig(const std::filesystem::path& file, const Settings& settings) {
   CoilSystem system = read_coil_system(file.parent_path() / params.coils);
   keys.require_none(validate(params, system));
   const bool limits_current = std::ranges::all_of(
-      system.drives(), [](const DriveParams& drive) { return drive.max_current.has_value(); });
+      system.amplifiers(),
+      [](const AmplifierParams& amplifier) { return amplifier.max_current.has_value(); });
   system.limit_current(full_scale_of(params));
   return {std::move(params), std::move(system), file.parent_path(), keys, limits_current};
 }

@@ -6,11 +6,11 @@
 namespace microswarm {
 
 void CoilLoadMeter::take(double t, const CoilOutput& output) {
-  const std::vector<DriveParams>& drives = system_.drives();
+  const std::vector<AmplifierParams>& amplifiers = system_.amplifiers();
   double highest = -1, hottest = -1e300;
   for (Eigen::Index c = 0; c < output.currents.size(); ++c) {
     const double current = std::abs(output.currents[c]);
-    const std::optional<double> most = drives[static_cast<std::size_t>(c)].max_current;
+    const std::optional<double> most = amplifiers[static_cast<std::size_t>(c)].max_current;
     const double share = current / most.value_or(1);
     if (share <= highest) continue;
     highest = share;
@@ -19,12 +19,12 @@ void CoilLoadMeter::take(double t, const CoilOutput& output) {
   share_.add(t, highest);
   load_.current = share_.value() * load_.max_current.value_or(1);
   for (Eigen::Index c = 0; c < output.temperatures.size(); ++c) {
-    const DriveParams& drive = drives[static_cast<std::size_t>(c)];
-    const double below = output.temperatures[c] - drive.max_temperature.value_or(1e4);
+    const AmplifierParams& amplifier = amplifiers[static_cast<std::size_t>(c)];
+    const double below = output.temperatures[c] - amplifier.max_temperature.value_or(1e4);
     if (below <= hottest) continue;
     hottest = below;
     load_.temperature = output.temperatures[c];
-    load_.max_temperature = drive.max_temperature;
+    load_.max_temperature = amplifier.max_temperature;
   }
   weakening_.add(t, 1 - output.scale);
   load_.scale = 1 - weakening_.value();

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <cstdlib>
 
-#include "microswarm/actuation/drivers/coil_drive.hpp"
+#include "microswarm/actuation/amplifiers/coil_heat.hpp"
 #include "microswarm/config/write.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
@@ -85,20 +85,20 @@ CoilTemperatures::CoilTemperatures(const Rig& rig, bool cold)
     : coils_(fs::weakly_canonical(rig.folder / rig.params.coils).string()),
       file_(state_folder() / name_for(coils_)) {
   make_folder(file_.parent_path().string());
-  const auto& drives = rig.system.drives();
-  const auto coils = static_cast<Eigen::Index>(drives.size());
+  const auto& amplifiers = rig.system.amplifiers();
+  const auto coils = static_cast<Eigen::Index>(amplifiers.size());
   at_start_.resize(coils);
   for (Eigen::Index i = 0; i < coils; ++i)
-    at_start_[i] = drives[static_cast<std::size_t>(i)].ambient;
+    at_start_[i] = amplifiers[static_cast<std::size_t>(i)].ambient;
   if (!cold && !is_there(file_)) {
     known_ = false;
-    at_start_ = hottest(drives);
+    at_start_ = hottest(amplifiers);
   } else if (!cold) {
-    const KeptTemperatures kept = read_kept(file_, drives.size());
+    const KeptTemperatures kept = read_kept(file_, amplifiers.size());
     Eigen::VectorXd then = Eigen::Map<const Eigen::VectorXd>(kept.temperatures.data(), coils)
                                .cwiseMax(at_start_);  // no coil is below ambient temperature
-    if (kept.driven) then = heated(drives, then, unwritten);
-    at_start_ = cooled(drives, then, wall_clock() - kept.clock - (kept.driven ? unwritten : 0));
+    if (kept.driven) then = heated(amplifiers, then, unwritten);
+    at_start_ = cooled(amplifiers, then, wall_clock() - kept.clock - (kept.driven ? unwritten : 0));
   }
   newest_ = at_start_;
   write(newest_, true);

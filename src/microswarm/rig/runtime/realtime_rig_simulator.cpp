@@ -6,7 +6,7 @@
 #include <optional>
 #include <thread>
 
-#include "microswarm/actuation/drivers/coil_drive.hpp"
+#include "microswarm/actuation/amplifiers/amplifiers.hpp"
 #include "microswarm/core/execution/clock.hpp"
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/vision/camera/newest_frame.hpp"

@@ -14,11 +14,13 @@ namespace microswarm {
 namespace {
 
 std::string unlimited(const Rig& rig) {
-  const auto& drives = rig.system.drives();
-  const bool voltage = std::ranges::all_of(
-      drives, [](const DriveParams& drive) { return drive.max_voltage.has_value(); });
-  const bool temperature = std::ranges::all_of(
-      drives, [](const DriveParams& drive) { return drive.max_temperature.has_value(); });
+  const auto& amplifiers = rig.system.amplifiers();
+  const bool voltage = std::ranges::all_of(amplifiers, [](const AmplifierParams& amplifier) {
+    return amplifier.max_voltage.has_value();
+  });
+  const bool temperature = std::ranges::all_of(amplifiers, [](const AmplifierParams& amplifier) {
+    return amplifier.max_temperature.has_value();
+  });
   if (voltage && temperature) return {};
   return fmt::format("; {} does not limit the {}", rig.params.coils,
                      voltage       ? "temperature"
@@ -87,9 +89,10 @@ RigCheck check_field(const Rig& rig) {
 
 Issues missing_limits(const Rig& rig) {
   Issues issues;
-  const auto& drives = rig.system.drives();
-  const bool temperature = std::ranges::all_of(
-      drives, [](const DriveParams& drive) { return drive.max_temperature.has_value(); });
+  const auto& amplifiers = rig.system.amplifiers();
+  const bool temperature = std::ranges::all_of(amplifiers, [](const AmplifierParams& amplifier) {
+    return amplifier.max_temperature.has_value();
+  });
   if (rig.limits_current && temperature) return issues;
   const char* const what = temperature          ? "current"
                            : rig.limits_current ? "temperature"

@@ -8,33 +8,33 @@
 #include <utility>
 #include <vector>
 
-#include "microswarm/actuation/field/drive_params.hpp"
+#include "microswarm/actuation/amplifiers/amplifier_params.hpp"
 
 namespace microswarm {
 
 /// Limits of a coil and its amplifier.
-enum class DriveLimit { current, voltage, slew, temperature };
-constexpr auto enum_names(DriveLimit) {
-  return std::array<std::pair<DriveLimit, std::string_view>, 4>{
-      {{DriveLimit::current, "current"},
-       {DriveLimit::voltage, "voltage"},
-       {DriveLimit::slew, "slew"},
-       {DriveLimit::temperature, "temperature"}}};
+enum class AmplifierLimit { current, voltage, slew, temperature };
+constexpr auto enum_names(AmplifierLimit) {
+  return std::array<std::pair<AmplifierLimit, std::string_view>, 4>{
+      {{AmplifierLimit::current, "current"},
+       {AmplifierLimit::voltage, "voltage"},
+       {AmplifierLimit::slew, "slew"},
+       {AmplifierLimit::temperature, "temperature"}}};
 }
 
 /// Unit of the limited quantity.
-Unit unit_of(DriveLimit limit);
+Unit unit_of(AmplifierLimit limit);
 
 /// A limit that a command would exceed: requested and allowed value [A, V, A/s, °C].
 struct LimitHit {
-  DriveLimit limit = DriveLimit::current;
+  AmplifierLimit limit = AmplifierLimit::current;
   std::size_t coil = 0;
   double asked = 0;
   double allowed = 0;
 };
 
 /// Currents within all limits.
-struct DrivenCurrents {
+struct LimitedCurrents {
   Eigen::VectorXd currents;     ///< [A]
   double scale = 1;             ///< scale applied to the command, in [0, 1]
   bool keeps_direction = true;  ///< whether the currents are `scale` times the requested ones
@@ -57,10 +57,10 @@ struct TurningCurrents {
 
 /// Amplifiers and coils of a system with their current state. All currents of a
 /// command are scaled by one factor, so the field keeps its direction.
-class CoilDrive {
+class Amplifiers {
  public:
   /// Starts at zero current and ambient temperature.
-  explicit CoilDrive(std::vector<DriveParams> drives);
+  explicit Amplifiers(std::vector<AmplifierParams> amplifiers);
 
   const Eigen::VectorXd& currents() const { return currents_; }          ///< [A]
   const Eigen::VectorXd& temperatures() const { return temperatures_; }  ///< [°C]
@@ -72,13 +72,13 @@ class CoilDrive {
   void cut();
 
   /// The largest fraction of a command that can be held indefinitely.
-  DrivenCurrents steady(const Eigen::VectorXd& wanted) const;
+  LimitedCurrents steady(const Eigen::VectorXd& wanted) const;
 
   /// Ramps the currents towards `wanted` over `dt` seconds, as far as the limits allow. If no
   /// fraction of the command is reachable in that time, for example when large currents are
   /// reversed, the currents go straight towards the fraction that can be held and `keeps_direction`
   /// is false. The current of a coil that is too hot is reduced, if necessary to zero.
-  DrivenCurrents step(const Eigen::VectorXd& wanted, double dt);
+  LimitedCurrents step(const Eigen::VectorXd& wanted, double dt);
 
   /// Turns the currents for `dt` seconds up to the phase of `wanted`, within the limits of a whole
   /// turn, and changes amplitudes no faster than the coils allow. Returns the scale applied to
@@ -99,22 +99,10 @@ class CoilDrive {
   double temperature_after(std::size_t coil, double to, double dt) const;
   std::vector<LimitHit> broken(const Eigen::VectorXd& to, double dt) const;
 
-  std::vector<DriveParams> drives_;
+  std::vector<AmplifierParams> amplifiers_;
   Eigen::VectorXd currents_;
   Eigen::VectorXd temperatures_;
   TurningCurrents turning_;
 };
-
-/// Maximum temperatures [°C]; the ambient one for coils without a maximum.
-Eigen::VectorXd hottest(const std::vector<DriveParams>& drives);
-
-/// Temperatures [°C] after `seconds` of maximum current, at most the maximum temperatures.
-Eigen::VectorXd heated(const std::vector<DriveParams>& drives, const Eigen::VectorXd& temperatures,
-                       double seconds);
-
-/// Temperatures [°C] of coils without current, `seconds` after they had `temperatures`; unchanged
-/// for a negative time.
-Eigen::VectorXd cooled(const std::vector<DriveParams>& drives, const Eigen::VectorXd& temperatures,
-                       double seconds);
 
 }  // namespace microswarm

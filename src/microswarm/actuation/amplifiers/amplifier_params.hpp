@@ -11,7 +11,7 @@ namespace microswarm {
 /// Its resistance grows with its temperature. It heats as a first-order system: at constant power
 /// the final temperature is ambient + thermal_resistance · power, approached with the time
 /// constant. A limit that is not set is not applied.
-struct DriveParams {
+struct AmplifierParams {
   double resistance = 1;
   double temperature_coefficient = 0.00393;
   double inductance = 1;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/actuation/drivers/coil_drive.hpp"
+#include "microswarm/actuation/amplifiers/amplifiers.hpp"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <optional>
 
+#include "microswarm/actuation/amplifiers/coil_heat.hpp"
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/core/maths/maths.hpp"
@@ -35,56 +36,6 @@ std::optional<double> farthest(const Eigen::VectorXd& from, const Eigen::VectorX
   }
   if (!(least <= most + bound_rounding)) return std::nullopt;
   return std::clamp(most, 0.0, 1.0);
-}
-
-/// Resistance of a coil at a temperature [Ω].
-double resistance_at(const DriveParams& d, double temperature) {
-  constexpr double reference = 20;  // [°C]
-  return d.resistance * std::max(0.0, 1 + d.temperature_coefficient * (temperature - reference));
-}
-
-/// Resistance for the voltage limit: that at the maximum temperature [Ω].
-double hot_resistance(const DriveParams& d) {
-  return d.max_temperature ? resistance_at(d, *d.max_temperature) : d.resistance;
-}
-
-/// Relative growth of the heating with temperature at this mean square current [A²]: from 1 on the
-/// coil heats faster than it cools, and there is no final temperature.
-double feedback(const DriveParams& d, double mean_square) {
-  return d.temperature_coefficient * d.thermal_resistance * d.resistance * mean_square;
-}
-
-/// Final temperature [°C] at this mean square current [A²]; infinity if there is none.
-double steady_temperature(const DriveParams& d, double mean_square) {
-  const double kept = 1 - feedback(d, mean_square);
-  if (kept <= 0) return infinity;
-  return (d.ambient + d.thermal_resistance * resistance_at(d, 0) * mean_square) / kept;
-}
-
-/// Temperature [°C] after `dt` seconds at this mean square current [A²], from `temperature`: the
-/// exact solution of the thermal RC with a resistance that grows linearly.
-double temperature_later(const DriveParams& d, double temperature, double mean_square, double dt) {
-  const double heat = d.thermal_resistance * resistance_at(d, temperature) * mean_square;
-  const double rate = (d.ambient + heat - temperature) / d.thermal_time;  // [K/s], at the start
-  const double x = (1 - feedback(d, mean_square)) * dt / d.thermal_time;
-  constexpr double small = 1e-9;
-  return temperature + rate * dt * (std::abs(x) < small ? 1 - 0.5 * x : (1 - maths::exp(-x)) / x);
-}
-
-/// Current at which the final temperature is the maximum temperature [A].
-double warmest_current(const DriveParams& d) {
-  const double warmer = std::max(0.0, *d.max_temperature - d.ambient);
-  const double per_square = d.thermal_resistance * hot_resistance(d);
-  return per_square > 0 ? std::sqrt(warmer / per_square) : infinity;
-}
-
-/// Mean square current [A²] that heats the coil from `temperature` to `margin` below its maximum in
-/// `seconds`, at the resistance of the hottest coil allowed; negative if it is too hot already.
-double mean_square_to_limit(const DriveParams& d, double temperature, double seconds,
-                            double margin = 0) {
-  const double keeps = maths::exp(-seconds / d.thermal_time);
-  const double end = (*d.max_temperature - margin - temperature * keeps) / (1 - keeps);
-  return (end - d.ambient) / (d.thermal_resistance * hot_resistance(d));
 }
 
 /// sin x / x, 1 at 0.
@@ -117,7 +68,7 @@ struct Turning {
 };
 
 /// Upper bound [K] of a coil's temperature above its mean within a turn, or within `seconds`.
-double ripple_of(const DriveParams& d, const Turning& coil, double omega, double seconds) {
+double ripple_of(const AmplifierParams& d, const Turning& coil, double omega, double seconds) {
   const double A = coil.amplitude(), c = std::abs(coil.constant);
   const double per_square = d.thermal_resistance * hot_resistance(d) / d.thermal_time;
   return per_square * std::min((A * A / 4 + 2 * c * A) / omega, (c + A) * (c + A) * seconds);
@@ -138,7 +89,7 @@ void narrow(double& lo, double& hi, double least, double most) {
 /// Narrows the bounds to currents after a ramp from `I` [A] in `dt` seconds that heat the coil to
 /// at most its maximum temperature, and can be ramped down within another such step. The power of
 /// the hottest coil allowed is assumed: at least that of the step, and exact at the limit.
-void narrow_by_heat(double& lo, double& hi, const DriveParams& d, double temperature, double I,
+void narrow_by_heat(double& lo, double& hi, const AmplifierParams& d, double temperature, double I,
                     double dt) {
   const double per_square = d.thermal_resistance * hot_resistance(d);
   if (per_square <= 0) return;
@@ -161,31 +112,31 @@ void narrow_by_heat(double& lo, double& hi, const DriveParams& d, double tempera
 
 }  // namespace
 
-Unit unit_of(DriveLimit limit) {
+Unit unit_of(AmplifierLimit limit) {
   switch (limit) {
-    case DriveLimit::current:
+    case AmplifierLimit::current:
       return Unit::a;
-    case DriveLimit::voltage:
+    case AmplifierLimit::voltage:
       return Unit::v;
-    case DriveLimit::slew:
+    case AmplifierLimit::slew:
       return Unit::a_per_s;
-    case DriveLimit::temperature:
+    case AmplifierLimit::temperature:
       return Unit::degc;
   }
   assert(false);
   return Unit::none;
 }
 
-CoilDrive::CoilDrive(std::vector<DriveParams> drives)
-    : drives_(std::move(drives)),
-      currents_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(drives_.size()))),
+Amplifiers::Amplifiers(std::vector<AmplifierParams> amplifiers)
+    : amplifiers_(std::move(amplifiers)),
+      currents_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(amplifiers_.size()))),
       temperatures_(currents_.size()) {
-  for (std::size_t i = 0; i < drives_.size(); ++i)
-    temperatures_[static_cast<Eigen::Index>(i)] = drives_[i].ambient;
+  for (std::size_t i = 0; i < amplifiers_.size(); ++i)
+    temperatures_[static_cast<Eigen::Index>(i)] = amplifiers_[i].ambient;
   cut();
 }
 
-void CoilDrive::cut() {
+void Amplifiers::cut() {
   currents_.setZero();
   turning_ = {.constant = currents_, .cosine = currents_, .sine = currents_};
 }
@@ -201,28 +152,28 @@ TurningCurrents TurningCurrents::scaled(double factor) const {
   return all;
 }
 
-void CoilDrive::warm(const Eigen::VectorXd& temperatures) {
+void Amplifiers::warm(const Eigen::VectorXd& temperatures) {
   assert(temperatures.size() == temperatures_.size());
   temperatures_ = temperatures;
 }
 
-DrivenCurrents CoilDrive::steady(const Eigen::VectorXd& wanted) const {
+LimitedCurrents Amplifiers::steady(const Eigen::VectorXd& wanted) const {
   assert(wanted.size() == currents_.size());
-  DrivenCurrents result;
-  for (std::size_t i = 0; i < drives_.size(); ++i) {
-    const DriveParams& d = drives_[i];
+  LimitedCurrents result;
+  for (std::size_t i = 0; i < amplifiers_.size(); ++i) {
+    const AmplifierParams& d = amplifiers_[i];
     const double I = std::abs(wanted[static_cast<Eigen::Index>(i)]);
-    const auto check = [&](DriveLimit limit, double asked, double allowed, double most) {
+    const auto check = [&](AmplifierLimit limit, double asked, double allowed, double most) {
       if (asked <= allowed + bound_rounding * std::abs(allowed)) return;
       result.hits.push_back({limit, i, asked, allowed});
       result.scale = std::min(result.scale, most / I);
     };
-    if (d.max_current) check(DriveLimit::current, I, *d.max_current, *d.max_current);
+    if (d.max_current) check(AmplifierLimit::current, I, *d.max_current, *d.max_current);
     if (d.max_voltage)
-      check(DriveLimit::voltage, I * hot_resistance(d), *d.max_voltage,
+      check(AmplifierLimit::voltage, I * hot_resistance(d), *d.max_voltage,
             *d.max_voltage / hot_resistance(d));
     if (d.max_temperature && I > 0)
-      check(DriveLimit::temperature, steady_temperature(d, I * I), *d.max_temperature,
+      check(AmplifierLimit::temperature, steady_temperature(d, I * I), *d.max_temperature,
             warmest_current(d));
   }
   result.currents = result.scale * wanted;
@@ -232,18 +183,18 @@ DrivenCurrents CoilDrive::steady(const Eigen::VectorXd& wanted) const {
 /// Temperature [°C] after a ramp of the current, or after the final current for the whole time if
 /// that is higher. With the ramp alone the current would oscillate about the value that can be
 /// held.
-double CoilDrive::temperature_after(std::size_t coil, double to, double dt) const {
+double Amplifiers::temperature_after(std::size_t coil, double to, double dt) const {
   const auto i = static_cast<Eigen::Index>(coil);
   const double from = currents_[i];
   const double mean_square = std::max((from * from + from * to + to * to) / 3, to * to);
-  return temperature_later(drives_[coil], temperatures_[i], mean_square, dt);
+  return temperature_later(amplifiers_[coil], temperatures_[i], mean_square, dt);
 }
 
-CoilDrive::Bounds CoilDrive::reachable(double dt, bool mind_heat) const {
+Amplifiers::Bounds Amplifiers::reachable(double dt, bool mind_heat) const {
   Bounds bounds{Eigen::VectorXd::Constant(currents_.size(), -infinity),
                 Eigen::VectorXd::Constant(currents_.size(), infinity)};
-  for (std::size_t k = 0; k < drives_.size(); ++k) {
-    const DriveParams& d = drives_[k];
+  for (std::size_t k = 0; k < amplifiers_.size(); ++k) {
+    const AmplifierParams& d = amplifiers_[k];
     const auto i = static_cast<Eigen::Index>(k);
     double &lo = bounds.lo[i], &hi = bounds.hi[i];
     const double I = currents_[i];
@@ -261,31 +212,32 @@ CoilDrive::Bounds CoilDrive::reachable(double dt, bool mind_heat) const {
   return bounds;
 }
 
-std::vector<LimitHit> CoilDrive::broken(const Eigen::VectorXd& to, double dt) const {
+std::vector<LimitHit> Amplifiers::broken(const Eigen::VectorXd& to, double dt) const {
   std::vector<LimitHit> hits;
-  for (std::size_t k = 0; k < drives_.size(); ++k) {
-    const DriveParams& d = drives_[k];
+  for (std::size_t k = 0; k < amplifiers_.size(); ++k) {
+    const AmplifierParams& d = amplifiers_[k];
     const auto i = static_cast<Eigen::Index>(k);
     const double rate = (to[i] - currents_[i]) / dt;
-    const auto check = [&](DriveLimit limit, double asked, const std::optional<double>& allowed) {
+    const auto check = [&](AmplifierLimit limit, double asked,
+                           const std::optional<double>& allowed) {
       if (allowed && asked > *allowed + bound_rounding * (1 + std::abs(*allowed)))
         hits.push_back({limit, k, asked, *allowed});
     };
     const double kick = h_per_mh * d.inductance * rate;
-    check(DriveLimit::current, std::abs(to[i]), d.max_current);
-    check(DriveLimit::voltage,
+    check(AmplifierLimit::current, std::abs(to[i]), d.max_current);
+    check(AmplifierLimit::voltage,
           std::max(std::abs(hot_resistance(d) * currents_[i] + kick),
                    std::abs(hot_resistance(d) * to[i] + kick)),
           d.max_voltage);
-    check(DriveLimit::slew, std::abs(rate), d.max_slew);
-    check(DriveLimit::temperature, temperature_after(k, to[i], dt), d.max_temperature);
+    check(AmplifierLimit::slew, std::abs(rate), d.max_slew);
+    check(AmplifierLimit::temperature, temperature_after(k, to[i], dt), d.max_temperature);
   }
   return hits;
 }
 
-DrivenCurrents CoilDrive::step(const Eigen::VectorXd& wanted, double dt) {
+LimitedCurrents Amplifiers::step(const Eigen::VectorXd& wanted, double dt) {
   assert(wanted.size() == currents_.size() && dt > 0);
-  DrivenCurrents result{.hits = broken(wanted, dt)};
+  LimitedCurrents result{.hits = broken(wanted, dt)};
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(wanted.size());
   const Bounds bounds = reachable(dt, true);
   if (const auto scale = farthest(none, wanted, bounds.lo, bounds.hi)) {
@@ -293,7 +245,7 @@ DrivenCurrents CoilDrive::step(const Eigen::VectorXd& wanted, double dt) {
     result.currents = *scale * wanted;
   } else {
     result.keeps_direction = false;
-    const DrivenCurrents held = steady(wanted);
+    const LimitedCurrents held = steady(wanted);
     result.scale = held.scale;
     const Eigen::VectorXd change = held.currents - currents_;
     if (const auto share = farthest(currents_, change, bounds.lo, bounds.hi)) {
@@ -305,7 +257,7 @@ DrivenCurrents CoilDrive::step(const Eigen::VectorXd& wanted, double dt) {
       result.currents = currents_ + farthest(currents_, down, any.lo, any.hi).value_or(0) * down;
     }
   }
-  for (std::size_t k = 0; k < drives_.size(); ++k) {
+  for (std::size_t k = 0; k < amplifiers_.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
     temperatures_[i] = temperature_after(k, result.currents[i], dt);
   }
@@ -313,7 +265,7 @@ DrivenCurrents CoilDrive::step(const Eigen::VectorXd& wanted, double dt) {
   return result;
 }
 
-double CoilDrive::turn(const TurningCurrents& wanted, double dt) {
+double Amplifiers::turn(const TurningCurrents& wanted, double dt) {
   assert(wanted.constant.size() == currents_.size() && dt > 0);
   const double most = max_turn_scale(wanted, dt);
   TurningCurrents to = wanted.scaled(most);
@@ -325,11 +277,11 @@ double CoilDrive::turn(const TurningCurrents& wanted, double dt) {
   toward(turning_.cosine, to.cosine);
   toward(turning_.sine, to.sine);
   const double extent = 2 * pi * to.frequency * dt;
-  for (std::size_t k = 0; k < drives_.size(); ++k) {
+  for (std::size_t k = 0; k < amplifiers_.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
     const double square = std::max(coil_of(turning_, i).mean_square(to.phase, extent),
                                    coil_of(to, i).mean_square(to.phase, extent));
-    temperatures_[i] = temperature_later(drives_[k], temperatures_[i], square, dt);
+    temperatures_[i] = temperature_later(amplifiers_[k], temperatures_[i], square, dt);
   }
   turning_ = std::move(to);
   currents_ = turning_.now();
@@ -338,15 +290,15 @@ double CoilDrive::turn(const TurningCurrents& wanted, double dt) {
 
 /// Largest scale at which a turn keeps all limits and the coils stay below their maximum
 /// temperature for some steps.
-double CoilDrive::max_turn_scale(const TurningCurrents& wanted, double dt) const {
+double Amplifiers::max_turn_scale(const TurningCurrents& wanted, double dt) const {
   constexpr double steps_ahead = 10;
   const double omega = 2 * pi * std::max(std::abs(wanted.frequency), wanted.max_frequency);
   double most = 1;
   const auto limit = [&](double asked, double allowed) {
     if (asked > allowed) most = std::min(most, allowed / asked);
   };
-  for (std::size_t k = 0; k < drives_.size(); ++k) {
-    const DriveParams& d = drives_[k];
+  for (std::size_t k = 0; k < amplifiers_.size(); ++k) {
+    const AmplifierParams& d = amplifiers_[k];
     const Turning coil = coil_of(wanted, static_cast<Eigen::Index>(k));
     const double A = coil.amplitude();
     if (d.max_current) limit(std::abs(coil.constant) + A, *d.max_current);
@@ -368,11 +320,11 @@ double CoilDrive::max_turn_scale(const TurningCurrents& wanted, double dt) const
 }
 
 /// Share of a change of the turning currents that is possible in `dt` seconds.
-double CoilDrive::share_of_change(const TurningCurrents& to, double dt) const {
+double Amplifiers::share_of_change(const TurningCurrents& to, double dt) const {
   const double omega = 2 * pi * std::max(std::abs(to.frequency), to.max_frequency);
   double share = 1;
-  for (std::size_t k = 0; k < drives_.size(); ++k) {
-    const DriveParams& d = drives_[k];
+  for (std::size_t k = 0; k < amplifiers_.size(); ++k) {
+    const AmplifierParams& d = amplifiers_[k];
     const auto i = static_cast<Eigen::Index>(k);
     const Turning a = coil_of(turning_, i), b = coil_of(to, i);
     const Turning change{b.constant - a.constant, b.cosine - a.cosine, b.sine - a.sine};
@@ -391,39 +343,6 @@ double CoilDrive::share_of_change(const TurningCurrents& to, double dt) const {
     }
   }
   return share;
-}
-
-Eigen::VectorXd hottest(const std::vector<DriveParams>& drives) {
-  Eigen::VectorXd most(static_cast<Eigen::Index>(drives.size()));
-  for (std::size_t k = 0; k < drives.size(); ++k)
-    most[static_cast<Eigen::Index>(k)] = drives[k].max_temperature.value_or(drives[k].ambient);
-  return most;
-}
-
-Eigen::VectorXd heated(const std::vector<DriveParams>& drives, const Eigen::VectorXd& temperatures,
-                       double seconds) {
-  Eigen::VectorXd now = temperatures;
-  for (std::size_t k = 0; k < drives.size(); ++k) {
-    const DriveParams& d = drives[k];
-    double& temperature = now[static_cast<Eigen::Index>(k)];
-    const double most = std::max(temperature, d.max_temperature.value_or(infinity));
-    if (d.max_current)
-      temperature = std::min(
-          most, temperature_later(d, temperature, *d.max_current * *d.max_current, seconds));
-    else if (d.max_temperature)
-      temperature = most;
-  }
-  return now;
-}
-
-Eigen::VectorXd cooled(const std::vector<DriveParams>& drives, const Eigen::VectorXd& temperatures,
-                       double seconds) {
-  Eigen::VectorXd now = temperatures;
-  for (std::size_t k = 0; k < drives.size(); ++k) {
-    double& temperature = now[static_cast<Eigen::Index>(k)];
-    temperature = temperature_later(drives[k], temperature, 0, std::max(0.0, seconds));
-  }
-  return now;
 }
 
 }  // namespace microswarm
