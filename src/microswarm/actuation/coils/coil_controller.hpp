@@ -25,7 +25,7 @@ struct CoilOutput {
   Eigen::VectorXd temperatures;  ///< of the coils, by their thermal model [°C]
 };
 
-/// What the coils are to do: a navigator's command, a constant field at the target position [mT],
+/// Setpoint of the coils: a navigator's command, a constant field at the target position [mT],
 /// or the currents [A], one per coil.
 using Setpoint = std::variant<Command, Eigen::Vector3d, Eigen::VectorXd>;
 

@@ -66,7 +66,7 @@ struct CurrentWaveform {
   double largest(std::size_t channel) const;
 };
 
-/// What the coils are to do: signed currents [A], one per channel, a field, or a waveform. It
+/// Request to the device: signed currents [A], one per channel, a field, or a waveform. It
 /// refers to values that must outlive it.
 using CoilRequest = std::variant<std::span<const double>, FieldRequest, CurrentWaveform>;
 

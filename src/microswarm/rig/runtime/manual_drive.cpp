@@ -27,7 +27,7 @@ double heading_of(const Setpoint& setpoint) {
   return command ? command->heading : 0;
 }
 
-/// Tells `heard` of an output. Returns the message of an exception, or an empty string.
+/// Reports an output to `heard`. Returns the message of an exception, or an empty string.
 std::string tell(const std::function<void(const ManualMoment&)>& heard,
                  const ManualMoment& moment) {
   try {
