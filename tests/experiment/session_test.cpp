@@ -12,7 +12,7 @@ namespace {
 
 const std::filesystem::path scenarios = std::filesystem::path(MICROSWARM_SOURCE_DIR) / "scenarios";
 
-Experiment open_flight() { return open_experiment(small_flight(), {}); }
+Experiment opened_flight() { return open_experiment(small_flight(), {}); }
 
 std::string hash_of(Session& session) {
   session.finish();
@@ -36,7 +36,7 @@ TEST(Session, WhatIsKeptChangesNothing) {
   EXPECT_EQ(result.status, whole.result.status);
   EXPECT_EQ(result.metrics.length, whole.result.metrics.length);
   EXPECT_EQ(result.timing.steps.size() + 1, whole.frames.size());
-  Session bare(open_flight(), {.keep = Keep::nothing});
+  Session bare(opened_flight(), {.keep = Keep::nothing});
   std::size_t ticks = 0;
   while (const Tick* tick = bare.step()) {
     ASSERT_EQ(tick->frame.pose.position, whole.frames[ticks].pose.position);
@@ -46,7 +46,7 @@ TEST(Session, WhatIsKeptChangesNothing) {
 }
 
 TEST(Session, TheViewIsWhatTheTickSays) {
-  Session session(open_flight());
+  Session session(opened_flight());
   EXPECT_EQ(session.view().frame.pose.position, small_flight().start->position);
   bool planned = false;
   while (const Tick* tick = session.step()) {
@@ -62,23 +62,22 @@ TEST(Session, TheViewIsWhatTheTickSays) {
 
 TEST(Session, ShowsTheRadarAndTheRegions) {
   const auto radar = open_session(scenarios / "papers/radar/twelve.yaml");
-  while (!radar->view().radar) ASSERT_TRUE(radar->step());
-  const SessionView view = radar->view();
-  EXPECT_GE(view.radar->look.circles.detection, view.radar->look.circles.safety);
-  EXPECT_GT(view.radar->beams.size(), 30u);
+  EXPECT_EQ(radar->diagnostics(), Diagnostics());
+  while (radar->diagnostics() == Diagnostics()) ASSERT_TRUE(radar->step());
+  const auto& scan = std::get<RadarDiagnostics>(radar->diagnostics());
+  EXPECT_GE(scan.circles.detection, scan.circles.safety);
+  EXPECT_GT(scan.beams.size(), 30u);
 
   const auto gather = open_session(scenarios / "papers/gather/t_junction.yaml");
-  EXPECT_FALSE(gather->aggregation());
   ASSERT_TRUE(gather->step());
-  const auto regions = gather->aggregation();
-  ASSERT_TRUE(regions);
-  EXPECT_EQ(regions->nodes.size(), regions->segmentation.region.size());
-  EXPECT_EQ(regions->nodes.size(), regions->next.size());
+  const auto& plan = std::get<AggregationDiagnostics>(gather->diagnostics());
+  EXPECT_TRUE(plan.leader);
+  EXPECT_GT(plan.nodes.size(), 30u);
   EXPECT_FALSE(gather->view().robots.empty());
 }
 
 TEST(Session, WhatIsSetIsRecordedAndPlayedBack) {
-  Session session(open_flight());
+  Session session(opened_flight());
   for (int i = 0; i < 10; ++i) session.step();
   EXPECT_TRUE(session.set("obstacles.0.shape.radius_um", "20").empty());
   EXPECT_EQ(session.set("seed", "4").size(), 1u);
@@ -129,7 +128,7 @@ TEST(Session, AnotherNavigatorMovesTheDetectionRangeInTheReplayToo) {
 TEST(Session, ARecordOfARunThatGoesOnReplaysAsFar) {
   const test::Folder folder;
   for (const int ticks : {0, 1, 12}) {
-    Session session(open_flight());
+    Session session(opened_flight());
     EXPECT_EQ(session.result().status, Status::running);
     for (int i = 0; i < ticks; ++i) session.step();
     const auto file = folder / "part.h5";
@@ -143,13 +142,13 @@ TEST(Session, ARecordOfARunThatGoesOnReplaysAsFar) {
     EXPECT_EQ(frames, ticks);
     EXPECT_EQ(playback->seek(0), ticks > 0);
     // It goes on as if it had not been recorded.
-    Session other(open_flight());
+    Session other(opened_flight());
     EXPECT_EQ(hash_of(session), hash_of(other));
   }
 }
 
 TEST(Session, EachMistakeInAValueIsAnIssueOfItsKey) {
-  Session session(open_flight());
+  Session session(opened_flight());
   const Issues several =
       session.set("navigator", "{type: radar, typo: 1, speed_um_per_s: bad, foo: 3}");
   EXPECT_EQ(several.size(), 3u);
@@ -168,7 +167,7 @@ TEST(Session, EachMistakeInAValueIsAnIssueOfItsKey) {
 }
 
 TEST(Session, IsOperatedAndPlayedBack) {
-  Session session(open_flight());
+  Session session(opened_flight());
   for (int i = 0; i < 5; ++i) ASSERT_TRUE(session.step());
   session.operation()->pause();
   ASSERT_TRUE(session.step());
@@ -184,7 +183,7 @@ TEST(Session, IsOperatedAndPlayedBack) {
 }
 
 TEST(Session, AfterTheEndNothingIsSet) {
-  Session session(open_flight());
+  Session session(opened_flight());
   session.finish();
   const Issues issues = session.set("time_limit_s", "30");
   ASSERT_EQ(issues.size(), 1u);
@@ -195,7 +194,7 @@ TEST(Session, AfterTheEndNothingIsSet) {
 TEST(Session, ARecordAcceptsNoOptions) {
   const test::Folder folder;
   const auto file = folder / "run.h5";
-  Session session(open_flight());
+  Session session(opened_flight());
   session.finish();
   session.record_to(file);
   EXPECT_TRUE(open_session(file)->is_playback());
@@ -204,7 +203,7 @@ TEST(Session, ARecordAcceptsNoOptions) {
 }
 
 TEST(Session, TheViewIsTheLastTicksUntilTheNext) {
-  Session session(open_flight());
+  Session session(opened_flight());
   while (session.view().tree.empty()) ASSERT_TRUE(session.step());
   const SessionView before = session.view();
   EXPECT_TRUE(session.set("navigator.speed_um_per_s", "30").empty());
@@ -222,7 +221,7 @@ TEST(Session, ListenersHearEveryTickAndTheEnd) {
     void on_end(const RunResult&) override { ++ends; }
     std::size_t ticks = 0, ends = 0;
   } count;
-  Session session(open_flight());
+  Session session(opened_flight());
   session.listen(count);
   session.finish();
   EXPECT_EQ(count.ticks, session.record().frames.size());

@@ -39,6 +39,7 @@ struct Row {
   Mood mood = Mood::calm;
   bool is_last = false;
   std::uint32_t index = 0;
+  std::optional<std::uint32_t> partner;
   std::vector<Vec2> points;
   std::vector<Inner> parts;
   template <class Self, class V>
@@ -51,6 +52,7 @@ struct Row {
     visit(self.mood, plain("mood", "Mood."));
     visit(self.is_last, plain("is_last", "Last."));
     visit(self.index, plain("index", "Index."));
+    visit(self.partner, plain("partner", "Partner."));
     visit(self.points, um("points", "Points."));
     visit(self.parts, plain("parts", "Parts."));
   }
@@ -73,6 +75,7 @@ Row full_row() {
           .mood = Mood::cross,
           .is_last = true,
           .index = 7,
+          .partner = 3,
           .points = {{8, 9}, {10, 11}},
           .parts = {{.depth = 12, .count = 13}}};
 }
@@ -86,7 +89,7 @@ const Column& column_of(const std::vector<Column>& columns, std::string_view key
 TEST(Columns, AreTheLeavesOfTheFields) {
   EXPECT_EQ(csv_head(columns_of<Row>()),
             "t_s,turn_rad,seen_x_um,seen_y_um,seen_heading_rad,target_x_um,target_y_um,"
-            "inner_depth_um,inner_count,mood,is_last,index");
+            "inner_depth_um,inner_count,mood,is_last,index,partner");
   const std::vector<Column> columns = columns_of<Row>();
   EXPECT_EQ(column_of(columns, "inner_depth_um").doc, "Inside: how deep.");
   EXPECT_EQ(column_of(columns, "mood").kind, ColumnKind::word);
@@ -100,12 +103,19 @@ TEST(Columns, WhatIsMissingIsNoNumberAndAnEmptyText) {
   const std::vector<Column> columns = columns_of<Row>();
   const Row none;
   EXPECT_TRUE(std::isnan(column_of(columns, "seen_x_um").number(&none)));
-  EXPECT_EQ(csv_line(columns, &none), "0,0,,,,,,0,0,calm,0,0");
+  EXPECT_EQ(csv_line(columns, &none), "0,0,,,,,,0,0,calm,0,0,");
   Row row;
   EXPECT_TRUE(column_of(columns, "target_y_um").set_number(&row, std::nan("")));
   EXPECT_FALSE(row.target);
   EXPECT_TRUE(column_of(columns, "target_y_um").set_number(&row, 4));
   EXPECT_EQ(row.target->y, 4);
+  const Column& partner = column_of(columns, "partner");
+  EXPECT_EQ(partner.integer(&none), -1);
+  EXPECT_TRUE(partner.set_integer(&row, -1));
+  EXPECT_FALSE(row.partner);
+  EXPECT_TRUE(partner.set_integer(&row, 2));
+  EXPECT_EQ(row.partner, 2u);
+  EXPECT_EQ(partner.integer(&row), 2);
 }
 
 TEST(Columns, WhatIsOutOfRangeIsRefused) {
@@ -113,6 +123,8 @@ TEST(Columns, WhatIsOutOfRangeIsRefused) {
   Row row;
   EXPECT_FALSE(column_of(columns, "is_last").set_number(&row, 2));
   EXPECT_FALSE(column_of(columns, "index").set_number(&row, -1));
+  EXPECT_FALSE(column_of(columns, "index").set_integer(&row, -1));
+  EXPECT_FALSE(column_of(columns, "partner").set_integer(&row, -2));
   EXPECT_FALSE(column_of(columns, "index").set_number(&row, 4294967296.0));
   EXPECT_TRUE(column_of(columns, "index").set_number(&row, 4294967295.0));
   EXPECT_FALSE(column_of(columns, "mood").set_word(&row, "glad"));
@@ -133,6 +145,8 @@ TEST(Tables, ComeBackFromHdf5) {
   EXPECT_EQ(csv_line(columns_of<Row>(), &read.rows[0]),
             csv_line(columns_of<Row>(), &results.rows[0]));
   EXPECT_FALSE(read.rows[1].seen);
+  EXPECT_EQ(read.rows[0].partner, 3u);
+  EXPECT_FALSE(read.rows[1].partner);
   EXPECT_EQ(read.rows[0].points, results.rows[0].points);
   EXPECT_TRUE(read.rows[1].points.empty());
   EXPECT_EQ(read.rows[0].parts[0].count, 13);

@@ -65,7 +65,7 @@ TEST(Stream, AFrameIsWhatTheSessionShows) {
   Session session(open_experiment(small_flight(), {}));
   for (int i = 0; i < 20; ++i) ASSERT_TRUE(session.step());
   const SessionView view = session.view();
-  const MessagePtr message = frame_message(view);
+  const MessagePtr message = frame_message(view, session.diagnostics());
   EXPECT_EQ(message->kind, Message::Kind::frame);
   const Json frame = decoded(message);
   EXPECT_EQ(frame["number"], view.number);

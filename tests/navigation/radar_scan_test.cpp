@@ -111,7 +111,7 @@ TEST(RadarWeights, AvoidanceGrowsWithNearness) {
 
 TEST(RadarScan, NothingDetectedGoesStraight) {
   const RadarLook look = look_at({500, 500}, 100, {1500, 800});
-  const RadarScan far = scan(look, arena({disc_body({820, 500}, 150)}), directions);
+  const RadarDiagnostics far = scan(look, arena({disc_body({820, 500}, 150)}), directions);
   EXPECT_FALSE(far.nearest);
   ASSERT_TRUE(far.straight);
   EXPECT_DOUBLE_EQ(*far.straight, std::atan2(300, 1000));
@@ -121,7 +121,7 @@ TEST(RadarScan, NothingDetectedGoesStraight) {
 TEST(RadarScan, ScreensWhatComesTooNear) {
   // Edge 20 µm from the swarm's: a predictive swarm straight ahead would touch it.
   const RadarLook look = look_at({500, 500}, 100, {1500, 500});
-  const RadarScan s = scan(look, arena({disc_body({720, 500}, 100, 4)}), directions);
+  const RadarDiagnostics s = scan(look, arena({disc_body({720, 500}, 100, 4)}), directions);
   for (const RadarBeam& beam : s.beams) {
     const double gap = distance(Vec2{720, 500}, look.centre + 25 * unit_vector(beam.heading)) - 200;
     EXPECT_EQ(beam.fate == BeamFate::kept, gap >= 25) << degrees(beam.heading);
@@ -135,7 +135,7 @@ TEST(RadarScan, ScreensWhatComesTooNear) {
 
 TEST(RadarScan, TheNearestEdgeCountsNotTheNearestCentre) {
   const RadarLook look = look_at({500, 500}, 100, {1500, 500});
-  const RadarScan s =
+  const RadarDiagnostics s =
       scan(look, arena({disc_body({500, 660}, 10, 0), disc_body({840, 500}, 200, 1)}), directions);
   ASSERT_TRUE(s.nearest);
   EXPECT_EQ(*s.nearest, 1u);  // 40 µm away, the other 50
@@ -143,7 +143,7 @@ TEST(RadarScan, TheNearestEdgeCountsNotTheNearestCentre) {
 
 TEST(RadarScan, WallsScreenButDoNotRepel) {
   const RadarLook look = look_at({130, 700}, 100, {1500, 700});
-  const RadarScan s = scan(look, arena(), directions);
+  const RadarDiagnostics s = scan(look, arena(), directions);
   EXPECT_FALSE(s.nearest);
   EXPECT_TRUE(s.straight);
   int walls = 0;
@@ -195,7 +195,7 @@ TEST(RadarScanner, ChoosesAsTheFullScanDoes) {
       walls.push_back(scenes::rectangle(
           {c.look.centre + Vec2{60, -300}, c.look.centre + Vec2{80, rng.uniform(-250, 300)}}));
     const Snapshot world = arena(c.bodies, walls);
-    const RadarScan slow = scan(c.look, world, directions);
+    const RadarDiagnostics slow = scan(c.look, world, directions);
     const auto contact = scanner.detect(c.look, world);
     ASSERT_EQ(contact.has_value(), slow.nearest.has_value()) << trial;
     if (contact) {
@@ -242,7 +242,7 @@ TEST(RadarScanner, ATurnLimitThatForbidsTheBestOfNothingChangesNothing) {
     ++(may ? within : beyond);
     const auto limited = scanner.choose(c.look, world);
     ASSERT_TRUE(limited) << trial;
-    const RadarScan full = scan(c.look, world, directions);
+    const RadarDiagnostics full = scan(c.look, world, directions);
     ASSERT_TRUE(full.best) << trial;
     EXPECT_EQ(full.beams[*full.best].heading, *limited) << trial;
     if (may) {
@@ -261,7 +261,7 @@ TEST(RadarScanner, KeepsAsTheFullScanDoes) {
     Rng rng(10, Purpose::test, trial);
     const Case c = random_case(rng);
     const Snapshot world = arena(c.bodies);
-    const RadarScan slow = scan(c.look, world, directions);
+    const RadarDiagnostics slow = scan(c.look, world, directions);
     scanner.detect(c.look, world);
     const std::vector<bool> kept = scanner.kept(c.look, world);
     for (std::size_t i = 0; i < kept.size(); ++i) {

@@ -362,7 +362,7 @@ TEST(Radar, LastLookGivesTheDecisionInFull) {
                                     .world = borrowed(world)},
                                    {});
   ASSERT_TRUE(navigator.last_look());
-  const RadarScan decision = scan(*navigator.last_look(), world, 360);
+  const RadarDiagnostics decision = scan(*navigator.last_look(), world, 360);
   ASSERT_TRUE(decision.best);
   EXPECT_EQ(decision.beams.size(), 360u);
   EXPECT_EQ(decision.beams[*decision.best].heading, c.heading);

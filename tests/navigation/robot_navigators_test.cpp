@@ -201,11 +201,8 @@ TEST(MapAssumptions, KnowsDeadEndsAndWhatIsApart) {
 }
 
 TEST(MapAssumptions, TellsWhenThereIsLittleToDivide) {
-  MapSegmentation map;
-  map.regions.resize(4);
-  EXPECT_NE(too_few_regions(map), "");
-  map.regions.resize(5);
-  EXPECT_EQ(too_few_regions(map), "");
+  EXPECT_NE(too_few_regions(4), "");
+  EXPECT_EQ(too_few_regions(5), "");
 }
 
 }  // namespace

@@ -67,6 +67,13 @@ export interface Radar {
   straight?: number;
 }
 
+/** Predicted obstacles. */
+export interface Predicted {
+  effect: number;
+  radius: number; // of the swarm with its gap
+  bodies: Bytes; // body, time, x, y, radius, uncertainty for each
+}
+
 export interface Frame {
   type: 'frame';
   number: number;
@@ -78,6 +85,7 @@ export interface Frame {
   plans: number;
   target?: Point;
   radar?: Radar;
+  predicted?: Predicted;
 }
 
 export interface Plan {

@@ -4,13 +4,20 @@
 #include <algorithm>
 
 namespace microswarm::lab {
+namespace {
+
+const AggregationDiagnostics* aggregation_of(const Session& shown) {
+  return std::get_if<AggregationDiagnostics>(&shown.diagnostics());
+}
+
+}  // namespace
 
 void Publisher::clear() {
   rows_.clear();
   events_.clear();
   told_rows_ = told_events_ = 0;
   told_plans_ = 0;
-  told_aggregation_ = false;
+  told_nodes_.clear();
   standing = {.speed = standing.speed};
   is_fresh_ = true;
 }
@@ -44,9 +51,9 @@ void Publisher::welcome(std::uint64_t page, const MessagePtr& hello, Session& se
   send_(page, hello);
   send_(page, rows_message(rows_, events_, true));
   if (!view.tree.empty()) send_(page, plan_message(view));
-  if (const auto aggregation = shown.aggregation()) send_(page, aggregation_message(*aggregation));
+  if (const auto* plan = aggregation_of(shown)) send_(page, aggregation_message(*plan));
   standing.frame = view.number;
-  send_(page, frame_message(view));
+  send_(page, frame_message(view, shown.diagnostics()));
   send_(page, standing_message(standing, session.result()));
 }
 
@@ -61,21 +68,19 @@ void Publisher::set(Session& session, const Request& request, Issues& issues) {
   is_fresh_ = true;
 }
 
-void Publisher::tell_frame(Session& session, const Session& shown, const SessionView& view) {
+void Publisher::tell_frame(const Session& shown, const SessionView& view) {
   is_fresh_ = false;
   has_changed_ = true;
   published_ = Stop::Clock::now();
   tell_rows();
   if (view.plans != told_plans_) send_(0, plan_message(view));
   told_plans_ = view.plans;
-  if (!told_aggregation_ && &session == &shown) {
-    if (const auto aggregation = session.aggregation()) {
-      send_(0, aggregation_message(*aggregation));
-      told_aggregation_ = true;
-    }
+  if (const auto* plan = aggregation_of(shown); plan && plan->nodes != told_nodes_) {
+    send_(0, aggregation_message(*plan));
+    told_nodes_ = plan->nodes;
   }
   standing.frame = view.number;
-  send_(0, frame_message(view));
+  send_(0, frame_message(view, shown.diagnostics()));
 }
 
 void Publisher::tell_rows() {

@@ -43,7 +43,7 @@ class Publisher {
   /// Sends news to all pages, when due.
   template <class View>
   void publish(Session& session, const Session& shown, View&& view) {
-    if (is_fresh_ && Stop::Clock::now() >= next_frame()) tell_frame(session, shown, view());
+    if (is_fresh_ && Stop::Clock::now() >= next_frame()) tell_frame(shown, view());
     if (has_changed_) tell_standing(session);
   }
   /// Sets a scenario value and informs all pages.
@@ -59,7 +59,7 @@ class Publisher {
   Standing standing;
 
  private:
-  void tell_frame(Session& session, const Session& shown, const SessionView& view);
+  void tell_frame(const Session& shown, const SessionView& view);
   void tell_rows();
 
   Send send_;
@@ -68,7 +68,7 @@ class Publisher {
   std::size_t told_rows_ = 0;
   std::size_t told_events_ = 0;
   std::uint64_t told_plans_ = 0;
-  bool told_aggregation_ = false;
+  std::vector<AggregationNode> told_nodes_;  ///< tree of the aggregation
   bool is_fresh_ = false;
   bool has_changed_ = false;
   Stop::Clock::time_point published_{};  ///< time of the last frame message

@@ -43,12 +43,6 @@ Json points(std::span<const Vec2> list) {
   return floats.take();
 }
 
-Json indices(std::span<const std::uint32_t> list) {
-  Indices numbers;
-  for (const std::uint32_t i : list) numbers.add(i);
-  return numbers.take();
-}
-
 Json point(Vec2 p) { return {p.x, p.y}; }
 
 Json polygon(const Polygon& shape) {
@@ -90,23 +84,59 @@ std::string shell_word(const std::string& text) {
   return quoted + "'";
 }
 
-Json radar(const RadarScan& scan) {
+Json radar(const RadarDiagnostics& scan) {
   Floats beams;
   for (const RadarBeam& beam : scan.beams) {
     beams.add(static_cast<float>(beam.heading));
     beams.add(static_cast<float>(beam.fate));
     beams.add(static_cast<float>(beam.score));
   }
-  Json json{{"centre", point(scan.look.centre)},
-            {"radius", scan.look.radius},
-            {"prediction", scan.look.circles.prediction},
-            {"safety", scan.look.circles.safety},
-            {"detection", scan.look.circles.detection},
-            {"step", scan.look.step},
+  Json json{{"centre", point(scan.centre)},
+            {"radius", scan.radius},
+            {"prediction", scan.circles.prediction},
+            {"safety", scan.circles.safety},
+            {"detection", scan.circles.detection},
+            {"step", scan.step},
             {"beams", beams.take()}};
   if (scan.best) json["best"] = *scan.best;
   if (scan.straight) json["straight"] = *scan.straight;
   return json;
+}
+
+/// Bodies as body, time, x, y, radius and uncertainty in turn.
+Json predicted(const PredictiveDiagnostics& ahead) {
+  Floats bodies;
+  for (const PredictedMoment& body : ahead.bodies) {
+    bodies.add(static_cast<float>(body.body));
+    bodies.add(static_cast<float>(body.t));
+    bodies.add(body.centre);
+    bodies.add(static_cast<float>(body.radius));
+    bodies.add(static_cast<float>(body.uncertainty));
+  }
+  return {{"effect", ahead.effect}, {"radius", ahead.radius}, {"bodies", bodies.take()}};
+}
+
+/// State of an aggregation; its tree has a message of its own.
+Json gathering(const AggregationDiagnostics& plan) {
+  Json json{{"mean_distance", plan.mean_distance}, {"livelock", plan.is_livelock}};
+  if (plan.leader) json["leader"] = *plan.leader;
+  if (plan.team_region) json["region"] = *plan.team_region;
+  if (plan.team_branch) json["branch"] = *plan.team_branch;
+  if (plan.moves_left) json["moves_left"] = *plan.moves_left;
+  return json;
+}
+
+void add(Json& json, const Diagnostics& diagnostics) {
+  std::visit(
+      Overloaded{[](std::monostate) {},
+                 [&](const RadarDiagnostics& of) { json["radar"] = radar(of); },
+                 [&](const AggregationDiagnostics& of) { json["gathering"] = gathering(of); },
+                 [&](const PredictiveDiagnostics& of) { json["predicted"] = predicted(of); },
+                 [&](const HierarchicalDiagnostics& of) {
+                   json["towards"] = point(of.towards);
+                   if (of.wait_at) json["wait"] = point(*of.wait_at);
+                 }},
+      diagnostics);
 }
 
 Json event(const RunEvent& happened) { return described(to_json_text(happened)); }
@@ -190,7 +220,7 @@ MessagePtr scenario_message(const Scenario& scenario) {
   return make_message({{"type", "scenario"}, {"scenario", described(to_json_text(scenario))}});
 }
 
-MessagePtr frame_message(const SessionView& view) {
+MessagePtr frame_message(const SessionView& view, const Diagnostics& diagnostics) {
   Json json{{"type", "frame"},
             {"number", view.number},
             {"frame", described(to_json_text(view.frame))},
@@ -200,7 +230,7 @@ MessagePtr frame_message(const SessionView& view) {
             {"path", points(view.path)},
             {"plans", view.plans}};
   if (view.target) json["target"] = point(*view.target);
-  if (view.radar) json["radar"] = radar(*view.radar);
+  add(json, diagnostics);
   return make_message(json, Message::Kind::frame);
 }
 
@@ -223,18 +253,26 @@ MessagePtr plan_message(const SessionView& view) {
                        {"detections", circles.take()}});
 }
 
-MessagePtr aggregation_message(const AggregationView& view) {
+MessagePtr aggregation_message(const AggregationDiagnostics& plan) {
+  Floats nodes;
+  Indices next, numbers, branches;
+  for (const AggregationNode& node : plan.nodes) {
+    nodes.add(node.position);
+    next.add(node.next);
+    numbers.add(node.region);
+    branches.add(node.branch);
+  }
   Json regions = Json::array();
-  for (const Region& region : view.segmentation.regions)
+  for (const Region& region : plan.regions)
     regions.push_back({{"junction", point(region.junction)},
                        {"gate", region.gate},
                        {"next", region.next},
                        {"branches", region.branches}});
   return make_message({{"type", "aggregation"},
-                       {"nodes", points(view.nodes)},
-                       {"next", indices(view.next)},
-                       {"region", indices(view.segmentation.region)},
-                       {"branch", indices(view.segmentation.branch)},
+                       {"nodes", nodes.take()},
+                       {"next", next.take()},
+                       {"region", numbers.take()},
+                       {"branch", branches.take()},
                        {"regions", std::move(regions)}});
 }
 

@@ -67,9 +67,9 @@ MessagePtr hello_message(const Session& session, const Source& source);
 nlohmann::json hello_json(const Session& session, const Source& source);
 /// The scenario after a change.
 MessagePtr scenario_message(const Scenario& scenario);
-MessagePtr frame_message(const SessionView& view);
+MessagePtr frame_message(const SessionView& view, const Diagnostics& diagnostics);
 MessagePtr plan_message(const SessionView& view);
-MessagePtr aggregation_message(const AggregationView& view);
+MessagePtr aggregation_message(const AggregationDiagnostics& plan);
 /// Clearance of the map at the centres of square cells, row by row from below.
 MessagePtr clearance_message(const Map& map);
 MessagePtr rows_message(std::span<const Row> rows, std::span<const RunEvent> events, bool anew);

@@ -135,8 +135,8 @@ void note_oddities(const Session& session) {
 void note_regions(const Session& session) {
   const auto* params = std::get_if<AggregationParams>(&session.scenario().navigator);
   if (!params || params->method != Aggregation::divide_and_conquer) return;
-  const auto aggregation = session.aggregation();
-  const std::string few = aggregation ? too_few_regions(aggregation->segmentation) : "";
+  const auto* aggregation = std::get_if<AggregationDiagnostics>(&session.diagnostics());
+  const std::string few = aggregation ? too_few_regions(aggregation->regions.size()) : "";
   if (!few.empty()) note("note: {}\n", few);
 }
 

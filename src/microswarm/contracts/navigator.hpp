@@ -5,6 +5,7 @@
 #include <span>
 
 #include "microswarm/contracts/command.hpp"
+#include "microswarm/contracts/diagnostics.hpp"
 #include "microswarm/contracts/navigator_state.hpp"
 #include "microswarm/contracts/observation.hpp"
 #include "microswarm/contracts/plan.hpp"
@@ -38,6 +39,9 @@ class Navigator {
   virtual void overruled(double now, const Command& command) { (void)now, (void)command; }
   /// Valid until the next step.
   virtual NavigatorView view() const = 0;
+  /// Diagnostics of the last step, computed on request, which may take longer than the step. Call
+  /// it before the next step.
+  virtual Diagnostics diagnostics() const { return {}; }
 };
 
 }  // namespace microswarm

@@ -139,6 +139,15 @@ double Column::number(const void* row) const {
   }
 }
 
+std::int64_t Column::integer(const void* row) const {
+  return in(row) ? static_cast<std::int64_t>(number(row)) : -1;
+}
+
+bool Column::set_integer(void* row, std::int64_t value) const {
+  const bool can_miss = std::ranges::any_of(steps_, [](const Step& step) { return step.optional; });
+  return (value == -1 && can_miss) || set_number(row, static_cast<double>(value));
+}
+
 bool Column::set_number(void* row, double value) const {
   if (kind == ColumnKind::integer && !(value >= 0 && value <= greatest_of(type_->kind)))
     return false;

@@ -30,8 +30,12 @@ class Column {
   const Type& type() const { return *type_; }
   /// Value of a real or integer column.
   double number(const void* row) const;
+  /// Value of an integer column; -1 where there is none.
+  std::int64_t integer(const void* row) const;
   /// False if the value is outside the field's range.
   bool set_number(void* row, double value) const;
+  /// The same for an integer column, where -1 is no value of an optional field.
+  bool set_integer(void* row, std::int64_t value) const;
   /// Value of a word column.
   std::string_view word(const void* row) const;
   /// False if the word does not exist.

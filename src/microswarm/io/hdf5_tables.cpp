@@ -64,9 +64,8 @@ struct TableWriter {
     values.reserve(rows.size());
     std::vector<std::string> words;
     for (const void* row : rows)
-      values.push_back(column.kind == ColumnKind::word
-                           ? index_of(column.word(row), words)
-                           : static_cast<std::int64_t>(column.number(row)));
+      values.push_back(column.kind == ColumnKind::word ? index_of(column.word(row), words)
+                                                       : column.integer(row));
     file.dataset(path, values);
     if (column.kind != ColumnKind::word) return;
     std::string joined;
@@ -146,7 +145,7 @@ struct TableReader {
         file.fail(path + " has a value without a word");
       if (has_words && !column.set_word(rows[i], known[static_cast<std::size_t>(values[i])]))
         file.fail(path + " has an unknown word");
-      if (!has_words && !column.set_number(rows[i], static_cast<double>(values[i])))
+      if (!has_words && !column.set_integer(rows[i], values[i]))
         file.fail(path + " has a value out of range");
     }
   }
@@ -163,6 +162,14 @@ void write_tables(Hdf5Writer& out, const Type& type, const void* value) {
 
 void read_tables(const Hdf5Reader& in, const Type& type, void* value) {
   visit_tables(type, value, TableReader{in});
+}
+
+void write_table(Hdf5Writer& out, const Field& field, const void* value, std::string_view parent) {
+  visit_table(field, value, TableWriter{out}, parent);
+}
+
+void read_table(const Hdf5Reader& in, const Field& field, void* value, std::string_view parent) {
+  visit_table(field, value, TableReader{in}, parent);
 }
 
 void write_attributes(Hdf5Writer& out, const std::string& group, const Type& type,

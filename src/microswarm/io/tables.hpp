@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "microswarm/config/type.hpp"
@@ -27,24 +28,28 @@ struct ListRef {
   const void* value_of() const { return value; }
 };
 
+/// Visits one of the tables of a described value, which the field holds; see visit_tables.
+template <class Pointer, class Visitor>
+void visit_table(const Field& field, Pointer value, Visitor&& visit, std::string_view parent) {
+  const ListRef<Pointer> list{field.type, field.in(value)};
+  const std::string group = std::string(parent) + "/" + std::string(field.info.name);
+  visit.table(group, list);
+  for (const Field& inner : list.row_type().fields)
+    if (inner.type->kind == TypeKind::list)
+      visit.parts(group + "/" + std::string(inner.info.name), list, inner);
+}
+
 /// Visits the tables of a described value. A table is a list of rows; lists inside the rows form
 /// tables of parts:
 ///
 ///     visit.table(group, list)            // "/plans"
 ///     visit.parts(group, list, field)     // "/plans/tree"
 ///
-/// field.in(row) is the list in a row of the parent table.
+/// field.in(row) is the list in a row of the parent table. `parent` stands before the groups.
 template <class Pointer, class Visitor>
-void visit_tables(const Type& type, Pointer value, Visitor&& visit) {
-  for (const Field& field : type.fields) {
-    if (field.type->kind != TypeKind::list) continue;
-    const ListRef<Pointer> list{field.type, field.in(value)};
-    const std::string group = "/" + std::string(field.info.name);
-    visit.table(group, list);
-    for (const Field& inner : list.row_type().fields)
-      if (inner.type->kind == TypeKind::list)
-        visit.parts(group + "/" + std::string(inner.info.name), list, inner);
-  }
+void visit_tables(const Type& type, Pointer value, Visitor&& visit, std::string_view parent = {}) {
+  for (const Field& field : type.fields)
+    if (field.type->kind == TypeKind::list) visit_table(field, value, visit, parent);
 }
 
 }  // namespace microswarm

@@ -18,6 +18,7 @@ import { Goal, Start } from './layers/marks';
 import { ObstacleTrails } from './layers/obstacle_trails';
 import { Obstacles } from './layers/obstacles';
 import { Path } from './layers/path';
+import { Predictions } from './layers/predictions';
 import { Radar } from './layers/radar';
 import { Robots } from './layers/robots';
 import { ScaleBar } from './layers/scale_bar';
@@ -59,6 +60,7 @@ export class Scene {
     new Detections(),
     this.obstacleTrails,
     new Obstacles(),
+    new Predictions(),
     new Trail(),
     new Path(),
     new Target(this.goal),

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "microswarm/config/type.hpp"
+#include "microswarm/experiment/record/diagnostics_log.hpp"
 #include "microswarm/experiment/record/rig_log.hpp"
 #include "microswarm/experiment/run/run_listener.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
@@ -29,6 +30,7 @@ struct Record {
   std::vector<Change> changes;           ///< changes during the run; the scene is the initial one
   std::vector<RobotMoment> robots;       ///< individually tracked robots, at a subset of the frames
   std::vector<PhasedGoal> phased_goals;  ///< of an external navigator, for a replay
+  DiagnosticsLog diagnostics;            ///< empty unless the scenario keeps them
   RigLog rig_log;                        ///< of a run on a rig
   std::string stated_hash;               ///< hash stated in the file; empty for a new record
 

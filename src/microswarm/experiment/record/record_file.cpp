@@ -123,6 +123,7 @@ void write_record(const Record& record, const std::filesystem::path& file) {
   write_tables(out, type_of<Record>(), &record);
   write_changes(out, record.changes);
   write_phased_goals(out, record.phased_goals);
+  write_diagnostics(out, record.diagnostics);
   write_rig_log(out, record.rig_log);
   out.group("/metrics");
   write_attributes(out, "/metrics", type_of<Metrics>(), &record.result.metrics);
@@ -149,6 +150,7 @@ Record read_record(const std::filesystem::path& file) {
   record.scene = read_scene(in);
   read_tables(in, type_of<Record>(), &record);
   record.phased_goals = read_phased_goals(in);
+  record.diagnostics = read_diagnostics(in);
   record.rig_log = read_rig_log(in);
   if (format == record_format_version) record.changes = read_changes(in);
   record.result.status = status_of(in, in.text_attribute("/", "status"));

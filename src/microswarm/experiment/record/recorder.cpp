@@ -32,6 +32,8 @@ void Recorder::on_tick(const Tick& tick) {
       kept.push_back({frame.t, view.phased_goal});
   }
   if (tick.robots) keep_robots(tick);
+  if (record_.scene.scenario.record.diagnostics && !tick.end)
+    record_.diagnostics.add(frame.t, tick.diagnostics.value());
   record_.events.insert(record_.events.end(), tick.events.begin(), tick.events.end());
 }
 

@@ -40,6 +40,7 @@ Episode::Episode(const Scenario& scenario, Plant& plant, Navigator& navigator, O
 void Episode::change(const std::string& setting, Navigator& navigator) {
   coming_changes_.push_back(setting);
   prepared_ = prepared_ && navigator_ == &navigator;
+  if (navigator_ != &navigator) shown_ = nullptr;
   navigator_ = &navigator;
   if (setting.starts_with("goal_um")) at_goal_ = false;
   goal_.take_goal(present_.pose.position);
@@ -58,6 +59,7 @@ const Tick* Episode::step(const Stop& stop) {
   if (!ending_) take_time();
   if (!ending_ && (stop() || (operation_ && operation_->is_ended()))) ending_ = stopped();
   if (ending_ || !advance(stop)) end();
+  if (shown_) tick_.diagnostics = Lazy<Diagnostics>([by = shown_] { return by->diagnostics(); });
   tick_.events = events_;
   tick_.trajectory = trajectory_;
   if (contacts_) tick_.contacts = &*contacts_;
@@ -99,6 +101,7 @@ bool Episode::advance(const Stop& stop) {
   const double took = std::chrono::duration<double>(Clock::now() - begin).count();
   // Discard an interrupted step: the record must be reproducible without the interruption.
   if (stop()) {
+    shown_ = nullptr;
     tick_.view = {};
     ending_ = stopped();
     return false;
@@ -123,6 +126,7 @@ bool Episode::advance(const Stop& stop) {
 }
 
 Command Episode::decide(const Observation& seen, const Stop& stop) {
+  shown_ = mode_ == OperatingMode::manual ? nullptr : navigator_;
   if (is_autonomous()) {
     const Command command = navigator_->step(seen, stop);
     tick_.view = navigator_->view();

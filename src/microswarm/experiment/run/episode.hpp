@@ -74,6 +74,7 @@ class Episode {
   const Scenario& scenario_;
   Plant& plant_;
   Navigator* navigator_;
+  const Navigator* shown_ = nullptr;  ///< whose diagnostics the tick carries
   Operation* operation_;
   OperatingMode mode_ = OperatingMode::autonomous;  ///< of the tick
   ObstacleMemory obstacles_;

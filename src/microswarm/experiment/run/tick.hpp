@@ -6,8 +6,10 @@
 #include <string>
 #include <string_view>
 
+#include "microswarm/contracts/diagnostics.hpp"
 #include "microswarm/contracts/navigator.hpp"
 #include "microswarm/contracts/observation.hpp"
+#include "microswarm/core/execution/lazy.hpp"
 #include "microswarm/core/execution/status.hpp"
 #include "microswarm/experiment/monitors/contact_monitor.hpp"
 #include "microswarm/experiment/results/frame.hpp"
@@ -19,6 +21,7 @@ namespace microswarm {
 struct Tick {
   Frame frame;
   NavigatorView view;               ///< of the navigator; empty for the last tick
+  Lazy<Diagnostics> diagnostics;    ///< of the navigator; in the last tick those of its last step
   const Snapshot* world = nullptr;  ///< at the frame's time
   /// Positions of individually tracked robots at the frame's time [µm].
   std::optional<std::span<const Vec2>> robots;

@@ -52,6 +52,16 @@ struct SensingParams {
   }
 };
 
+/// Data that a record keeps besides the run.
+struct RecordParams {
+  bool diagnostics = false;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.diagnostics,
+          plain("diagnostics", "Keep the diagnostics of each step, such as radar scans."));
+  }
+};
+
 /// One experiment as data: world, swarm, start, goal and navigator. A swarm tracked as one body has
 /// a start and a goal. Individually tracked robots have starts and either one common goal, where
 /// they gather, or one goal each. `validate` checks this.
@@ -73,6 +83,7 @@ struct Scenario {
   double hold_at_goal = 0;
   bool stop_at_contact = true;
   std::optional<double> detection_range;
+  RecordParams record;
   std::uint64_t seed = 1;
   /// Keys of earlier versions.
   static constexpr std::array<MovedKey, 5> moved_keys{
@@ -105,6 +116,7 @@ struct Scenario {
           plain("stop_at_contact", "End at the first contact, or count contacts and continue."));
     visit(self.detection_range,
           um("detection_range", 0, 1e6, "Gap below which an obstacle counts as being avoided."));
+    visit(self.record, plain("record", "Data kept in the record."));
     visit(self.seed, plain("seed", "Seed of every random stream."));
   }
 };

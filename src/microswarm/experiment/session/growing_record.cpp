@@ -29,6 +29,10 @@ void for_growing(A& a, B& b, const Act& act) {
   act(a.plans, b.plans);
   act(a.events, b.events);
   act(a.changes, b.changes);
+  act(a.diagnostics.radar, b.diagnostics.radar);
+  act(a.diagnostics.aggregation, b.diagnostics.aggregation);
+  act(a.diagnostics.predictive, b.diagnostics.predictive);
+  act(a.diagnostics.hierarchical, b.diagnostics.hierarchical);
 }
 
 /// Gives this thread the lowest priority, even if the session's has a real-time one.

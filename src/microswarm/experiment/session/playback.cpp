@@ -54,6 +54,12 @@ Issues Playback::set(const std::string& key, const std::string&) {
   return issues;
 }
 
+/// Time of the last decision up to a frame: its own, or for the end the one before.
+double Playback::decided_at(std::size_t frame) const {
+  const bool is_end = frame > 0 && record_.frames[frame].state == NavigatorState::end;
+  return record_.frames[is_end ? frame - 1 : frame].t;
+}
+
 const Tick* Playback::step(const Stop&) {
   if (next_ >= record_.frames.size()) return nullptr;
   apply_changes(next_);
@@ -70,6 +76,8 @@ const Tick* Playback::step(const Stop&) {
   if (const auto* path = newest(record_.paths, frame.t)) tick_.view.path = path->path;
   if (const auto* event = newest(record_.plans, frame.t)) tick_.view.plan = &event->plan;
   if (const auto* moment = newest(record_.robots, frame.t)) tick_.robots = moment->positions;
+  tick_.diagnostics =
+      Lazy<Diagnostics>([this, t = decided_at(next_ - 1)] { return record_.diagnostics.at(t); });
   const auto& events = record_.events;
   const auto begin = std::ranges::lower_bound(events, frame.t, {}, &RunEvent::t);
   const auto end =

@@ -29,6 +29,7 @@ class Playback : public SessionSource {
 
  private:
   void apply_changes(std::size_t frame);
+  double decided_at(std::size_t frame) const;
 
   Record record_;
   Scenario scenario_;

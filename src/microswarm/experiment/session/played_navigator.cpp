@@ -20,4 +20,9 @@ Command PlayedNavigator::step(const Observation& seen, const Stop&) {
   return frame.command;
 }
 
+Diagnostics PlayedNavigator::diagnostics() const {
+  if (frame_ >= record_.frames.size()) return {};
+  return record_.diagnostics.at(record_.frames[frame_].t);
+}
+
 }  // namespace microswarm

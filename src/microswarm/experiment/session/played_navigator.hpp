@@ -15,6 +15,7 @@ class PlayedNavigator final : public Navigator {
 
   Command step(const Observation& seen, const Stop& stop) override;
   NavigatorView view() const override { return view_; }
+  Diagnostics diagnostics() const override;
 
  private:
   const Record& record_;

@@ -51,10 +51,10 @@ std::string difference_of(const std::string& row_name, const ListRef<const void*
          std::to_string(now.size()) + " in the replay";
 }
 
-/// Compares the tables of both records.
+/// Compares the tables of two values of one type.
 struct Comparison {
-  const Record& record;
-  const Record& now;
+  const void* first;
+  const void* second;
   std::string difference;
 
   void table(const std::string& group, const ListRef<const void*>& stored) {
@@ -69,13 +69,13 @@ struct Comparison {
 
  private:
   static std::string row_name(const std::string& group) {
-    return group.substr(1, group.size() - 2);  // "/frames" → "frame"
+    return group.substr(1, group.size() - (group.ends_with('s') ? 2 : 1));  // "/frames" → "frame"
   }
-  /// The list of the other record at the same member offset.
+  /// The list of the second value at the same member offset.
   ListRef<const void*> of_now(const ListRef<const void*>& stored) const {
     const auto offset =
-        static_cast<const std::byte*>(stored.value) - reinterpret_cast<const std::byte*>(&record);
-    return {stored.type, reinterpret_cast<const std::byte*>(&now) + offset};
+        static_cast<const std::byte*>(stored.value) - static_cast<const std::byte*>(first);
+    return {stored.type, static_cast<const std::byte*>(second) + offset};
   }
 };
 
@@ -148,8 +148,13 @@ std::string difference_of(const Metrics& stored, const Metrics& now) {
 
 /// The first difference of the replay; empty if there is none.
 std::string difference_of(const Record& record, const Record& now, const std::string& refused) {
-  Comparison comparison{record, now, refused};
+  Comparison comparison{&record, &now, refused};
   visit_tables(type_of<Record>(), static_cast<const void*>(&record), comparison);
+  if (!record.diagnostics.empty()) {
+    comparison.first = &record.diagnostics;
+    comparison.second = &now.diagnostics;
+    visit_tables(type_of<DiagnosticsLog>(), comparison.first, comparison, "/diagnostics");
+  }
   if (!comparison.difference.empty()) return std::move(comparison.difference);
   if (record.result.status != now.result.status)
     return "status is " + std::string(to_string(record.result.status)) + " in the record, " +

@@ -35,7 +35,6 @@ class RunningExperiment : public SessionSource {
   Operation* operation() override { return &operation_; }
   const Scenario& scenario() const override { return scenario_; }
   const World& world() const override { return world_; }
-  const Navigator* navigator() const override { return navigator_.get(); }
 
  private:
   std::shared_ptr<Navigator> made() const;

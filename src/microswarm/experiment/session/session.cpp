@@ -76,15 +76,15 @@ bool Session::seek(std::size_t frame) {
 }
 
 SessionView Session::view() const {
-  if (tick_) return view_of(*tick_, ticks_ - 1, plans_, source_->navigator());
+  if (tick_) return view_of(*tick_, ticks_ - 1, plans_);
   SessionView view;
   if (scenario().start) view.frame.pose = *scenario().start;
   return view;
 }
 
-std::optional<AggregationView> Session::aggregation() const {
-  const Navigator* navigator = source_->navigator();
-  return navigator ? aggregation_of(*navigator) : std::nullopt;
+const Diagnostics& Session::diagnostics() const {
+  static const Diagnostics none;
+  return tick_ ? tick_->diagnostics.value() : none;
 }
 
 const RunResult& Session::result() const { return metrics_ ? result_ : record().result; }

@@ -81,9 +81,9 @@ class Session {
   const Tick* tick() const { return tick_; }
   /// Current state; before the first tick only a frame at t = 0.
   SessionView view() const;
-  /// Aggregation tree and map segmentation; empty for other navigators, before the first tick and
-  /// for records.
-  std::optional<AggregationView> aggregation() const;
+  /// Diagnostics of the navigator in the newest tick, computed when they are first asked for; of a
+  /// record, those that it keeps. Valid until the next step.
+  const Diagnostics& diagnostics() const;
   /// Result so far, with status `running` before the last tick. It must be kept.
   const RunResult& result() const;
   /// Record so far, which can be replayed; complete after the last tick. It must be kept.

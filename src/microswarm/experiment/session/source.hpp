@@ -34,8 +34,6 @@ class SessionSource {
   virtual const World& world() const = 0;
   /// The record that is played back; null for an experiment that runs.
   virtual const Record* record() const { return nullptr; }
-  /// Null for a record.
-  virtual const Navigator* navigator() const { return nullptr; }
 };
 
 }  // namespace microswarm

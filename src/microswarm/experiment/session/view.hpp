@@ -6,14 +6,10 @@
 #include <vector>
 
 #include "microswarm/contracts/command.hpp"
-#include "microswarm/contracts/navigator.hpp"
 #include "microswarm/contracts/navigator_state.hpp"
 #include "microswarm/contracts/plan.hpp"
 #include "microswarm/core/execution/status.hpp"
 #include "microswarm/experiment/run/tick.hpp"
-#include "microswarm/navigation/radar/radar_scan.hpp"
-#include "microswarm/planning/common/detection.hpp"
-#include "microswarm/planning/gathering/map_segmentation.hpp"
 #include "microswarm/world/obstacles/body.hpp"
 
 namespace microswarm {
@@ -32,21 +28,9 @@ struct SessionView {
   std::vector<TreeNode> tree;  ///< of the newest plan
   std::vector<Detection> detections;  ///< its detection circles [drrt]
   std::vector<RunEvent> events;       ///< of the tick
-  std::optional<RadarScan> radar;     ///< the decision of a hierarchical radar
 };
 
-/// Plan of an aggregating navigator as plain values, constant from the first tick on.
-struct AggregationView {
-  std::vector<Vec2> nodes;          ///< positions of the tree's nodes [µm]
-  std::vector<std::uint32_t> next;  ///< next node from each node towards the goal
-  MapSegmentation segmentation;     ///< regions and branches of the nodes
-};
-
-/// View of a tick of this navigator, which is null for a record.
-SessionView view_of(const Tick& tick, std::uint64_t number, std::uint64_t plans,
-                    const Navigator* navigator);
-
-/// Aggregation view of a navigator; empty for other navigators and before the first tick.
-std::optional<AggregationView> aggregation_of(const Navigator& navigator);
+/// View of a tick.
+SessionView view_of(const Tick& tick, std::uint64_t number, std::uint64_t plans);
 
 }  // namespace microswarm

@@ -85,13 +85,13 @@ std::vector<std::string> unmet_assumptions(const Map& map, Vec2 goal, double wid
   return unmet;
 }
 
-std::string too_few_regions(const MapSegmentation& segmentation) {
+std::string too_few_regions(std::size_t regions) {
   constexpr std::size_t enough = 5;
-  if (segmentation.regions.size() >= enough) return {};
+  if (regions >= enough) return {};
   return fmt::format(
       "the map has {} regions: with fewer than {} the method heuristic may need fewer steps than "
       "divide_and_conquer",
-      segmentation.regions.size(), enough);
+      regions, enough);
 }
 
 }  // namespace microswarm

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
-#include "microswarm/planning/gathering/map_segmentation.hpp"
+#include "microswarm/world/map/map.hpp"
 
 namespace microswarm {
 
@@ -26,6 +27,6 @@ std::vector<std::string> unmet_assumptions(const Map& map, Vec2 goal, double wid
 
 /// Reason why HRA may need fewer steps than DCA: the map has too few regions to divide. Empty if it
 /// has enough.
-std::string too_few_regions(const MapSegmentation& segmentation);
+std::string too_few_regions(std::size_t regions);
 
 }  // namespace microswarm

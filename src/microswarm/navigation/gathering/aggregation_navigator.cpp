@@ -50,4 +50,26 @@ Command AggregationNavigator::step(const Observation& seen, const Stop& stop) {
   return steering_.move(*move, NavigatorState::gather);
 }
 
+Diagnostics AggregationNavigator::diagnostics() const {
+  if (!policy_) return {};
+  AggregationDiagnostics out;
+  out.mean_distance = rollout_ ? rollout_->mean_distance() : policy_->mean_distance();
+  out.is_livelock = (rollout_ ? rollout_->guard_count() : policy_->guard_count()) > 0;
+  if (rollout_) {
+    out.moves_left = static_cast<std::uint32_t>(rollout_->steps_left());
+  } else if (policy_->leader() != AggregationPolicy::no_leader) {
+    out.leader = static_cast<std::uint32_t>(policy_->leader());
+    if (params_.method == Aggregation::divide_and_conquer) {
+      out.team_region = policy_->division().region();
+      out.team_branch = policy_->division().branch();
+    }
+  }
+  const MapSegmentation& segmentation = map_->segmentation;
+  for (std::size_t i = 0; i < segmentation.region.size(); ++i)
+    out.nodes.push_back({map_->tree.nodes[i], map_->routes().next[i], segmentation.region[i],
+                         segmentation.branch[i]});
+  out.regions = segmentation.regions;
+  return out;
+}
+
 }  // namespace microswarm

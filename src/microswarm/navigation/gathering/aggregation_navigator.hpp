@@ -31,6 +31,7 @@ class AggregationNavigator : public Navigator {
   Command step(const Observation& observation, const Stop& stop) override;
   void overruled(double now, const Command& command) override { steering_.overruled(now, command); }
   NavigatorView view() const override { return steering_.view(); }
+  Diagnostics diagnostics() const override;
   /// The policy; null before prepare().
   const AggregationPolicy* policy() const { return policy_ ? &*policy_ : nullptr; }
   /// The map data; null before prepare().

@@ -76,6 +76,15 @@ Command HierarchicalNavigator::step(const Observation& seen, const Stop& stop) {
   return steering_.command(decision);
 }
 
+Diagnostics HierarchicalNavigator::diagnostics() const {
+  if (!plan_ && !wait_) return {};
+  HierarchicalDiagnostics out{.towards = via_.value_or(aim().position),
+                              .path_clearance = path_clearance_,
+                              .in_time = path_in_time_};
+  if (wait_) out.wait_since = wait_->since, out.wait_at = wait_->at;
+  return out;
+}
+
 // Algorithm 4 [drrt], one pass of its loop
 Decision HierarchicalNavigator::decide(const Observation& seen, const Stop& stop) {
   if (steering_.sees_swarm(seen)) follower_.update(seen, steering_.compensator());

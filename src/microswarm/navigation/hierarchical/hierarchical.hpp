@@ -32,6 +32,7 @@ class HierarchicalNavigator : public Navigator {
   Command step(const Observation& observation, const Stop& stop) override;
   void overruled(double now, const Command& command) override { steering_.overruled(now, command); }
   NavigatorView view() const override { return steering_.view(); }
+  Diagnostics diagnostics() const override;
 
  private:
   struct Rollout {

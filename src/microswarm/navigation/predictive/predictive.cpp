@@ -98,6 +98,28 @@ NavigatorView PredictiveNavigator::view() const {
   return view;
 }
 
+Diagnostics PredictiveNavigator::diagnostics() const {
+  if (path_.empty()) return {};
+  PredictiveDiagnostics out{.effect = effect_, .radius = radius_};
+  for (std::size_t k = 0; k < ahead_.size(); ++k) {
+    const std::size_t sample = k / bodies_, i = k % bodies_;
+    if (sample % 2 != 0) continue;  // one a step
+    const PredictedBody& body = ahead_[k];
+    out.bodies.push_back({.body = static_cast<std::uint32_t>(body_of_[i]),
+                          .t = effect_ + field_.time_of(static_cast<int>(sample)),
+                          .centre = body.centre,
+                          .turn = body.turn,
+                          .radius = outlines_[i].radius + body.growth,
+                          .growth = body.growth,
+                          .uncertainty = body.uncertainty});
+  }
+  for (std::size_t i = 0; i < bodies_; ++i)
+    for (const ConvexOutline::Edge& edge : outlines_[i].edges)
+      out.corners.push_back({static_cast<std::uint32_t>(body_of_[i]),
+                             edge.offset * edge.normal + edge.begin * perpendicular(edge.normal)});
+  return out;
+}
+
 Command PredictiveNavigator::step(const Observation& seen, const Stop& stop) {
   route_.stop_with(stop);
   predictor_.update(seen);
@@ -170,6 +192,7 @@ bool PredictiveNavigator::stands_hollow(const ConvexOutline& outline, const Trac
 
 /// Predicts the bodies from the time at which this step's command takes effect.
 void PredictiveNavigator::look_ahead(double effect) {
+  effect_ = effect;
   ahead_.clear();
   leg_ahead_.clear();
   for (int s = 0; s < 2 * field_.steps(); ++s)

@@ -30,6 +30,7 @@ class PredictiveNavigator : public Navigator {
   Command step(const Observation& observation, const Stop& stop) override;
   void overruled(double now, const Command& command) override { steering_.overruled(now, command); }
   NavigatorView view() const override;
+  Diagnostics diagnostics() const override;
 
   const MultiModelPredictor& prediction() const { return predictor_; }
 
@@ -77,6 +78,7 @@ class PredictiveNavigator : public Navigator {
   std::vector<ConvexOutline> outlines_;  ///< of the predicted bodies
   std::vector<std::size_t> body_of_;
   std::size_t bodies_ = 0;
+  double effect_ = 0;                     ///< time at which the command takes effect [s]
   std::vector<PredictedBody> ahead_;      ///< at the samples of the field
   std::vector<PredictedBody> leg_ahead_;  ///< at the ends of the segments of the first leg
   std::vector<Body> nonconvex_bodies_;

@@ -58,6 +58,10 @@ Command RadarNavigator::step(const Observation& seen, const Stop& stop) {
   return steering_.command(decision);
 }
 
+Diagnostics RadarNavigator::diagnostics() const {
+  return look_ ? Diagnostics(scan(*look_, *seen_, directions())) : Diagnostics();
+}
+
 // Remembers the last position over frames without a swarm.
 Decision RadarNavigator::filtered(const Decision& decision, const Observation& seen) {
   filter_.update(seen);
@@ -181,6 +185,7 @@ void RadarNavigator::look_around(const Observation& seen, Vec2 target) {
     look.circles.safety = safety_radius_.radius(look.circles.safety, look.circles.prediction,
                                                 contact_->distance - look.radius);
   look_ = look;
+  seen_ = seen.world;
 }
 
 std::optional<Decision> RadarNavigator::retreat(const Observation& seen) {

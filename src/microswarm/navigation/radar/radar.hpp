@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "microswarm/contracts/navigator.hpp"
@@ -35,6 +36,7 @@ class RadarNavigator : public Navigator {
   Command step(const Observation& observation, const Stop& stop) override;
   void overruled(double now, const Command& command) override { steering_.overruled(now, command); }
   NavigatorView view() const override { return steering_.view(); }
+  Diagnostics diagnostics() const override;
 
   /// Input of the last decision by Eq 9–17, for `scan`; empty if the last step made none: blind, or
   /// inside a body.
@@ -75,6 +77,7 @@ class RadarNavigator : public Navigator {
   std::optional<Vec2> course_;        ///< last commanded direction
   Pose2 pose_;                        ///< pose at which the command takes effect
   std::optional<RadarLook> look_;
+  std::shared_ptr<const Snapshot> seen_;  ///< world of the look
   std::optional<RadarContact> contact_;
 };
 

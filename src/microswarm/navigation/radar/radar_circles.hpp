@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "microswarm/contracts/diagnostics.hpp"
 #include "microswarm/core/errors/issue.hpp"
 #include "microswarm/navigation/radar/radar_params.hpp"
 #include "microswarm/swarm/body/swarm_limits.hpp"
 
 namespace microswarm {
-
-/// Radii of the three circles around the swarm's centre [µm]: Fig 2 [radar].
-struct RadarCircles {
-  double prediction = 0;  ///< r_p
-  double safety = 0;      ///< r_f
-  double detection = 0;   ///< r_d
-};
 
 /// Circles of a swarm observed with the radius r_s [µm]: Eq 6, 7, 26 [radar].
 RadarCircles circles_of(const RadarParams& params, double swarm_radius);

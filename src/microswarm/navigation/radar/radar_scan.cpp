@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/geometry/distance.hpp"
 #include "microswarm/navigation/prediction/obstacle_tracker.hpp"
 
@@ -45,9 +46,9 @@ std::optional<std::uint32_t> nearest_body(const RadarLook& look, const Snapshot&
 
 /// From χ_2 only directions that keep the course are taken, if there are any; φ_i is computed over
 /// all of χ_2.
-void keep_course(RadarScan& out) {
+void keep_course(RadarDiagnostics& out, const RadarLook& look) {
   const auto is_on = [&](const RadarBeam& beam) {
-    return beam.fate == BeamFate::kept && keeps_course(out.look, unit_vector(beam.heading));
+    return beam.fate == BeamFate::kept && keeps_course(look, unit_vector(beam.heading));
   };
   if (std::none_of(out.beams.begin(), out.beams.end(), is_on)) return;
   for (RadarBeam& beam : out.beams)
@@ -55,7 +56,7 @@ void keep_course(RadarScan& out) {
 }
 
 /// Eq 9
-void rate(RadarScan& out, const Snapshot& world) {
+void rate(RadarDiagnostics& out, const RadarLook& look, const Snapshot& world) {
   // N(·) removes constants: r_s, r_ob.
   const auto gap = [&](Vec2 p) {
     if (!out.nearest) return 0.0;
@@ -66,21 +67,21 @@ void rate(RadarScan& out, const Snapshot& world) {
   MinMax towards, away;
   for (const RadarBeam& beam : out.beams) {
     if (beam.fate != BeamFate::kept) continue;
-    const Vec2 position = place_of(out.look, beam.heading);
-    towards.include(nearness(position, out.look.target));
+    const Vec2 position = place_of(look, beam.heading);
+    towards.include(nearness(position, look.target));
     away.include(gap(position));
   }
   for (RadarBeam& beam : out.beams) {
     if (beam.fate != BeamFate::kept) continue;
-    const Vec2 position = place_of(out.look, beam.heading);
-    beam.score = out.weights.target * towards.normalised(nearness(position, out.look.target)) +
+    const Vec2 position = place_of(look, beam.heading);
+    beam.score = out.weights.target * towards.normalised(nearness(position, look.target)) +
                  out.weights.avoidance * away.normalised(gap(position));
   }
 }
 
 /// Eq 13
-void choose(RadarScan& out) {
-  for (std::size_t i = 0; i < out.beams.size(); ++i) {
+void choose(RadarDiagnostics& out) {
+  for (std::uint32_t i = 0; i < out.beams.size(); ++i) {
     const RadarBeam& beam = out.beams[i];
     if (beam.fate != BeamFate::kept) continue;
     if (!out.best || beam.score > out.beams[*out.best].score) out.best = i;
@@ -104,9 +105,15 @@ RadarWeights radar_weights(const RadarLook& look, double distance_to_edge) {
           .avoidance = 0.5 + look.avoidance_gain / 2 * near * near};
 }
 
-RadarScan scan(const RadarLook& look, const Snapshot& world, int directions) {
-  RadarScan out;
-  out.look = look;
+RadarDiagnostics scan(const RadarLook& look, const Snapshot& world, int directions) {
+  RadarDiagnostics out{.centre = look.centre,
+                       .radius = look.radius,
+                       .target = look.target,
+                       .circles = look.circles,
+                       .step = look.step,
+                       .obstacle_reach = look.obstacle_reach(),
+                       .wall_reach = look.wall_reach(),
+                       .weights = {}};
   out.nearest = nearest_body(look, world);
   for (int i = 0; i < directions; ++i) {
     out.beams.push_back({.heading = wrap(2 * pi * i / directions)});
@@ -123,8 +130,8 @@ RadarScan scan(const RadarLook& look, const Snapshot& world, int directions) {
     if (world.map().is_free(look.centre + ahead * unit_vector(heading), look.wall_reach()))
       out.straight = heading;
   }
-  rate(out, world);
-  keep_course(out);
+  rate(out, look, world);
+  keep_course(out, look);
   choose(out);
   return out;
 }

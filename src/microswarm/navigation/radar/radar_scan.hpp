@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <limits>
 #include <optional>
-#include <vector>
 
-#include "microswarm/navigation/radar/radar_circles.hpp"
+#include "microswarm/contracts/diagnostics.hpp"
 #include "microswarm/world/snapshot.hpp"
 
 namespace microswarm {
@@ -29,12 +27,6 @@ struct RadarLook {
   double obstacle_reach() const { return circles.safety - step + approach; }
   /// The same for walls and border [µm].
   double wall_reach() const { return radius + wall_distance; }
-};
-
-/// q_t and q_a of Eq 10–12 [radar].
-struct RadarWeights {
-  double target = 1;
-  double avoidance = 0.5;
 };
 
 /// Weights for an obstacle whose edge is `distance` µm from the swarm's centre. As printed, the
@@ -68,30 +60,8 @@ inline bool keeps_course(const RadarLook& look, Vec2 direction) {
   return !look.course || look.min_cosine <= -1 || dot(direction, *look.course) >= look.min_cosine;
 }
 
-/// Why a direction is not in χ_2 of Eq 17 [radar], or why it is not chosen from it: it turns too
-/// far while others do not.
-enum class BeamFate { kept, obstacle, wall, turn };
-
-/// One of the alternative directions, Eq 8 [radar].
-struct RadarBeam {
-  double heading = 0;  ///< θ_i
-  BeamFate fate = BeamFate::kept;
-  std::uint32_t obstacle = 0;  ///< index of the obstacle that screens it, if any
-  double score = 0;            ///< φ_i of Eq 9, 31, over χ_2; 0 if screened
-};
-
-/// One decision in full, for inspection: every direction and why it was kept or screened.
-struct RadarScan {
-  RadarLook look;
-  RadarWeights weights;
-  std::optional<std::uint32_t> nearest;  ///< body in the detection circle to which Eq 9 refers
-  std::vector<RadarBeam> beams;          ///< directions 0, β, 2β, …
-  std::optional<std::size_t> best;       ///< index into beams; nothing if all are screened
-  std::optional<double> straight;        ///< θ_f of Eq 14 if it is taken: nothing detected
-};
-
 /// Tests every direction against every body and wall: slow reference for RadarScanner.
-RadarScan scan(const RadarLook& look, const Snapshot& world, int directions);
+RadarDiagnostics scan(const RadarLook& look, const Snapshot& world, int directions);
 
 /// O_ob of Eq 9 [radar]: the disc's centre or the polygon's centroid, so that along a flat face one
 /// direction is better than the other. Nothing if the centroid is not inside the body, as in a

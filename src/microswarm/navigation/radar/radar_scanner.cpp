@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/geometry/distance.hpp"
 

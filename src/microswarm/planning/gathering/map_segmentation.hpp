@@ -3,20 +3,12 @@
 
 #include <vector>
 
+#include "microswarm/contracts/diagnostics.hpp"
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/planning/gathering/map_segmentation_params.hpp"
 #include "microswarm/planning/gathering/obstacle_weighted_rrt.hpp"
 
 namespace microswarm {
-
-/// Junction and the channels that lead to the goal through it.
-struct Region {
-  Vec2 junction;           ///< centroid of its junction nodes; the goal for region 0
-  std::uint32_t node = 0;  ///< junction node nearest to the centroid
-  std::uint32_t gate = 0;  ///< node of minimum cost, where robots leave the region
-  std::uint32_t next = 0;  ///< region entered from the gate; lower than its own number
-  std::uint32_t branches = 0;
-};
 
 /// Partition of the nodes: every node belongs to one region and one branch of it. Regions are
 /// numbered by the cost of their gates, so `next` descends to the goal's region 0, which is its own

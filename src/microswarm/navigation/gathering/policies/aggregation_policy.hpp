@@ -24,6 +24,8 @@ namespace microswarm {
 /// steps.
 class AggregationPolicy {
  public:
+  static constexpr std::size_t no_leader = ~std::size_t{0};
+
   /// The map must outlive it. The method `rollout` is taken as divide_and_conquer.
   AggregationPolicy(const AggregationMap& map, const AggregationParams& params);
 
@@ -39,8 +41,10 @@ class AggregationPolicy {
   double mean_distance() const { return distances_.mean(); }
   /// The distance [µm] that must fall below σ.
   double distance_left() const { return distances_.left(params_.gathered); }
-  /// The robot that leads.
+  /// The robot that leads; `no_leader` before the first move.
   std::size_t leader() const { return leader_; }
+  /// State of Alg 5 [gather].
+  const DivideAndConquer& division() const { return dca_; }
   /// The point it is led to.
   Vec2 waypoint() const { return chases_ ? chase_->waypoint() : follower_.waypoint(); }
   /// 1 when the guard had to break a livelock.
@@ -57,7 +61,7 @@ class AggregationPolicy {
   std::optional<DynamicShortestPath> chase_;
   bool chases_ = false;
   Rng rng_{1, Purpose::planner};
-  std::size_t leader_ = ~std::size_t{0};
+  std::size_t leader_ = no_leader;
 };
 
 }  // namespace microswarm

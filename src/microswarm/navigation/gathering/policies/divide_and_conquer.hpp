@@ -18,6 +18,10 @@ class DivideAndConquer {
   /// Position that leads next; `last` led until now. There must be robots.
   std::size_t leader(const RobotsOnMap& robots, std::size_t last);
 
+  /// Region and branch of the team that is led.
+  std::uint32_t region() const { return region_; }
+  std::uint32_t branch() const { return branch_; }
+
  private:
   std::uint32_t last_regions() const { return static_cast<std::uint32_t>(params_.last_regions); }
   bool is_led_on(const RobotsOnMap& robots, std::size_t robot);

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/experiment/record/diagnostics_log.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "microswarm/core/fields/overloaded.hpp"
+#include "microswarm/core/text/lines.hpp"
+#include "microswarm/io/hdf5_tables.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr std::string_view diagnostics_group = "/diagnostics";
+constexpr const char* kinds_attribute = "diagnostics";  // of the root: tables, joined by spaces
+
+using AggregationRows = std::vector<DiagnosticsRow<AggregationDiagnostics>>;
+
+/// The newest of the first `count` rows with a tree; null before the first.
+const AggregationDiagnostics* newest_tree(const AggregationRows& rows, std::size_t count) {
+  while (count > 0)
+    if (const auto& shown = rows[--count].shown; !shown.nodes.empty()) return &shown;
+  return nullptr;
+}
+
+}  // namespace
+
+template const Type& type_of<DiagnosticsLog>();
+
+bool DiagnosticsLog::empty() const {
+  bool is_empty = true;
+  fields(*this, [&](const auto& rows, const FieldInfo&) { is_empty = is_empty && rows.empty(); });
+  return is_empty;
+}
+
+void DiagnosticsLog::add(double t, Diagnostics shown) {
+  std::visit(Overloaded{[](std::monostate) {},
+                        [&](RadarDiagnostics&& of) {
+                          radar.push_back({t, std::move(of)});
+                        },
+                        [&](AggregationDiagnostics&& of) {
+                          const auto* before = newest_tree(aggregation, aggregation.size());
+                          if (before && before->nodes == of.nodes && before->regions == of.regions)
+                            of.nodes.clear(), of.regions.clear();
+                          aggregation.push_back({t, std::move(of)});
+                        },
+                        [&](PredictiveDiagnostics&& of) {
+                          predictive.push_back({t, std::move(of)});
+                        },
+                        [&](HierarchicalDiagnostics&& of) {
+                          hierarchical.push_back({t, std::move(of)});
+                        }},
+             std::move(shown));
+}
+
+Diagnostics DiagnosticsLog::at(double t) const {
+  Diagnostics found;
+  fields(*this, [&](const auto& rows, const FieldInfo&) {
+    const auto row = std::ranges::lower_bound(rows, t, {}, [](const auto& one) { return one.t; });
+    if (row != rows.end() && row->t == t) found = row->shown;
+  });
+  if (auto* of = std::get_if<AggregationDiagnostics>(&found); of && of->nodes.empty()) {
+    const auto after =
+        std::ranges::lower_bound(aggregation, t, {}, [](auto& one) { return one.t; });
+    if (const auto* tree =
+            newest_tree(aggregation, static_cast<std::size_t>(after - aggregation.begin())))
+      of->nodes = tree->nodes, of->regions = tree->regions;
+  }
+  return found;
+}
+
+void write_diagnostics(Hdf5Writer& out, const DiagnosticsLog& log) {
+  std::string kinds;
+  for (const Field& field : type_of<DiagnosticsLog>().fields) {
+    if (field.type->count(field.in(&log)) == 0) continue;
+    write_table(out, field, &log, diagnostics_group);
+    kinds.append(kinds.empty() ? "" : " ").append(field.info.name);
+  }
+  if (!kinds.empty()) out.attribute("/", kinds_attribute, kinds);
+}
+
+DiagnosticsLog read_diagnostics(const Hdf5Reader& in) {
+  DiagnosticsLog log;
+  if (!in.has_attribute("/", kinds_attribute)) return log;
+  const std::string kinds = in.text_attribute("/", kinds_attribute);
+  for (const std::string_view kind : split(kinds, ' '))
+    for (const Field& field : type_of<DiagnosticsLog>().fields)
+      if (field.info.name == kind) read_table(in, field, &log, diagnostics_group);
+  for (const auto& row : log.radar)
+    if (row.shown.best && *row.shown.best >= row.shown.beams.size())
+      in.fail("/diagnostics/radar/best is no beam");
+  return log;
+}
+
+}  // namespace microswarm
