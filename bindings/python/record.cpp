@@ -4,6 +4,7 @@
 #include "calls.hpp"
 #include "drawing.hpp"
 #include "microswarm/config/write.hpp"
+#include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/experiment/session/replay.hpp"
 #include "microswarm/io/columns.hpp"
 #include "microswarm/io/tables.hpp"
@@ -22,8 +23,7 @@ py::object column_of(const Column& column, const ListRef<const void*>& list) {
   if (column.kind == ColumnKind::integer) {
     py::array_t<std::int64_t> array(size);
     std::int64_t* out = array.mutable_data();
-    for (std::size_t i = 0; i < list.size(); ++i)
-      *out++ = static_cast<std::int64_t>(column.number(list.row(i)));
+    for (std::size_t i = 0; i < list.size(); ++i) *out++ = column.integer(list.row(i));
     return array;
   }
   py::array_t<double> array(size);
@@ -43,6 +43,26 @@ py::dict columns_of_list(const ListRef<const void*>& list, const Field* position
 }
 
 namespace {
+
+/// Numbers and words of a described value, and a table for each of its lists.
+template <HasFields Value>
+py::object described(const Value& value) {
+  py::dict out;
+  out["type"] = std::string(Value::type_name);
+  for (const Column& column : columns_of<Value>()) {
+    const py::str key(column.key);
+    if (column.kind == ColumnKind::word)
+      out[key] = std::string(column.word(&value));
+    else if (column.kind == ColumnKind::integer)
+      out[key] = column.integer(&value);
+    else
+      out[key] = column.number(&value);
+  }
+  for (const Field& field : type_of<Value>().fields)
+    if (field.type->kind == TypeKind::list)
+      out[py::str(field.key)] = columns_of_list({field.type, field.in(&value)}, &field);
+  return out;
+}
 
 /// Tables by name; "plans/tree" is a list with the table of each plan.
 struct Tables {
@@ -71,7 +91,16 @@ py::dict documented(const Record&) {
 py::dict tables_of(const Record& record) {
   Tables tables;
   visit_tables(type_of<Record>(), static_cast<const void*>(&record), tables);
+  const void* log = &record.diagnostics;
+  for (const Field& field : type_of<DiagnosticsLog>().fields)
+    if (field.type->count(field.in(log)) > 0) visit_table(field, log, tables, "/diagnostics");
   return tables.out;
+}
+
+py::object diagnostics_of(const Diagnostics& diagnostics) {
+  return std::visit(Overloaded{[](std::monostate) -> py::object { return py::none(); },
+                               []<HasFields Shown>(const Shown& of) { return described(of); }},
+                    diagnostics);
 }
 
 py::dict summary_of(const RunResult& result) {

@@ -10,6 +10,9 @@ namespace microswarm::python {
 /// A column for every quantity of a list of rows. `positions` is the field of a list of positions.
 py::dict columns_of_list(const ListRef<const void*>& list, const Field* positions = nullptr);
 
+/// Dictionary of a navigator's diagnostics, or None.
+py::object diagnostics_of(const Diagnostics& diagnostics);
+
 /// Dictionary of status, metrics as JSON and times of the steps.
 py::dict summary_of(const RunResult& result);
 

@@ -216,6 +216,11 @@ void add_session(py::module_& module) {
              });
            })
       .def("view", [](OpenSession& open) { return open.use(view_of); })
+      .def(
+          "diagnostics",
+          [](OpenSession& open) {
+            return open.use([](Session& session) { return diagnostics_of(session.diagnostics()); });
+          })
       .def("summary",
            [](OpenSession& open) {
              return open.use([](Session& session) { return summary_of(session.result()); });

@@ -84,6 +84,24 @@ TEST(Stream, AFrameIsWhatTheSessionShows) {
   EXPECT_EQ(numbers<std::uint32_t>(plan["parents"]).size(), view.tree.size());
 }
 
+TEST(Stream, ARecordShowsTheDiagnosticsThatItKeeps) {
+  const auto file =
+      std::filesystem::path(MICROSWARM_SOURCE_DIR) / "scenarios/papers/radar/twelve.yaml";
+  for (const auto& [navigator, key] : {std::pair{"radar", "radar"}, {"predictive", "predicted"}}) {
+    const auto live = open_session(file, {"record.diagnostics=true", "time_limit_s=1",
+                                          std::string("navigator.type=") + navigator});
+    std::vector<Json> shown;
+    while (live->step()) shown.push_back(decoded(frame_message(live->view(), live->diagnostics())));
+    EXPECT_TRUE(shown[0].contains(key));
+    Session playback(live->record());
+    for (const Json& frame : shown) {
+      ASSERT_TRUE(playback.step());
+      const Json again = decoded(frame_message(playback.view(), playback.diagnostics()));
+      ASSERT_EQ(again[key], frame[key]);
+    }
+  }
+}
+
 TEST(Stream, RowsAreDoublesInTheOrderOfTheirColumns) {
   const std::vector<Row> rows{{.t = 1,
                                .position = {7, 8},

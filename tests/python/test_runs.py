@@ -59,6 +59,27 @@ def test_a_record_has_arrays_of_all_that_was_recorded(flight, tmp_path):
         ms.read_record(tmp_path / "nothing.h5")
 
 
+def test_diagnostics_are_those_of_the_session_and_of_the_record():
+    scenario = ms.Scenario.load(SCENARIOS / "papers/radar/twelve.yaml").set("time_limit_s", 2).set("record.diagnostics", True)
+    with ms.Session(scenario) as session:
+        assert session.diagnostics is None
+        shown = []
+        while session.step():
+            shown.append(session.diagnostics)
+        record = session.record()
+    assert shown[0]["type"] == "radar"
+    kept = record.diagnostics
+    assert kept["radar"].rows == len(shown) - 1  # the end repeats the last one
+    for row, one in enumerate(shown[:-1]):
+        assert kept["radar"]["target_x_um"][row] == one["target_x_um"]
+        assert kept["radar"]["best"][row] == one["best"]
+        beams = kept["radar/beams"][row]
+        assert beams["fate"].tolist() == one["beams"]["fate"].tolist()
+        assert beams["score"].tobytes() == one["beams"]["score"].tobytes()
+    assert record.replay() == (True, "")
+    assert ms.run(scenario.set("record.diagnostics", False), progress=False).diagnostics == {}
+
+
 def test_robots_are_an_array_of_moments():
     scenario = ms.Scenario.load(SCENARIOS / "papers/gather/t_junction.yaml").set("time_limit_s", 3)
     record = ms.run(scenario, progress=False)

@@ -116,7 +116,7 @@ Json predicted(const PredictiveDiagnostics& ahead) {
   return {{"effect", ahead.effect}, {"radius", ahead.radius}, {"bodies", bodies.take()}};
 }
 
-/// State of an aggregation; its tree has a message of its own.
+/// State of an aggregation; its tree is in `aggregation_message`.
 Json gathering(const AggregationDiagnostics& plan) {
   Json json{{"mean_distance", plan.mean_distance}, {"livelock", plan.is_livelock}};
   if (plan.leader) json["leader"] = *plan.leader;

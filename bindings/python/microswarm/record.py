@@ -101,10 +101,13 @@ class Record(Drawable):
         """ "external" if the navigator was not the scenario's, else empty."""
         return self._core.navigator
 
-    def _table(self, name: str) -> Any:
+    def _all_tables(self) -> dict[str, Any]:
         if self._tables is None:
             self._tables = self._core.tables()
-        return self._tables[name]
+        return self._tables
+
+    def _table(self, name: str) -> Any:
+        return self._all_tables()[name]
 
     @property
     def frames(self) -> Table:
@@ -125,6 +128,17 @@ class Record(Drawable):
     @property
     def plan_trees(self) -> list[Table]:
         return [Table(one) for one in self._table("plans/tree")]
+
+    @property
+    def diagnostics(self) -> dict[str, Any]:
+        """Data behind the commands, kept with `record.diagnostics: true`: a Table with a row for each decision, such as "radar", and
+        for each of its lists, such as "radar/beams", a list with a Table for each decision. Empty if none are kept."""
+        found: dict[str, Any] = {}
+        for name, table in self._all_tables().items():
+            if name.startswith("diagnostics/"):
+                parts = isinstance(table, list)
+                found[name.removeprefix("diagnostics/")] = [Table(one) for one in table] if parts else Table(table)
+        return found
 
     @property
     def robots_t_s(self) -> np.ndarray:

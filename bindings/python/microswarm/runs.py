@@ -69,6 +69,12 @@ class Session(Drawable):
         return self._core.view()
 
     @property
+    def diagnostics(self) -> Optional[dict[str, Any]]:
+        """Data behind the last command: `type` (radar, aggregation, predictive, hierarchical_drrt_star), numbers, and a dictionary
+        of columns for each list, such as `beams`. An index without a value is -1. None if the navigator has none."""
+        return self._core.diagnostics()
+
+    @property
     def status(self) -> str:
         """ "running", or the final status."""
         return self._core.summary()["status"]

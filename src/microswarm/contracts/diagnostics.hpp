@@ -213,7 +213,7 @@ struct PredictiveDiagnostics {
   }
 };
 
-/// What the hierarchical D-RRT* framework decided besides its path and its plan.
+/// Decision of the hierarchical D-RRT* framework besides its path and its plan.
 struct HierarchicalDiagnostics {
   static constexpr std::string_view type_name = "hierarchical_drrt_star";
   Vec2 towards;                        ///< goal, or point of the route, that targets lead to [µm]

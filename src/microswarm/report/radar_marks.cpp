@@ -40,11 +40,13 @@ void draw_outline(Picture& picture, const Body& body) {
              body.shape);
 }
 
-void draw_circles(Picture& picture, const Frame& frame, const RadarParams& params) {
+void draw_circles(Picture& picture, const Frame& frame, const RadarParams& params,
+                  const Diagnostics& kept) {
   RadarCircles circles = circles_of(params, frame.radius);
   circles.safety =
       SafetyRadius(params.safety_radius)
           .radius(circles.safety, circles.prediction, frame.obstacle_clearance - frame.radius);
+  if (const auto* scan = std::get_if<RadarDiagnostics>(&kept)) circles = scan->circles;
   const Vec2 at = frame.pose.position;
   Colour body = colours::swarm;
   body.alpha = 0.5;
@@ -68,7 +70,7 @@ void draw_radar_marks(Picture& picture, const Record& record, const World& world
   const Frame& frame = tightest(record);
   const Snapshot then = world.at(frame.t);
   for (const Body& body : then.moving().bodies()) draw_outline(picture, body);
-  draw_circles(picture, frame, *params);
+  draw_circles(picture, frame, *params, record.diagnostics.at(frame.t));
   if (!then.moving().bodies().empty()) picture.legend("obstacles then", then_there);
 }
 
