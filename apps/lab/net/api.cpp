@@ -74,7 +74,7 @@ void make_scenario(Exchange& e, std::string_view) {
   });
 }
 
-/// What a page asks to open; without a file the experiment of the command line.
+/// Opening that a page asks for; without a file that of the command line.
 Opening opening_of(const OpenRequest& asked, const Shared& shared) {
   Opening opening;
   if (asked.file)
