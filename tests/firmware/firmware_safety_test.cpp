@@ -242,7 +242,7 @@ TEST_F(FirmwareSafety, AControllerSteersAFieldThatTheDeviceTurns) {
   field.amplitude = 2;
   CoilController controller(system, field, driver, 0);
   const auto drive = [&](double seconds, double heading) {
-    controller.command({.heading = heading, .speed = 20});
+    controller.command(Command{.heading = heading, .speed = 20});
     for (double t = 0; t < seconds; t += 0.02) {
       ASSERT_EQ(controller.advance(0.02).status, DriveStatus::driven) << t;
       std::this_thread::sleep_for(12ms);

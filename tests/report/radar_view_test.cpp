@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "microswarm/navigation/radar/radar_circles.hpp"
+#include "microswarm/navigation/radar/radar_scan.hpp"
 #include "tests/files.hpp"
 #include "tests/runs.hpp"
 
