@@ -181,7 +181,7 @@ int tell_run(const Session& session, const RunOutput& o, const ReportOptions& re
       print("wrote {}\n",
             (std::filesystem::path(o.out) / (o.no_report ? "run.h5" : "index.html")).string());
   }
-  if (lost && result.status != Status::fault) throw *lost;
+  if (lost && result.status != Status::fault) throw InputError(*lost);
   if (lost) note("microswarm: {}\n", lost->what());  // the other error is more serious
   if (result.status == Status::fault) return hardware;
   return result.status == Status::solved ? ok : not_reached;

@@ -48,8 +48,8 @@ void DiagnosticsLog::add(double t, Diagnostics shown) {
                         [&](PredictiveDiagnostics&& of) {
                           predictive.push_back({t, std::move(of)});
                         },
-                        [&](HierarchicalDiagnostics&& of) {
-                          hierarchical.push_back({t, std::move(of)});
+                        [&](const HierarchicalDiagnostics& of) {
+                          hierarchical.push_back({t, of});
                         }},
              std::move(shown));
 }

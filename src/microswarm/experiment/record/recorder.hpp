@@ -15,6 +15,7 @@ class Recorder : public RunListener {
  public:
   /// `rig` is the name of the rig, if the run is on one.
   explicit Recorder(Scene scene, std::uint32_t trial = 0, std::string rig = {});
+  ~Recorder() override = default;
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 

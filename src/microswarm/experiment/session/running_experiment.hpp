@@ -24,6 +24,7 @@ class RunningExperiment : public SessionSource {
   /// is. `trial` selects the random streams.
   RunningExperiment(Scenario scenario, World world, std::uint32_t trial,
                     std::shared_ptr<Plant> plant, std::shared_ptr<Navigator> navigator);
+  ~RunningExperiment() override = default;
   RunningExperiment(const RunningExperiment&) = delete;
   RunningExperiment& operator=(const RunningExperiment&) = delete;
 

@@ -53,6 +53,7 @@ class LiveSession {
   /// Checks and opens the rig's devices. Throws HardwareError if a device fails, InputError if rig
   /// and scenario do not fit, if the coils cannot hold the field, or if a limit is missing.
   LiveSession(RigExperiment on, const LiveOptions& options);
+  ~LiveSession() = default;
   LiveSession(const LiveSession&) = delete;
   LiveSession& operator=(const LiveSession&) = delete;
 
