@@ -32,6 +32,7 @@ def test_each_mistake_of_a_file_has_its_place():
         ("tick_s", "bad.yaml:1:9", "0"),
         ("navigator.sped_um_per_s", "bad.yaml:2:26", "3"),
         ("seed", "bad.yaml:3:7", "a"),
+        ("map", "bad.yaml:1:1", ""),  # missing
     ]
 
 
