@@ -84,11 +84,18 @@ static mxArray* version(arguments in) {
   return mxCreateString(ms_version());
 }
 
+/* Whether a message is this text; Octave puts the name of the function before it. */
+static int is_message(const char* message, const char* text) {
+  const size_t length = strlen(message), rest = strlen(text);
+  if (rest == 0 || length < rest || strcmp(message + length - rest, text) != 0) return 0;
+  return length == rest || message[length - rest - 1] == ' ';
+}
+
 /* message of an error: its issues, or the message alone if it is not that of the last error */
 static mxArray* issues(arguments in) {
   static const char* names[] = {"key", "place", "text", "value", "limit"};
   const char* message = text_of(in[0], "the message");
-  const int is_known = !refused[0] && strcmp(message, ms_error_text()) == 0;
+  const int is_known = !refused[0] && is_message(message, ms_error_text());
   const size_t count = is_known ? ms_issue_count() : 1;
   mxArray* made = mxCreateStructMatrix(count, 1, 5, names);
   ms_issue issue = {"", "", message, "", ""};
