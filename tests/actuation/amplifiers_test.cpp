@@ -143,7 +143,8 @@ TEST(Amplifiers, HeatTakesCurrentAwayTillItCanBeHeld) {
   d.max_slew.reset();
   Amplifiers amplifiers({d});
   const Eigen::VectorXd current = Eigen::VectorXd::Constant(1, 20);
-  EXPECT_EQ(amplifiers.step(current, 1e-2).scale, 1);  // cold coils bear more than for ever
+  EXPECT_EQ(amplifiers.step(current, 1e-2).scale,
+            1);  // cold coils may carry more than the steady current
   LimitedCurrents last;
   for (int i = 0; i < 2000; ++i) {
     last = amplifiers.step(current, 0.1);

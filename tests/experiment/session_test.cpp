@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+
 #include "microswarm/experiment/run/progress.hpp"
 #include "tests/experiment/scenes.hpp"
 #include "tests/files.hpp"
@@ -43,6 +45,15 @@ TEST(Session, WhatIsKeptChangesNothing) {
     ++ticks;
   }
   EXPECT_EQ(ticks, whole.frames.size());
+}
+
+TEST(Session, OfRobotsThatIsStoppedBeforeItsFirstTickKeepsWhereTheyAre) {
+  const auto session = open_session(scenarios / "papers/gather/t_junction.yaml");
+  const std::atomic<bool> yes = true;
+  EXPECT_EQ(session->finish(Stop(&yes)).status, Status::stopped);
+  ASSERT_EQ(session->record().robots.size(), 1u);
+  EXPECT_FALSE(session->record().robots.front().positions.empty());
+  EXPECT_EQ(replay(session->record()).difference, "");
 }
 
 TEST(Session, TheViewIsWhatTheTickSays) {

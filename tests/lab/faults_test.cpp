@@ -252,7 +252,7 @@ TEST(LabFaults, TooManyConnectionsAreClosed) {
   EXPECT_TRUE(lines.front().heard().starts_with("HTTP/1.1 200"));
 }
 
-// Whatever its clients are in the midst of, their connections are closed.
+// The connections of all clients are closed, also amid a request.
 TEST(LabFaults, ItEndsAmidEverything) {
   for (int i = 0; i < 8; ++i) {
     Lab lab;

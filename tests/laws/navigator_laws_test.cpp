@@ -95,7 +95,7 @@ class NavigatorLaws : public testing::TestWithParam<BodyNavigator> {
   }
 };
 
-// In every build, whatever else has run before.
+// In every build, and after any other run.
 TEST_P(NavigatorLaws, SameSeedSameBits) {
   Hash hash;
   for (std::uint32_t trial = 0; trial < 6; ++trial)

@@ -103,7 +103,7 @@ class RobotNavigatorLaws : public testing::TestWithParam<RobotCase> {
   }
 };
 
-// In every build, whatever else has run before.
+// In every build, and after any other run.
 TEST_P(RobotNavigatorLaws, SameSeedSameBits) {
   EXPECT_EQ(digest(drive(scene(noisy()), 200)), GetParam().golden);
 }

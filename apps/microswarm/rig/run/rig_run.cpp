@@ -128,15 +128,15 @@ class DeviceNotes : public RunListener {
  public:
   explicit DeviceNotes(const LiveRig& rig) : rig_(rig) {}
   void on_tick(const Tick& tick) override {
-    const RigTiming timing = rig_.timing();
-    if (timing.resumed > resumed_)
+    const DeviceEvents device = rig_.device_events();
+    if (device.resumed > resumed_)
       note("note: the coils had switched off by themselves; armed again\n");
-    resumed_ = timing.resumed;
-    if (timing.scaled == weakened_) return;
-    weakened_ = timing.scaled;
+    resumed_ = device.resumed;
+    if (device.scaled == weakened_) return;
+    weakened_ = device.scaled;
     if (tick.frame.t - weakened_at_ > quiet)
       note("note: the device weakens the currents to {:.3g} % by its own limits\n",
-           100 * timing.device_scale);
+           100 * device.scale);
     weakened_at_ = tick.frame.t;
   }
 

@@ -40,9 +40,8 @@ void Recorder::on_tick(const Tick& tick) {
 void Recorder::keep_robots(const Tick& tick) {
   constexpr std::size_t max_moments = 128;
   std::vector<RobotMoment>& kept = record_.robots;
-  const bool is_due = robot_frames_++ % robot_period_ == 0;
-  const bool is_last = tick.end && kept.back().t < tick.frame.t;
-  if (!is_due && !is_last) return;
+  const bool is_due = robot_frames_++ % robot_period_ == 0;  // the first one is
+  if (!is_due && !(tick.end && kept.back().t < tick.frame.t)) return;
   if (is_due && kept.size() == max_moments) {
     for (std::size_t i = 1; 2 * i < kept.size(); ++i) kept[i] = std::move(kept[2 * i]);
     kept.resize(max_moments / 2);

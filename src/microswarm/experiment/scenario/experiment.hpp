@@ -24,9 +24,9 @@ struct Experiment {
   const Scenario& scenario() const { return scene.scenario; }
 };
 
-/// Opens a scenario file. `settings` are applied after the
-/// file; the seed is applied last. Throws InputError with one line per issue: of a key, a value, a
-/// referenced file, or of their combination.
+/// Opens a scenario file. `settings` are applied after the file; the seed is applied last. Throws
+/// InputError with one line per issue: of a key, a value, a referenced file, or of their
+/// combination.
 Experiment open_experiment(const std::filesystem::path& file, const Settings& settings = {},
                            std::optional<std::uint64_t> seed = std::nullopt);
 

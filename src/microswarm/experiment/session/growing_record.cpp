@@ -29,10 +29,12 @@ void for_growing(A& a, B& b, const Act& act) {
   act(a.plans, b.plans);
   act(a.events, b.events);
   act(a.changes, b.changes);
-  act(a.diagnostics.radar, b.diagnostics.radar);
-  act(a.diagnostics.aggregation, b.diagnostics.aggregation);
-  act(a.diagnostics.predictive, b.diagnostics.predictive);
-  act(a.diagnostics.hierarchical, b.diagnostics.hierarchical);
+  // A table that is not named here does not compile.
+  auto& [radar, aggregation, predictive, hierarchical] = a.diagnostics;
+  act(radar, b.diagnostics.radar);
+  act(aggregation, b.diagnostics.aggregation);
+  act(predictive, b.diagnostics.predictive);
+  act(hierarchical, b.diagnostics.hierarchical);
 }
 
 /// Gives this thread the lowest priority, even if the session's has a real-time one.

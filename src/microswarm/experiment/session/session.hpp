@@ -20,9 +20,9 @@ namespace microswarm {
 
 /// Data that a session keeps of its ticks.
 enum class Keep {
-  nothing,
-  result,  ///< status, metrics and times
-  record   ///< all, for a replay
+  nothing,  ///< for a session without listeners
+  result,   ///< status, metrics and times
+  record    ///< all, for a replay
 };
 
 /// Parts of a session beside its scenario, and the data it keeps.
@@ -108,8 +108,8 @@ class Session {
 /// Whether the file has the signature or the name of an HDF5 file.
 bool is_record(const std::filesystem::path& file);
 
-/// Opens a scenario (YAML) with `settings`, or a record (.h5), which
-/// accepts neither settings nor parts. Throws InputError with one line per issue.
+/// Opens a scenario (YAML) with `settings`, or a record (.h5), which accepts neither settings nor
+/// parts. Throws InputError with one line per issue.
 std::unique_ptr<Session> open_session(const std::filesystem::path& file,
                                       const Settings& settings = {}, SessionParts parts = {});
 

@@ -57,6 +57,7 @@ class LiveRig : public Plant {
   /// Zero of the record's time [s], by steady_seconds().
   double start() const { return start_; }
   RigTiming timing() const;
+  DeviceEvents device_events() const { return meter_.device_events(); }
   /// Load of the coils relative to their limits.
   CoilLoad load() const { return meter_.load(); }
   /// Age of the newest processed picture [s].

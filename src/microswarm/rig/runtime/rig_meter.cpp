@@ -22,7 +22,7 @@ void RigMeter::add_output(const CoilMoment& moment) {
   timing_.resumed += output.status == DriveStatus::resumed;
   if (acknowledged && output.device_scale < 1 - 1e-9) {
     ++timing_.scaled;
-    timing_.device_scale = output.device_scale;
+    device_scale_ = output.device_scale;
   }
   timing_.min_device_scale = std::min(timing_.min_device_scale, output.device_scale);
   load_.take(moment.t, output);
@@ -52,6 +52,11 @@ void RigMeter::add_tick(double seconds, bool missed) {
 RigTiming RigMeter::timing() const {
   const std::lock_guard lock(mutex_);
   return timing_;
+}
+
+DeviceEvents RigMeter::device_events() const {
+  const std::lock_guard lock(mutex_);
+  return {timing_.resumed, timing_.scaled, device_scale_};
 }
 
 CoilLoad RigMeter::load() const {

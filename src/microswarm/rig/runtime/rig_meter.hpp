@@ -25,7 +25,6 @@ struct RigTiming {
   double min_scale = 1;         ///< minimum scale of these
   int scaled = 0;               ///< currents reduced by the device's own limits
   double min_device_scale = 1;  ///< minimum scale of these
-  double device_scale = 1;      ///< scale of the last of these
   int missed_deadlines = 0;     ///< ticks that ended too late, see TickSchedule
   int late_currents = 0;        ///< pictures whose currents came more than a tick later
   int frames = 0;               ///< frames processed
@@ -33,6 +32,13 @@ struct RigTiming {
   int unseen_frames = 0;        ///< frames processed in which robots were unseen
   int max_unseen = 0;           ///< maximum number of unseen robots in a frame
   std::optional<FollowDirection> direction{};  ///< of the swarm relative to its commands
+};
+
+/// What the device of the coils did by itself.
+struct DeviceEvents {
+  int resumed = 0;   ///< times the coils had switched off
+  int scaled = 0;    ///< currents reduced by the device's own limits
+  double scale = 1;  ///< scale of the last of these
 };
 
 /// Measures a run on a rig. Its methods may be called from any thread.
@@ -53,6 +59,7 @@ class RigMeter {
 
   /// The measurements so far, apart from the dropped frames, which the camera counts.
   RigTiming timing() const;
+  DeviceEvents device_events() const;
   /// Load of the coils relative to their limits.
   CoilLoad load() const;
 
@@ -60,7 +67,8 @@ class RigMeter {
   const double tick_;  // [s]
   mutable std::mutex mutex_;
   RigTiming timing_;
-  double answered_ = 0;  // arrival of the newest picture with acknowledged currents [s]
+  double device_scale_ = 1;  // of the last currents that the device reduced
+  double answered_ = 0;      // arrival of the newest picture with acknowledged currents [s]
   CoilLoadMeter load_;
 };
 
