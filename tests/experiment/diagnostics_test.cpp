@@ -94,7 +94,7 @@ INSTANTIATE_TEST_SUITE_P(
                         3},
         DiagnosticsCase{
             "Hierarchical", "papers/drrt/moving_obstacles.yaml", {"time_limit_s=6"}, 4}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& of) { return of.param.name; });
 
 TEST(Diagnostics, AReplayNamesWhatDiffers) {
   const auto session = open_session(all_scenarios / "papers/radar/single.yaml",

@@ -15,9 +15,9 @@ TEST(Route, LeadsToTheGoalPastNineTenthsOfTheClearance) {
   for (int world = 0; world < 40; ++world) {
     SCOPED_TRACE(world);
     const auto map = std::make_shared<const Map>(world % 2 ? crowded_map(rng) : random_map(rng));
-    const double clearance = rng.uniform(0.5, 3);
+    const double kept = rng.uniform(0.5, 3);
     const Vec2 goal = uniform_in(map->bounds(), rng);
-    Route route(map, goal, clearance);
+    Route route(map, goal, kept);
     Vec2 p = uniform_in(map->bounds(), rng);
     if (route.length_from(p) == infinity) {
       EXPECT_EQ(route.ahead(p, 10), p);
@@ -29,9 +29,9 @@ TEST(Route, LeadsToTheGoalPastNineTenthsOfTheClearance) {
     for (int step = 0; step < 400 && !(p == goal); ++step) {
       const Vec2 next = route.ahead(p, 10);
       ASSERT_FALSE(next == p);
-      EXPECT_LE(distance(p, next), 10 + 2 * clearance);
+      EXPECT_LE(distance(p, next), 10 + 2 * kept);
       if (step > 0) {
-        EXPECT_TRUE(map->is_free(Segment{p, next}, 0.9 * clearance));
+        EXPECT_TRUE(map->is_free(Segment{p, next}, 0.9 * kept));
       }
       gone += distance(p, next);
       p = next;

@@ -24,7 +24,7 @@ TEST(FollowMonitor, JudgesTheLastStepsOfAtLeastTheDistance) {
     const double share = std::sin(0.01 * k) * 0.6 + 0.5 + rng.uniform(-0.2, 0.2);
     steps.push_back({commanded, share * commanded});
     Vec2 sum;
-    for (auto step = steps.rbegin(); step != steps.rend() && sum.x < 40; ++step) sum += *step;
+    for (auto one = steps.rbegin(); one != steps.rend() && sum.x < 40; ++one) sum += *one;
     const bool follows = sum.x < 40 || sum.y >= 0.5 * sum.x;
     if (std::abs(sum.y - 0.5 * sum.x) > 1e-6) {
       ASSERT_EQ(monitor.take(commanded, steps.back().y, 40), follows) << k;

@@ -125,11 +125,11 @@ TEST(SimulatedRig, LimitsOfTheCoilsSlowItDown) {
   weak.coils = HelmholtzCoils{};
   weak.amplifiers = {AmplifierParams{.max_current = 0.01}};
   const Rig rig{r.rig.params, CoilSystem(weak)};
-  SimulatedRig limited(r.scene.scenario, r.world, rig);
+  SimulatedRig weakened(r.scene.scenario, r.world, rig);
   const Vec2 start = r.scene.scenario.start->position;
-  r.in_rig(limited);
-  EXPECT_LT(limited.coils().scale, 0.1);
-  EXPECT_LT(distance(limited.ground_truth()->swarm.pose.position, start),
+  r.in_rig(weakened);
+  EXPECT_LT(weakened.coils().scale, 0.1);
+  EXPECT_LT(distance(weakened.ground_truth()->swarm.pose.position, start),
             1);  // too weak to move it
 }
 

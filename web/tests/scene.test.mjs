@@ -11,8 +11,8 @@ before(async () => (browser = await startBrowser()));
 after(() => browser.close());
 
 /** Opens a scenario and plays it until `t` [s]. */
-async function playTo(run, file, t, { speed = 0, size } = {}) {
-  const lab = await startLab(file);
+async function playTo(run, file, t, { speed = 0, size, options = [] } = {}) {
+  const lab = await startLab(file, ...options);
   run.after(() => lab.process.kill('SIGKILL'));
   const lookedAt = await openPage(browser, lab.url, size);
   const { page } = lookedAt;
@@ -31,6 +31,8 @@ async function playTo(run, file, t, { speed = 0, size } = {}) {
           window.clearance = { ...message, values: numbers(message.values) };
         if (message.type === 'frame')
           window.discs = numbers(message.bodies.discs);
+        if (message.type === 'frame' && message.predicted)
+          window.predicted = numbers(message.predicted.bodies);
         if (message.type !== 'frame' || message.frame.t_s < t || window.reached) return;
         window.reached = true;
         void connection.ask({ do: 'pause' });
@@ -47,6 +49,30 @@ async function playTo(run, file, t, { speed = 0, size } = {}) {
     scene: (work, argument) => handle.evaluate(work, argument),
   };
 }
+
+test('obstacles as the predictive navigator expects them', async (t) => {
+  const options = ['--set', 'navigator.type=predictive'];
+  const run = await playTo(t, 'scenarios/papers/radar/twelve.yaml', 20, { speed: 20, options });
+  await run.picture('scene-predictions');
+  await run.scene((scene) => scene.follow(true));
+  await run.scene((scene) => scene.zoomBy(4));
+  await run.page.waitForTimeout(200);
+  const shown = await run.picture('scene-predictions-close');
+  const [predicted, discs] = await run.page.evaluate(() => [window.predicted, window.discs]);
+  assert.ok(predicted.length >= 6 && predicted.length % 6 === 0);
+  // The first steps are beside the discs of the frame.
+  const first = predicted[1];
+  for (let i = 0; i < predicted.length && predicted[i + 1] === first; i += 6) {
+    const [x, y, radius] = predicted.slice(i + 2, i + 5);
+    const gaps = [];
+    for (let k = 0; k < discs.length; k += 4) gaps.push(Math.hypot(x - discs[k], y - discs[k + 1]));
+    assert.ok(Math.min(...gaps) < radius, `${Math.min(...gaps)}`);
+  }
+  await run.scene((scene) => scene.show('predictions', false));
+  await run.page.waitForTimeout(200);
+  assert.ok(!shown.equals(await run.page.screenshot()));
+  await run.close();
+});
 
 test('radar among twelve obstacles', async (t) => {
   const run = await playTo(t, 'scenarios/papers/radar/twelve.yaml', 38, { speed: 20 });
