@@ -34,7 +34,7 @@ struct RigTiming {
   std::optional<FollowDirection> direction{};  ///< of the swarm relative to its commands
 };
 
-/// What the device of the coils did by itself.
+/// Actions of the coils' device by itself.
 struct DeviceEvents {
   int resumed = 0;   ///< times the coils had switched off
   int scaled = 0;    ///< currents reduced by the device's own limits
