@@ -95,10 +95,12 @@ World moving_world(int obstacles, bool discs, Rng& rng) {
   return world;
 }
 
-SwarmLimits swarm_limits() {
-  return {.radius = swarm_radius,
-          .max_speed = 85.8,
-          .max_turn_rate = std::numeric_limits<double>::infinity()};
+Task task(Vec2 goal) {
+  return {.swarm = {.radius = swarm_radius,
+                    .max_speed = 85.8,
+                    .max_turn_rate = std::numeric_limits<double>::infinity()},
+          .goal = goal,
+          .goal_tolerance = 1};
 }
 
 Observation observed(const Snapshot& world, Vec2 swarm, double now) {
@@ -129,7 +131,7 @@ void add_rows(std::vector<BenchRow>& rows, const std::string& name, int obstacle
   const std::vector<Place> all = places(obstacles, discs, quick ? 100 : 400, rng);
   RadarParams params;
   params.safety_filter.active = guarded;
-  RadarNavigator navigator(params, swarm_limits(), {0, 0}, 1, Rng(1, Purpose::planner));
+  RadarNavigator navigator(params, task({0, 0}), Rng(1, Purpose::planner));
   double now = 0;
   double sum = 0;  // prevents the results from being optimised away
   DecisionTimes measured;
@@ -161,8 +163,7 @@ DecisionTimes drive(int obstacles, bool discs, int drives, const Stop& stop) {
   for (int k = 0; k < drives && !stop(); ++k) {
     const World world = moving_world(obstacles, discs, rng);
     const double side = world.map->bounds().width();
-    RadarNavigator navigator({}, swarm_limits(), {0.9 * side, 0.9 * side}, 1,
-                             Rng(1, Purpose::planner));
+    RadarNavigator navigator({}, task({0.9 * side, 0.9 * side}), Rng(1, Purpose::planner));
     Vec2 swarm{0.1 * side, 0.1 * side};
     for (int i = 0; i < ticks; ++i) {
       const Snapshot seen = world.at(i * tick);

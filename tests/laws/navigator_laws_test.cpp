@@ -322,7 +322,8 @@ TEST(RadarLaws, NoCommandIntoAScreenedDirection) {
   for (std::uint32_t trial = 0; trial < 40; ++trial) {
     const Scene scene = random_scene(trial, 10);
     params.retreat = trial % 2 == 0;
-    RadarNavigator navigator(params, swarm, scene.goal, 20, Rng(1, Purpose::planner));
+    RadarNavigator navigator(params, {.swarm = swarm, .goal = scene.goal, .goal_tolerance = 20},
+                             Rng(1, Purpose::planner));
     Pose2 pose{scene.start, 0};
     for (int k = 0; k < 200; ++k) {
       const Snapshot world = scene.at(tick * k);

@@ -73,7 +73,7 @@ struct BaselineDrive {
 TEST(Straight, GoesStraightInTheOpen) {
   for (const SwarmLimits& swarm : {fast_vortex, fast_ribbon}) {
     BaselineDrive drive{.swarm = swarm, .pose = {{200, 500}, pi}};
-    StraightNavigator navigator({}, swarm, room_goal, room_tolerance);
+    StraightNavigator navigator({}, body_task(swarm), Rng(1, Purpose::planner));
     drive.run(navigator, 60);
     EXPECT_TRUE(drive.arrived);
     EXPECT_LT(drive.time, 1600 / 60.0 + 2);
@@ -82,7 +82,7 @@ TEST(Straight, GoesStraightInTheOpen) {
 
 TEST(Straight, StopsBeforeWhatStandsAheadAndGoesOnAfterIt) {
   BaselineDrive drive{.obstacles = {{DiscShape{60}, Straight{{1000, 300}, {0, 10}}}}};
-  StraightNavigator navigator({}, fast_vortex, room_goal, room_tolerance);
+  StraightNavigator navigator({}, body_task(fast_vortex), Rng(1, Purpose::planner));
   drive.run(navigator, 100);
   EXPECT_TRUE(drive.arrived);
   EXPECT_TRUE(drive.was(NavigatorState::hold));
@@ -91,7 +91,7 @@ TEST(Straight, StopsBeforeWhatStandsAheadAndGoesOnAfterIt) {
 
 TEST(Straight, StopsBeforeAWallAtItsDistance) {
   BaselineDrive drive{.walls = {box({1000, 0}, {1020, 1000})}};
-  StraightNavigator navigator({}, fast_vortex, room_goal, room_tolerance);
+  StraightNavigator navigator({}, body_task(fast_vortex), Rng(1, Purpose::planner));
   drive.run(navigator, 60);
   EXPECT_FALSE(drive.arrived);
   EXPECT_NEAR(drive.pose.position.x, 1000 - 100 - 10 - 50, 8);
@@ -100,7 +100,7 @@ TEST(Straight, StopsBeforeAWallAtItsDistance) {
 
 TEST(Straight, MayLeaveWhatIsNearBehindIt) {
   BaselineDrive drive{.walls = {box({100, 400}, {145, 600})}};  // 5 µm behind its edge
-  StraightNavigator navigator({}, fast_vortex, room_goal, room_tolerance);
+  StraightNavigator navigator({}, body_task(fast_vortex), Rng(1, Purpose::planner));
   drive.run(navigator, 60);
   EXPECT_TRUE(drive.arrived);
 }
@@ -108,7 +108,7 @@ TEST(Straight, MayLeaveWhatIsNearBehindIt) {
 TEST(PotentialField, GoesRoundADiscThatStandsAside) {
   for (const SwarmLimits& swarm : {fast_vortex, fast_ribbon}) {
     BaselineDrive drive{.obstacles = {{DiscShape{80}, Still{{1000, 520}, 0}}}, .swarm = swarm};
-    PotentialFieldNavigator navigator({}, swarm, room_goal, room_tolerance);
+    PotentialFieldNavigator navigator({}, body_task(swarm), Rng(1, Purpose::planner));
     drive.run(navigator, 80);
     EXPECT_TRUE(drive.arrived);
     EXPECT_TRUE(drive.was(NavigatorState::avoid));
@@ -118,7 +118,7 @@ TEST(PotentialField, GoesRoundADiscThatStandsAside) {
 
 TEST(PotentialField, IsStuckWhereForcesCancelOut) {
   BaselineDrive drive{.obstacles = {{DiscShape{80}, Still{{1000, 500}, 0}}}};
-  PotentialFieldNavigator navigator({}, fast_vortex, room_goal, room_tolerance);
+  PotentialFieldNavigator navigator({}, body_task(fast_vortex), Rng(1, Purpose::planner));
   drive.run(navigator, 60);
   EXPECT_FALSE(drive.arrived);
   EXPECT_EQ(drive.states.back(), NavigatorState::stuck);
@@ -127,7 +127,7 @@ TEST(PotentialField, IsStuckWhereForcesCancelOut) {
 
 TEST(PotentialField, ReachesAGoalBesideAWall) {
   BaselineDrive drive{.walls = {box({1870, 300}, {1900, 700})}};
-  PotentialFieldNavigator navigator({}, fast_vortex, room_goal, room_tolerance);
+  PotentialFieldNavigator navigator({}, body_task(fast_vortex), Rng(1, Purpose::planner));
   drive.run(navigator, 120);
   EXPECT_TRUE(drive.arrived);
   EXPECT_GT(drive.min_gap, 0);
@@ -139,7 +139,7 @@ TEST(PotentialField, TheRouteLeadsThroughTheGap) {
     BaselineDrive drive{.walls = walls};
     PotentialFieldParams params;
     params.guide = guide;
-    PotentialFieldNavigator navigator(params, fast_vortex, room_goal, room_tolerance);
+    PotentialFieldNavigator navigator(params, body_task(fast_vortex), Rng(1, Purpose::planner));
     drive.run(navigator, 120);
     EXPECT_EQ(drive.arrived, guide == Guide::route);
     EXPECT_GT(drive.min_gap, 0);
@@ -148,7 +148,7 @@ TEST(PotentialField, TheRouteLeadsThroughTheGap) {
 
 TEST(PotentialField, GivesWayToWhatCrosses) {
   BaselineDrive drive{.obstacles = {{DiscShape{60}, Straight{{1000, 0}, {0, 40}}}}};
-  PotentialFieldNavigator navigator({}, fast_vortex, room_goal, room_tolerance);
+  PotentialFieldNavigator navigator({}, body_task(fast_vortex), Rng(1, Purpose::planner));
   drive.run(navigator, 80);
   EXPECT_TRUE(drive.arrived);
   EXPECT_GT(drive.min_gap, 0);
@@ -156,7 +156,7 @@ TEST(PotentialField, GivesWayToWhatCrosses) {
 
 TEST(VelocityObstacle, KeepsToThePreferredVelocityInTheOpen) {
   BaselineDrive drive;
-  VelocityObstacleNavigator navigator({}, fast_vortex, room_goal, room_tolerance);
+  VelocityObstacleNavigator navigator({}, body_task(fast_vortex), Rng(1, Purpose::planner));
   drive.run(navigator, 60);
   EXPECT_TRUE(drive.arrived);
   EXPECT_LT(drive.time, 1600 / 60.0 + 1);
@@ -168,7 +168,7 @@ TEST(VelocityObstacle, AvoidsWhatCrossesOrComesHeadOn) {
     for (const Straight& motion : {Straight{{1000, -40}, {0, 40}}, Straight{{1700, 500}, {-55, 0}},
                                    Straight{{600, 1250}, {30, -50}}}) {
       BaselineDrive drive{.obstacles = {{DiscShape{70}, motion}}, .swarm = swarm};
-      VelocityObstacleNavigator navigator({}, swarm, room_goal, room_tolerance);
+      VelocityObstacleNavigator navigator({}, body_task(swarm), Rng(1, Purpose::planner));
       drive.run(navigator, 80);
       EXPECT_TRUE(drive.arrived);
       EXPECT_TRUE(drive.was(NavigatorState::avoid));
@@ -181,7 +181,7 @@ TEST(VelocityObstacle, AvoidsBoxesAndWhatGrows) {
       .obstacles = {{BoxShape{160, 60}, Straight{{1000, -200}, {0, 40}}},
                     {BreathingDisc{20, 120, 8, 0}, Still{{600, 540}, 0}},
                     {BoxShape{200, 30}, HarmonicArc{{1500, 500}, 60, 0, 0.5, 20, 0}}}};
-  VelocityObstacleNavigator navigator({}, fast_vortex, room_goal, room_tolerance);
+  VelocityObstacleNavigator navigator({}, body_task(fast_vortex), Rng(1, Purpose::planner));
   drive.run(navigator, 90);
   EXPECT_TRUE(drive.arrived);
   EXPECT_GT(drive.min_gap, 0);
@@ -189,7 +189,7 @@ TEST(VelocityObstacle, AvoidsBoxesAndWhatGrows) {
 
 TEST(VelocityObstacle, TheRouteLeadsThroughTheGap) {
   BaselineDrive drive{.walls = {box({1000, 0}, {1030, 700}), box({1300, 400}, {1330, 1000})}};
-  VelocityObstacleNavigator navigator({}, fast_vortex, room_goal, room_tolerance);
+  VelocityObstacleNavigator navigator({}, body_task(fast_vortex), Rng(1, Purpose::planner));
   drive.run(navigator, 120);
   EXPECT_TRUE(drive.arrived);
   EXPECT_GT(drive.min_gap, 0);

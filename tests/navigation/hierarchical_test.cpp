@@ -17,11 +17,7 @@ namespace microswarm {
 namespace {
 
 std::unique_ptr<Navigator> navigator(const Snapshot& world, std::uint64_t seed = 1) {
-  auto made = make_navigator(HierarchicalParams{},
-                             Task{.swarm = limits_of(RibbonParams{}),
-                                  .robots = {},
-                                  .goal = room_goal,
-                                  .goal_tolerance = 30},
+  auto made = make_navigator(HierarchicalParams{}, body_task(limits_of(RibbonParams{})),
                              Rng(seed, Purpose::planner));
   made->prepare(world, {});
   return made;
@@ -214,7 +210,7 @@ TEST(Hierarchical, AsPublishedSwitchesOffEveryAdditionOfOurs) {
 /// The steps at which it plans, of some on the straight path to the goal.
 int plans_on_the_path(const HierarchicalParams& params, Vec2 from, int steps) {
   const Snapshot world = room_with();
-  HierarchicalNavigator navigator(params, limits_of(RibbonParams{}), room_goal, room_tolerance,
+  HierarchicalNavigator navigator(params, body_task(limits_of(RibbonParams{})),
                                   Rng(1, Purpose::planner));
   navigator.prepare(world, {});
   Pose2 pose{from, 0};
@@ -237,7 +233,7 @@ TEST(Hierarchical, PlansOnceWhereThePathHolds) {
 TEST(Hierarchical, ShowsAPhasedGoalOfItsRouteOnly) {
   const Snapshot world = room_with();
   for (const Guide guide : {Guide::straight, Guide::route}) {
-    HierarchicalNavigator n({.guide = guide}, limits_of(RibbonParams{}), room_goal, room_tolerance,
+    HierarchicalNavigator n({.guide = guide}, body_task(limits_of(RibbonParams{})),
                             Rng(1, Purpose::planner));
     n.prepare(world, {});
     n.step(update(world, {300, 500}), {});
@@ -251,8 +247,8 @@ TEST(Hierarchical, PathsKeepTheExtraClearanceWhereItFits) {
     const Snapshot world =
         room_with({{{{500, 0}, {900, 0}, {900, 500 - half}, {500, 500 - half}}, {}},
                    {{{500, 500 + half}, {900, 500 + half}, {900, 1000}, {500, 1000}}, {}}});
-    HierarchicalNavigator n({.extra_clearance = 30}, limits_of(RibbonParams{}), room_goal,
-                            room_tolerance, Rng(1, Purpose::planner));
+    HierarchicalNavigator n({.extra_clearance = 30}, body_task(limits_of(RibbonParams{})),
+                            Rng(1, Purpose::planner));
     n.prepare(world, {});
     n.step(update(world, {300, 520}), {});
     const auto path = n.view().path;
@@ -269,7 +265,7 @@ TEST(Hierarchical, CorrectsTheFlow) {
   HierarchicalParams params;
   params.follower.correct_flow = true;
   const Snapshot world = room_with();
-  HierarchicalNavigator navigator(params, limits_of(RibbonParams{}), room_goal, room_tolerance,
+  HierarchicalNavigator navigator(params, body_task(limits_of(RibbonParams{})),
                                   Rng(1, Purpose::planner));
   navigator.prepare(world, {});
   Pose2 pose{{300, 500}, 0};

@@ -9,6 +9,7 @@
 #include "microswarm/navigation/following/path_navigator.hpp"
 #include "microswarm/swarm/body/ribbon.hpp"
 #include "tests/messages.hpp"
+#include "tests/navigation/room.hpp"
 
 namespace microswarm {
 namespace {
@@ -112,7 +113,8 @@ std::string drive(const FollowerParams& follower, const RibbonParams& params, do
   const Map map({{-200, -200}, {500, 500}}, std::vector<Polygon>{});
   const Snapshot world(std::make_shared<const Map>(map));
   PathNavigator navigator({.path = {long_corner[0], long_corner[1]}, .follower = follower},
-                          swarm_of(params.max_turn_rate), long_corner[2], 10);
+                          body_task(swarm_of(params.max_turn_rate), long_corner[2], 10),
+                          Rng(1, Purpose::planner));
   Ribbon ribbon(params, {long_corner[0], 0});
   Rng rng(1, Purpose::test);
   PathPlace place;
@@ -149,7 +151,7 @@ TEST(PathNavigator, SaysThatItHandsOver) {
   for (const double turn_rate : {3.0, 0.1}) {
     PathNavigator navigator(
         {.path = {long_corner[0], long_corner[1]}, .follower = {.kind = FollowerKind::learned}},
-        swarm_of(turn_rate), long_corner[2], 10);
+        body_task(swarm_of(turn_rate), long_corner[2], 10), Rng(1, Purpose::planner));
     navigator.step(
         {.now = 0, .seen = 0, .swarm = SwarmPose{{{0, 0}, 0}, 20}, .world = borrowed(world)}, {});
     EXPECT_EQ(navigator.view().state,

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "microswarm/navigation/steering/steering_cycle.hpp"
-
 namespace microswarm {
 namespace {
 
@@ -46,19 +44,6 @@ TEST(ManualNavigator, KeepsTheSwarmsSpeedLimitAndTakesNoNonsense) {
   EXPECT_EQ(speed_of({0, nan}), 0);
   EXPECT_EQ(speed_of({nan, 50}), 0);
   EXPECT_EQ(speed_of({0, std::numeric_limits<double>::infinity()}), 0);
-}
-
-TEST(SteeringCycle, KnowsWhatWasCommandedInItsPlace) {
-  SwarmLimits swarm;
-  swarm.max_speed = 60;
-  swarm.response_lag = 0.5;
-  SteeringCycle steering(swarm, 60, {1000, 100}, 10);
-  steering.begin(at(0, 0));
-  steering.command({0, 60}, NavigatorState::follow);
-  // The swarm moves on until a new command takes effect: 30 µm.
-  EXPECT_NEAR(steering.compensate(at(3, 0)).position.x, 130, 1e-9);
-  steering.overruled(3, {0, 0});
-  EXPECT_NEAR(steering.compensate(at(4, 0)).position.x, 100, 1e-9);
 }
 
 }  // namespace

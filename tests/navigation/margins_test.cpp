@@ -43,8 +43,7 @@ TEST(Margins, RadarScreensWhatMayApproachDuringTheDelayAsIfItWereLarger) {
     const Vec2 at{600, 500};
     const Vec2 disc = at + rng.uniform(100, 190) * unit_vector(rng.uniform(-1, 1));
     const auto command = [&](const RadarParams& params, double r) {
-      RadarNavigator navigator(params, late_vortex, room_goal, room_tolerance,
-                               Rng(1, Purpose::planner));
+      RadarNavigator navigator(params, body_task(late_vortex), Rng(1, Purpose::planner));
       const Snapshot world = room_with({}, {disc_body(disc, r)});
       const Command c = navigator.step(frame_of(world, {at, 0}, 1, 0.2), {});
       avoided += navigator.view().state == NavigatorState::avoid;
@@ -70,7 +69,7 @@ RadarParams blind_radar() {
 // A disc that comes at it is foreseen, whether or not the swarm is found in the frame.
 TEST(Margins, RadarKeepsOutOfTheWayOverFramesWithoutASwarm) {
   const auto map = room_with().shared_map();
-  RadarNavigator navigator(blind_radar(), late_vortex, {600, 500}, room_tolerance,
+  RadarNavigator navigator(blind_radar(), body_task(late_vortex, {600, 500}),
                            Rng(1, Purpose::planner));
   int guarded = 0;
   for (int k = 0; k <= 12; ++k) {
@@ -88,8 +87,7 @@ TEST(Margins, RadarKeepsOutOfTheWayOverFramesWithoutASwarm) {
 // The first one too lasts a tick, though there is none before it to tell how long that is.
 TEST(Margins, RadarChecksItsFirstCommandForATick) {
   const auto goes_straight = [](double gap) {
-    RadarNavigator navigator(blind_radar(), late_vortex, room_goal, room_tolerance,
-                             Rng(1, Purpose::planner));
+    RadarNavigator navigator(blind_radar(), body_task(late_vortex), Rng(1, Purpose::planner));
     const Snapshot world = room_with({}, {disc_body({600 + 50 + 60 + gap, 500}, 60)});
     navigator.step(frame_of(world, {{600, 500}, 0}, 0, 0), {});
     return navigator.view().state == NavigatorState::direct;
@@ -101,7 +99,7 @@ TEST(Margins, RadarChecksItsFirstCommandForATick) {
 TEST(Margins, PotentialFieldIsPushedByAnOutlineAsItWillBeAfterTheDelay) {
   constexpr double growth = 20;  // [µm/s]
   const auto command = [&](double smaller, double age) {
-    PotentialFieldNavigator navigator({}, late_vortex, room_goal, room_tolerance);
+    PotentialFieldNavigator navigator({}, body_task(late_vortex), Rng(1, Purpose::planner));
     Command last;
     for (int k = 0; k < 20; ++k) {
       const double t = 0.1 * k;
@@ -131,8 +129,7 @@ NavigatorState state_in_a_pocket(double room, const SwarmLimits& swarm) {
   const Snapshot world =
       room_with({}, {bar({room, -200}, {room + 20, 200}, 0), bar({-40, room}, {room, room + 20}, 1),
                      bar({-40, -room - 20}, {room, -room}, 2)});
-  HierarchicalNavigator navigator(params, swarm, room_goal, room_tolerance,
-                                  Rng(1, Purpose::planner));
+  HierarchicalNavigator navigator(params, body_task(swarm), Rng(1, Purpose::planner));
   navigator.prepare(world, {});
   navigator.step(frame_of(world, {at, 0}, 0, 0), {});
   return navigator.view().state;
@@ -159,8 +156,7 @@ TEST(Margins, HierarchicalWaitsNoLongerThanItsHorizon) {
   SwarmLimits swarm = late_vortex;
   swarm.response_lag = 0;
   for (const double apart : {200.0, 300.0}) {
-    HierarchicalNavigator navigator(params, swarm, room_goal, room_tolerance,
-                                    Rng(1, Purpose::planner));
+    HierarchicalNavigator navigator(params, body_task(swarm), Rng(1, Purpose::planner));
     Pose2 pose{{600, 500}, 0};
     double held = 0, longest = 0;
     for (int k = 0; k < 250; ++k) {
@@ -188,8 +184,7 @@ TEST(Margins, PredictiveSeesWhatCrossesItsPathBetweenTwoSamples) {
   params.guide = Guide::straight;
   for (const double speed : {600.0, 1200.0})
     for (const double meets_at : {1.0, 1.25, 1.5, 1.6, 1.75, 1.9}) {
-      PredictiveNavigator navigator(params, late_vortex, room_goal, room_tolerance,
-                                    Rng(1, Purpose::planner));
+      PredictiveNavigator navigator(params, body_task(late_vortex), Rng(1, Purpose::planner));
       const Vec2 at{600, 500};
       const Vec2 meets = at + Vec2{80 * meets_at, 0};
       for (int k = 0; k <= 10; ++k) {

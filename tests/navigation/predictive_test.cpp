@@ -37,8 +37,7 @@ struct PredictiveDrive {
   void run(double seconds) {
     constexpr double substep = 0.01;
     const World world{std::make_shared<const Map>(Box{{0, 0}, {2000, 1000}}, walls), obstacles};
-    PredictiveNavigator navigator(params, swarm, room_goal, room_tolerance,
-                                  Rng(1, Purpose::planner));
+    PredictiveNavigator navigator(params, body_task(swarm), Rng(1, Purpose::planner));
     navigator.prepare(world.at(0), {});
     std::vector<Pose2> was_there(6, pose);
     std::vector<Command> pending(10);
@@ -161,8 +160,7 @@ TEST(Predictive, ArrivesAmongWhatSwings) {
 TEST(Predictive, HoldsWhenBlindAndGoesOn) {
   const World world{std::make_shared<const Map>(Box{{0, 0}, {2000, 1000}}, std::vector<Polygon>{}),
                     {{DiscShape{60}, Straight{{900, 0}, {0, 50}}}}};
-  PredictiveNavigator navigator({}, slow_vortex, room_goal, room_tolerance,
-                                Rng(1, Purpose::planner));
+  PredictiveNavigator navigator({}, body_task(slow_vortex), Rng(1, Purpose::planner));
   const Snapshot frame = world.at(0);
   navigator.prepare(frame, {});
   const Observation good{.now = 0,

@@ -6,6 +6,7 @@
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/navigation/radar/radar.hpp"
 #include "microswarm/scenes/worlds.hpp"
+#include "tests/navigation/room.hpp"
 
 namespace microswarm {
 namespace {
@@ -44,8 +45,10 @@ struct WalledRoom {
 
   RadarNavigator navigator() const {
     return RadarNavigator(
-        params, {.radius = 100, .max_speed = 85, .max_turn_rate = infinity, .response_lag = 0},
-        goal, goal_tolerance, Rng(1, Purpose::planner));
+        params,
+        body_task({.radius = 100, .max_speed = 85, .max_turn_rate = infinity, .response_lag = 0},
+                  goal, goal_tolerance),
+        Rng(1, Purpose::planner));
   }
   Observation sighting(Vec2 at, double now) const {
     return {.now = now,

@@ -9,6 +9,7 @@
 #include "microswarm/navigation/make.hpp"
 #include "microswarm/scenes/worlds.hpp"
 #include "tests/navigation/discs.hpp"
+#include "tests/navigation/room.hpp"
 
 namespace microswarm {
 namespace {
@@ -40,7 +41,7 @@ using Movers = std::function<std::vector<Body>(double t)>;
 
 Trip drive(const RadarParams& params, Vec2 start, Vec2 goal, std::shared_ptr<const Map> map,
            const Movers& movers, double max_seconds = 120) {
-  RadarNavigator navigator(params, radar_vortex, goal, 20, Rng(1, Purpose::planner));
+  RadarNavigator navigator(params, body_task(radar_vortex, goal, 20), Rng(1, Purpose::planner));
   Trip trip;
   Pose2 pose{start, 0};
   for (; trip.time < max_seconds; trip.time += radar_tick) {
@@ -106,7 +107,8 @@ TEST(Radar, AvoidsWhatCrossesAndWhatComes) {
 TEST(Radar, GivesWayWhereItWaits) {
   // At its goal already, and something comes over it.
   RadarParams params;
-  RadarNavigator navigator(params, radar_vortex, {1500, 700}, 30, Rng(1, Purpose::planner));
+  RadarNavigator navigator(params, body_task(radar_vortex, {1500, 700}, 30),
+                           Rng(1, Purpose::planner));
   Pose2 pose{{1500, 700}, 0};
   const auto map = radar_room();
   double least = 1e9;
@@ -135,7 +137,8 @@ TEST(Radar, WithoutRetreatItHoldsAsPublished) {
     params.detection_range = 120;
     params.retreat = retreat;
     params.safety_filter.active = retreat;
-    RadarNavigator navigator(params, radar_vortex, {2700, 700}, 30, Rng(1, Purpose::planner));
+    RadarNavigator navigator(params, body_task(radar_vortex, {2700, 700}, 30),
+                             Rng(1, Purpose::planner));
     const Command c = navigator.step({.now = 0,
                                       .seen = 0,
                                       .swarm = SwarmPose{{{1500, 700}, 0}, radar_radius},
@@ -158,7 +161,7 @@ TEST(Radar, AsPublishedOverridesWhatIsOurs) {
   slow.response_lag = 0.2;
   const auto map = radar_room();
   const auto commands = [&](const RadarParams& params) {
-    RadarNavigator navigator(params, slow, {2700, 720}, 20, Rng(1, Purpose::planner));
+    RadarNavigator navigator(params, body_task(slow, {2700, 720}, 20), Rng(1, Purpose::planner));
     Pose2 pose{{300, 700}, 0};
     std::vector<double> out;
     for (int k = 0; k < 300; ++k) {
@@ -221,7 +224,8 @@ TEST(Radar, APlanThatFailedIsTriedAgain) {
   RadarParams params;
   params.global_plan = true;
   params.planner.max_nodes = 1000;
-  RadarNavigator navigator(params, radar_vortex, {2300, 400}, 20, Rng(1, Purpose::planner));
+  RadarNavigator navigator(params, body_task(radar_vortex, {2300, 400}, 20),
+                           Rng(1, Purpose::planner));
   const Snapshot world(map, 0);
   int plans = 0;
   for (int k = 0; k < 40; ++k) {
@@ -248,7 +252,8 @@ TEST(Radar, WithoutAWayItPlansEverMoreSeldom) {
   RadarParams params;
   params.global_plan = true;
   params.planner.max_nodes = 1000;
-  RadarNavigator navigator(params, radar_vortex, {2300, 400}, 20, Rng(1, Purpose::planner));
+  RadarNavigator navigator(params, body_task(radar_vortex, {2300, 400}, 20),
+                           Rng(1, Purpose::planner));
   std::vector<double> planned;
   for (int k = 0; k < 1300; ++k) {
     const double now = radar_tick * k;
@@ -270,7 +275,8 @@ TEST(Radar, PlansFromBesideAWallItIsSeenTooNearTo) {
   const auto map = halved_room(1000);
   RadarParams params;
   params.global_plan = true;
-  RadarNavigator navigator(params, radar_vortex, {2300, 400}, 20, Rng(1, Purpose::planner));
+  RadarNavigator navigator(params, body_task(radar_vortex, {2300, 400}, 20),
+                           Rng(1, Purpose::planner));
   const Snapshot world(map, 0);
   const Command c = navigator.step({.now = 0,
                                     .seen = 0,
@@ -296,7 +302,8 @@ TEST(Radar, TellsItsPhasedGoal) {
   const Snapshot world(halved_room(1000), 0);
   RadarParams params;
   params.waypoints = {{1300, 1250}, {1600, 1250}};
-  RadarNavigator navigator(params, radar_vortex, {2300, 400}, 20, Rng(1, Purpose::planner));
+  RadarNavigator navigator(params, body_task(radar_vortex, {2300, 400}, 20),
+                           Rng(1, Purpose::planner));
   Observation seen{.now = 0,
                    .seen = 0,
                    .swarm = SwarmPose{{{700, 400}, 0}, radar_radius},
@@ -337,7 +344,7 @@ TEST(Radar, MakesUpForDelays) {
   SwarmLimits slow = radar_vortex;
   slow.response_lag = 0.3;
   const Snapshot world(radar_room(), 0);
-  RadarNavigator navigator({}, slow, {2700, 700}, 20, Rng(1, Purpose::planner));
+  RadarNavigator navigator({}, body_task(slow, {2700, 700}, 20), Rng(1, Purpose::planner));
   for (int k = 0; k < 20; ++k) {
     const double now = radar_tick * k;
     navigator.step({.now = now,
@@ -353,7 +360,7 @@ TEST(Radar, MakesUpForDelays) {
 
 TEST(Radar, LastLookGivesTheDecisionInFull) {
   const Snapshot world(radar_room(), 0, {disc_body({1700, 700}, 80, 3)});
-  RadarNavigator navigator({}, radar_vortex, {2700, 700}, 20, Rng(1, Purpose::planner));
+  RadarNavigator navigator({}, body_task(radar_vortex, {2700, 700}, 20), Rng(1, Purpose::planner));
   EXPECT_FALSE(navigator.last_look());
   const Command c = navigator.step({.now = 0,
                                     .seen = 0,
@@ -374,8 +381,7 @@ TEST(Radar, WaypointsInAWallAreRefused) {
   const auto map = radar_room({scenes::rectangle({{1400, 0}, {1450, 1000}})});
   RadarParams params;
   params.waypoints = {{500, 500}, {1420, 500}};
-  const Task task{
-      .swarm = radar_vortex, .robots = {}, .goal = Vec2{2300, 400}, .goal_tolerance = 20};
+  const Task task = body_task(radar_vortex, {2300, 400}, 20);
   const Issues issues = validate(params, task, *map);
   ASSERT_EQ(issues.size(), 1u);
   EXPECT_EQ(issues.begin()->keys.front(), "waypoints_um.1");

@@ -23,6 +23,10 @@ RobotSwarmParams two_robots() {
   return p;
 }
 
+Task robot_task(const RobotSwarmParams& robots, std::optional<Vec2> goal = {}) {
+  return {.robots = robots, .goal = goal, .goal_tolerance = 20, .tick = robot_tick};
+}
+
 TEST(RobotDelayCompensator, IsWhatComesUnderDelayAndLag) {
   RobotSwarmParams params = two_robots();
   params.response_lag = robot_tick;
@@ -58,7 +62,7 @@ TEST(RobotDelayCompensator, ARobotSeenJustInAWallDoesNotGoThroughIt) {
 TEST(PlanExecutor, SeenWithErrorsItArrives) {
   const RobotSwarmParams params = two_robots();
   test::RobotScene rig(scenes::global_world(1), params, params.starts, 1);
-  PlanExecutor player({}, params, 20, robot_tick, Rng(1, Purpose::planner));
+  PlanExecutor player({}, robot_task(params), Rng(1, Purpose::planner));
   player.prepare(rig.world, {});
   Rng eye(3, Purpose::test);
   int planned = 0;
@@ -78,7 +82,7 @@ TEST(PlanExecutor, WithoutErrorsItPlansOnceAndArrives) {
   for (const std::size_t delay : {0, 2}) {
     const RobotSwarmParams params = two_robots();
     test::RobotScene rig(scenes::global_world(1), params, params.starts, delay);
-    PlanExecutor player({}, params, 20, robot_tick, Rng(1, Purpose::planner));
+    PlanExecutor player({}, robot_task(params), Rng(1, Purpose::planner));
     player.prepare(rig.world, {});
     int planned = 0;
     for (int i = 0; i < 3000 && rig.worst() > 20; ++i) {
@@ -96,7 +100,7 @@ TEST(PlanExecutor, WithErrorsItFindsItsWayAgain) {
   params.heading_noise = 0.05;
   params.speed_spread = 0.1;
   test::RobotScene rig(scenes::global_world(1), params, params.starts, 1);
-  PlanExecutor player({}, params, 20, robot_tick, Rng(1, Purpose::planner));
+  PlanExecutor player({}, robot_task(params), Rng(1, Purpose::planner));
   player.prepare(rig.world, {});
   int found_again = 0;
   for (int i = 0; i < 6000 && rig.worst() > 20; ++i) {
@@ -111,7 +115,7 @@ TEST(PlanExecutor, WithErrorsItFindsItsWayAgain) {
 TEST(PlanExecutor, RobotsThatWereCarriedAwayJoinThePlanAgain) {
   const RobotSwarmParams params = two_robots();
   test::RobotScene rig(scenes::global_world(1), params, params.starts, 0);
-  PlanExecutor player({}, params, 20, robot_tick, Rng(1, Purpose::planner));
+  PlanExecutor player({}, robot_task(params), Rng(1, Purpose::planner));
   player.prepare(rig.world, {});
   std::vector<Observation> seen;
   for (int i = 0; i < 20; ++i) rig.apply(player.step(rig.observe(), {}));
@@ -127,7 +131,7 @@ TEST(PlanExecutor, WithoutAPlanItHoldsAndTriesAgainLater) {
   PlanExecutorParams hard;
   hard.planner.max_nodes = 1;
   test::RobotScene rig(scenes::global_world(1), params, params.starts, 0);
-  PlanExecutor player(hard, params, 20, robot_tick, Rng(1, Purpose::planner));
+  PlanExecutor player(hard, robot_task(params), Rng(1, Purpose::planner));
   player.prepare(rig.world, {});
   int planned = 0;
   int stuck = 0;
@@ -144,7 +148,7 @@ TEST(PlanExecutor, WithoutAPlanItHoldsAndTriesAgainLater) {
 TEST(PlanExecutor, HoldsWhenItSeesTooFewTooOldOrIsThere) {
   const RobotSwarmParams params = two_robots();
   test::RobotScene rig(scenes::global_world(1), params, params.starts, 0);
-  PlanExecutor player({}, params, 20, robot_tick, Rng(1, Purpose::planner));
+  PlanExecutor player({}, robot_task(params), Rng(1, Purpose::planner));
   player.prepare(rig.world, {});
   Observation seen = rig.observe();
   seen.robots = seen.robots.first(1);
@@ -168,7 +172,7 @@ TEST(AggregationNavigator, GathersUnderLagAndDelayAndHoldsThen) {
   Rng rng(4, Purpose::scene);
   for (int i = 0; i < 64; ++i) starts.push_back({rng.uniform(2, 98), rng.uniform(92, 98)});
   test::RobotScene rig(t.map(), params, starts, 1);
-  AggregationNavigator navigator({}, params, t.goal, 20, robot_tick, Rng(1, Purpose::planner));
+  AggregationNavigator navigator({}, robot_task(params, t.goal), Rng(1, Purpose::planner));
   navigator.prepare(rig.world, {});
   int steps = 0;
   while (steps < 2000) {

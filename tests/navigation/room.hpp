@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "microswarm/navigation/steering/task.hpp"
 #include "microswarm/world/snapshot.hpp"
 
 namespace microswarm {
@@ -16,5 +17,11 @@ inline Snapshot room_with(std::vector<Polygon> walls = {}, std::vector<Body> bod
 }
 inline constexpr Vec2 room_goal{1800, 500};
 inline constexpr double room_tolerance = 30;
+
+/// A task of a single-body swarm.
+inline Task body_task(const SwarmLimits& swarm, Vec2 goal = room_goal,
+                      double goal_tolerance = room_tolerance) {
+  return {.swarm = swarm, .goal = goal, .goal_tolerance = goal_tolerance};
+}
 
 }  // namespace microswarm

@@ -7,7 +7,7 @@
 #include "microswarm/learning/follower_expert.hpp"
 #include "microswarm/navigation/following/follower_model.hpp"
 #include "microswarm/navigation/following/path_follower.hpp"
-#include "microswarm/navigation/steering/steering_cycle.hpp"
+#include "microswarm/navigation/steering/steering_navigator.hpp"
 
 namespace microswarm {
 namespace {
@@ -16,52 +16,49 @@ namespace {
 constexpr double max_off_path = 2.5;
 
 /// Computes the features of a learned follower and queries the expert.
-class Demonstrator : public Navigator {
+class Demonstrator : public SteeringNavigator {
  public:
   Demonstrator(const FollowerTask& task, const Scenario& scenario, const Plant& plant,
                bool expert_drives)
-      : plant_(plant),
+      : SteeringNavigator(task_of(scenario),
+                          std::get<PathNavigatorParams>(scenario.navigator).speed),
+        plant_(plant),
         path_(task.path),
         params_(std::get<PathNavigatorParams>(scenario.navigator)),
-        steering_(limits_of(scenario.swarm), params_.speed, *scenario.goal, scenario.goal_tolerance,
-                  scenario.sensing.frame_timeout),
-        follower_(params_.follower, steering_.swarm()),
+        follower_(params_.follower, swarm()),
         expert_(std::get<RibbonParams>(scenario.swarm), path_, params_.speed),
         expert_drives_(expert_drives) {}
-
-  Command step(const Observation& seen, const Stop&) override {
-    const Command wanted = expert_.command(plant_.ground_truth()->swarm.pose, seen.now);
-    if (steering_.sees_swarm(seen)) follower_.update(seen, steering_.compensator());
-    const Pose2* pose = steering_.observe(seen);
-    const Command command = pose ? drive(*pose, wanted) : steering_.hold();
-    expert_.note(seen.now, command);
-    return command;
-  }
-  NavigatorView view() const override { return steering_.view(); }
 
   std::vector<Demonstration> shown;
 
  private:
-  Command drive(const Pose2& pose, const Command& wanted) {
+  void update(const Observation& seen, const Stop&) override {
+    wanted_ = expert_.command(plant_.ground_truth()->swarm.pose, seen.now);
+    if (sees_swarm(seen)) follower_.update(seen, compensator());
+  }
+  Decision decide(const Moment& moment) override {
     const FollowerFeatures features =
-        features_of(follower_.query(path_, place_, pose, params_.speed));
-    const double off = wrap(wanted.heading - features.bearing);
+        features_of(follower_.query(path_, place_, moment.pose, params_.speed));
+    const double off = wrap(wanted_.heading - features.bearing);
     if (std::abs(off) < max_off_path)
-      shown.push_back({features.features, {off, wanted.speed / params_.speed}});
-    if (expert_drives_) return steering_.command(wanted, NavigatorState::follow);
-    const auto next =
-        follower_.command(path_, place_, pose, params_.lookahead, params_.speed).command;
-    return steering_.command(next, NavigatorState::follow);
+      shown.push_back({features.features, {off, wanted_.speed / params_.speed}});
+    if (expert_drives_) return {wanted_, NavigatorState::follow};
+    return {follower_.command(path_, place_, moment.pose, params_.lookahead, params_.speed).command,
+            NavigatorState::follow};
+  }
+  Decision finish(const Decision& decision, const Observation& seen) override {
+    expert_.note(seen.now, decision.command);
+    return decision;
   }
 
   const Plant& plant_;
   const std::vector<Vec2>& path_;
   PathNavigatorParams params_;
-  SteeringCycle steering_;
   PathFollower follower_;
   FollowerExpert expert_;
   PathPlace place_;
   bool expert_drives_;
+  Command wanted_;  ///< the expert's
 };
 
 }  // namespace

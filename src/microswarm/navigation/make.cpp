@@ -15,77 +15,28 @@
 namespace microswarm {
 namespace {
 
-using Made = std::unique_ptr<Navigator>;
+/// Calls visit.operator()<N>(p) with the navigator N that takes these parameters.
+template <class... Navigators>
+struct NavigatorKinds {
+  template <class Result, class Visit>
+  static Result visit(const NavigatorParams& params, Visit&& visit) {
+    return std::visit(Overloaded{[&](const typename Navigators::Params& p) -> Result {
+                        return visit.template operator()<Navigators>(p);
+                      }...},
+                      params);
+  }
+};
 
-/// A navigator that is not made below would otherwise be taken for its base.
-template <class Forgotten>
-Made make(const Forgotten& params, const Task& task, Rng rng) = delete;
-
-Made make(const HierarchicalParams& p, const Task& task, Rng rng) {
-  return std::make_unique<HierarchicalNavigator>(p, task.swarm, *task.goal, task.goal_tolerance,
-                                                 rng, task.frame_timeout);
-}
-
-Made make(const PlanExecutorParams& p, const Task& task, Rng rng) {
-  return std::make_unique<PlanExecutor>(p, *task.robots, task.goal_tolerance, task.tick, rng,
-                                        task.frame_timeout);
-}
-
-Made make(const AggregationParams& p, const Task& task, Rng rng) {
-  return std::make_unique<AggregationNavigator>(p, *task.robots, *task.goal, task.goal_tolerance,
-                                                task.tick, rng, task.frame_timeout);
-}
-
-Made make(const RadarParams& p, const Task& task, Rng rng) {
-  return std::make_unique<RadarNavigator>(p, task.swarm, *task.goal, task.goal_tolerance, rng,
-                                          task.frame_timeout);
-}
-
-Made make(const StraightParams& p, const Task& task, Rng) {
-  return std::make_unique<StraightNavigator>(p, task.swarm, *task.goal, task.goal_tolerance,
-                                             task.frame_timeout);
-}
-
-Made make(const PotentialFieldParams& p, const Task& task, Rng) {
-  return std::make_unique<PotentialFieldNavigator>(p, task.swarm, *task.goal, task.goal_tolerance,
-                                                   task.frame_timeout);
-}
-
-Made make(const VelocityObstacleParams& p, const Task& task, Rng) {
-  return std::make_unique<VelocityObstacleNavigator>(p, task.swarm, *task.goal, task.goal_tolerance,
-                                                     task.frame_timeout);
-}
-
-Made make(const PredictiveParams& p, const Task& task, Rng rng) {
-  return std::make_unique<PredictiveNavigator>(p, task.swarm, *task.goal, task.goal_tolerance, rng,
-                                               task.frame_timeout);
-}
-
-Made make(const PathNavigatorParams& p, const Task& task, Rng) {
-  return std::make_unique<PathNavigator>(p, task.swarm, *task.goal, task.goal_tolerance,
-                                         task.frame_timeout);
-}
+/// One for each kind of parameters; it does not compile without one of them.
+using AllNavigators = NavigatorKinds<HierarchicalNavigator, PlanExecutor, AggregationNavigator,
+                                     RadarNavigator, StraightNavigator, PotentialFieldNavigator,
+                                     VelocityObstacleNavigator, PredictiveNavigator, PathNavigator>;
 
 }  // namespace
 
 std::string_view unsupported_reason(const NavigatorParams& params, const Task& task) {
-  return std::visit(
-      Overloaded{
-          [&](const OneOf<HierarchicalParams, RadarParams, StraightParams, PotentialFieldParams,
-                          VelocityObstacleParams, PredictiveParams, PathNavigatorParams> auto&)
-              -> std::string_view {
-            if (task.robots) return "a swarm that is one body: it cannot steer robots one by one";
-            return task.goal ? "" : "a goal";
-          },
-          [&](const PlanExecutorParams&) -> std::string_view {
-            return task.robots && !task.robots->goals.empty() ? "" : "robots with a goal each";
-          },
-          [&](const AggregationParams&) -> std::string_view {
-            if (!task.robots) return "robots";
-            if (task.robots->contact != ContactRule::stop) return "robots that stop at walls";
-            return task.goal ? "" : "one goal for all robots";
-          }},
-      params);
+  return AllNavigators::visit<std::string_view>(
+      params, [&]<class N>(const auto&) { return N::unsupported_reason(task); });
 }
 
 Issues validate(const NavigatorParams& params, const Task& task, const Map& map,
@@ -102,7 +53,8 @@ Issues validate(const NavigatorParams& params, const Task& task, const Map& map,
 
 std::unique_ptr<Navigator> make_navigator(const NavigatorParams& params, const Task& task,
                                           Rng rng) {
-  return std::visit([&](const auto& p) { return make(p, task, rng); }, params);
+  return AllNavigators::visit<std::unique_ptr<Navigator>>(
+      params, [&]<class N>(const auto& p) { return std::make_unique<N>(p, task, rng); });
 }
 
 }  // namespace microswarm

@@ -2,27 +2,15 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string_view>
 
 #include "microswarm/contracts/navigator.hpp"
 #include "microswarm/core/errors/issue.hpp"
 #include "microswarm/core/maths/rng.hpp"
 #include "microswarm/navigation/params.hpp"
-#include "microswarm/swarm/body/swarm_limits.hpp"
-#include "microswarm/swarm/robots/robot_swarm_params.hpp"
+#include "microswarm/navigation/steering/task.hpp"
 
 namespace microswarm {
-
-/// Task of a navigator.
-struct Task {
-  SwarmLimits swarm;                             ///< for a single-body swarm
-  std::optional<RobotSwarmParams> robots;        ///< for individually tracked robots
-  std::optional<Vec2> goal;                      ///< nothing if the robots have individual goals
-  double goal_tolerance = 0;                     ///< [µm]
-  double tick = 0.1;                             ///< between two commands [s]
-  double frame_timeout = default_frame_timeout;  ///< age of a frame [s] at which it holds
-};
 
 /// Why the navigator cannot perform the task; empty if it can.
 std::string_view unsupported_reason(const NavigatorParams& params, const Task& task);

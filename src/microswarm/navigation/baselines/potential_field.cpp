@@ -34,40 +34,38 @@ Vec2 nearest_of(const Body& body, Vec2 p) {
 }  // namespace
 
 PotentialFieldNavigator::PotentialFieldNavigator(const PotentialFieldParams& params,
-                                                 const SwarmLimits& swarm, Vec2 goal,
-                                                 double goal_tolerance, double frame_timeout)
-    : params_(params),
-      steering_(swarm, params.speed, goal, goal_tolerance, frame_timeout),
-      guide_(params.guide, goal, params.tuning.route_reach),
+                                                 const Task& task, Rng)
+    : SteeringNavigator(task, params.speed),
+      params_(params),
+      guide_(params.guide, goal(), params.tuning.route_reach),
       tracker_(params.tracker) {}
 
 void PotentialFieldNavigator::prepare(const Snapshot& world, const Stop&) {
-  const double radius = steering_.swarm().radius;
-  steering_.prepare(world, radius, radius + params_.gap);
-  guide_.prepare(world.shared_map(), steering_.aim().position, radius + params_.gap, radius);
+  const double radius = swarm().radius;
+  choose_aim(world, radius, radius + params_.gap);
+  guide_.prepare(world.shared_map(), aim().position, radius + params_.gap, radius);
 }
 
-Command PotentialFieldNavigator::step(const Observation& seen, const Stop& stop) {
+void PotentialFieldNavigator::update(const Observation& seen, const Stop& stop) {
   guide_.stop_with(stop);
   tracker_.update(seen);
-  const Pose2* pose = steering_.observe(seen);
-  if (!pose) return steering_.hold();
-  const Snapshot& world = *seen.world;
-  const Vec2 p = pose->position;
+}
+
+Decision PotentialFieldNavigator::decide(const Moment& moment) {
+  const Snapshot& world = moment.world();
+  const Vec2 p = moment.pose.position;
   const Vec2 target = guide_.target(world.map(), p);
-  steering_.view().local_target = target;
+  step_view().local_target = target;
   const Vec2 draw = unit_vector(heading_of(target - p));
   Vec2 pushes = push_of_walls(world.map(), p);
   const auto bodies = world.moving().bodies();
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    pushes += push_of(bodies[i], tracker_.body(i), p, steering_.speed() * draw);
+    pushes += push_of(bodies[i], tracker_.body(i), p, speed() * draw);
   const Vec2 force = draw + pushes;
-  const Command hold{pose->heading, 0};
-  if (norm(force) < params_.min_force) return steering_.command(hold, NavigatorState::stuck);
-  if (const auto command = clear_of_walls(world.map(), *pose, force))
-    return steering_.command(*command,
-                             pushes == Vec2{} ? NavigatorState::follow : NavigatorState::avoid);
-  return steering_.command(hold, NavigatorState::hold);
+  if (norm(force) < params_.min_force) return hold(NavigatorState::stuck);
+  if (const auto command = clear_of_walls(world.map(), moment.pose, force))
+    return {*command, pushes == Vec2{} ? NavigatorState::follow : NavigatorState::avoid};
+  return hold();
 }
 
 /// Magnitude of the repulsion at a gap [µm].
@@ -80,13 +78,13 @@ double PotentialFieldNavigator::push(double gap, double influence) const {
 /// Repulsion of static objects is reduced near the goal; otherwise a goal beside a wall could not
 /// be reached (GNRON).
 double PotentialFieldNavigator::calm_near_goal(Vec2 p) const {
-  return std::min(1.0, distance(p, steering_.aim().position) / params_.influence);
+  return std::min(1.0, distance(p, aim().position) / params_.influence);
 }
 
 /// The gradient of the clearance points away from the nearest wall; between two walls its central
 /// differences cancel.
 Vec2 PotentialFieldNavigator::push_of_walls(const Map& map, Vec2 p) const {
-  const double edge = steering_.swarm().radius + params_.gap;
+  const double edge = swarm().radius + params_.gap;
   const double gap = map.clearance(p) - edge;
   if (gap >= params_.wall_influence) return {};
   const auto slope = [&](Vec2 d) {
@@ -102,8 +100,7 @@ Vec2 PotentialFieldNavigator::push_of_walls(const Map& map, Vec2 p) const {
 /// resting obstacles.
 Vec2 PotentialFieldNavigator::push_of(const Body& body, const TrackedBody& motion, Vec2 p,
                                       Vec2 wanted) const {
-  const Vec2 at =
-      p - steering_.delay() * motion.velocity;  // relative to the body's observed position
+  const Vec2 at = p - delay() * motion.velocity;  // relative to the body's observed position
   const bool inside = depth_in(body, at) >= 0;
   const Vec2 offset = (inside ? motion.centre : nearest_of(body, at)) - at;
   const double d = norm(offset);
@@ -112,10 +109,10 @@ Vec2 PotentialFieldNavigator::push_of(const Body& body, const TrackedBody& motio
   const Vec2 relative = wanted - motion.velocity;
   const double growth = outward_speed(body, motion);
   const double closing = std::max(0.0, dot(relative, n)) + growth;
-  const double gap = (inside ? 0 : d) - steering_.swarm().radius - params_.gap -
-                     steering_.delay() * growth - params_.reaction_time * closing;
+  const double gap = (inside ? 0 : d) - swarm().radius - params_.gap - delay() * growth -
+                     params_.reaction_time * closing;
   const Vec2 across = relative - dot(relative, n) * n;
-  const double spoke = std::max(steering_.swarm().radius, distance(at, motion.centre));
+  const double spoke = std::max(swarm().radius, distance(at, motion.centre));
   const double calm = norm(motion.velocity) < params_.tuning.rest_speed ? calm_near_goal(p) : 1;
   return calm * push(gap, params_.influence) * ((params_.reaction_time / spoke) * across - n);
 }
@@ -125,13 +122,13 @@ std::optional<Command> PotentialFieldNavigator::clear_of_walls(const Map& map, c
                                                                Vec2 force) const {
   constexpr int max_aside = 5;
   constexpr double step_aside = pi / 10;
-  const double turn_rate = steering_.swarm().max_turn_rate;
-  const double r = std::min(steering_.swarm().radius, (1 - 1e-9) * map.clearance(pose.position));
-  const double speed = steering_.speed() * std::min(1.0, norm(force));
+  const double turn_rate = swarm().max_turn_rate;
+  const double r = std::min(swarm().radius, (1 - 1e-9) * map.clearance(pose.position));
+  const double commanded = speed() * std::min(1.0, norm(force));
   for (int k = 0; k <= 2 * max_aside; ++k) {
     const int steps = k % 2 == 0 ? -k / 2 : (k + 1) / 2;
     const double aside = steps * step_aside;
-    Command command{wrap(heading_of(force) + aside), speed};
+    Command command{wrap(heading_of(force) + aside), commanded};
     const double turn = std::isinf(turn_rate) ? 0 : wrap(command.heading - pose.heading);
     if (std::abs(turn) > pi / 2) command.speed *= 0.5;
     const Pose2 next = unicycle_step(pose, command, turn_rate, params_.tuning.command_time / 2);

@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/navigation/baselines/potential_field_params.hpp"
 #include "microswarm/navigation/prediction/obstacle_tracker.hpp"
 #include "microswarm/navigation/steering/guide.hpp"
-#include "microswarm/navigation/steering/steering_cycle.hpp"
+#include "microswarm/navigation/steering/steering_navigator.hpp"
 
 namespace microswarm {
 
 /// Potential field baseline; see PotentialFieldParams. Commands never lead into a wall: if the
 /// force does, the nearest direction that does not is taken. States: follow (no repulsion), avoid,
 /// stuck (the forces cancel: a local minimum), hold, arrived, blind.
-class PotentialFieldNavigator : public Navigator {
+class PotentialFieldNavigator : public SteeringNavigator {
  public:
-  PotentialFieldNavigator(const PotentialFieldParams& params, const SwarmLimits& swarm, Vec2 goal,
-                          double goal_tolerance, double frame_timeout = default_frame_timeout);
+  using Params = PotentialFieldParams;
+  PotentialFieldNavigator(const PotentialFieldParams& params, const Task& task, Rng);
 
   void prepare(const Snapshot& world, const Stop& stop) override;
-  Command step(const Observation& observation, const Stop& stop) override;
-  void overruled(double now, const Command& command) override { steering_.overruled(now, command); }
-  NavigatorView view() const override { return steering_.view(); }
 
  private:
+  void update(const Observation& seen, const Stop& stop) override;
+  Decision decide(const Moment& moment) override;
   double push(double gap, double influence) const;
   Vec2 push_of_walls(const Map& map, Vec2 p) const;
   Vec2 push_of(const Body& body, const TrackedBody& motion, Vec2 p, Vec2 wanted) const;
@@ -29,7 +29,6 @@ class PotentialFieldNavigator : public Navigator {
   std::optional<Command> clear_of_walls(const Map& map, const Pose2& pose, Vec2 force) const;
 
   PotentialFieldParams params_;
-  SteeringCycle steering_;
   GoalGuide guide_;
   ObstacleTracker tracker_;
 };

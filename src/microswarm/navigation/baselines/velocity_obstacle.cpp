@@ -51,62 +51,62 @@ bool along_trajectory(Pose2 pose, const Command& command, double turn_rate, doub
 }  // namespace
 
 VelocityObstacleNavigator::VelocityObstacleNavigator(const VelocityObstacleParams& params,
-                                                     const SwarmLimits& swarm, Vec2 goal,
-                                                     double goal_tolerance, double frame_timeout)
-    : params_(params),
-      steering_(swarm, params.speed, goal, goal_tolerance, frame_timeout),
-      guide_(params.guide, goal, params.tuning.route_reach),
+                                                     const Task& task, Rng)
+    : SteeringNavigator(task, params.speed),
+      params_(params),
+      guide_(params.guide, goal(), params.tuning.route_reach),
       tracker_(params.tracker) {
   rank_choices();
 }
 
 void VelocityObstacleNavigator::rank_choices() {
-  const Vec2 preferred{steering_.speed(), 0};
-  choices_.push_back({0, 0, steering_.speed()});
+  const Vec2 preferred{speed(), 0};
+  choices_.push_back({0, 0, speed()});
   for (int s = params_.speeds; s > 0; --s)
     for (int k = 0; k < params_.directions; ++k) {
       const double turn = wrap(2 * pi * k / params_.directions);
-      const double speed = steering_.speed() * s / params_.speeds;
-      choices_.push_back({turn, speed, distance(speed * unit_vector(turn), preferred)});
+      const double share = speed() * s / params_.speeds;
+      choices_.push_back({turn, share, distance(share * unit_vector(turn), preferred)});
     }
   std::stable_sort(choices_.begin(), choices_.end(),
                    [](const Choice& a, const Choice& b) { return a.off < b.off; });
 }
 
 void VelocityObstacleNavigator::prepare(const Snapshot& world, const Stop&) {
-  const double radius = steering_.swarm().radius;
-  steering_.prepare(world, radius, radius + params_.gap);
-  guide_.prepare(world.shared_map(), steering_.aim().position, radius + params_.gap, radius);
+  const double radius = swarm().radius;
+  choose_aim(world, radius, radius + params_.gap);
+  guide_.prepare(world.shared_map(), aim().position, radius + params_.gap, radius);
 }
 
-Command VelocityObstacleNavigator::step(const Observation& seen, const Stop& stop) {
+void VelocityObstacleNavigator::update(const Observation& seen, const Stop& stop) {
   guide_.stop_with(stop);
   tracker_.update(seen);
-  const Pose2* pose = steering_.observe(seen);
-  if (!pose) return steering_.hold();
-  const Map& map = seen.world->map();
-  const Vec2 target = guide_.target(map, pose->position);
-  steering_.view().local_target = target;
-  find_threats(*seen.world, pose->position);
-  const double preferred = heading_of(target - pose->position);
-  Command best{pose->heading, 0};
+}
+
+Decision VelocityObstacleNavigator::decide(const Moment& moment) {
+  const Map& map = moment.map();
+  const Pose2& pose = moment.pose;
+  const Vec2 target = guide_.target(map, pose.position);
+  step_view().local_target = target;
+  find_threats(moment.world(), pose.position);
+  const double preferred = heading_of(target - pose.position);
+  Command best{pose.heading, 0};
   double min_penalty = never;
   for (const Choice& choice : choices_) {
     const Command command{wrap(preferred + choice.turn), choice.speed};
-    if (!clear_of_walls(map, *pose, command)) continue;
-    const double time = time_to_contact(*pose, command);
+    if (!clear_of_walls(map, pose, command)) continue;
+    const double time = time_to_contact(pose, command);
     if (time >= params_.horizon) {
-      if (choice.speed == 0) return steering_.command({pose->heading, 0}, NavigatorState::hold);
-      return steering_.command(command,
-                               choice.off == 0 ? NavigatorState::follow : NavigatorState::avoid);
+      if (choice.speed == 0) return hold();
+      return {command, choice.off == 0 ? NavigatorState::follow : NavigatorState::avoid};
     }
     const double penalty = choice.off + params_.urgency / std::max(time, choice_rounding);
     if (penalty >= min_penalty) continue;
     min_penalty = penalty;
     best = command;
   }
-  if (best.speed == 0) return steering_.command({pose->heading, 0}, NavigatorState::hold);
-  return steering_.command(best, NavigatorState::escape);
+  if (best.speed == 0) return hold();
+  return {best, NavigatorState::escape};
 }
 
 /// Collects the bodies that can be met within the horizon. The swarm may move away from a body
@@ -117,17 +117,17 @@ void VelocityObstacleNavigator::find_threats(const Snapshot& world, Vec2 p) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const TrackedBody motion = tracker_.body(i);
     const bool round = is_disc(bodies[i]);
-    const double speed = outward_speed(bodies[i], motion);
-    const Vec2 at = p - steering_.delay() * motion.velocity;
+    const double growth = outward_speed(bodies[i], motion);
+    const Vec2 at = p - delay() * motion.velocity;
     const double away = distance(at, bodies[i]);
-    const double wanted = steering_.swarm().radius + params_.gap +
-                          speed * (steering_.delay() + (round ? 0 : params_.tuning.growth_time));
-    const double top = steering_.speed() + norm(motion.velocity) + speed;
+    const double wanted = swarm().radius + params_.gap +
+                          growth * (delay() + (round ? 0 : params_.tuning.growth_time));
+    const double top = speed() + norm(motion.velocity) + growth;
     if (away - wanted > top * params_.horizon) continue;
     threats_.push_back({.body = &bodies[i],
                         .velocity = motion.velocity,
                         .reach = std::min(wanted, (1 - choice_rounding) * away),
-                        .growth = round ? speed : 0});
+                        .growth = round ? growth : 0});
   }
 }
 
@@ -135,19 +135,19 @@ bool VelocityObstacleNavigator::clear_of_walls(const Map& map, const Pose2& pose
                                                const Command& command) const {
   if (command.speed == 0) return true;
   const double reach = params_.wall_horizon * command.speed;
-  const double wanted = steering_.swarm().radius + params_.gap;
-  const double r = std::min(steering_.wall_clearance(wanted, pose.position, reach),
+  const double wanted = swarm().radius + params_.gap;
+  const double r = std::min(wall_clearance(wanted, pose.position, reach),
                             (1 - choice_rounding) * map.clearance(pose.position));
-  const double time = std::min(params_.wall_horizon,
-                               distance(pose.position, steering_.aim().position) / command.speed);
-  return along_trajectory(pose, command, steering_.swarm().max_turn_rate, time,
+  const double time =
+      std::min(params_.wall_horizon, distance(pose.position, aim().position) / command.speed);
+  return along_trajectory(pose, command, swarm().max_turn_rate, time,
                           [&](Segment leg, double, double) { return map.is_free(leg, r); });
 }
 
 /// Time until the command leads into a body; infinity if not within the horizon.
 double VelocityObstacleNavigator::time_to_contact(const Pose2& pose, const Command& command) const {
   double first = never;
-  along_trajectory(pose, command, steering_.swarm().max_turn_rate, params_.horizon,
+  along_trajectory(pose, command, swarm().max_turn_rate, params_.horizon,
                    [&](Segment leg, double t0, double t1) {
                      for (const Threat& threat : threats_)
                        first = std::min(first, time_to_contact(threat, leg, t0, t1));
@@ -158,8 +158,8 @@ double VelocityObstacleNavigator::time_to_contact(const Pose2& pose, const Comma
 
 double VelocityObstacleNavigator::time_to_contact(const Threat& threat, Segment leg, double t0,
                                                   double t1) const {
-  const Segment own_frame{leg.a - (steering_.delay() + t0) * threat.velocity,
-                          leg.b - (steering_.delay() + t1) * threat.velocity};
+  const Segment own_frame{leg.a - (delay() + t0) * threat.velocity,
+                          leg.b - (delay() + t1) * threat.velocity};
   const auto with_disc = [&](const Disc& disc) {
     if (t1 <= t0) return never;
     const Vec2 velocity = (1 / (t1 - t0)) * (own_frame.b - own_frame.a);

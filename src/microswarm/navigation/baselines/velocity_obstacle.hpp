@@ -3,25 +3,22 @@
 
 #include <vector>
 
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/navigation/baselines/velocity_obstacle_params.hpp"
 #include "microswarm/navigation/prediction/obstacle_tracker.hpp"
 #include "microswarm/navigation/steering/guide.hpp"
-#include "microswarm/navigation/steering/steering_cycle.hpp"
+#include "microswarm/navigation/steering/steering_navigator.hpp"
 
 namespace microswarm {
 
 /// Velocity-obstacle baseline; see VelocityObstacleParams. States: follow (the preferred velocity),
 /// avoid, escape (no velocity is collision-free), hold, arrived, blind.
-class VelocityObstacleNavigator : public Navigator {
+class VelocityObstacleNavigator : public SteeringNavigator {
  public:
-  VelocityObstacleNavigator(const VelocityObstacleParams& params, const SwarmLimits& swarm,
-                            Vec2 goal, double goal_tolerance,
-                            double frame_timeout = default_frame_timeout);
+  using Params = VelocityObstacleParams;
+  VelocityObstacleNavigator(const VelocityObstacleParams& params, const Task& task, Rng);
 
   void prepare(const Snapshot& world, const Stop& stop) override;
-  Command step(const Observation& observation, const Stop& stop) override;
-  void overruled(double now, const Command& command) override { steering_.overruled(now, command); }
-  NavigatorView view() const override { return steering_.view(); }
 
  private:
   /// Body that may be met.
@@ -37,6 +34,8 @@ class VelocityObstacleNavigator : public Navigator {
     double off = 0;  ///< distance from the preferred velocity [µm/s]
   };
 
+  void update(const Observation& seen, const Stop& stop) override;
+  Decision decide(const Moment& moment) override;
   void rank_choices();
   void find_threats(const Snapshot& world, Vec2 p);
   bool clear_of_walls(const Map& map, const Pose2& pose, const Command& command) const;
@@ -44,7 +43,6 @@ class VelocityObstacleNavigator : public Navigator {
   double time_to_contact(const Threat& threat, Segment leg, double t0, double t1) const;
 
   VelocityObstacleParams params_;
-  SteeringCycle steering_;
   GoalGuide guide_;
   ObstacleTracker tracker_;
   std::vector<Threat> threats_;

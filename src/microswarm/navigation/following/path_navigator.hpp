@@ -3,29 +3,29 @@
 
 #include <vector>
 
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/navigation/following/path_follower.hpp"
 #include "microswarm/navigation/following/path_navigator_params.hpp"
-#include "microswarm/navigation/steering/steering_cycle.hpp"
+#include "microswarm/navigation/steering/steering_navigator.hpp"
 
 namespace microswarm {
 
 /// Path-following navigator; see PathNavigatorParams. States: follow, fallback (pure pursuit
 /// instead of the learned follower), hold, arrived, blind.
-class PathNavigator : public Navigator {
+class PathNavigator : public SteeringNavigator {
  public:
-  PathNavigator(const PathNavigatorParams& params, const SwarmLimits& swarm, Vec2 goal,
-                double goal_tolerance, double frame_timeout = default_frame_timeout);
+  using Params = PathNavigatorParams;
+  PathNavigator(const PathNavigatorParams& params, const Task& task, Rng);
 
   void prepare(const Snapshot& world, const Stop& stop) override;
-  Command step(const Observation& observation, const Stop& stop) override;
-  void overruled(double now, const Command& command) override { steering_.overruled(now, command); }
-  NavigatorView view() const override;
 
  private:
+  void update(const Observation& seen, const Stop& stop) override;
+  Decision decide(const Moment& moment) override;
+  Decision finish(const Decision& decision, const Observation& seen) override;
   bool path_is_clear(const Snapshot& world, Pose2 pose) const;
 
   PathNavigatorParams params_;
-  SteeringCycle steering_;
   PathFollower follower_;
   std::vector<Vec2> path_;  ///< including the goal
   PathPlace place_;

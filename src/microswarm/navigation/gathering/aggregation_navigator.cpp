@@ -15,39 +15,36 @@ Issues validate(const AggregationParams& params) {
   return issues;
 }
 
-AggregationNavigator::AggregationNavigator(const AggregationParams& params,
-                                           const RobotSwarmParams& robots, Vec2 goal,
-                                           double goal_tolerance, double tick, Rng rng,
-                                           double frame_timeout)
-    : params_(params),
-      goal_(goal),
-      goal_tolerance_(goal_tolerance),
-      rng_(rng),
-      steering_(robots, tick, frame_timeout) {}
+std::string_view AggregationNavigator::unsupported_reason(const Task& task) {
+  if (!task.robots) return "robots";
+  if (task.robots->contact != ContactRule::stop) return "robots that stop at walls";
+  return task.goal ? "" : "one goal for all robots";
+}
+
+AggregationNavigator::AggregationNavigator(const AggregationParams& params, const Task& task,
+                                           Rng rng)
+    : RobotSteeringNavigator(task), params_(params), goal_(*task.goal), rng_(rng) {}
 
 void AggregationNavigator::prepare(const Snapshot& world, const Stop& stop) {
   params_ = fitted(params_, world.map(), rng_);
-  params_.sigma = std::min(params_.sigma, 0.5 * goal_tolerance_);
-  params_.step = std::min(params_.step, steering_.max_move());
+  params_.sigma = std::min(params_.sigma, 0.5 * goal_tolerance());
+  params_.step = std::min(params_.step, max_move());
   map_.emplace(world.map(), goal_, params_, rng_, MoveRule::any_direction, stop);
   if (map_->was_stopped) {
     map_.reset();
     return;
   }
   policy_.emplace(*map_, params_);
-  steering_.prepare(world);
-  if (params_.method == Aggregation::rollout)
-    rollout_.emplace(*map_, steering_.stepper(), params_, rng_);
+  RobotSteeringNavigator::prepare(world, stop);
+  if (params_.method == Aggregation::rollout) rollout_.emplace(*map_, stepper(), params_, rng_);
 }
 
-Command AggregationNavigator::step(const Observation& seen, const Stop& stop) {
-  const std::optional<Robots> robots = steering_.observe(seen);
-  if (!robots) return steering_.hold();
-  const std::optional<Vec2> move =
-      rollout_ ? rollout_->next(*robots, stop) : policy_->next(*robots);
-  if (!move) return steering_.hold(NavigatorState::arrived);
-  if (!rollout_) steering_.view().local_target = policy_->waypoint();
-  return steering_.move(*move, NavigatorState::gather);
+Decision AggregationNavigator::decide(const Robots& robots, double, const Stop& stop) {
+  const std::optional<Vec2> displacement =
+      rollout_ ? rollout_->next(robots, stop) : policy_->next(robots);
+  if (!displacement) return hold(NavigatorState::arrived);
+  if (!rollout_) step_view().local_target = policy_->waypoint();
+  return move(*displacement, NavigatorState::gather);
 }
 
 Diagnostics AggregationNavigator::diagnostics() const {

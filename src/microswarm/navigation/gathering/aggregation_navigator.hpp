@@ -2,12 +2,13 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 
-#include "microswarm/contracts/navigator.hpp"
 #include "microswarm/core/errors/issue.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/navigation/gathering/policies/aggregation_policy.hpp"
 #include "microswarm/navigation/gathering/rollout/rollout_policy.hpp"
-#include "microswarm/navigation/steering/robot_steering_cycle.hpp"
+#include "microswarm/navigation/steering/robot_steering_navigator.hpp"
 
 namespace microswarm {
 
@@ -17,20 +18,17 @@ Issues validate(const AggregationParams& params);
 /// Navigator of HRA and DCA, Alg 3 and 5 [gather], and of the rollout planner. It predicts the
 /// robots' positions when its command takes effect and commands the policy's move, limited to what
 /// a tick allows. States: gather, arrived, blind.
-class AggregationNavigator : public Navigator {
+class AggregationNavigator : public RobotSteeringNavigator {
  public:
-  /// `robots`: their known properties; `tick` [s] between two commands. It continues until the mean
-  /// path length to the goal is at most half of `goal_tolerance` [µm], independent of the task's
-  /// measure.
-  AggregationNavigator(const AggregationParams& params, const RobotSwarmParams& robots, Vec2 goal,
-                       double goal_tolerance, double tick, Rng rng,
-                       double frame_timeout = default_frame_timeout);
+  using Params = AggregationParams;
+  static std::string_view unsupported_reason(const Task& task);
+
+  /// It continues until the mean path length to the goal is at most half of the goal tolerance,
+  /// independent of the task's measure.
+  AggregationNavigator(const AggregationParams& params, const Task& task, Rng rng);
 
   /// Grows the tree. Throws InputError as AggregationMap does.
   void prepare(const Snapshot& world, const Stop& stop) override;
-  Command step(const Observation& observation, const Stop& stop) override;
-  void overruled(double now, const Command& command) override { steering_.overruled(now, command); }
-  NavigatorView view() const override { return steering_.view(); }
   Diagnostics diagnostics() const override;
   /// The policy; null before prepare().
   const AggregationPolicy* policy() const { return policy_ ? &*policy_ : nullptr; }
@@ -38,11 +36,11 @@ class AggregationNavigator : public Navigator {
   const AggregationMap* map() const { return map_ ? &*map_ : nullptr; }
 
  private:
+  Decision decide(const Robots& robots, double now, const Stop& stop) override;
+
   AggregationParams params_;
   Vec2 goal_;
-  double goal_tolerance_;
   Rng rng_;
-  RobotSteeringCycle steering_;
   std::optional<AggregationMap> map_;
   std::optional<AggregationPolicy> policy_;
   std::optional<RolloutPolicy> rollout_;

@@ -8,25 +8,26 @@
 
 namespace microswarm {
 
-PlanExecutor::PlanExecutor(const PlanExecutorParams& params, const RobotSwarmParams& robots,
-                           double goal_tolerance, double tick, Rng rng, double frame_timeout)
-    : params_(params), rng_(rng), steering_(robots, tick, frame_timeout) {
-  params_.planner.goal_tolerance = goal_tolerance;
-  params_.planner.contact = robots.contact;
+std::string_view PlanExecutor::unsupported_reason(const Task& task) {
+  return task.robots && !task.robots->goals.empty() ? "" : "robots with a goal each";
 }
 
-Command PlanExecutor::step(const Observation& seen, const Stop& stop) {
-  const std::optional<Robots> robots = steering_.observe(seen, goals().size());
-  if (!robots) return steering_.hold();
-  if (met(*robots)) {
+PlanExecutor::PlanExecutor(const PlanExecutorParams& params, const Task& task, Rng rng)
+    : RobotSteeringNavigator(task, task.robots->goals.size()), params_(params), rng_(rng) {
+  params_.planner.goal_tolerance = task.goal_tolerance;
+  params_.planner.contact = task.robots->contact;
+}
+
+Decision PlanExecutor::decide(const Robots& seen, double now, const Stop& stop) {
+  if (met(seen)) {
     on_plan_ = false;
-    return steering_.hold(NavigatorState::arrived);
+    return hold(NavigatorState::arrived);
   }
   NavigatorState state = NavigatorState::play;
-  if (!on_plan_ || input_ == plan_.inputs.size() || deviation(*robots) > params_.max_deviation)
-    state = find_path(*robots, seen.now, stop);
-  if (input_ == plan_.inputs.size()) return steering_.hold(NavigatorState::stuck);
-  return steering_.command(next_piece(), state);
+  if (!on_plan_ || input_ == plan_.inputs.size() || deviation(seen) > params_.max_deviation)
+    state = find_path(seen, now, stop);
+  if (input_ == plan_.inputs.size()) return hold(NavigatorState::stuck);
+  return {next_piece(), state};
 }
 
 bool PlanExecutor::met(const Robots& robots) const {
@@ -42,10 +43,10 @@ double PlanExecutor::deviation(const Robots& robots) const {
   return worst;
 }
 
-bool PlanExecutor::leads_home(Robots robots, std::size_t from) const {
+bool PlanExecutor::leads_home(Robots moved, std::size_t from) const {
   for (std::size_t k = from; k < plan_.inputs.size(); ++k)
-    steering_.stepper().step(robots, plan_.inputs[k], steering_.robots().contact);
-  return met(robots);
+    stepper().step(moved, plan_.inputs[k], robots().contact);
+  return met(moved);
 }
 
 // Tries the nearest configurations of the plan first, among equals the earlier one.
@@ -77,25 +78,23 @@ NavigatorState PlanExecutor::find_path(const Robots& robots, double now, const S
   input_ = plan_.inputs.size();
   if (now < retry_at_) return NavigatorState::play;
   const std::vector<Vec2> positions = robots.positions();
-  plan_ = global_search(steering_.map(), positions, goals(), params_.planner, rng_, stop).plan;
+  plan_ = global_search(map(), positions, goals(), params_.planner, rng_, stop).plan;
   if (plan_.status != Status::solved) retry_at_ = now + params_.retry_time;
   input_ = 0;
   on_plan_ = true;
-  steering_.view().planned = true;
+  step_view().planned = true;
   return NavigatorState::replan;
 }
 
 Command PlanExecutor::next_piece() {
   const Vec2 input = plan_.inputs[input_];
-  const int pieces =
-      std::max(1, static_cast<int>(std::ceil(norm(input) / (steering_.max_move()) - 1e-9)));
+  const int pieces = std::max(1, static_cast<int>(std::ceil(norm(input) / max_move() - 1e-9)));
   if (++piece_ >= pieces) {
     piece_ = 0;
     ++input_;
   }
-  const Command command = command_for(input / pieces, steering_.tick());
-  steering_.stepper().step(expected_, displacement(command, steering_.tick()),
-                           steering_.robots().contact);
+  const Command command = command_for(input / pieces, tick());
+  stepper().step(expected_, displacement(command, tick()), robots().contact);
   return command;
 }
 

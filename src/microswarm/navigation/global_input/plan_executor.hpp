@@ -2,10 +2,11 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 
-#include "microswarm/contracts/navigator.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/navigation/global_input/plan_executor_params.hpp"
-#include "microswarm/navigation/steering/robot_steering_cycle.hpp"
+#include "microswarm/navigation/steering/robot_steering_navigator.hpp"
 #include "microswarm/planning/global_input/global_search.hpp"
 
 namespace microswarm {
@@ -14,23 +15,19 @@ namespace microswarm {
 /// the rest of the plan still brings all to their goals, then whether it does from another position
 /// of the plan; otherwise it replans. A plan that only leads nearer is executed too. States: play,
 /// rejoin, replan, arrived, blind, and stuck if there is no plan.
-class PlanExecutor : public Navigator {
+class PlanExecutor : public RobotSteeringNavigator {
  public:
-  /// `robots`: their known properties, with a goal each; `tick` [s] between two commands.
-  PlanExecutor(const PlanExecutorParams& params, const RobotSwarmParams& robots,
-               double goal_tolerance, double tick, Rng rng,
-               double frame_timeout = default_frame_timeout);
+  using Params = PlanExecutorParams;
+  static std::string_view unsupported_reason(const Task& task);
 
-  void prepare(const Snapshot& world, const Stop&) override { steering_.prepare(world); }
-  Command step(const Observation& observation, const Stop& stop) override;
-  void overruled(double now, const Command& command) override { steering_.overruled(now, command); }
-  NavigatorView view() const override { return steering_.view(); }
+  PlanExecutor(const PlanExecutorParams& params, const Task& task, Rng rng);
 
   /// Executes a given plan instead of planning, as long as it leads to the goals.
   void play(GlobalPlan plan) { plan_ = std::move(plan); }
 
  private:
-  const std::vector<Vec2>& goals() const { return steering_.robots().goals; }
+  Decision decide(const Robots& robots, double now, const Stop& stop) override;
+  const std::vector<Vec2>& goals() const { return robots().goals; }
   bool met(const Robots& robots) const;
   double deviation(const Robots& robots) const;
   bool leads_home(Robots robots, std::size_t from) const;
@@ -40,7 +37,6 @@ class PlanExecutor : public Navigator {
 
   PlanExecutorParams params_;
   Rng rng_;
-  RobotSteeringCycle steering_;
   GlobalPlan plan_;
   std::size_t input_ = 0;  ///< input of the plan being executed
   int piece_ = 0;          ///< part of that input, if it is longer than a tick's move

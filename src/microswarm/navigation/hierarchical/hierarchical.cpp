@@ -40,40 +40,42 @@ Issues validate(const HierarchicalParams& params, const IsGiven& is_given) {
   return issues;
 }
 
-HierarchicalNavigator::HierarchicalNavigator(const HierarchicalParams& params,
-                                             const SwarmLimits& swarm, Vec2 goal,
-                                             double goal_tolerance, Rng rng, double frame_timeout)
-    : params_(params.in_effect()),
+HierarchicalNavigator::HierarchicalNavigator(const HierarchicalParams& params, const Task& task,
+                                             Rng rng)
+    : SteeringNavigator(task, params.speed),
+      params_(params.in_effect()),
       rng_(rng),
-      steering_(swarm, params.speed, goal, goal_tolerance, frame_timeout),
       obstacles_(params.tracker, params.tuning.prediction),
-      follower_(params.follower, swarm) {
-  params_.speed = steering_.speed();
+      follower_(params.follower, swarm()) {
+  params_.speed = speed();
   // Deviation of a tick's arc from its chord; 0 for a swarm that turns at once.
-  if (std::isfinite(swarm.max_turn_rate))
-    slack_ = std::max(1.0, params_.speed * swarm.max_turn_rate * params_.tuning.check_step *
+  if (std::isfinite(swarm().max_turn_rate))
+    slack_ = std::max(1.0, params_.speed * swarm().max_turn_rate * params_.tuning.check_step *
                                params_.tuning.check_step / 8);
 }
 
 void HierarchicalNavigator::prepare(const Snapshot& world, const Stop&) {
-  steering_.prepare(world, params_.clearance, params_.clearance + params_.extra_clearance);
+  choose_aim(world, params_.clearance, params_.clearance + params_.extra_clearance);
   if (params_.guide == Guide::route)
     route_ = DistanceField::to_goal(world.shared_map(), aim().position, params_.clearance,
                                     params_.route_cell);
 }
 
-Command HierarchicalNavigator::step(const Observation& seen, const Stop& stop) {
+void HierarchicalNavigator::update(const Observation& seen, const Stop& stop) {
   route_.stop_with(stop);
-  const std::optional<double> last_command = steering_.last_command();
   obstacles_.update(seen);
-  const Decision decision = decide(seen, stop);
-  if (last_command) period_ = std::clamp(seen.now - *last_command, params_.tuning.check_step, 1.0);
-  NavigatorView& view = steering_.view();
+  if (sees_swarm(seen)) follower_.update(seen, compensator());
+}
+
+Decision HierarchicalNavigator::finish(const Decision& decision, const Observation& seen) {
+  if (last_command())
+    period_ = std::clamp(seen.now - *last_command(), params_.tuning.check_step, 1.0);
+  NavigatorView& view = step_view();
   view.local_target = target_;
   if (params_.guide == Guide::route && seen.world) view.phased_goal = towards();
   view.path = path_;
   view.plan = plan_ ? &*plan_ : nullptr;
-  return steering_.command(decision);
+  return decision;
 }
 
 Diagnostics HierarchicalNavigator::diagnostics() const {
@@ -86,15 +88,10 @@ Diagnostics HierarchicalNavigator::diagnostics() const {
 }
 
 // Algorithm 4 [drrt], one pass of its loop
-Decision HierarchicalNavigator::decide(const Observation& seen, const Stop& stop) {
-  if (steering_.sees_swarm(seen)) follower_.update(seen, steering_.compensator());
-  if (!steering_.begin(seen)) return {{}, NavigatorState::blind};
-  pose_ = steering_.compensate(seen);
+Decision HierarchicalNavigator::decide(const Moment& moment) {
+  const auto& [seen, pose, stop] = moment;
+  pose_ = pose;
   via_.reset();
-  if (steering_.arrives(pose_.position)) {  // line 2
-    path_.clear();
-    return {hold(), NavigatorState::arrived};
-  }
   if (is_used_up() || !path_holds(*seen.world)) replan(*seen.world, stop);  // lines 4–11
   auto decision = keep_path(seen);
   if (!decision && has_path()) {
@@ -102,8 +99,15 @@ Decision HierarchicalNavigator::decide(const Observation& seen, const Stop& stop
     decision = keep_path(seen);
   }
   if (decision) return *decision;
-  if (params_.as_published || hold_is_safe(seen)) return {hold(), NavigatorState::hold};
+  if (params_.as_published || hold_is_safe(seen)) return hold();
   return escape(seen);
+}
+
+Decision HierarchicalNavigator::at_goal(const Moment& moment) {  // line 2
+  pose_ = moment.pose;
+  via_.reset();
+  path_.clear();
+  return hold(NavigatorState::arrived);
 }
 
 // Follows the path, more slowly if only that is safe.
@@ -120,7 +124,7 @@ std::optional<Decision> HierarchicalNavigator::keep_path(const Observation& seen
 }
 
 bool HierarchicalNavigator::hold_is_safe(const Observation& seen) const {
-  return is_safe(seen, [&](const Pose2&, double) { return hold(); });
+  return is_safe(seen, [&](const Pose2&, double) { return hold().command; });
 }
 
 // A path to a local target is replaced before its end, the one to the aim at its end.
@@ -139,7 +143,7 @@ bool HierarchicalNavigator::path_holds(const Snapshot& world) const {
   rest.insert(rest.end(), path_.begin() + static_cast<std::ptrdiff_t>(place_.piece) + 1,
               path_.end());
   const double clearance = std::min(params_.clearance, path_clearance_);
-  return path_in_time_ ? is_free_in_time(world, obstacles_, rest, params_.speed, steering_.delay(),
+  return path_in_time_ ? is_free_in_time(world, obstacles_, rest, params_.speed, delay(),
                                          params_.target_horizon, clearance)
                        : world.is_free(rest, clearance);
 }
@@ -190,7 +194,7 @@ bool HierarchicalNavigator::replan_in_time(const Snapshot& seen, double clearanc
   };
   const auto target = select_predicted_target(seen, obstacles_,
                                               {.swarm = pose_,
-                                               .delay = steering_.delay(),
+                                               .delay = delay(),
                                                .speed = params_.speed,
                                                .goal = aim().position,
                                                .towards = towards(),
@@ -244,7 +248,7 @@ bool HierarchicalNavigator::replan_with(const Snapshot& world, double clearance,
 
 void HierarchicalNavigator::plan_to(const Snapshot& world, Vec2 target, double clearance,
                                     const Stop& stop) {
-  steering_.view().planned = true;
+  step_view().planned = true;
   const Vec2 from = pose_.position;
   DrrtStarParams local = params_.planner;
   local.clearance = clearance;
@@ -272,7 +276,7 @@ double HierarchicalNavigator::wall_floor(const Map& map, double reach) const {
 // visits its moves with their first and last pose and the time, as long as `visit` returns true.
 template <class Steer, class Visit>
 void HierarchicalNavigator::roll_out(Steer&& steer, Visit&& visit) const {
-  const double delay = params_.horizon > 0 ? steering_.delay() : 0;
+  const double start = params_.horizon > 0 ? delay() : 0;
   const int ticks =
       std::max(1, static_cast<int>(std::lround(params_.horizon / params_.tuning.check_step)));
   Pose2 pose = pose_;
@@ -285,7 +289,7 @@ void HierarchicalNavigator::roll_out(Steer&& steer, Visit&& visit) const {
     }
     const Pose2 next =
         unicycle_step(pose, command, swarm().max_turn_rate, params_.tuning.check_step);
-    if (!visit(Segment{pose.position, next.position}, delay + k * params_.tuning.check_step))
+    if (!visit(Segment{pose.position, next.position}, start + k * params_.tuning.check_step))
       return;
     pose = next;
   }
@@ -304,7 +308,7 @@ bool HierarchicalNavigator::is_safe(const Observation& seen, Steer&& steer) cons
   const double from_walls = wall_floor(map, far_enough());
   const double least = params_.clearance + slack_;
   const double enough = std::min(far_enough(), least + 1);  // 1 µm more than what is asked for
-  const double end = steering_.delay() + params_.horizon + params_.tuning.check_step;
+  const double end = delay() + params_.horizon + params_.tuning.check_step;
   const bool all_rest = obstacles_.all_rest() && least <= far_enough();
   constexpr double rounding = 1e-6;
   Disc free;  // for all times
@@ -353,7 +357,7 @@ PathFollower::Answer HierarchicalNavigator::follow(PathPlace& position, const Po
                : follower_.command(path_, position, pose, lookahead, speed);
   if (params_.as_published) return answer;
   const double left = remaining(path_, position);
-  if (left < path_end() || steering_.arrives(pose.position)) return {{pose.heading, 0}};
+  if (left < path_end() || arrives(pose.position)) return {{pose.heading, 0}};
   if (last_bit) answer.command.speed = std::min(answer.command.speed, left / period_);
   return answer;
 }

@@ -13,7 +13,7 @@
 #include "microswarm/navigation/hierarchical/local_target.hpp"
 #include "microswarm/navigation/hierarchical/predicted_target.hpp"
 #include "microswarm/navigation/prediction/obstacle_predictor.hpp"
-#include "microswarm/navigation/steering/steering_cycle.hpp"
+#include "microswarm/navigation/steering/steering_navigator.hpp"
 #include "microswarm/planning/exact/distance_field.hpp"
 #include "microswarm/planning/path/planners.hpp"
 
@@ -21,17 +21,12 @@ namespace microswarm {
 
 /// Hierarchical D-RRT* navigator; see HierarchicalParams. States: follow, fallback (pure pursuit
 /// instead of the learned follower), hold, escape, arrived, blind.
-class HierarchicalNavigator : public Navigator {
+class HierarchicalNavigator : public SteeringNavigator {
  public:
-  /// `swarm`: known properties of the swarm: radius, turning limit and dead time.
-  HierarchicalNavigator(const HierarchicalParams& params, const SwarmLimits& swarm, Vec2 goal,
-                        double goal_tolerance, Rng rng,
-                        double frame_timeout = default_frame_timeout);
+  using Params = HierarchicalParams;
+  HierarchicalNavigator(const HierarchicalParams& params, const Task& task, Rng rng);
 
   void prepare(const Snapshot& world, const Stop& stop) override;
-  Command step(const Observation& observation, const Stop& stop) override;
-  void overruled(double now, const Command& command) override { steering_.overruled(now, command); }
-  NavigatorView view() const override { return steering_.view(); }
   Diagnostics diagnostics() const override;
 
  private:
@@ -40,13 +35,14 @@ class HierarchicalNavigator : public Navigator {
     double last = 0;   ///< clearance at its end [µm]
   };
 
-  Decision decide(const Observation& seen, const Stop& stop);
+  void update(const Observation& seen, const Stop& stop) override;
+  Decision decide(const Moment& moment) override;
+  Decision at_goal(const Moment& moment) override;
+  Decision without_swarm() override { return {{}, NavigatorState::blind}; }
+  Decision finish(const Decision& decision, const Observation& seen) override;
   std::optional<Decision> keep_path(const Observation& seen);
   bool hold_is_safe(const Observation& seen) const;
-  Command hold() const { return {pose_.heading, 0}; }
   bool has_path() const { return path_.size() >= 2; }
-  const Aim& aim() const { return steering_.aim(); }
-  const SwarmLimits& swarm() const { return steering_.swarm(); }
   bool path_holds(const Snapshot& world) const;
   void replan(const Snapshot& seen, const Stop& stop);
   bool replan_with(const Snapshot& world, double clearance, const Stop& stop);
@@ -88,7 +84,6 @@ class HierarchicalNavigator : public Navigator {
 
   HierarchicalParams params_;
   Rng rng_;
-  SteeringCycle steering_;
   DistanceField route_;
   std::optional<Vec2> via_;  ///< point of the route ahead of the current pose, computed on demand
   double slack_ = 1;         ///< kept besides the clearance, for what happens within a tick [µm]

@@ -64,38 +64,26 @@ Issues validate(const PredictiveParams& params) {
   return issues;
 }
 
-PredictiveNavigator::PredictiveNavigator(const PredictiveParams& params, const SwarmLimits& swarm,
-                                         Vec2 goal, double goal_tolerance, Rng,
-                                         double frame_timeout)
-    : params_(params),
-      steering_(swarm, params.speed, goal, goal_tolerance, frame_timeout),
-      goal_tolerance_(goal_tolerance),
-      reached_{goal, params_.tuning.goal_share * goal_tolerance},
-      radius_(swarm.radius + params.gap),
+PredictiveNavigator::PredictiveNavigator(const PredictiveParams& params, const Task& task, Rng)
+    : SteeringNavigator(task, params.speed),
+      params_(params),
+      reached_{goal(), params_.tuning.goal_share * goal_tolerance()},
+      radius_(swarm().radius + params.gap),
       predictor_(params.prediction),
-      field_(steering_.speed(), params.horizon, params.step),
+      field_(speed(), params.horizon, params.step),
       outliner_(params.tuning.outline) {
   path_.reserve(static_cast<std::size_t>(field_.steps()) + 1);
 }
 
 void PredictiveNavigator::prepare(const Snapshot& world, const Stop&) {
-  steering_.prepare(world, steering_.swarm().radius, steering_.swarm().radius + params_.wall_gap);
-  const double left = steering_.aim().tolerance;
-  reached_ = {steering_.aim().position, params_.tuning.goal_share * left};
-  ends_within_ = goal_tolerance_ - (1 - params_.tuning.goal_share) * left;
+  choose_aim(world, swarm().radius, swarm().radius + params_.wall_gap);
+  const double left = aim().tolerance;
+  reached_ = {aim().position, params_.tuning.goal_share * left};
+  ends_within_ = goal_tolerance() - (1 - params_.tuning.goal_share) * left;
   if (params_.guide == Guide::route)
-    route_ =
-        DistanceField::to_goal(world.shared_map(), steering_.aim().position,
-                               steering_.wall_clearance(steering_.swarm().radius + params_.wall_gap,
-                                                        steering_.aim().position, 0),
-                               params_.route_cell);
-}
-
-NavigatorView PredictiveNavigator::view() const {
-  NavigatorView view = steering_.view();
-  view.planned = planned_;
-  view.path = path_;
-  return view;
+    route_ = DistanceField::to_goal(
+        world.shared_map(), aim().position,
+        wall_clearance(swarm().radius + params_.wall_gap, aim().position, 0), params_.route_cell);
 }
 
 Diagnostics PredictiveNavigator::diagnostics() const {
@@ -120,44 +108,45 @@ Diagnostics PredictiveNavigator::diagnostics() const {
   return out;
 }
 
-Command PredictiveNavigator::step(const Observation& seen, const Stop& stop) {
+void PredictiveNavigator::update(const Observation& seen, const Stop& stop) {
   route_.stop_with(stop);
   predictor_.update(seen);
   path_.clear();
-  planned_ = false;
-  const Pose2* at = steering_.observe(seen);
-  if (!at) return steering_.hold();
-  const Pose2 pose = *at;
-  const Map& map = seen.world->map();
-  radius_ = std::max(steering_.swarm().radius, seen.swarm->radius) + params_.gap;
+}
+
+Decision PredictiveNavigator::finish(const Decision& decision, const Observation&) {
+  step_view().path = path_;
+  return decision;
+}
+
+Decision PredictiveNavigator::decide(const Moment& moment) {
+  const Observation& seen = moment.seen;
+  const Pose2& pose = moment.pose;
+  const Map& map = moment.map();
+  radius_ = std::max(swarm().radius, seen.swarm->radius) + params_.gap;
   look_at_bodies(seen, pose.position);
-  look_ahead(seen.seen + steering_.delay());
-  in_sight_ =
-      params_.guide == Guide::straight ||
-      map.is_free(Segment{pose.position, steering_.aim().position}, steering_.swarm().radius);
+  look_ahead(seen.seen + delay());
+  in_sight_ = params_.guide == Guide::straight ||
+              map.is_free(Segment{pose.position, aim().position}, swarm().radius);
   path_.push_back(pose.position);
   if (goal_is_clear(map, pose)) {
-    steering_.view().local_target = steering_.aim().position;
-    path_.push_back(steering_.aim().position);
-    return steering_.command(
-        {heading_of(steering_.aim().position - pose.position), steering_.speed()},
-        NavigatorState::follow);
+    step_view().local_target = aim().position;
+    path_.push_back(aim().position);
+    return {{heading_of(aim().position - pose.position), speed()}, NavigatorState::follow};
   }
-  planned_ = true;
+  step_view().planned = true;
   solve(map, pose.position);
   const Leg leg = best_leg(map, pose);
   const Vec2 end =
       pose.position + field_.step() * leg.command.speed * unit_vector(leg.command.heading);
-  steering_.view().local_target = end;
+  step_view().local_target = end;
   const double gap = std::min(leg.min_gap, follow_field(end));
   const bool meets = gap < -params_.gap;
-  if (leg.command.speed == 0)
-    return steering_.command({pose.heading, 0},
-                             meets ? NavigatorState::escape : NavigatorState::hold);
+  if (leg.command.speed == 0) return hold(meets ? NavigatorState::escape : NavigatorState::hold);
   const bool alone = gap > 2 * params_.risk.reach;
-  return steering_.command(leg.command, meets   ? NavigatorState::escape
-                                        : alone ? NavigatorState::follow
-                                                : NavigatorState::avoid);
+  return {leg.command, meets   ? NavigatorState::escape
+                       : alone ? NavigatorState::follow
+                               : NavigatorState::avoid};
 }
 
 /// Collects the outlines of all bodies. A hollow body that hardly moves, such as a channel with
@@ -186,8 +175,8 @@ void PredictiveNavigator::look_at_bodies(const Observation& seen, Vec2 from) {
 
 bool PredictiveNavigator::stands_hollow(const ConvexOutline& outline, const TrackedBody& motion,
                                         Vec2 from) const {
-  if (norm(motion.velocity) > params_.tuning.slow_share * steering_.speed()) return false;
-  return outliner_.misleads(outline, std::array{from, steering_.aim().position});
+  if (norm(motion.velocity) > params_.tuning.slow_share * speed()) return false;
+  return outliner_.misleads(outline, std::array{from, aim().position});
 }
 
 /// Predicts the bodies from the time at which this step's command takes effect.
@@ -206,14 +195,14 @@ void PredictiveNavigator::look_ahead(double effect) {
 /// Whether nothing is near the straight path to the goal within the horizon. Between samples, a
 /// body may have approached by half the distance that both moved.
 bool PredictiveNavigator::goal_is_clear(const Map& map, const Pose2& pose) const {
-  const Vec2 offset = steering_.aim().position - pose.position;
+  const Vec2 offset = aim().position - pose.position;
   const double heading = heading_of(offset);
   constexpr double turned = 0.02;  // [rad]
-  const bool turns = std::isfinite(steering_.swarm().max_turn_rate);
+  const bool turns = std::isfinite(swarm().max_turn_rate);
   if (!in_sight_ || (turns && turn_between(heading, pose.heading) > turned)) return false;
-  const double own_step = 0.5 * field_.step() * steering_.speed();
+  const double own_step = 0.5 * field_.step() * speed();
   for (int s = 0; s < 2 * field_.steps(); ++s) {
-    const double gone = std::min(norm(offset), field_.time_of(s) * steering_.speed());
+    const double gone = std::min(norm(offset), field_.time_of(s) * speed());
     const Vec2 p = pose.position + gone * unit_vector(heading);
     if (standing_risk(map, p) > 0) return false;
     const std::size_t first = static_cast<std::size_t>(s) * bodies_;
@@ -238,10 +227,10 @@ void PredictiveNavigator::solve(const Map& map, Vec2 from) {
 
 /// Time to the goal without obstacles [s].
 double PredictiveNavigator::left_from(Vec2 p) {
-  const double straight = distance(p, steering_.aim().position) - reached_.radius;
-  if (in_sight_) return std::max(0.0, straight) / steering_.speed();
+  const double straight = distance(p, aim().position) - reached_.radius;
+  if (in_sight_) return std::max(0.0, straight) / speed();
   const double length = route_.from(p);
-  return std::isfinite(length) ? length / steering_.speed() : params_.tuning.unreachable_time;
+  return std::isfinite(length) ? length / speed() : params_.tuning.unreachable_time;
 }
 
 float PredictiveNavigator::standing_risk(const Map& map, Vec2 p) const {
@@ -259,24 +248,22 @@ float PredictiveNavigator::standing_risk(const Map& map, Vec2 p) const {
 }
 
 PredictiveNavigator::Leg PredictiveNavigator::best_leg(const Map& map, const Pose2& pose) {
-  const bool turns_slowly = std::isfinite(steering_.swarm().max_turn_rate);
+  const bool turns_slowly = std::isfinite(swarm().max_turn_rate);
   ending_ = false;
   wanted_ = turns_slowly ? best_heading(pose.position) : std::nullopt;
   Leg best = tried(map, pose, {pose.heading, 0}, std::numeric_limits<double>::infinity());
   const bool alone = std::isinf(best.min_gap);
   ending_ =
-      alone && in_sight_ &&
-      distance(pose.position, steering_.aim().position) < 2 * field_.step() * steering_.speed();
+      alone && in_sight_ && distance(pose.position, aim().position) < 2 * field_.step() * speed();
   // With nothing moving, waiting is useless: a swarm with limited turn rate does not turn at rest,
   // and the final approach is finer than the field's cells.
   if (alone && (turns_slowly || ending_)) best.cost = std::numeric_limits<double>::infinity();
-  const double straight = heading_of(steering_.aim().position - pose.position);
+  const double straight = heading_of(aim().position - pose.position);
   const std::span shares(params_.tuning.speed_shares);
   for (const double share :
        turns_slowly ? shares : shares.first(std::min<std::size_t>(2, shares.size())))
     for (int k = 0; k < params_.directions; ++k) {
-      const Command command{wrap(straight + 2 * pi * k / params_.directions),
-                            share * steering_.speed()};
+      const Command command{wrap(straight + 2 * pi * k / params_.directions), share * speed()};
       const Leg leg = tried(map, pose, command, best.cost);
       if (leg.cost < best.cost - leg_rounding) best = leg;
     }
@@ -287,15 +274,14 @@ PredictiveNavigator::Leg PredictiveNavigator::best_leg(const Map& map, const Pos
 PredictiveNavigator::Leg PredictiveNavigator::tried(const Map& map, const Pose2& from,
                                                     const Command& command, double bound) {
   const double dt = field_.step() / leg_pieces;
-  const double needed =
-      std::min(steering_.wall_clearance(steering_.swarm().radius + params_.wall_gap, from.position,
-                                        field_.step() * steering_.speed()),
-               (1 - leg_rounding) * map.clearance(from.position));
+  const double needed = std::min(
+      wall_clearance(swarm().radius + params_.wall_gap, from.position, field_.step() * speed()),
+      (1 - leg_rounding) * map.clearance(from.position));
   Leg leg{command, field_.cost(1, from.position), std::numeric_limits<double>::infinity()};
   leg.cost = 0;
   Pose2 pose = from;
   for (int piece = 0; piece < leg_pieces; ++piece) {
-    const Pose2 next = unicycle_step(pose, command, steering_.swarm().max_turn_rate, dt);
+    const Pose2 next = unicycle_step(pose, command, swarm().max_turn_rate, dt);
     const Segment move{pose.position, next.position};
     const Meeting met = meeting(piece, move);
     leg.min_gap = std::min(leg.min_gap, met.gap);
@@ -305,7 +291,7 @@ PredictiveNavigator::Leg PredictiveNavigator::tried(const Map& map, const Pose2&
       leg.cost = params_.tuning.unreachable_time + bound;
     if (leg.cost > bound) return leg;
     pose = next;
-    if (ending_ ? distance(steering_.goal(), move) < ends_within_
+    if (ending_ ? distance(goal(), move) < ends_within_
                 : distance(pose.position, reached_.centre) < reached_.radius)
       return leg;
   }
@@ -327,9 +313,9 @@ std::optional<double> PredictiveNavigator::best_heading(Vec2 p) const {
 /// turns by an angle at its full rate, it advances only by the sine of that angle.
 double PredictiveNavigator::turning_time(const Pose2& pose) const {
   if (!wanted_) return 0;
-  const double wanted = ending_ ? heading_of(steering_.aim().position - pose.position) : *wanted_;
+  const double wanted = ending_ ? heading_of(aim().position - pose.position) : *wanted_;
   const double turn = turn_between(wanted, pose.heading);
-  return (turn - maths::sin(turn)) / steering_.swarm().max_turn_rate;
+  return (turn - maths::sin(turn)) / swarm().max_turn_rate;
 }
 
 /// Gap and risk of the bodies along a segment of the first leg.
@@ -368,7 +354,7 @@ double PredictiveNavigator::follow_field(Vec2 from) {
       const Vec2 off = rotated(p - body.centre, -body.turn);
       least = std::min(least, outlines_[i].distance_at(off) - body.growth - radius_);
     }
-    if (steering_.arrives(p)) break;
+    if (arrives(p)) break;
     p = field_.next(k, p);
     path_.push_back(p);
   }

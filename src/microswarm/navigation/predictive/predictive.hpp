@@ -11,7 +11,7 @@
 #include "microswarm/navigation/prediction/multi_model_predictor.hpp"
 #include "microswarm/navigation/predictive/predictive_params.hpp"
 #include "microswarm/navigation/predictive/time_field.hpp"
-#include "microswarm/navigation/steering/steering_cycle.hpp"
+#include "microswarm/navigation/steering/steering_navigator.hpp"
 #include "microswarm/planning/exact/distance_field.hpp"
 
 namespace microswarm {
@@ -21,15 +21,12 @@ Issues validate(const PredictiveParams& params);
 
 /// Predictive navigator; see PredictiveParams. States: follow (no obstacle predicted near the
 /// path), avoid, escape (contact predicted even on the best path), hold, arrived, blind.
-class PredictiveNavigator : public Navigator {
+class PredictiveNavigator : public SteeringNavigator {
  public:
-  PredictiveNavigator(const PredictiveParams& params, const SwarmLimits& swarm, Vec2 goal,
-                      double goal_tolerance, Rng rng, double frame_timeout = default_frame_timeout);
+  using Params = PredictiveParams;
+  PredictiveNavigator(const PredictiveParams& params, const Task& task, Rng);
 
   void prepare(const Snapshot& world, const Stop& stop) override;
-  Command step(const Observation& observation, const Stop& stop) override;
-  void overruled(double now, const Command& command) override { steering_.overruled(now, command); }
-  NavigatorView view() const override;
   Diagnostics diagnostics() const override;
 
   const MultiModelPredictor& prediction() const { return predictor_; }
@@ -47,6 +44,9 @@ class PredictiveNavigator : public Navigator {
     double risk = 0;                                       ///< maximum, cost per second
   };
 
+  void update(const Observation& seen, const Stop& stop) override;
+  Decision decide(const Moment& moment) override;
+  Decision finish(const Decision& decision, const Observation& seen) override;
   void look_at_bodies(const Observation& seen, Vec2 from);
   bool stands_hollow(const ConvexOutline& outline, const TrackedBody& motion, Vec2 from) const;
   void look_ahead(double effect);
@@ -62,8 +62,6 @@ class PredictiveNavigator : public Navigator {
   double follow_field(Vec2 from);
 
   PredictiveParams params_;
-  SteeringCycle steering_;
-  double goal_tolerance_;
   Disc reached_;            ///< region that counts as the goal reached
   double ends_within_ = 0;  ///< distance from the goal at which the final approach ends [µm]
   double radius_;           ///< including the gap [µm]
@@ -85,7 +83,6 @@ class PredictiveNavigator : public Navigator {
   BodySet nonconvex_;   ///< bodies whose hull contains the swarm, in their present shape
   double closing_ = 0;  ///< upper bound of their approach in the meantime [µm]
   std::vector<Vec2> path_;
-  bool planned_ = false;
 };
 
 }  // namespace microswarm

@@ -29,33 +29,39 @@ Issues validate(const RadarParams& params, const SwarmLimits& swarm, const Map& 
   return issues;
 }
 
-RadarNavigator::RadarNavigator(const RadarParams& params, const SwarmLimits& swarm, Vec2 goal,
-                               double goal_tolerance, Rng rng, double frame_timeout)
-    : params_(params.in_effect()),
+RadarNavigator::RadarNavigator(const RadarParams& params, const Task& task, Rng rng)
+    : SteeringNavigator(task, params.speed),
+      params_(params.in_effect()),
       rng_(rng),
-      steering_(swarm, params.speed, goal, goal_tolerance, frame_timeout),
       safety_radius_(params.safety_radius),
       scanner_(directions_of(params), params.tuning),
-      filter_(params.safety_filter, steering_.speed()) {
-  params_.speed = steering_.speed();
+      filter_(params.safety_filter, speed()) {
+  params_.speed = speed();
 }
 
 void RadarNavigator::prepare(const Snapshot& world, const Stop&) {
   if (params_.as_published) return;
-  steering_.prepare(world, swarm().radius, swarm().radius + params_.safety_distance);
+  choose_aim(world, swarm().radius, swarm().radius + params_.safety_distance);
 }
 
-Command RadarNavigator::step(const Observation& seen, const Stop& stop) {
+void RadarNavigator::update(const Observation&, const Stop&) {
   look_.reset();
   contact_.reset();
-  Decision decision = decide(seen, stop);
-  if (params_.safety_filter.active && seen.world) decision = filtered(decision, seen);
+}
+
+bool RadarNavigator::sees_swarm(const Observation& seen) const {
+  return SteeringNavigator::sees_swarm(seen) && seen.swarm->radius > 0;
+}
+
+Decision RadarNavigator::finish(const Decision& decided, const Observation& seen) {
+  const bool filters = params_.safety_filter.active && seen.world;
+  const Decision decision = filters ? filtered(decided, seen) : decided;
   if (decision.command.speed > 0) course_ = unit_vector(decision.command.heading);
-  NavigatorView& view = steering_.view();
+  NavigatorView& view = step_view();
   view.path = route_.rest();
   if (!route_.empty()) view.phased_goal = view.path.front();
   if (plan_) view.plan = &*plan_;
-  return steering_.command(decision);
+  return decision;
 }
 
 Diagnostics RadarNavigator::diagnostics() const {
@@ -68,8 +74,8 @@ Decision RadarNavigator::filtered(const Decision& decision, const Observation& s
   Vec2 position = pose_.position;
   if (look_) {
     sighting_ = Sighting{seen.seen, *seen.swarm};
-  } else if (sighting_ && seen.now - sighting_->time <= steering_.frame_timeout()) {
-    position = steering_.compensator()
+  } else if (sighting_ && seen.now - sighting_->time <= frame_timeout()) {
+    position = compensator()
                    .at_effect({.now = seen.now,
                                .seen = sighting_->time,
                                .swarm = sighting_->swarm,
@@ -82,16 +88,15 @@ Decision RadarNavigator::filtered(const Decision& decision, const Observation& s
   const SafetyFilter::Start start{.position = position,
                                   .radius = std::max(sighting_->swarm.radius, swarm().radius),
                                   .time = seen.now + swarm().response_lag};
-  const double since = seen.now - steering_.last_command().value_or(seen.now);
+  const double since = seen.now - last_command().value_or(seen.now);
   const double tick = since > 0 && since < 1 ? since : usual_tick;
   const auto instead = filter_.filter(decision.command, start, *seen.world, tick);
   if (!instead) return decision;
   return {*instead, instead->speed > 0 ? NavigatorState::guard : NavigatorState::hold};
 }
 
-Decision RadarNavigator::decide(const Observation& seen, const Stop& stop) {
-  if (!steering_.begin(seen) || !(seen.swarm->radius > 0)) return {{}, NavigatorState::blind};
-  const Pose2& at_effect = steering_.compensate(seen);
+Decision RadarNavigator::decide(const Moment& moment) {
+  const auto& [seen, at_effect, stop] = moment;
   pose_ = params_.compensate_delay ? at_effect : seen.swarm->pose;
   if (!seen.world->is_free(pose_.position, 0)) return {{}, NavigatorState::hold};
   find_route(seen, stop);
@@ -100,9 +105,9 @@ Decision RadarNavigator::decide(const Observation& seen, const Stop& stop) {
                                                seen.swarm->radius, params_.waypoint_tolerance)
                                : aim().position;
   look_around(seen, target);
-  steering_.view().local_target = target;
+  step_view().local_target = target;
 
-  if (steering_.arrives(pose_.position)) return rest(seen, NavigatorState::arrived);
+  if (arrives(pose_.position)) return rest(seen, NavigatorState::arrived);
   if (!has_plan) return rest(seen, NavigatorState::stuck);
   const Waiting waiting{pose_.position, look_->radius, look_->circles.prediction, target};
   for (const WaitZone& zone : params_.wait_zones)  // Eq 29
@@ -129,7 +134,7 @@ void RadarNavigator::find_route(const Observation& seen, const Stop& stop) {
     route_ = RadarRoute({aim().position}, true);
   } else if (params_.waypoints.empty() && params_.global_plan && seen.now >= plan_again_at_ &&
              (route_.empty() || !route_.in_sight())) {
-    steering_.view().planned = true;
+    step_view().planned = true;
     const Snapshot walls(seen.world->shared_map());
     const double radius = std::max(swarm().radius, seen.swarm->radius);
     const bool found =
@@ -168,18 +173,17 @@ void RadarNavigator::look_around(const Observation& seen, Vec2 target) {
   const double radius = seen.swarm->radius;
   const double from_walls = aim().wall_clearance(radius, radius + params_.safety_distance,
                                                  pose_.position, params_.prediction_distance);
-  RadarLook look{
-      .centre = pose_.position,
-      .radius = radius,
-      .target = target,
-      .circles = circles_of(params_, radius),
-      .step = params_.prediction_distance,
-      .wall_distance = from_walls - radius,
-      .approach = params_.compensate_delay ? params_.obstacle_speed_bound * steering_.delay() : 0,
-      .target_gain = params_.target_gain,
-      .avoidance_gain = params_.avoidance_gain,
-      .course = course_,
-      .min_cosine = maths::cos(params_.max_turn)};
+  RadarLook look{.centre = pose_.position,
+                 .radius = radius,
+                 .target = target,
+                 .circles = circles_of(params_, radius),
+                 .step = params_.prediction_distance,
+                 .wall_distance = from_walls - radius,
+                 .approach = params_.compensate_delay ? params_.obstacle_speed_bound * delay() : 0,
+                 .target_gain = params_.target_gain,
+                 .avoidance_gain = params_.avoidance_gain,
+                 .course = course_,
+                 .min_cosine = maths::cos(params_.max_turn)};
   contact_ = scanner_.detect(look, *seen.world);
   if (contact_)
     look.circles.safety = safety_radius_.radius(look.circles.safety, look.circles.prediction,

@@ -13,7 +13,7 @@
 #include "microswarm/navigation/radar/radar_scanner.hpp"
 #include "microswarm/navigation/radar/safety_filter.hpp"
 #include "microswarm/navigation/radar/safety_radius.hpp"
-#include "microswarm/navigation/steering/steering_cycle.hpp"
+#include "microswarm/navigation/steering/steering_navigator.hpp"
 
 namespace microswarm {
 
@@ -26,16 +26,13 @@ Issues validate(const RadarParams& params, const SwarmLimits& swarm, const Map& 
 /// sizes of obstacles. For holonomic swarms. States: direct, avoid,
 /// retreat, guard (the safety filter's command), hold, wait, arrived, blind, and stuck if there is
 /// no plan around the walls or they block all directions that lead nearer.
-class RadarNavigator : public Navigator {
+class RadarNavigator : public SteeringNavigator {
  public:
-  /// `params` must have passed `validate`; `swarm`: limits of the swarm.
-  RadarNavigator(const RadarParams& params, const SwarmLimits& swarm, Vec2 goal,
-                 double goal_tolerance, Rng rng, double frame_timeout = default_frame_timeout);
+  using Params = RadarParams;
+  /// `params` must have passed `validate`.
+  RadarNavigator(const RadarParams& params, const Task& task, Rng rng);
 
   void prepare(const Snapshot& world, const Stop& stop) override;
-  Command step(const Observation& observation, const Stop& stop) override;
-  void overruled(double now, const Command& command) override { steering_.overruled(now, command); }
-  NavigatorView view() const override { return steering_.view(); }
   Diagnostics diagnostics() const override;
 
   /// Input of the last decision by Eq 9–17, for `scan`; empty if the last step made none: blind, or
@@ -51,7 +48,12 @@ class RadarNavigator : public Navigator {
     SwarmPose swarm;
   };
 
-  Decision decide(const Observation& seen, const Stop& stop);
+  void update(const Observation& seen, const Stop& stop) override;
+  bool sees_swarm(const Observation& seen) const override;
+  Decision decide(const Moment& moment) override;
+  Decision at_goal(const Moment& moment) override { return decide(moment); }
+  Decision without_swarm() override { return {{}, NavigatorState::blind}; }
+  Decision finish(const Decision& decision, const Observation& seen) override;
   Decision filtered(const Decision& decision, const Observation& seen);
   void find_route(const Observation& seen, const Stop& stop);
   Pose2 beside_walls(const Map& map, double radius) const;
@@ -59,12 +61,9 @@ class RadarNavigator : public Navigator {
   void look_around(const Observation& seen, Vec2 target);
   std::optional<Decision> retreat(const Observation& seen);
   Decision rest(const Observation& seen, NavigatorState state);
-  const SwarmLimits& swarm() const { return steering_.swarm(); }
-  const Aim& aim() const { return steering_.aim(); }
 
   RadarParams params_;
   Rng rng_;
-  SteeringCycle steering_;
   SafetyRadius safety_radius_;
   RadarScanner scanner_;
   SafetyFilter filter_;

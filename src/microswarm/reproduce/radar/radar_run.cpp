@@ -10,9 +10,9 @@ namespace microswarm::reproduce {
 
 RadarRun run_radar(const Scene& scene, const World& world, const Stop& stop, std::uint32_t trial) {
   const Scenario& scenario = scene.scenario;
-  const auto navigator = std::make_shared<RadarNavigator>(
-      std::get<RadarParams>(scenario.navigator), limits_of(scenario.swarm), *scenario.goal,
-      scenario.goal_tolerance, Rng(scenario.seed, Purpose::planner, trial));
+  const auto navigator =
+      std::make_shared<RadarNavigator>(std::get<RadarParams>(scenario.navigator), task_of(scenario),
+                                       Rng(scenario.seed, Purpose::planner, trial));
   Session session({scene, world, {}}, {.trial = trial, .navigator = navigator});
   RadarRun run;
   while (session.step(stop)) run.looks.push_back(navigator->last_look());
