@@ -4,14 +4,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <functional>
 
 #include "microswarm/core/fields/published.hpp"
 #include "microswarm/core/maths/angles.hpp"
-#include "microswarm/swarm/body/unicycle.hpp"
 
 namespace microswarm {
+
+namespace {
+
+HierarchicalParams with_speed(HierarchicalParams params, double speed) {
+  params.speed = speed;
+  return params;
+}
+
+}  // namespace
 
 HierarchicalParams HierarchicalParams::in_effect() const {
   HierarchicalParams p = *this;
@@ -43,16 +51,11 @@ Issues validate(const HierarchicalParams& params, const IsGiven& is_given) {
 HierarchicalNavigator::HierarchicalNavigator(const HierarchicalParams& params, const Task& task,
                                              Rng rng)
     : SteeringNavigator(task, params.speed),
-      params_(params.in_effect()),
+      params_(with_speed(params.in_effect(), speed())),
       rng_(rng),
+      safety_(params_, swarm()),
       obstacles_(params.tracker, params.tuning.prediction),
-      follower_(params.follower, swarm()) {
-  params_.speed = speed();
-  // Deviation of a tick's arc from its chord; 0 for a swarm that turns at once.
-  if (std::isfinite(swarm().max_turn_rate))
-    slack_ = std::max(1.0, params_.speed * swarm().max_turn_rate * params_.tuning.check_step *
-                               params_.tuning.check_step / 8);
-}
+      follower_(params.follower, swarm()) {}
 
 void HierarchicalNavigator::prepare(const Snapshot& world, const Stop&) {
   choose_aim(world, params_.clearance, params_.clearance + params_.extra_clearance);
@@ -69,7 +72,7 @@ void HierarchicalNavigator::update(const Observation& seen, const Stop& stop) {
 
 Decision HierarchicalNavigator::finish(const Decision& decision, const Observation& seen) {
   if (last_command())
-    period_ = std::clamp(seen.now - *last_command(), params_.tuning.check_step, 1.0);
+    safety_.set_period(std::clamp(seen.now - *last_command(), params_.tuning.check_step, 1.0));
   NavigatorView& view = step_view();
   view.local_target = target_;
   if (params_.guide == Guide::route && seen.world) view.phased_goal = towards();
@@ -89,18 +92,22 @@ Diagnostics HierarchicalNavigator::diagnostics() const {
 
 // Algorithm 4 [drrt], one pass of its loop
 Decision HierarchicalNavigator::decide(const Moment& moment) {
-  const auto& [seen, pose, stop] = moment;
-  pose_ = pose;
+  const Snapshot& seen = moment.world();
+  pose_ = moment.pose;
   via_.reset();
-  if (is_used_up() || !path_holds(*seen.world)) replan(*seen.world, stop);  // lines 4–11
+  if (is_used_up() || !path_holds(seen)) replan(seen, moment.stop);  // lines 4–11
   auto decision = keep_path(seen);
   if (!decision && has_path()) {
-    replan(*seen.world, stop);
+    replan(seen, moment.stop);
     decision = keep_path(seen);
   }
   if (decision) return *decision;
-  if (params_.as_published || hold_is_safe(seen)) return hold();
-  return escape(seen);
+  const auto hold_heading = [&](const Pose2&, double) { return hold().command; };
+  if (params_.as_published || safety_.is_safe(situation(seen), std::ref(hold_heading)))
+    return hold();
+  path_.clear();
+  const Command command = safety_.escape(situation(seen));
+  return {command, command.speed > 0 ? NavigatorState::escape : NavigatorState::hold};
 }
 
 Decision HierarchicalNavigator::at_goal(const Moment& moment) {  // line 2
@@ -111,7 +118,7 @@ Decision HierarchicalNavigator::at_goal(const Moment& moment) {  // line 2
 }
 
 // Follows the path, more slowly if only that is safe.
-std::optional<Decision> HierarchicalNavigator::keep_path(const Observation& seen) {
+std::optional<Decision> HierarchicalNavigator::keep_path(const Snapshot& seen) {
   if (!has_path()) return std::nullopt;
   for (const double ease : params_.tuning.speed_shares) {
     const double speed = ease * params_.speed;
@@ -121,10 +128,6 @@ std::optional<Decision> HierarchicalNavigator::keep_path(const Observation& seen
                     next.handed_over ? NavigatorState::fallback : NavigatorState::follow};
   }
   return std::nullopt;
-}
-
-bool HierarchicalNavigator::hold_is_safe(const Observation& seen) const {
-  return is_safe(seen, [&](const Pose2&, double) { return hold().command; });
 }
 
 // A path to a local target is replaced before its end, the one to the aim at its end.
@@ -263,87 +266,6 @@ void HierarchicalNavigator::plan_to(const Snapshot& world, Vec2 target, double c
   target_ = target;
 }
 
-// Clearance from walls, increased where it hardly exceeds the swarm's radius, so that motion within
-// a tick causes no contact. Reduced if the swarm, or the aim on the next `reach` µm, has less.
-double HierarchicalNavigator::wall_floor(const Map& map, double reach) const {
-  const double wanted = swarm().radius + slack_;
-  if (params_.clearance >= wanted) return params_.clearance;
-  const double near_aim = aim().wall_clearance(params_.clearance, wanted, pose_.position, reach);
-  return std::max(params_.clearance, std::min(near_aim, map.clearance(pose_.position)));
-}
-
-// Predicted motion of the swarm once the command takes effect, relative to the predicted obstacles:
-// visits its moves with their first and last pose and the time, as long as `visit` returns true.
-template <class Steer, class Visit>
-void HierarchicalNavigator::roll_out(Steer&& steer, Visit&& visit) const {
-  const double start = params_.horizon > 0 ? delay() : 0;
-  const int ticks =
-      std::max(1, static_cast<int>(std::lround(params_.horizon / params_.tuning.check_step)));
-  Pose2 pose = pose_;
-  Command command;
-  double next_command = 0;
-  for (int k = 0; k < ticks; ++k) {
-    if (k * params_.tuning.check_step >= next_command - 1e-9) {
-      command = steer(pose, k * params_.tuning.check_step);
-      next_command += period_;
-    }
-    const Pose2 next =
-        unicycle_step(pose, command, swarm().max_turn_rate, params_.tuning.check_step);
-    if (!visit(Segment{pose.position, next.position}, start + k * params_.tuning.check_step))
-      return;
-    pose = next;
-  }
-}
-
-// Distance to the moving obstacles, which is only known up to `enough`.
-double HierarchicalNavigator::from_obstacles(const Observation& seen, Segment move, double from,
-                                             double enough) const {
-  return obstacles_.clearance(*seen.world, move, from, from + params_.tuning.check_step, enough);
-}
-
-// Among obstacles at rest, one distance to them answers for all moves nearby.
-template <class Steer>
-bool HierarchicalNavigator::is_safe(const Observation& seen, Steer&& steer) const {
-  const Map& map = seen.world->map();
-  const double from_walls = wall_floor(map, far_enough());
-  const double least = params_.clearance + slack_;
-  const double enough = std::min(far_enough(), least + 1);  // 1 µm more than what is asked for
-  const double end = delay() + params_.horizon + params_.tuning.check_step;
-  const bool all_rest = obstacles_.all_rest() && least <= far_enough();
-  constexpr double rounding = 1e-6;
-  Disc free;  // for all times
-  const auto is_near = [&](Vec2 p) { return distance(p, free.centre) + rounding < free.radius; };
-  bool safe = true;
-  roll_out(steer, [&](Segment move, double from) {
-    if (all_rest && !is_near(move.b)) {
-      const double most = least + params_.speed * params_.horizon;
-      free = {move.a, obstacles_.clearance(*seen.world, {move.a, move.a}, from, end, most) - least};
-    }
-    const bool far = all_rest && is_near(move.a) && is_near(move.b);
-    safe =
-        (far || from_obstacles(seen, move, from, enough) >= least) && map.is_free(move, from_walls);
-    return safe;
-  });
-  return safe;
-}
-
-template <class Steer>
-HierarchicalNavigator::Rollout HierarchicalNavigator::look_ahead(const Observation& seen,
-                                                                 double floor,
-                                                                 Steer&& steer) const {
-  const Map& map = seen.world->map();
-  const double enough = far_enough();
-  Rollout out{.least = enough, .last = enough};
-  roll_out(steer, [&](Segment move, double from) {
-    const double moving = from_obstacles(seen, move, from, enough);
-    // The whole move is tested, so that a path through a wall is never the best one.
-    out.last = map.is_free(move, 0) ? std::min(moving, map.clearance(move.b)) : 0;
-    out.least = std::min(out.least, out.last);
-    return out.least >= floor;
-  });
-  return out;
-}
-
 // A learned follower circles a small goal, so pure pursuit takes over for the last part. At the
 // goal and at the end of the path it holds, and it does not pass the aim within a tick, so that the
 // look-ahead matches the motion.
@@ -358,48 +280,16 @@ PathFollower::Answer HierarchicalNavigator::follow(PathPlace& position, const Po
   if (params_.as_published) return answer;
   const double left = remaining(path_, position);
   if (left < path_end() || arrives(pose.position)) return {{pose.heading, 0}};
-  if (last_bit) answer.command.speed = std::min(answer.command.speed, left / period_);
+  if (last_bit) answer.command.speed = std::min(answer.command.speed, left / safety_.period());
   return answer;
 }
 
-bool HierarchicalNavigator::path_is_safe(const Observation& seen, double speed) const {
+bool HierarchicalNavigator::path_is_safe(const Snapshot& seen, double speed) const {
   PathPlace position = place_;
-  return is_safe(seen,
-                 [&](const Pose2& pose, double) { return follow(position, pose, speed).command; });
-}
-
-// Of the hold and the manoeuvres of one leg, or two if one is not enough, takes the one with the
-// largest clearance.
-Decision HierarchicalNavigator::escape(const Observation& seen) {
-  constexpr int directions = 16;
-  const double goal_heading = heading_of(aim().position - pose_.position);
-  Command best{pose_.heading, 0};
-  double best_score = -1;
-  double best_clearance = 0;
-  const auto consider = [&](const Command& first, const Command& second) {
-    const Rollout o = look_ahead(
-        seen, best_score - params_.tuning.final_weight * far_enough(),
-        [&](const Pose2&, double t) { return t < params_.tuning.first_leg ? first : second; });
-    const double score = o.least + params_.tuning.final_weight * o.last;
-    if (score <= best_score + 1e-9) return;
-    best_score = score;
-    best_clearance = o.least;
-    best = first;
+  const auto follow_path = [&](const Pose2& pose, double) {
+    return follow(position, pose, speed).command;
   };
-  const auto leg = [&](int k, double ease = 1) {
-    return Command{wrap(goal_heading + 2 * pi * k / directions), ease * params_.speed};
-  };
-  consider(best, best);
-  for (int i = 0; i < directions; ++i) consider(leg(i), leg(i));
-  if (best_clearance < params_.clearance + slack_)  // a slow turn comes less near
-    for (int i = 0; i < directions; ++i)
-      for (const double ease : {0.25, 0.1}) consider(leg(i, ease), leg(i));
-  if (best_clearance < params_.clearance + slack_)
-    for (int i = 0; i < directions; ++i)
-      for (int j = 0; j < directions; ++j)
-        if (i != j) consider(leg(i), leg(j));
-  path_.clear();
-  return {best, best.speed > 0 ? NavigatorState::escape : NavigatorState::hold};
+  return safety_.is_safe(situation(seen), std::ref(follow_path));
 }
 
 }  // namespace microswarm

@@ -12,6 +12,7 @@
 #include "microswarm/navigation/hierarchical/hierarchical_params.hpp"
 #include "microswarm/navigation/hierarchical/local_target.hpp"
 #include "microswarm/navigation/hierarchical/predicted_target.hpp"
+#include "microswarm/navigation/hierarchical/safety_lookahead.hpp"
 #include "microswarm/navigation/prediction/obstacle_predictor.hpp"
 #include "microswarm/navigation/steering/steering_navigator.hpp"
 #include "microswarm/planning/exact/distance_field.hpp"
@@ -30,18 +31,15 @@ class HierarchicalNavigator : public SteeringNavigator {
   Diagnostics diagnostics() const override;
 
  private:
-  struct Rollout {
-    double least = 0;  ///< minimum clearance along it [µm]
-    double last = 0;   ///< clearance at its end [µm]
-  };
-
   void update(const Observation& seen, const Stop& stop) override;
   Decision decide(const Moment& moment) override;
   Decision at_goal(const Moment& moment) override;
   Decision without_swarm() override { return {{}, NavigatorState::blind}; }
   Decision finish(const Decision& decision, const Observation& seen) override;
-  std::optional<Decision> keep_path(const Observation& seen);
-  bool hold_is_safe(const Observation& seen) const;
+  SafetyLookahead::Start situation(const Snapshot& seen) const {
+    return {seen, obstacles_, aim(), pose_, delay()};
+  }
+  std::optional<Decision> keep_path(const Snapshot& seen);
   bool has_path() const { return path_.size() >= 2; }
   bool path_holds(const Snapshot& world) const;
   void replan(const Snapshot& seen, const Stop& stop);
@@ -51,20 +49,8 @@ class HierarchicalNavigator : public SteeringNavigator {
   Vec2 towards();
   /// Look-ahead along the route [µm]; within it a visible goal is the target.
   double ahead() const { return 1.5 * params_.target.base_distance; }
-  /// Simulates `steer(pose, seconds) → command` for the horizon.
-  template <class Steer, class Visit>
-  void roll_out(Steer&& steer, Visit&& visit) const;
-  /// Whether it keeps the clearance.
-  template <class Steer>
-  bool is_safe(const Observation& seen, Steer&& steer) const;
-  /// Its clearance; ends early when that falls below `floor`.
-  template <class Steer>
-  Rollout look_ahead(const Observation& seen, double floor, Steer&& steer) const;
-  double from_obstacles(const Observation& seen, Segment move, double from, double enough) const;
-  double wall_floor(const Map& map, double reach) const;
-  double far_enough() const { return 2 * params_.clearance + params_.extra_clearance; }
   PathFollower::Answer follow(PathPlace& position, const Pose2& pose, double speed) const;
-  bool path_is_safe(const Observation& seen, double speed) const;
+  bool path_is_safe(const Snapshot& seen, double speed) const;
   double lookahead_at(double speed) const {
     return params_.lookahead * std::max(0.5, speed / params_.speed);
   }
@@ -74,7 +60,6 @@ class HierarchicalNavigator : public SteeringNavigator {
   double path_end() const { return std::min(1.0, 0.25 * aim().tolerance); }
   bool is_used_up();
   double max_wait(double now);
-  Decision escape(const Observation& seen);
 
   /// Wait for an obstacle to pass.
   struct Wait {
@@ -86,9 +71,7 @@ class HierarchicalNavigator : public SteeringNavigator {
   Rng rng_;
   DistanceField route_;
   std::optional<Vec2> via_;  ///< point of the route ahead of the current pose, computed on demand
-  double slack_ = 1;         ///< kept besides the clearance, for what happens within a tick [µm]
-  double period_ = 0.1;      ///< between the last two commands [s]
-
+  SafetyLookahead safety_;
   ObstaclePredictor obstacles_;
   PathFollower follower_;
   Pose2 pose_;  ///< pose at which the command of this step takes effect
