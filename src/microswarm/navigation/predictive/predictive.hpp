@@ -7,8 +7,8 @@
 
 #include "microswarm/core/errors/issue.hpp"
 #include "microswarm/core/maths/rng.hpp"
-#include "microswarm/navigation/prediction/convex_outline.hpp"
 #include "microswarm/navigation/prediction/multi_model_predictor.hpp"
+#include "microswarm/navigation/predictive/obstacle_horizon.hpp"
 #include "microswarm/navigation/predictive/predictive_params.hpp"
 #include "microswarm/navigation/predictive/time_field.hpp"
 #include "microswarm/navigation/steering/steering_navigator.hpp"
@@ -32,24 +32,15 @@ class PredictiveNavigator : public SteeringNavigator {
   const MultiModelPredictor& prediction() const { return predictor_; }
 
  private:
-  static constexpr int leg_pieces = 5;
   struct Leg {
     Command command;
     double cost = 0;
     double min_gap = 0;  ///< to obstacles [µm]
   };
 
-  struct Meeting {
-    double gap = std::numeric_limits<double>::infinity();  ///< minimum, if near [µm]
-    double risk = 0;                                       ///< maximum, cost per second
-  };
-
   void update(const Observation& seen, const Stop& stop) override;
   Decision decide(const Moment& moment) override;
   Decision finish(const Decision& decision, const Observation& seen) override;
-  void look_at_bodies(const Observation& seen, Vec2 from);
-  bool stands_hollow(const ConvexOutline& outline, const TrackedBody& motion, Vec2 from) const;
-  void look_ahead(double effect);
   bool goal_is_clear(const Map& map, const Pose2& pose) const;
   void solve(const Map& map, Vec2 from);
   double left_from(Vec2 p);
@@ -58,7 +49,6 @@ class PredictiveNavigator : public SteeringNavigator {
   Leg tried(const Map& map, const Pose2& pose, const Command& command, double bound);
   std::optional<double> best_heading(Vec2 p) const;
   double turning_time(const Pose2& pose) const;
-  Meeting meeting(int piece, Segment move) const;
   double follow_field(Vec2 from);
 
   PredictiveParams params_;
@@ -72,16 +62,7 @@ class PredictiveNavigator : public SteeringNavigator {
   std::optional<double> wanted_;  ///< heading to turn to, of a swarm that turns slowly [rad]
   bool ending_ = false;           ///< is it at the last bit, finer than the field's cells?
 
-  ConvexOutliner outliner_;
-  std::vector<ConvexOutline> outlines_;  ///< of the predicted bodies
-  std::vector<std::size_t> body_of_;
-  std::size_t bodies_ = 0;
-  double effect_ = 0;                     ///< time at which the command takes effect [s]
-  std::vector<PredictedBody> ahead_;      ///< at the samples of the field
-  std::vector<PredictedBody> leg_ahead_;  ///< at the ends of the segments of the first leg
-  std::vector<Body> nonconvex_bodies_;
-  BodySet nonconvex_;   ///< bodies whose hull contains the swarm, in their present shape
-  double closing_ = 0;  ///< upper bound of their approach in the meantime [µm]
+  ObstacleHorizon horizon_;
   std::vector<Vec2> path_;
 };
 
