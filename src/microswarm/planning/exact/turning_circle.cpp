@@ -16,6 +16,87 @@ double positive(double angle) {
   return angle;
 }
 
+/// Cuts a circle where its distance to a wall, a body or the border equals the clearance.
+class ArcCutter {
+ public:
+  /// `keep` [µm] is the distance at which it cuts.
+  ArcCutter(const TurningCircle& circle, double keep) : circle_(circle), keep_(keep) {}
+
+  void cut_by(const BodySet& bodies, const Box& box) {
+    bodies.polygons().for_each_edge_in(box, [&](std::uint32_t, const Segment& edge) {
+      const double length = distance(edge.a, edge.b);
+      if (length == 0) return;
+      const Vec2 u = (edge.b - edge.a) / length;
+      cut_by_line(edge.a, u, keep_);
+      cut_by_line(edge.a, u, -keep_);
+      if (edge.a != circle_.centre) cut_by_circle(edge.a, keep_);
+    });
+    bodies.discs().for_each_in(box, [&](std::size_t i) {
+      const Disc disc = bodies.discs().disc(i);
+      if (disc.centre != circle_.centre) cut_by_circle(disc.centre, disc.radius + keep_);
+    });
+  }
+  void cut_by_border(const Box& border) {
+    for (const double x : {border.lo.x + keep_, border.hi.x - keep_})
+      cut_by_line({x, 0}, {0, 1}, 0);
+    for (const double y : {border.lo.y + keep_, border.hi.y - keep_})
+      cut_by_line({0, y}, {1, 0}, 0);
+  }
+
+  /// Adds the pieces whose middle is free, neighbours as one.
+  template <class IsFree>
+  void add_free(IsFree&& is_free, std::vector<Arc>& arcs) {
+    std::ranges::sort(cuts_);
+    const std::size_t first = arcs.size();
+    for (std::size_t i = 0; i + 1 < cuts_.size(); ++i) {
+      const double middle = circle_.from + 0.5 * (cuts_[i] + cuts_[i + 1]);
+      if (!is_free(circle_.centre + circle_.radius * unit_vector(middle))) continue;
+      const bool goes_on = arcs.size() > first && arcs.back().to == cuts_[i];
+      if (goes_on)
+        arcs.back().to = cuts_[i + 1];
+      else
+        arcs.push_back({cuts_[i], cuts_[i + 1]});
+    }
+    // The arc of a disc that spans angle 0 begins before it.
+    const bool is_cut = circle_.is_disc && arcs.size() > first + 1 && arcs[first].from == 0 &&
+                        arcs.back().to == circle_.width;
+    if (!is_cut) return;
+    arcs.back().to += arcs[first].to;
+    arcs.erase(arcs.begin() + static_cast<std::ptrdiff_t>(first));
+  }
+
+ private:
+  void cut_at(Vec2 p) {
+    const double angle = positive(heading_of(p - circle_.centre) - circle_.from);
+    if (angle < circle_.width) cuts_.push_back(angle);
+  }
+  /// The line is a + t u, shifted to the left.
+  void cut_by_line(Vec2 a, Vec2 u, double shift) {
+    const Vec2 c = circle_.centre;
+    const Vec2 o = a + shift * perpendicular(u) - c;
+    const double b = dot(o, u);
+    const double root = b * b - squared_norm(o) + circle_.radius * circle_.radius;
+    if (root < 0) return;
+    for (const double t : {-b - std::sqrt(root), -b + std::sqrt(root)}) cut_at(c + o + t * u);
+  }
+  void cut_by_circle(Vec2 centre, double radius) {
+    const Vec2 c = circle_.centre;
+    const double r = circle_.radius;
+    const Vec2 d = centre - c;
+    const double apart = norm(d);
+    if (apart == 0 || apart > r + radius || apart < std::abs(r - radius)) return;
+    const double x = (apart * apart + r * r - radius * radius) / (2 * apart);
+    const double y = std::sqrt(std::max(0.0, r * r - x * x));
+    const Vec2 e = d / apart;
+    cut_at(c + x * e + y * perpendicular(e));
+    cut_at(c + x * e - y * perpendicular(e));
+  }
+
+  const TurningCircle& circle_;
+  double keep_;
+  std::vector<double> cuts_{0, circle_.width};  ///< angles [rad]
+};
+
 }  // namespace
 
 bool TurningCircle::is_taut(Vec2 normal) const {
@@ -58,76 +139,17 @@ std::optional<TangentLine> tangent(const TurningCircle& a, double sense_a, const
   return line;
 }
 
-// Cuts the circle where its distance to a wall, a body or the border equals the clearance, and
-// keeps the pieces whose middle is free.
 void add_free_arcs(const TurningCircle& circle, const Map& map, const BodySet* moving,
                    double clearance, double margin, std::vector<Arc>& arcs) {
-  std::vector<double> cuts{0, circle.width};
-  const Vec2 c = circle.centre;
-  const double r = circle.radius;
-  const auto cut_at = [&](Vec2 p) {
-    const Vec2 n = p - c;
-    const double angle = positive(heading_of(n) - circle.from);
-    if (angle < circle.width) cuts.push_back(angle);
+  const Box box = Box{circle.centre, circle.centre}.grown(circle.radius + clearance + margin);
+  ArcCutter cutter(circle, clearance + 0.5 * margin);
+  cutter.cut_by(map.walls(), box);
+  if (moving) cutter.cut_by(*moving, box);
+  cutter.cut_by_border(map.bounds());
+  const auto is_free = [&](Vec2 p) {
+    return map.is_free(p, clearance) && (!moving || moving->is_free(p, clearance));
   };
-  const auto cut_by_line = [&](Vec2 a, Vec2 u, double shift) {  // a + t u, shifted to the left
-    const Vec2 o = a + shift * perpendicular(u) - c;
-    const double b = dot(o, u);
-    const double root = b * b - squared_norm(o) + r * r;
-    if (root < 0) return;
-    for (const double t : {-b - std::sqrt(root), -b + std::sqrt(root)}) cut_at(c + o + t * u);
-  };
-  const auto cut_by_circle = [&](Vec2 centre, double radius) {
-    const Vec2 d = centre - c;
-    const double apart = norm(d);
-    if (apart == 0 || apart > r + radius || apart < std::abs(r - radius)) return;
-    const double x = (apart * apart + r * r - radius * radius) / (2 * apart);
-    const double y = std::sqrt(std::max(0.0, r * r - x * x));
-    const Vec2 e = d / apart;
-    cut_at(c + x * e + y * perpendicular(e));
-    cut_at(c + x * e - y * perpendicular(e));
-  };
-  const double reach = r + clearance + margin;
-  const double keep = clearance + 0.5 * margin;
-  const Box box = Box{c, c}.grown(reach);
-  const auto cut_by_bodies = [&](const BodySet& bodies) {
-    bodies.polygons().for_each_edge_in(box, [&](std::uint32_t, const Segment& edge) {
-      const double length = distance(edge.a, edge.b);
-      if (length == 0) return;
-      const Vec2 u = (edge.b - edge.a) / length;
-      cut_by_line(edge.a, u, keep);
-      cut_by_line(edge.a, u, -keep);
-      if (edge.a != c) cut_by_circle(edge.a, keep);
-    });
-    bodies.discs().for_each_in(box, [&](std::size_t i) {
-      const Disc disc = bodies.discs().disc(i);
-      if (disc.centre != c) cut_by_circle(disc.centre, disc.radius + keep);
-    });
-  };
-  cut_by_bodies(map.walls());
-  if (moving) cut_by_bodies(*moving);
-  const Box& border = map.bounds();
-  for (const double x : {border.lo.x + keep, border.hi.x - keep}) cut_by_line({x, 0}, {0, 1}, 0);
-  for (const double y : {border.lo.y + keep, border.hi.y - keep}) cut_by_line({0, y}, {1, 0}, 0);
-  std::ranges::sort(cuts);
-  const std::size_t first = arcs.size();
-  for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
-    const double middle = circle.from + 0.5 * (cuts[i] + cuts[i + 1]);
-    const Vec2 p = c + r * unit_vector(middle);
-    if (!map.is_free(p, clearance) || (moving && !moving->is_free(p, clearance))) continue;
-    const bool goes_on = arcs.size() > first && arcs.back().to == cuts[i];
-    if (goes_on)
-      arcs.back().to = cuts[i + 1];
-    else
-      arcs.push_back({cuts[i], cuts[i + 1]});
-  }
-  // The arc of a disc that spans angle 0 begins before it.
-  const bool is_cut = circle.is_disc && arcs.size() > first + 1 && arcs[first].from == 0 &&
-                      arcs.back().to == circle.width;
-  if (is_cut) {
-    arcs.back().to += arcs[first].to;
-    arcs.erase(arcs.begin() + static_cast<std::ptrdiff_t>(first));
-  }
+  cutter.add_free(is_free, arcs);
 }
 
 int arc_at(const TurningCircle& circle, double angle, std::span<const Arc> arcs) {
