@@ -24,7 +24,7 @@ namespace {
 constexpr int gather_steps = 100'000;
 
 /// A map, the parameters on it and the rule by which robots move.
-struct Task {
+struct GatheringCase {
   std::string name;
   Map map;
   Vec2 goal;
@@ -42,10 +42,10 @@ struct Maze {
 constexpr std::array<Maze, 4> mazes{
     {{"corridor", 82, 80}, {"capillary", 61, 130}, {"brain", 96, 204}, {"vessel", 85, 66}}};
 
-Task maze_task(const std::filesystem::path& folder, const Maze& maze, MoveRule rule) {
+GatheringCase maze_task(const std::filesystem::path& folder, const Maze& maze, MoveRule rule) {
   constexpr std::size_t particles = 256;
   const auto file = folder / (std::string(maze.name) + ".pgm");
-  Task task{maze.name, *load_map(guess_map_spec(file, 1)).map, {}, {}, rule, particles};
+  GatheringCase task{maze.name, *load_map(guess_map_spec(file, 1)).map, {}, {}, rule, particles};
   const Box& box = task.map.bounds();
   task.goal = {box.lo.x + maze.column + 0.5, box.hi.y - maze.row - 0.5};
   Rng rng(1, Purpose::planner);
@@ -96,17 +96,17 @@ scenes::Vascular drawn_network() {
   return {"drawn_network", graph.bounds, scenes::walls_of(graph), {93, 4.5}, 10'000, 2 * half};
 }
 
-Task scene_task(const std::string& name, const scenes::Vascular& scene) {
+GatheringCase scene_task(const std::string& name, const scenes::Vascular& scene) {
   constexpr std::size_t robots = 1024;
   constexpr double work = 40e6;
-  Task task{name, scene.map(), scene.goal, {}, MoveRule::any_direction, robots};
+  GatheringCase task{name, scene.map(), scene.goal, {}, MoveRule::any_direction, robots};
   task.params.tree.nodes = scene.nodes;
   task.params.rollout.max_work = work;
   return task;
 }
 
-Robots random_robots(const Task& task, const AggregationMap& map, const RobotStepper& stepper,
-                     Rng& rng) {
+Robots random_robots(const GatheringCase& task, const AggregationMap& map,
+                     const RobotStepper& stepper, Rng& rng) {
   if (map.cells) {
     std::vector<std::uint32_t> nodes(map.cells->size());
     std::iota(nodes.begin(), nodes.end(), 0u);
@@ -129,8 +129,8 @@ struct Gatherings {
   double seconds = 0;
 };
 
-Gatherings gather_all(const Task& task, AggregationParams params, Aggregation method, int seeds,
-                      const Stop& stop) {
+Gatherings gather_all(const GatheringCase& task, AggregationParams params, Aggregation method,
+                      int seeds, const Stop& stop) {
   params.method = method;
   Rng tree(1, Purpose::planner);
   const AggregationMap map(task.map, task.goal, params, tree, task.rule);
@@ -156,8 +156,8 @@ Gatherings gather_all(const Task& task, AggregationParams params, Aggregation me
 
 /// A row for each method, beside dynamic shortest path; without `aim` rollout's is 30 % fewer
 /// steps.
-void add_rows(std::vector<BenchRow>& rows, const Task& task, std::optional<double> aim, int seeds,
-              const Stop& stop) {
+void add_rows(std::vector<BenchRow>& rows, const GatheringCase& task, std::optional<double> aim,
+              int seeds, const Stop& stop) {
   const Gatherings peer =
       gather_all(task, task.params, Aggregation::dynamic_shortest_path, seeds, stop);
   if (stop()) return;
@@ -182,7 +182,8 @@ void add_rows(std::vector<BenchRow>& rows, const Task& task, std::optional<doubl
 }
 
 /// Times of the same search on one thread and on two.
-void add_thread_row(std::vector<BenchRow>& rows, const Task& task, int seeds, const Stop& stop) {
+void add_thread_row(std::vector<BenchRow>& rows, const GatheringCase& task, int seeds,
+                    const Stop& stop) {
   AggregationParams params = task.params;
   params.rollout.tuning.changes_work = 0;
   const Gatherings one = gather_all(task, params, Aggregation::rollout, seeds, stop);
@@ -204,7 +205,7 @@ std::vector<BenchRow> gather(bool quick, const Stop& stop) {
   const int seeds = quick ? 2 : 5;
   add_rows(rows, scene_task("T-junction, n = 1024", scenes::t_junction()), 170, seeds, stop);
   add_rows(rows, scene_task("drawn map, 100 × 90, n = 1024", drawn_network()), 340, seeds, stop);
-  const Task large =
+  const GatheringCase large =
       scene_task("generated map, 400 × 314, n = 1024", scenes::generated_vascular_network());
   add_rows(rows, large, 3300, seeds, stop);
   add_thread_row(rows, large, quick ? 1 : 3, stop);
@@ -215,7 +216,7 @@ std::vector<BenchRow> gather(bool quick, const Stop& stop) {
   for (const MoveRule rule : {MoveRule::cells, MoveRule::any_direction})
     for (const Maze& maze : mazes) {
       if (stop()) return rows;
-      Task task = maze_task(folder, maze, rule);
+      GatheringCase task = maze_task(folder, maze, rule);
       if (quick) task.params.rollout.max_work = 20e6;
       add_rows(rows, task, std::nullopt, seeds, stop);
     }
