@@ -139,14 +139,15 @@ TEST_F(LabRig, TheRecordSoFarIsKeptWhileItDrives) {
 TEST_F(LabRig, SteersByHand) {
   TestPage page(*lab, session);
   arm(page);
-  const double x =
-      beat_until(page, drives).is_null() ? 0 : page.latest["frame"]["frame"]["x_um"].get<double>();
+  ASSERT_FALSE(beat_until(page, drives).is_null());
+  const double x = page.latest["frame"]["frame"]["x_um"].get<double>();
   page.does({{"do", "manual"}, {"on", true}});
-  page.until("frame", [&](const Json& frame) {
+  const Json moved = page.until("frame", [&](const Json& frame) {
     page.say(R"({"do": "beat"})");
     page.say(R"({"do": "steer", "heading": 3.14159, "speed": 40})");
     return frame["frame"]["x_um"] < x - 10;
   });
+  EXPECT_FALSE(moved.is_null());
 }
 
 TEST_F(LabRig, APageThatClosesStopsIt) {
