@@ -192,5 +192,29 @@ TEST(Predictive, HoldsWhenBlindAndGoesOn) {
   EXPECT_EQ(navigator.view().state, NavigatorState::arrived);
 }
 
+// Windows and bounds that come in an order name the two that are not in it.
+TEST(Predictive, RefusesWindowsAndBoundsOutOfOrder) {
+  EXPECT_TRUE(validate(PredictiveParams{}).empty());
+  const auto refused = [](auto&& change) {
+    PredictiveParams params;
+    change(params.prediction.tuning);
+    const Issues issues = validate(params);
+    EXPECT_EQ(issues.size(), 1u);
+    return issues.empty() ? std::string() : issues[0].text;
+  };
+  const auto names = [](const std::string& text, const std::string& a, const std::string& b) {
+    EXPECT_NE(text.find(a + " must be less than"), std::string::npos) << text;
+    EXPECT_NE(text.find(b), std::string::npos) << text;
+  };
+  names(refused([](auto& t) { t.oscillation.short_window = t.oscillation.medium_window; }),
+        "short_window_s", "medium_window_s");
+  names(refused([](auto& t) { t.oscillation.long_window = t.oscillation.medium_window; }),
+        "medium_window_s", "long_window_s");
+  names(refused([](auto& t) { t.oscillation.max_frequency = t.oscillation.min_frequency; }),
+        "min_frequency_per_s", "max_frequency_per_s");
+  names(refused([](auto& t) { t.recurrence.min_age = t.recurrence.max_time_offset; }),
+        "max_time_offset_s", "min_age_s");
+}
+
 }  // namespace
 }  // namespace microswarm
