@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/scenes/worlds.hpp"
 #include "microswarm/world/obstacles/obstacle.hpp"
@@ -74,6 +76,23 @@ TEST(WaitZone, MayBeTurned) {
   EXPECT_FALSE(must_wait(turned, valve(0), swarm({0, -400})));
   turned.heading = radians(90);
   EXPECT_TRUE(must_wait(turned, valve(0), swarm({0, -400})));
+}
+
+// The rectangle drawn is the one that counts: just within a corner is in the zone, just beyond is
+// not.
+TEST(WaitZone, ItsOutlineIsItsBorder) {
+  const WaitZone turned{
+      .centre = {300, 200}, .width = 500, .height = 80, .heading = radians(30), .min_gap = 120};
+  const Polygon outline = outline_of(turned);
+  ASSERT_EQ(outline.outer.size(), 4u);
+  for (const Vec2 corner : outline.outer) {
+    const Vec2 out = corner - turned.centre;
+    EXPECT_NEAR(norm(out), std::hypot(250, 40), 1e-9);
+    EXPECT_TRUE(contains(turned, turned.centre + 0.999 * out));
+    EXPECT_FALSE(contains(turned, turned.centre + 1.001 * out));
+  }
+  EXPECT_NEAR(distance(outline.outer[0], outline.outer[1]), 500, 1e-9);
+  EXPECT_NEAR(distance(outline.outer[1], outline.outer[2]), 80, 1e-9);
 }
 
 }  // namespace
