@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <functional>
@@ -63,6 +64,24 @@ TEST(CoilLoop, AStandstillWhileItIsLoggedEndsIt) {
   });
   EXPECT_TRUE(why.starts_with("the program stood still for ")) << why;
   EXPECT_LE(heard, 10);
+}
+
+/// Answers 30 ms after it was asked.
+class SlowDriver : public StoppedInAnExchange {
+ public:
+  DriveStatus drive(const CoilRequest& request) override {
+    std::this_thread::sleep_for(std::chrono::milliseconds(30));
+    return StoppedInAnExchange::drive(request);
+  }
+};
+
+TEST(CoilLoop, ARoundTripIsTheTimeOfTheExchange) {
+  SlowDriver driver;
+  std::vector<double> trips;  // the loop has ended when they are read
+  end_of(driver, [&](const CoilMoment& moment) { trips.push_back(moment.round_trip); });
+  ASSERT_GE(trips.size(), 5u);
+  for (const double trip : trips) EXPECT_GE(trip, 0.03);
+  EXPECT_LT(std::ranges::min(trips), 0.4);
 }
 
 TEST(CoilLoop, ANewCommandGoesOutHalfAPeriodAfterTheLastSendingAtTheEarliest) {

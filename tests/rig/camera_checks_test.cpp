@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// The checks of a camera, which take real time.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "microswarm/rig/runtime/rig_checks.hpp"
+#include "tests/rig/coil_rig.hpp"
+
+namespace microswarm {
+namespace {
+
+/// Pictures that differ, one every 5 ms or later, so many of them.
+class ClockLike : public FrameSource {
+ public:
+  explicit ClockLike(int count) : count_(count) {}
+  bool next(VideoFrame& frame) override {
+    if (index_ >= count_) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    frame.index = index_++;
+    frame.picture = {8, 6, 1, std::vector<std::uint8_t>(48, static_cast<std::uint8_t>(index_))};
+    return true;
+  }
+  std::optional<int> count() const override { return std::nullopt; }
+  std::optional<double> rate() const override { return std::nullopt; }
+
+ private:
+  int count_;
+  int index_ = 0;
+};
+
+class CameraChecks : public testing::Test {
+ protected:
+  /// Whether the check of that name is good, after a third of a second.
+  bool good(const std::string& what, int frames, std::optional<double> rate = {}) {
+    NewestFrame camera(std::make_unique<ClockLike>(frames), "a clock");
+    for (const RigCheck& check : check_camera(camera, rig, rate, 0.3, {}))
+      if (check.what == what) return check.good;
+    ADD_FAILURE() << "no check of the " << what;
+    return false;
+  }
+  test::Folder folder;
+  Rig rig = test::coil_rig(folder, "[{}, {}, {}]");
+};
+
+TEST_F(CameraChecks, AVideoMayEndACameraMayNot) {
+  rig.params.camera = VideoCamera{};
+  EXPECT_TRUE(good("camera", 10));
+  EXPECT_TRUE(good("camera", 100'000));
+  EXPECT_FALSE(good("camera", 1)) << "no time between frames";
+  rig.params.camera = CameraParams{};
+  EXPECT_FALSE(good("camera", 10));
+  EXPECT_TRUE(good("camera", 100'000));
+}
+
+TEST_F(CameraChecks, FramesComeAsOftenAsTheCameraSays) {
+  rig.params.camera = CameraParams{};
+  EXPECT_TRUE(good("frames", 100'000, 10));
+  EXPECT_FALSE(good("frames", 100'000, 1000));
+}
+
+}  // namespace
+}  // namespace microswarm
