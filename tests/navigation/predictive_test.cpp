@@ -195,6 +195,9 @@ TEST(Predictive, HoldsWhenBlindAndGoesOn) {
 // Windows and bounds that come in an order name the two that are not in it.
 TEST(Predictive, RefusesWindowsAndBoundsOutOfOrder) {
   EXPECT_TRUE(validate(PredictiveParams{}).empty());
+  PredictiveParams no_speeds;
+  no_speeds.tuning.speed_shares.clear();
+  EXPECT_EQ(validate(no_speeds).size(), 1u);
   const auto refused = [](auto&& change) {
     PredictiveParams params;
     change(params.prediction.tuning);

@@ -91,8 +91,8 @@ TEST(WaitZone, ItsOutlineIsItsBorder) {
     EXPECT_TRUE(contains(turned, turned.centre + 0.999 * out));
     EXPECT_FALSE(contains(turned, turned.centre + 1.001 * out));
   }
-  EXPECT_NEAR(distance(outline.outer[0], outline.outer[1]), 500, 1e-9);
-  EXPECT_NEAR(distance(outline.outer[1], outline.outer[2]), 80, 1e-9);
+  for (std::size_t k = 0; k < 4; ++k)
+    EXPECT_NEAR(distance(outline.outer[k], outline.outer[(k + 1) % 4]), k % 2 ? 80 : 500, 1e-9);
 }
 
 }  // namespace
