@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/rig/runtime/measurement_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace microswarm {
+namespace {
+
+constexpr double max_settling = 10;  // after the ramp, until the currents are reached [s]
+constexpr double max_arriving = 1;   // time for which a device may report other currents [s]
+constexpr double weakened = 1 - 1e-6;
+constexpr double reversed_share = 0.1;  // share of the expected field, with opposite sign
+constexpr double resolution = 2e-3;     // share of full scale by which a device may differ
+
+/// The measurement of one step while its currents flow.
+class StepMeasurement {
+ public:
+  StepMeasurement(const Rig& rig, const CoilDriver& driver, const MeasurementStep& step,
+                  const MeasurementTiming& timing, FieldReader& reader)
+      : rig_(rig),
+        driver_(driver),
+        step_(step),
+        counts_from_(timing.ramp + timing.settle),
+        tolerance_(resolution * full_scale_of(rig.params)),
+        reader_(reader),
+        currents_(Eigen::VectorXd::Zero(step.currents.size())) {}
+
+  bool has_ended() const { return answer_.has_value(); }
+  void look(const ManualMoment& moment);
+  Measurement result(const ManualResult& drive) const;
+
+ private:
+  void end(MeasurementOutcome outcome) { answer_ = {outcome, {}}; }
+  bool is_reached() const {
+    return (currents_ - step_.currents).cwiseAbs().maxCoeff() <= tolerance_;
+  }
+  void settle(double t);
+  SettledCurrents settled() const;
+
+  const Rig& rig_;
+  const CoilDriver& driver_;
+  const MeasurementStep& step_;
+  double counts_from_;  // [s]
+  double tolerance_;    // between planned and reported currents [A]
+  FieldReader& reader_;
+  Eigen::VectorXd currents_;  // as the device reports them [A]
+  std::optional<double> settled_at_;
+  std::optional<FieldAnswer> answer_;
+};
+
+/// Called after each output to the coils.
+void StepMeasurement::look(const ManualMoment& moment) {
+  if (answer_ || !settled_at_) reader_.watch();
+  if (answer_) return;
+  const bool full = moment.output.scale >= weakened;
+  const std::vector<double>& reported = driver_.report().currents;
+  currents_ = Eigen::Map<const Eigen::VectorXd>(reported.data(), currents_.size());
+  if (settled_at_ && !full)
+    end(MeasurementOutcome::weak);
+  else if (settled_at_)
+    answer_ = reader_.poll(moment.t - *settled_at_);
+  else if (moment.t >= counts_from_ && full)
+    settle(moment.t);
+  else if (moment.t > counts_from_ + max_settling)
+    end(MeasurementOutcome::weak);
+}
+
+/// Detects settled currents after the ramp: as planned, or other ones for long enough.
+void StepMeasurement::settle(double t) {
+  if (!is_reached() && t < counts_from_ + max_arriving) return;
+  if (!is_reached() && currents_.cwiseAbs().maxCoeff() <= tolerance_ / 4)
+    return end(MeasurementOutcome::no_current);
+  settled_at_ = t;
+  reader_.begin(settled());
+}
+
+SettledCurrents StepMeasurement::settled() const {
+  SettledCurrents out{.step = step_, .currents = currents_, .limited = {}, .expected = {}};
+  for (Eigen::Index k = 0; k < currents_.size(); ++k)
+    if (std::abs(step_.currents[k]) - std::abs(currents_[k]) > tolerance_) out.limited.push_back(k);
+  if (rig_.system.in_workspace(step_.position))
+    out.expected =
+        rig_.system.at(step_.position).field_of(is_reached() ? step_.currents : currents_);
+  return out;
+}
+
+Measurement StepMeasurement::result(const ManualResult& drive) const {
+  using enum MeasurementOutcome;
+  Measurement out{.outcome = answer_ ? answer_->outcome : unanswered,
+                  .currents = currents_,
+                  .zero = drive.zero,
+                  .why = drive.why};
+  // A measurement counts even if something fails while the currents ramp down.
+  if (answer_ && answer_->outcome == measured) {
+    out.reading = reading_of(answer_->readings);
+    out.expected = settled().expected;
+  }
+  if (!drive.why.empty() || !drive.zero.good())
+    out.outcome = failed;
+  else if (drive.status == Status::stopped)
+    out.outcome = ended;
+  return out;
+}
+
+}  // namespace
+
+Measurement measure_field(const Rig& rig, CoilDriver& driver, const MeasurementStep& step,
+                          const MeasurementTiming& timing, FieldReader& reader,
+                          const Eigen::VectorXd& temperatures,
+                          const std::function<void(const CoilOutput&)>& heard, const Stop& stop) {
+  StepMeasurement measurement(rig, driver, step, timing, reader);
+  const ManualCommand command{.wanted = step.currents,
+                              .seconds = 2 * timing.ramp + timing.settle + timing.hold,
+                              .ramp = timing.ramp,
+                              .enough = [&] { return measurement.has_ended(); }};
+  return measurement.result(drive_by_hand(
+      rig, driver, command, temperatures,
+      [&](const ManualMoment& moment) {
+        if (heard) heard(moment.output);
+        measurement.look(moment);
+      },
+      stop));
+}
+
+std::optional<Eigen::Index> reversed_axis(const Measurement& measurement,
+                                          const MeasurementStep& step) {
+  if (!measurement.expected || !measurement.reading || step.currents.isZero(0)) return std::nullopt;
+  Eigen::Index axis = 0;
+  const double most = measurement.expected->cwiseAbs().maxCoeff(&axis);
+  const double got = measurement.reading->mean[axis];
+  if (got * (*measurement.expected)[axis] >= 0 || std::abs(got) <= reversed_share * most)
+    return std::nullopt;
+  return axis;
+}
+
+MeasurementRun::MeasurementRun(std::vector<MeasurementStep> steps, MeasurementLog& log)
+    : steps_(std::move(steps)),
+      log_(log),
+      missing_(missing_steps(steps_, log.measured().rows)),
+      fewest_(missing_.size()) {}
+
+void MeasurementRun::take(const Measurement& measurement, bool operated) {
+  if (measurement.reading && next())
+    log_.add(measurement.currents, next()->currents, next()->position, *measurement.reading);
+  if (measurement.outcome == MeasurementOutcome::back) log_.remove_last();
+  missing_ = missing_steps(steps_, log_.measured().rows);
+  const bool person = operated && measurement.outcome != MeasurementOutcome::measured;
+  attempts_ = person || missing_.size() < fewest_ ? 0 : attempts_ + 1;
+  fewest_ = person ? missing_.size() : std::min(fewest_, missing_.size());
+}
+
+}  // namespace microswarm
