@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Trapezoids: cells, and what is seen from a place, beside brute force.
-#include "microswarm/geometry/trapezoids.hpp"
+#include "microswarm/geometry/trapezoid_sight.hpp"
 
 #include <gtest/gtest.h>
 
@@ -81,12 +81,12 @@ TEST(Trapezoids, WhatIsSeenIsWhatBruteForceSees) {
     for (int i = 0; i < 10; ++i) {
       const Vec2 from = random_point(rng, {{-1, -1}, {13, 13}});
       seen.clear();
-      cells.look_around(Rays{from}, see, none);
+      TrapezoidSight(cells).look_around(Rays{from}, see, none);
       expect_seen(cells, all, from, seen);
     }
     for (std::uint32_t from = 0; from < cells.points().size(); ++from) {
       seen.clear();
-      cells.look_around(Rays{cells.points()[from]}, see, none);
+      TrapezoidSight(cells).look_around(Rays{cells.points()[from]}, see, none);
       expect_seen(cells, all, cells.points()[from], seen);
     }
   }
@@ -99,14 +99,14 @@ TEST(Trapezoids, StepByStepTheSameIsSeenAndWhatIsNearTheWayFirst) {
   for (int world = 0; world < 300; ++world) {
     SCOPED_TRACE(::testing::Message() << "kind " << world % 3 << " world " << world);
     const Trapezoids cells(random_segments(rng, world % 3));
-    Trapezoids::Look look;
+    TrapezoidLook look;
     for (int i = 0; i < 10; ++i) {
       const bool is_end = i % 2 == 0;
       const Vec2 from = is_end ? cells.points()[rng.below(cells.points().size())]
                                : random_point(rng, {{-1, -1}, {13, 13}});
       const Vec2 to = random_point(rng, {{-1, -1}, {13, 13}});
       std::multiset<std::uint32_t> all, seen;
-      cells.look_around(
+      TrapezoidSight(cells).look_around(
           Rays{from}, [&](std::uint32_t point, Sides) { all.insert(point); }, none);
       look.begin(cells, from, to, 0);
       double length = distance(from, to);
@@ -164,7 +164,7 @@ TEST(Trapezoids, NothingIsSeenWhereNothingIs) {
   EXPECT_EQ(cells.cells().size(), 1u);
   EXPECT_EQ(cells.cell_at({3, 4}), 0u);
   EXPECT_EQ(cells.point_at({1, 1}), Trapezoids::none);
-  cells.look_around(
+  TrapezoidSight(cells).look_around(
       Rays{{0, 0}}, [](std::uint32_t, Sides) { FAIL(); }, [](std::uint32_t, auto&&) {});
 }
 

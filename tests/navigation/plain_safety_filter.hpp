@@ -61,7 +61,7 @@ class PlainSafetyFilter {
     double widening = 0, speed = 0;
   };
   struct Committed {
-    EscapeTrajectory trajectory;
+    TwoLegTrajectory trajectory;
     double time = 0;
   };
 
@@ -116,7 +116,7 @@ class PlainSafetyFilter {
   }
 
   template <class Visit>
-  void follow(const EscapeTrajectory& trajectory, Visit&& visit) const {
+  void follow(const TwoLegTrajectory& trajectory, Visit&& visit) const {
     for (int s = 1; s <= samples_; ++s) {
       const double t = s * params_.step;
       if (t - params_.step < trajectory.until && trajectory.until < t)
@@ -125,7 +125,7 @@ class PlainSafetyFilter {
     }
   }
 
-  bool is_free(const Map& map, const EscapeTrajectory& trajectory) const {
+  bool is_free(const Map& map, const TwoLegTrajectory& trajectory) const {
     bool free = true;
     follow(trajectory, [&, last = start_.position](double t, Vec2 p) mutable {
       const double required = std::min(params_.gap, gap_now_ + params_.tuning.recovery_rate * t);
@@ -137,7 +137,7 @@ class PlainSafetyFilter {
     return free;
   }
 
-  EscapeOutcome outcome(const Map& map, const EscapeTrajectory& trajectory) const {
+  EscapeOutcome outcome(const Map& map, const TwoLegTrajectory& trajectory) const {
     const SafetyFilterTuning& tuning = params_.tuning;
     EscapeOutcome out{.until_contact = 0, .least = tuning.counted_gap, .last = 0};
     bool touched = false;
@@ -189,9 +189,9 @@ class PlainSafetyFilter {
     return std::nullopt;
   }
 
-  std::vector<EscapeTrajectory> manoeuvres() const {
+  std::vector<TwoLegTrajectory> manoeuvres() const {
     const SafetyFilterTuning& tuning = params_.tuning;
-    std::vector<EscapeTrajectory> trajectories;
+    std::vector<TwoLegTrajectory> trajectories;
     for (const Vec2 v : velocities_) trajectories.push_back({{}, 0, v});
     for (const Vec2 v : velocities_) {
       for (const double t : tuning.hold_times) trajectories.push_back({{}, t, v});
@@ -207,8 +207,8 @@ class PlainSafetyFilter {
   Command best_manoeuvre(const Map& map) {
     const SafetyFilterTuning& tuning = params_.tuning;
     EscapeOutcome best{-1, -std::numeric_limits<double>::infinity(), 0};
-    EscapeTrajectory chosen;
-    const auto consider = [&](const EscapeTrajectory& trajectory) {
+    TwoLegTrajectory chosen;
+    const auto consider = [&](const TwoLegTrajectory& trajectory) {
       const EscapeOutcome o = outcome(map, trajectory);
       if (o.until_contact != best.until_contact ? o.until_contact < best.until_contact
                                                 : o.worth() <= best.worth() + tuning.gap_tolerance)
@@ -224,7 +224,7 @@ class PlainSafetyFilter {
       best.least += tuning.switch_gap;
       best.last += tuning.switch_gap;
     }
-    for (const EscapeTrajectory& trajectory : manoeuvres()) consider(trajectory);
+    for (const TwoLegTrajectory& trajectory : manoeuvres()) consider(trajectory);
     committed_ = Committed{chosen, start_.time};
     const Vec2 begin = chosen.until > 0 ? chosen.first : chosen.second;
     const double speed = norm(begin);

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <netdb.h>
-#include <netinet/in.h>
-#include <netinet/tcp.h>
-#include <poll.h>
 #include <sys/file.h>
-#include <sys/socket.h>
-#include <sys/un.h>
-#include <unistd.h>
 
-#include <algorithm>
+#include <boost/asio/connect.hpp>
+#include <boost/asio/generic/stream_protocol.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/local/stream_protocol.hpp>
 #include <cerrno>
-#include <cmath>
-#include <cstring>
+#include <chrono>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "microswarm/actuation/drivers/line_connection.hpp"
 #include "microswarm/core/errors/error.hpp"
@@ -23,88 +21,67 @@
 namespace microswarm {
 namespace {
 
-/// A non-blocking socket.
-class Socket {
- public:
-  explicit Socket(int family)
-      : file_(::socket(family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)) {}
-  int get() const { return file_.get(); }
-
-  /// Connects; returns errno, 0 on success.
-  int connect(const sockaddr* address, socklen_t size, double timeout) const {
-    if (!file_) return errno;
-    if (::connect(get(), address, size) == 0) return 0;
-    if (errno != EINPROGRESS) return errno;
-    pollfd line{get(), POLLOUT, 0};
-    if (::poll(&line, 1, static_cast<int>(std::ceil(1e3 * timeout))) <= 0) return ETIMEDOUT;
-    int error = 0;
-    socklen_t length = sizeof error;
-    ::getsockopt(get(), SOL_SOCKET, SO_ERROR, &error, &length);
-    return error;
-  }
-
- private:
-  Descriptor file_;
-};
+namespace asio = boost::asio;
+using boost::system::error_code;
+using Endpoint = asio::generic::stream_protocol::endpoint;
 
 class DriverSocket final : public LineConnection {
  public:
-  DriverSocket(std::string name, Socket socket)
-      : name_(std::move(name)), socket_(std::move(socket)), stream_(socket_.get(), socket_.get()) {}
+  explicit DriverSocket(std::string name) : name_(std::move(name)) {}
+
+  /// Connects to the first endpoint that accepts.
+  error_code connect(const std::vector<Endpoint>& endpoints, double timeout) {
+    std::optional<error_code> result;
+    asio::async_connect(socket_, endpoints,
+                        [&](const error_code& error, const auto&) { result = error; });
+    io_.run_for(std::chrono::duration_cast<std::chrono::nanoseconds>(
+        std::chrono::duration<double>(timeout)));
+    if (!result) return asio::error::timed_out;
+    if (*result) return *result;
+    const int file = socket_.native_handle();
+    ::fcntl(file, F_SETFD, FD_CLOEXEC);
+    error_code error;
+    socket_.set_option(asio::ip::tcp::no_delay(true), error);  // a Unix socket has no such option
+    socket_.native_non_blocking(true, error);
+    stream_.emplace(file, file);
+    return error;
+  }
   const std::string& name() const override { return name_; }
-  ByteStream& stream() override { return stream_; }
-  std::string ended() override { return stream_.ended() ? "has closed the connection" : ""; }
+  ByteStream& stream() override { return *stream_; }
+  std::string ended() override { return stream_->ended() ? "has closed the connection" : ""; }
 
  private:
   std::string name_;
-  Socket socket_;
-  ByteStream stream_;
+  asio::io_context io_;
+  asio::generic::stream_protocol::socket socket_{io_};
+  std::optional<ByteStream> stream_;
 };
 
-[[noreturn]] void fail(const std::string& name, const char* why) {
-  throw HardwareError(fmt::format("{}: cannot connect: {}", name, why));
-}
-
-std::unique_ptr<LineConnection> connect_path(const std::string& path, double timeout) {
-  const std::string name = one_line(path);
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  if (path.size() >= sizeof address.sun_path) fail(name, "the path is too long");
-  std::ranges::copy(path, address.sun_path);
-  Socket socket(AF_UNIX);
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast)
-  const auto* const at = reinterpret_cast<const sockaddr*>(&address);
-  if (const int error = socket.connect(at, sizeof address, timeout))
-    fail(name, std::strerror(error));
-  return std::make_unique<DriverSocket>(name, std::move(socket));
+/// Addresses of the host; a path with a '/' is a Unix socket. Throws boost::system::system_error.
+std::vector<Endpoint> resolve(const std::string& host, int port) {
+  if (host.find('/') != std::string::npos) return {asio::local::stream_protocol::endpoint(host)};
+  asio::io_context io;
+  // No name means this computer, also where /etc/hosts is missing and no lookup works.
+  const auto found =
+      asio::ip::tcp::resolver(io).resolve(host == "localhost" ? "" : host, std::to_string(port));
+  std::vector<Endpoint> endpoints;
+  for (const auto& entry : found) endpoints.emplace_back(entry.endpoint());
+  return endpoints;
 }
 
 }  // namespace
 
 std::unique_ptr<LineConnection> connect_socket(const std::string& host, int port, double timeout) {
-  if (host.find('/') != std::string::npos) return connect_path(host, timeout);
-  const std::string name = fmt::format("{}:{}", one_line(host), port);
-  addrinfo hints{};
-  hints.ai_socktype = SOCK_STREAM;
-  addrinfo* found = nullptr;
-  // A null node means this computer, also where /etc/hosts is missing and no lookup works.
-  const char* const node = host == "localhost" ? nullptr : host.c_str();
-  if (const int error = ::getaddrinfo(node, std::to_string(port).c_str(), &hints, &found))
-    fail(name, ::gai_strerror(error));
-  const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> addresses(found, ::freeaddrinfo);
-  const Stop::Clock::time_point began = Stop::Clock::now();
-  int error = ETIMEDOUT;
-  for (const addrinfo* at = found; at != nullptr; at = at->ai_next) {
-    const double left = timeout - seconds_since(began);
-    if (left <= 0) break;
-    Socket socket(at->ai_family);
-    error = socket.connect(at->ai_addr, at->ai_addrlen, left);
-    if (error != 0) continue;
-    const int at_once = 1;
-    ::setsockopt(socket.get(), IPPROTO_TCP, TCP_NODELAY, &at_once, sizeof at_once);
-    return std::make_unique<DriverSocket>(name, std::move(socket));
+  const bool is_path = host.find('/') != std::string::npos;
+  const std::string name = is_path ? one_line(host) : fmt::format("{}:{}", one_line(host), port);
+  try {
+    auto connection = std::make_unique<DriverSocket>(name);
+    if (const error_code error = connection->connect(resolve(host, port), timeout))
+      throw boost::system::system_error(error);
+    return connection;
+  } catch (const boost::system::system_error& error) {
+    throw HardwareError(fmt::format("{}: cannot connect: {}", name, error.code().message()));
   }
-  fail(name, std::strerror(error));
 }
 
 DeviceLock::DeviceLock(const std::filesystem::path& file) : file_(open_descriptor(file, O_RDONLY)) {

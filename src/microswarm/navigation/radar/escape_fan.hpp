@@ -7,17 +7,17 @@
 #include <span>
 #include <vector>
 
-#include "microswarm/navigation/radar/foresight.hpp"
+#include "microswarm/navigation/radar/reachable_obstacles.hpp"
 
 namespace microswarm {
 
-/// Whether a swarm keeps the required gaps on the trajectory at these instants; `before` [s] is the
-/// time of the instant before the first.
-bool is_free(const Foresight& seen, const EscapeTrajectory& trajectory,
-             std::span<const Foresight::Instant> instants, double before);
+/// Whether a swarm keeps the required gaps on the trajectory at these times; `before` [s] is the
+/// time before the first of them.
+bool is_free(const ReachableObstacles& seen, const TwoLegTrajectory& trajectory,
+             std::span<const SampleTime> times, double before);
 
 /// Minimum gap of a trajectory: the maximum of a constant and of a line in time.
-struct LeastGap {
+struct RequiredGap {
   double start = 0;  ///< [µm]
   double rate = 0;   ///< [µm/s]
   double floor = 0;  ///< [µm]
@@ -31,11 +31,11 @@ class EscapeFan {
   /// The trajectories of a fan: each of its velocities replaces the second of `common`, or the
   /// first one if `first_varies`.
   struct Trajectories {
-    EscapeTrajectory common;
+    TwoLegTrajectory common;
     bool first_varies = false;
-    EscapeTrajectory operator[](Vec2 velocity) const {
-      return first_varies ? EscapeTrajectory{velocity, common.until, common.second}
-                          : EscapeTrajectory{common.first, common.until, velocity};
+    TwoLegTrajectory operator[](Vec2 velocity) const {
+      return first_varies ? TwoLegTrajectory{velocity, common.until, common.second}
+                          : TwoLegTrajectory{common.first, common.until, velocity};
     }
     /// Time at the varying velocity within the first `t` seconds [s].
     double varied_for(double t) const {
@@ -43,7 +43,7 @@ class EscapeFan {
     }
   };
   /// Positions on all trajectories at one time, relative to a body.
-  struct Places {
+  struct Positions {
     const double* x;  ///< velocities [µm/s]
     const double* y;
     std::size_t count;
@@ -60,38 +60,39 @@ class EscapeFan {
 
   std::span<const Vec2> velocities() const { return velocities_; }
   /// Whether, after `begin` until `until`, at least `count` of the velocities are free of contact.
-  bool has_free(Foresight& seen, Vec2 begin, double until, int count);
+  bool has_free(ReachableObstacles& seen, Vec2 begin, double until, int count);
   /// Whether has_free() is false for every first velocity within `spread` [µm/s] of `begin`. One
   /// conservative test for all of them: false if it is undecided.
-  bool excludes(Foresight& seen, Vec2 begin, double spread, double until, int count);
-  /// Whether some of the trajectories may keep these gaps to convex bodies at all instants;
-  /// is_left() says which.
-  bool may_keep(const Foresight& seen, const Trajectories& trajectories,
-                std::span<const Foresight::Instant> instants, const LeastGap& least);
-  bool is_left(std::size_t velocity) const { return blocked_[velocity] == 0; }
+  bool excludes(ReachableObstacles& seen, Vec2 begin, double spread, double until, int count);
+  /// Whether some of the trajectories may keep these gaps to convex bodies at all times;
+  /// is_kept() says which.
+  bool may_keep(const ReachableObstacles& seen, const Trajectories& trajectories,
+                std::span<const SampleTime> times, const RequiredGap& least);
+  bool is_kept(std::size_t velocity) const { return blocked_[velocity] == 0; }
 
  private:
   /// Required gap [µm].
   struct Demand {
     double gap = 0;
-    Foresight::Error error = Foresight::Error::none;
+    ReachableObstacles::MotionError error = ReachableObstacles::MotionError::none;
   };
 
   template <class GapAt>
-  bool screen(const Foresight& seen, const Trajectories& trajectories,
-              std::span<const Foresight::Instant> instants, Foresight::Error error, GapAt&& gap_at,
-              std::int64_t count);
-  std::int64_t meet(const Foresight& seen, const Foresight::Near& body,
-                    const Trajectories& trajectories, double t, const Demand& demand);
-  std::int64_t settle(const Places& at, const Foresight::Near& body, const Demand& demand);
+  bool screen(const ReachableObstacles& seen, const Trajectories& trajectories,
+              std::span<const SampleTime> times, ReachableObstacles::MotionError error,
+              GapAt&& gap_at, std::int64_t count);
+  std::int64_t screen_body(const ReachableObstacles& seen, const ReachableObstacles::NearBody& body,
+                           const Trajectories& trajectories, double t, const Demand& demand);
+  std::int64_t test_exactly(const Positions& at, const ReachableObstacles::NearBody& body,
+                            const Demand& demand);
 
   std::vector<Vec2> velocities_;
   double speed_;
   std::vector<double> x_, y_;          ///< components of velocities_
   std::vector<std::int64_t> blocked_;  ///< 0 or 1 for each velocity
-  std::vector<std::int64_t> doubted_;
-  std::vector<std::size_t> in_doubt_;              ///< indices of velocities
-  std::vector<double> off_x_, off_y_, distances_;  ///< of the velocities in doubt [µm]
+  std::vector<std::int64_t> undecided_;
+  std::vector<std::size_t> undecided_indices_;     ///< indices of velocities
+  std::vector<double> off_x_, off_y_, distances_;  ///< of the undecided velocities [µm]
   std::size_t last_ = 0;  ///< index of the velocity that was free last time
 };
 

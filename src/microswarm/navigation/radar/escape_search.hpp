@@ -8,7 +8,7 @@
 
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/navigation/radar/escape_fan.hpp"
-#include "microswarm/navigation/radar/foresight.hpp"
+#include "microswarm/navigation/radar/reachable_obstacles.hpp"
 
 namespace microswarm {
 
@@ -30,23 +30,24 @@ class EscapeSearch {
     bool touched = false;  ///< whether it touched a body
     bool blocked = false;  ///< whether a wall ended it
     bool is_hopeless = false;
-    std::size_t instants = 0;  ///< number of instants evaluated
+    std::size_t times = 0;  ///< number of times evaluated
   };
 
   /// The trajectories of a fan after screening.
   struct Bundle {
     EscapeFan::Trajectories trajectories;
-    Trace begun;                     ///< the common first part
-    std::vector<std::uint8_t> left;  ///< for each velocity, whether it may become the best
+    Trace prefix;                          ///< the common first part
+    std::vector<std::uint8_t> candidates;  ///< for each velocity, whether it may become the best
   };
 
-  EscapeSearch(Foresight& seen, const SafetyFilterTuning& tuning) : seen_(seen), tuning_(tuning) {}
+  EscapeSearch(ReachableObstacles& seen, const SafetyFilterTuning& tuning)
+      : seen_(seen), tuning_(tuning) {}
 
   /// First part of all trajectories that turn from `first` at `until`.
   Trace begin(Vec2 first, double until);
-  /// Takes the trajectory if it is clearly better than the best so far; `begun` is its first part.
-  void consider(const EscapeTrajectory& trajectory, Trace begun);
-  void consider(const EscapeTrajectory& trajectory) {
+  /// Takes the trajectory if it is clearly better than the best so far; `prefix` is its first part.
+  void consider(const TwoLegTrajectory& trajectory, Trace prefix);
+  void consider(const TwoLegTrajectory& trajectory) {
     consider(trajectory, begin(trajectory.first, trajectory.until));
   }
   /// Makes the best trajectory so far harder to replace, by a time [s] and a gap [µm].
@@ -57,16 +58,16 @@ class EscapeSearch {
   void runs(double until, EscapeFan& fan, Bundle& out);
   /// Takes the trajectory of a velocity if it passed the screening and is clearly better.
   void consider(const Bundle& bundle, const EscapeFan& fan, std::size_t velocity);
-  const EscapeTrajectory& best() const { return best_; }
+  const TwoLegTrajectory& best() const { return best_; }
 
  private:
   void screen(EscapeFan& fan, Bundle& out) const;
-  LeastGap least() const;
+  RequiredGap least() const;
   Trace nothing_behind() const {
     return {.outcome = {.until_contact = 0, .least = tuning_.counted_gap, .last = 0}};
   }
-  void follow(Trace& trace, const EscapeTrajectory& trajectory,
-              std::span<const Foresight::Instant> instants, double max_last_gap) const;
+  void follow(Trace& trace, const TwoLegTrajectory& trajectory, std::span<const SampleTime> times,
+              double max_last_gap) const;
   bool is_hopeless(const Trace& trace, double max_last_gap) const;
   /// Whether no trajectory can be free for longer than the best.
   bool only_gaps_count() const { return outcome_.until_contact >= seen_.end(); }
@@ -76,9 +77,9 @@ class EscapeSearch {
   /// Score that an equally long-lived trajectory must exceed [µm].
   double bar() const { return outcome_.worth() + tuning_.gap_tolerance; }
 
-  Foresight& seen_;
+  ReachableObstacles& seen_;
   const SafetyFilterTuning& tuning_;
-  EscapeTrajectory best_;
+  TwoLegTrajectory best_;
   EscapeOutcome outcome_{-1, -infinity, 0};
 };
 

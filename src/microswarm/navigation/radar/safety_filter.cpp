@@ -48,7 +48,8 @@ SafetyFilter::SafetyFilter(const SafetyFilterParams& params, double speed)
   choices_.reserve(static_cast<std::size_t>(tuning.refinement * params_.directions) + 1);
   bundles_.resize(
       1 + std::max(tuning.hold_times.size() + tuning.run_times.size(), tuning.turn_times.size()));
-  for (EscapeSearch::Bundle& bundle : bundles_) bundle.left.reserve(escapes_.velocities().size());
+  for (EscapeSearch::Bundle& bundle : bundles_)
+    bundle.candidates.reserve(escapes_.velocities().size());
 }
 
 void SafetyFilter::update(const Observation& observation) {
@@ -142,7 +143,7 @@ Command SafetyFilter::best_manoeuvre() {
     for (const double t : tuning.turn_times) search.turns(first, t, turns_, bundles_[count++]);
     consider(turns_);
   }
-  const EscapeTrajectory& chosen = search.best();
+  const TwoLegTrajectory& chosen = search.best();
   committed_ = Committed{chosen, now};
   const Vec2 begin = chosen.until > 0 ? chosen.first : chosen.second;
   const double speed = norm(begin);

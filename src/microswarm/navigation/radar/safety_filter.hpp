@@ -10,7 +10,7 @@
 #include "microswarm/navigation/prediction/obstacle_tracker.hpp"
 #include "microswarm/navigation/radar/escape_fan.hpp"
 #include "microswarm/navigation/radar/escape_search.hpp"
-#include "microswarm/navigation/radar/foresight.hpp"
+#include "microswarm/navigation/radar/reachable_obstacles.hpp"
 #include "microswarm/navigation/radar/safety_filter_params.hpp"
 
 namespace microswarm {
@@ -41,7 +41,7 @@ class SafetyFilter {
  private:
   /// Trajectory commanded last, as long as it is needed.
   struct Committed {
-    EscapeTrajectory trajectory;
+    TwoLegTrajectory trajectory;
     double time = 0;  ///< [s]
   };
   /// An alternative command, ordered by its turn from the wanted command and the course.
@@ -62,7 +62,7 @@ class SafetyFilter {
   SafetyFilterParams params_;
   double speed_;
   ObstacleTracker tracker_;
-  Foresight seen_;
+  ReachableObstacles seen_;
   EscapeFan escapes_;  ///< the hold is first
   EscapeFan turns_;    ///< every other of these directions
 

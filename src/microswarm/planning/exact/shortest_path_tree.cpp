@@ -18,7 +18,7 @@ double ShortestPathTree::length_from(Vec2 p) { return best_from(p).length; }
 std::vector<Vec2> ShortestPathTree::path_from(Vec2 p) {
   const Best best = best_from(p);
   if (best.length == infinity) return {};
-  if (best.label == TangentSearch::none) return {p, goal_};
+  if (best.label == TangentQuery::none) return {p, goal_};
   std::vector<Vec2> path = search_->path_to(best.label);
   search_->go_on(search_->labels()[best.label], best.line, p, path);
   path.back() = p;
@@ -36,7 +36,7 @@ ShortestPathTree::Best ShortestPathTree::best_from(Vec2 p) {
   if (!search_) begin();
   seen_.clear();
   ++query_;
-  look_.begin(search_->corners().cells(), p, goal_, clearance_);
+  look_.begin(graph_->corners().cells(), p, goal_, clearance_);
   look_on(straight);
   Best best = best_over_seen(p);
   if (best.length > look_.left()) {
@@ -46,7 +46,7 @@ ShortestPathTree::Best ShortestPathTree::best_from(Vec2 p) {
   constexpr double near = 0.02;
   if (growth_ == Growth::towards_queries && distance(p, headed_for_) > near * straight &&
       search_->reached() - distance(p, headed_for_) < best.length) {
-    if (search_->bytes() > max_bytes_) {
+    if (graph_->bytes() + search_->bytes() > max_bytes_) {
       begin();
       best = {};
       for (const std::uint32_t wheel : seen_) seen_in_[wheel] = query_;
@@ -59,7 +59,7 @@ ShortestPathTree::Best ShortestPathTree::best_from(Vec2 p) {
     const auto number = search_->next(best.length + off);
     if (!number) break;
     search_->expand(*number);
-    const TangentSearch::Label& label = search_->labels()[*number];
+    const TangentQuery::Label& label = search_->labels()[*number];
     if (seen_in_[label.wheel] != query_) continue;
     const auto line = search_->leaving(label, p);
     if (line && line->length < best.length && is_free(*line, p))
@@ -69,13 +69,14 @@ ShortestPathTree::Best ShortestPathTree::best_from(Vec2 p) {
 }
 
 void ShortestPathTree::begin() {
-  search_.emplace(*map_, clearance_);
-  search_->begin_to_everywhere(goal_);
+  search_.reset();
+  graph_ = std::make_unique<TangentGraph>(*map_, clearance_);
+  search_.emplace(*graph_, goal_);
   headed_for_ = goal_;
-  seen_in_.assign(2 * search_->corners().all().size(), 0);
+  seen_in_.assign(2 * graph_->corners().all().size(), 0);
 }
 
-bool ShortestPathTree::is_free(const TangentSearch::Leaving& leaving, Vec2 p) const {
+bool ShortestPathTree::is_free(const TangentQuery::Leaving& leaving, Vec2 p) const {
   return map_->is_free(Segment{p - leaving.line.length * leaving.line.along, p}, clearance_);
 }
 
@@ -84,7 +85,7 @@ void ShortestPathTree::look_on(double length) {
   const auto see = [this](std::uint32_t wheel) {
     if (std::exchange(seen_in_[wheel], query_) != query_) seen_.push_back(wheel);
   };
-  search_->corners().look_on(look_, length, [&](std::uint32_t corner, auto&& sides_of) {
+  graph_->corners().look_on(look_, length, [&](std::uint32_t corner, auto&& sides_of) {
     const Sides sides = sides_of();
     if (sides.left) see(2 * corner + 1);
     if (sides.right) see(2 * corner);
@@ -99,9 +100,9 @@ ShortestPathTree::Best ShortestPathTree::best_over_seen(Vec2 p) {
   const auto labels = search_->labels();
   for (const std::uint32_t wheel : seen_) {
     std::uint32_t i = search_->last_label(wheel);
-    if (i == TangentSearch::none) continue;
+    if (i == TangentQuery::none) continue;
     const double straight = (1 - rounding) * search_->distance_to(wheel, p);
-    for (; i != TangentSearch::none; i = labels[i].next)
+    for (; i != TangentQuery::none; i = labels[i].next)
       lines_.push_back({.length = (1 - rounding) * labels[i].length + straight, .label = i});
   }
   const auto later = [](const Line& a, const Line& b) {

@@ -2,12 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "microswarm/core/execution/stop.hpp"
-#include "microswarm/planning/exact/tangent_search.hpp"
+#include "microswarm/planning/exact/tangent_query.hpp"
 
 namespace microswarm {
 
@@ -46,21 +47,21 @@ class ShortestPathTree {
   /// First line of a path to the goal.
   struct Best {
     double length = infinity;
-    std::uint32_t label = TangentSearch::none;  ///< of the circle it leads to; none: the goal
-    TangentSearch::Leaving line;                ///< from that circle to the query
+    std::uint32_t label = TangentQuery::none;  ///< of the circle it leads to; none: the goal
+    TangentQuery::Leaving line;                ///< from that circle to the query
   };
   /// A line from a label's circle to the position of the query.
   struct Line {
     double length = 0;  ///< of the path over the line, or a lower bound [µm]
-    std::uint32_t label = TangentSearch::none;
+    std::uint32_t label = TangentQuery::none;
     bool is_known = false;
-    TangentSearch::Leaving line;
+    TangentQuery::Leaving line;
   };
   Best best_from(Vec2 p);
   Best best_over_seen(Vec2 p);
   void look_on(double length);
   void begin();
-  bool is_free(const TangentSearch::Leaving& leaving, Vec2 p) const;
+  bool is_free(const TangentQuery::Leaving& leaving, Vec2 p) const;
 
   const Map* map_;
   Vec2 goal_;
@@ -70,14 +71,15 @@ class ShortestPathTree {
   bool has_root_;
   Stop stop_;
   bool was_stopped_ = false;
-  std::optional<TangentSearch> search_;  ///< from the first query whose path bends
+  std::unique_ptr<TangentGraph> graph_;  ///< from the first query whose path bends
+  std::optional<TangentQuery> search_;   ///< from the root to everywhere
   Vec2 headed_for_;                      ///< position towards which the tree grows
 
   std::vector<std::uint32_t> seen_in_;  ///< by wheel: the query that saw it last
   std::uint32_t query_ = 0;
 
   // State of the current query.
-  Trapezoids::Look look_;
+  TrapezoidLook look_;
   std::vector<std::uint32_t> seen_;  ///< wheels
   std::vector<Line> lines_;          ///< from seen wheels, a heap
 };

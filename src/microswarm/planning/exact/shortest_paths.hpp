@@ -6,7 +6,7 @@
 
 #include "microswarm/core/execution/status.hpp"
 #include "microswarm/core/execution/stop.hpp"
-#include "microswarm/planning/exact/tangent_search.hpp"
+#include "microswarm/planning/exact/tangent_graph.hpp"
 
 namespace microswarm {
 
@@ -25,7 +25,7 @@ struct ShortestPath {
 class ShortestPaths {
  public:
   /// `map` must outlive this object. `clearance` [µm].
-  ShortestPaths(const Map& map, double clearance) : search_(map, clearance) {}
+  ShortestPaths(const Map& map, double clearance) : graph_(map, clearance) {}
 
   /// Shortest path between two free positions [µm]. It keeps the clearance to a relative 1e-7 and
   /// is found if there is one with that much more clearance.
@@ -34,15 +34,12 @@ class ShortestPaths {
     return find(start, goal, {}, stop);
   }
   /// Continues with an equal copy of the map.
-  void use(const Map& map) { search_.use(map); }
+  void use(const Map& map) { graph_.use(map); }
   /// Approximate size of the kept tangents [B].
-  std::size_t bytes() const { return search_.bytes(); }
+  std::size_t bytes() const { return graph_.bytes(); }
 
  private:
-  std::vector<Vec2> near(Vec2 goal) const;
-  Vec2 walk(Vec2 from, Vec2 goal) const;
-
-  TangentSearch search_;
+  TangentGraph graph_;
 };
 
 }  // namespace microswarm

@@ -40,6 +40,8 @@ struct TurningCircle {
 struct TangentLine {
   Vec2 along;         ///< unit vector
   double length = 0;  ///< [µm]
+
+  Segment from(Vec2 p) const { return {p, p + length * along}; }
 };
 
 /// Tangent of two circles turned in these senses; nothing unless it is taut at both. Circles that

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "microswarm/geometry/trapezoids.hpp"
+#include "microswarm/geometry/trapezoid_sight.hpp"
 #include "microswarm/world/obstacles/body_set.hpp"
 
 namespace microswarm {
@@ -46,9 +46,9 @@ class Corners {
   template <class Visit>
   void seen_from(std::uint32_t i, double radius, double clearance, bool left, Visit&& visit) const;
   /// The same from a place, step by step, what is near the way to a goal first: see
-  /// Trapezoids::Look.
+  /// TrapezoidLook.
   template <class Visit>
-  void look_on(Trapezoids::Look& look, double length, Visit&& visit) const;
+  void look_on(TrapezoidLook& look, double length, Visit&& visit) const;
 
  private:
   static constexpr std::uint32_t none = Trapezoids::none;
@@ -103,13 +103,14 @@ void Corners::seen_from(std::uint32_t i, double radius, double clearance, bool l
   const Corner& corner = corners_[i];
   const Rays rays{corner.centre, left ? radius : -radius, clearance};
   if (corner.is_disc)
-    cells_.look_around(rays, around_.of(i), point_visitor(visit), cell_visitor(visit));
+    TrapezoidSight(cells_).look_around(rays, around_.of(i), point_visitor(visit),
+                                       cell_visitor(visit));
   else
-    cells_.look_around(rays, point_visitor(visit), cell_visitor(visit));
+    TrapezoidSight(cells_).look_around(rays, point_visitor(visit), cell_visitor(visit));
 }
 
 template <class Visit>
-void Corners::look_on(Trapezoids::Look& look, double length, Visit&& visit) const {
+void Corners::look_on(TrapezoidLook& look, double length, Visit&& visit) const {
   look.go_on(length, point_visitor(visit), cell_visitor(visit));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/navigation/radar/foresight.hpp"
+#include "microswarm/navigation/radar/reachable_obstacles.hpp"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ constexpr double swarm_radius = 50;
 /// grows.
 bool is_foreseen(double far, double speed, double growth = 0) {
   const SafetyFilterParams params;
-  Foresight seen(params, escape_speed);
+  ReachableObstacles seen(params, escape_speed);
   ObstacleTracker tracker(params.tracker);
   const Vec2 position{600, 500};
   constexpr double dead_time = 0.1;
@@ -41,7 +41,7 @@ bool is_foreseen(double far, double speed, double growth = 0) {
 }
 
 // Swarm and body towards each other until the horizon, plus the uncertainty and the gap.
-TEST(Foresight, LooksAtWhatCanComeTooNearWithinTheHorizon) {
+TEST(ReachableObstacles, LooksAtWhatCanComeTooNearWithinTheHorizon) {
   const SafetyFilterParams params;
   const double seconds = params.horizon + 0.1;
   for (const double speed : {0.0, 40.0, 100.0})
@@ -54,10 +54,10 @@ TEST(Foresight, LooksAtWhatCanComeTooNearWithinTheHorizon) {
 }
 
 // As far as one comes that is twice as fast as the swarm, which comes to meet it.
-TEST(Foresight, ButNotFartherThanItsRange) {
+TEST(ReachableObstacles, ButNotFartherThanItsRange) {
   const SafetyFilterParams params;
   const double range = 3 * escape_speed * (params.horizon + params.tuning.max_dead_time);
-  EXPECT_DOUBLE_EQ(Foresight(params, escape_speed).range(), range);
+  EXPECT_DOUBLE_EQ(ReachableObstacles(params, escape_speed).range(), range);
   EXPECT_TRUE(is_foreseen(range - 0.1, 4 * escape_speed));
   EXPECT_FALSE(is_foreseen(range + 0.1, 4 * escape_speed));
 }

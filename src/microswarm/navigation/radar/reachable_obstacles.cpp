@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/navigation/radar/foresight.hpp"
+#include "microswarm/navigation/radar/reachable_obstacles.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,23 +14,23 @@ constexpr double asked_beyond = 1;           // the required gap [µm]
 
 }  // namespace
 
-Foresight::Foresight(const SafetyFilterParams& params, double speed)
+ReachableObstacles::ReachableObstacles(const SafetyFilterParams& params, double speed)
     : params_(params),
       speed_(speed),
       samples_(static_cast<int>(std::ceil(params.horizon / params.step))),
       outliner_(params.tuning.outline) {}
 
 // A body farther away cannot come near within the horizon unless it is much faster than the swarm.
-double Foresight::range() const {
+double ReachableObstacles::range() const {
   return 3 * speed_ * (params_.horizon + params_.tuning.max_dead_time);
 }
 
-double Foresight::max_limit() const {
+double ReachableObstacles::max_limit() const {
   return std::max(params_.gap + asked_beyond, params_.tuning.counted_gap);
 }
 
-void Foresight::look(const EscapeStart& start, const Snapshot& world,
-                     const ObstacleTracker& tracker, double top_speed) {
+void ReachableObstacles::look(const EscapeStart& start, const Snapshot& world,
+                              const ObstacleTracker& tracker, double top_speed) {
   start_ = start;
   world_ = &world;
   seen_ = tracker.seen();
@@ -41,12 +41,12 @@ void Foresight::look(const EscapeStart& start, const Snapshot& world,
   if (threats_.size() < tracker.size()) threats_.resize(tracker.size());
   find_threats(tracker);
   if (empty()) return;
-  gap_now_ = gap(start.position, foresee(0), params_.gap, Error::none);
+  gap_now_ = gap(start.position, foresee(0), params_.gap, MotionError::none);
   look_at_walls(top_speed);
   for (int s = 1; s <= samples_; ++s) samples_seen_.push_back(foresee(s * params_.step));
 }
 
-void Foresight::find_threats(const ObstacleTracker& tracker) {
+void ReachableObstacles::find_threats(const ObstacleTracker& tracker) {
   bodies_ = 0;
   nonconvex_bodies_.clear();
   closing_ = 0;
@@ -81,7 +81,7 @@ void Foresight::find_threats(const ObstacleTracker& tracker) {
   nonconvex_.assign(nonconvex_bodies_);
 }
 
-void Foresight::look_at_walls(double top_speed) {
+void ReachableObstacles::look_at_walls(double top_speed) {
   const double clearance = world_->map().clearance(start_.position);
   wall_keep_ = std::clamp(clearance - clearance_rounding, 0.0, start_.radius + params_.wall_gap);
   const double room = clearance - wall_keep_ - 2 * clearance_rounding;
@@ -89,15 +89,15 @@ void Foresight::look_at_walls(double top_speed) {
 }
 
 /// Time for which outlines have grown, `t` seconds after the start [s].
-double Foresight::grown_for(double t) const {
+double ReachableObstacles::grown_for(double t) const {
   return std::min(params_.tuning.growth_time, start_.time - seen_ + t);
 }
 
-Foresight::Instant Foresight::foresee(double t) {
-  Instant out{.t = t,
-              .required = std::min(params_.gap, gap_now_ + params_.tuning.recovery_rate * t),
-              .first = static_cast<std::uint32_t>(near_.size()),
-              .last = 0};
+SampleTime ReachableObstacles::foresee(double t) {
+  SampleTime out{.t = t,
+                 .required = std::min(params_.gap, gap_now_ + params_.tuning.recovery_rate * t),
+                 .first = static_cast<std::uint32_t>(near_.size()),
+                 .last = 0};
   const double reach = top_speed_ * t + max_limit();
   for (std::size_t k = 0; k < bodies_; ++k) {
     const Threat& met = threats_[k];
@@ -113,29 +113,30 @@ Foresight::Instant Foresight::foresee(double t) {
   return out;
 }
 
-const Foresight::Schedule& Foresight::schedule(double until) {
+const SampleTimes& ReachableObstacles::sample_times(double until) {
   const auto end = schedules_.begin() + static_cast<std::ptrdiff_t>(scheduled_);
   const auto known =
-      std::find_if(schedules_.begin(), end, [&](const Schedule& s) { return s.until == until; });
+      std::find_if(schedules_.begin(), end, [&](const SampleTimes& s) { return s.until == until; });
   if (known != end) return *known;
   if (scheduled_ == schedules_.size()) schedules_.emplace_back();
-  Schedule& fresh = schedules_[scheduled_++];
+  SampleTimes& fresh = schedules_[scheduled_++];
   fresh.until = until;
-  fresh.instants.clear();
-  for (const Instant& i : samples_seen_) {
-    if (i.t - params_.step < until && until < i.t) fresh.instants.push_back(foresee(until));
-    fresh.instants.push_back(i);
+  fresh.times.clear();
+  for (const SampleTime& i : samples_seen_) {
+    if (i.t - params_.step < until && until < i.t) fresh.times.push_back(foresee(until));
+    fresh.times.push_back(i);
   }
   fresh.shared =
-      static_cast<std::size_t>(std::find_if(fresh.instants.begin(), fresh.instants.end(),
-                                            [&](const Instant& i) { return i.t > until; }) -
-                               fresh.instants.begin());
+      static_cast<std::size_t>(std::find_if(fresh.times.begin(), fresh.times.end(),
+                                            [&](const SampleTime& i) { return i.t > until; }) -
+                               fresh.times.begin());
   return fresh;
 }
 
-double Foresight::gap(Vec2 p, const Instant& at, double limit, Error error) const {
+double ReachableObstacles::gap(Vec2 p, const SampleTime& at, double limit,
+                               MotionError error) const {
   double least = limit;
-  for (const Near& met : near(at)) {
+  for (const NearBody& met : near(at)) {
     const double touch = met.touch[static_cast<std::size_t>(error)];
     const Vec2 off = p - met.centre;
     const double far = met.outline->radius + touch + least;
@@ -143,21 +144,21 @@ double Foresight::gap(Vec2 p, const Instant& at, double limit, Error error) cons
       least = std::min(least, met.outline->distance_at(off) - touch);
   }
   if (nonconvex_.empty()) return least;
-  const double error_rate = error == Error::none ? 0 : params_.gap_rate;
+  const double error_rate = error == MotionError::none ? 0 : params_.gap_rate;
   const double moved = closing_ * std::min(params_.tuning.growth_time, start_.time - seen_);
   const double touch = start_.radius + moved + std::min(error_rate, closing_) * at.t;
   return std::min(least, nonconvex_.clearance(p, touch + limit) - touch);
 }
 
-bool Foresight::is_clear(Vec2 p, const Instant& at) const {
-  return !(gap(p, at, at.required + asked_beyond, Error::bounded) < at.required);
+bool ReachableObstacles::is_clear(Vec2 p, const SampleTime& at) const {
+  return !(gap(p, at, at.required + asked_beyond, MotionError::bounded) < at.required);
 }
 
-bool Foresight::passes_walls(const Segment& segment) const {
+bool ReachableObstacles::passes_walls(const Segment& segment) const {
   return walls_from_ >= end() || world_->map().is_free(segment, wall_keep_ + keep_rounding);
 }
 
-bool Foresight::meets_walls(const Segment& segment, double slack) const {
+bool ReachableObstacles::meets_walls(const Segment& segment, double slack) const {
   const double keep = wall_keep_ - slack - keep_rounding;
   return walls_from_ < end() && keep > 0 && !world_->map().is_free(segment, keep);
 }
