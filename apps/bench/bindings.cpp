@@ -88,7 +88,7 @@ std::vector<ExternalObservation> observations(const fs::path& scenario) {
     const SessionView view = session->view();
     ExternalObservation seen{.now = view.frame.t, .seen = view.frame.t};
     seen.swarm = {view.frame.pose, view.frame.radius};
-    for (const Body& body : view.bodies) seen.obstacles.push_back({.shape = extent_of(body)});
+    for (const Body& body : view.bodies) seen.obstacles.push_back({.shape = enclosing_disc(body)});
     all.push_back(std::move(seen));
   }
   return all;
@@ -101,7 +101,7 @@ void write(const fs::path& file, const std::vector<ExternalObservation>& all) {
     out << fmt::format("{} {} {} {} {}", seen.now, pose.position.x, pose.position.y, pose.heading,
                        seen.swarm->radius);
     for (const Body& body : seen.obstacles) {
-      const Disc disc = extent_of(body);
+      const Disc disc = enclosing_disc(body);
       out << fmt::format(" {} {} {}", disc.centre.x, disc.centre.y, disc.radius);
     }
     out << "\n";
@@ -126,7 +126,7 @@ void step_in_cpp(const fs::path& scenario, const std::vector<ExternalObservation
 ms_observation plain(const ExternalObservation& seen, std::vector<ms_obstacle>& obstacles) {
   obstacles.clear();
   for (const Body& body : seen.obstacles) {
-    const Disc disc = extent_of(body);
+    const Disc disc = enclosing_disc(body);
     obstacles.push_back({.x_um = disc.centre.x, .y_um = disc.centre.y, .radius_um = disc.radius});
   }
   const Pose2& pose = seen.swarm->pose;

@@ -34,7 +34,7 @@ double rate_of_all(std::size_t count, int repeats, Ask&& ask) {
 
 /// The same for an `ask` that answers one question.
 template <class Ask>
-double rate_of(std::size_t count, int repeats, Ask&& ask) {
+double call_rate(std::size_t count, int repeats, Ask&& ask) {
   return rate_of_all(count, repeats, [&] {
     std::size_t sum = 0;
     for (std::size_t i = 0; i < count; ++i) sum += ask(i);
@@ -62,38 +62,39 @@ std::vector<BenchRow> clearance_queries(bool quick) {
   const int repeats = quick ? 5 : 11;
   const std::size_t few = n / 200;
   const double one_by_one =
-      rate_of(n, repeats, [&](std::size_t i) { return world.is_free(positions[i], clearance); });
+      call_rate(n, repeats, [&](std::size_t i) { return world.is_free(positions[i], clearance); });
   std::vector<std::uint8_t> free(n);
-  return {{.name = "is the place free, clearance 40 µm",
-           .quantity = "queries per second",
-           .unit = "1/s",
-           .ours = one_by_one,
-           .peer = rate_of(few, repeats,
-                           [&](std::size_t i) { return raw.clearance(positions[i]) >= clearance; }),
-           .peer_name = "every shape in turn",
-           .at_most = false},
-          {.name = "are the places free, clearance 40 µm, all at once",
-           .quantity = "queries per second",
-           .unit = "1/s",
-           .ours = rate_of_all(n, repeats,
-                               [&] {
-                                 world.are_free(positions, clearance, free);
-                                 return std::size_t{free[n / 2]};
-                               }),
-           .peer = one_by_one,
-           .peer_name = "one by one",
-           .aim = 1e8,
-           .at_most = false},
-          {.name = "is the 40 µm edge free, clearance 40 µm, exact",
-           .quantity = "checks per second",
-           .unit = "1/s",
-           .ours = rate_of(n, repeats,
-                           [&](std::size_t i) { return world.is_free(edges[i], clearance); }),
-           .peer = ompl_motion_rate(world, clearance,
-                                    {edges.begin(), edges.begin() + static_cast<long>(n / 4)}),
-           .peer_name = "OMPL discrete, 1 %, our points",
-           .aim = 2.5e7,
-           .at_most = false}};
+  return {
+      {.name = "is the place free, clearance 40 µm",
+       .quantity = "queries per second",
+       .unit = "1/s",
+       .ours = one_by_one,
+       .peer = call_rate(few, repeats,
+                         [&](std::size_t i) { return raw.clearance(positions[i]) >= clearance; }),
+       .peer_name = "every shape in turn",
+       .at_most = false},
+      {.name = "are the places free, clearance 40 µm, all at once",
+       .quantity = "queries per second",
+       .unit = "1/s",
+       .ours = rate_of_all(n, repeats,
+                           [&] {
+                             world.are_free(positions, clearance, free);
+                             return std::size_t{free[n / 2]};
+                           }),
+       .peer = one_by_one,
+       .peer_name = "one by one",
+       .aim = 1e8,
+       .at_most = false},
+      {.name = "is the 40 µm edge free, clearance 40 µm, exact",
+       .quantity = "checks per second",
+       .unit = "1/s",
+       .ours =
+           call_rate(n, repeats, [&](std::size_t i) { return world.is_free(edges[i], clearance); }),
+       .peer = ompl_motion_rate(world, clearance,
+                                {edges.begin(), edges.begin() + static_cast<long>(n / 4)}),
+       .peer_name = "OMPL discrete, 1 %, our points",
+       .aim = 2.5e7,
+       .at_most = false}};
 }
 
 std::vector<BenchRow> map_loading(bool quick, const Stop& stop) {

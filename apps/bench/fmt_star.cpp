@@ -52,7 +52,7 @@ std::vector<BenchRow> fmt_star(const std::filesystem::path& scenarios, bool quic
                     .unit = unit,
                     .ours = mine,
                     .peer = theirs,
-                    .peer_name = std::string(name_of(OmplPlanner::fmt_star)),
+                    .peer_name = std::string(to_text(OmplPlanner::fmt_star)),
                     .aim = aim});
   };
   row("time, median", "ms", median(ms), median(their_ms), 2.0);

@@ -50,7 +50,7 @@ GatheringCase maze_task(const std::filesystem::path& folder, const Maze& maze, M
   task.goal = {box.lo.x + maze.column + 0.5, box.hi.y - maze.row - 0.5};
   Rng rng(1, Purpose::planner);
   task.params.scale = 0;
-  const double scale = scale_of(task.params, task.map, rng);
+  const double scale = published_scale(task.params, task.map, rng);
   if (rule == MoveRule::any_direction) {
     task.params.scale = scale;
     task.params = fitted(task.params, task.map, rng);
@@ -93,7 +93,7 @@ scenes::Vascular drawn_network() {
   graph.channels = {{0, 1},   {1, 2},  {2, 3},   {3, 4},   {4, 5},   {3, 7},   {7, 8},   {8, 2},
                     {8, 9},   {8, 10}, {10, 11}, {10, 12}, {12, 13}, {12, 14}, {14, 15}, {14, 16},
                     {10, 17}, {2, 18}, {5, 6},   {6, 3},   {6, 15},  {17, 9},  {9, 18}};
-  return {"drawn_network", graph.bounds, scenes::walls_of(graph), {93, 4.5}, 10'000, 2 * half};
+  return {"drawn_network", graph.bounds, scenes::graph_walls(graph), {93, 4.5}, 10'000, 2 * half};
 }
 
 GatheringCase scene_task(const std::string& name, const scenes::Vascular& scene) {

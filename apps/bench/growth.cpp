@@ -79,7 +79,7 @@ void Growth::add_to(std::vector<BenchRow>& rows) const {
 
 /// Median time of a call, in `unit` seconds.
 template <class Call>
-double time_of(int repeats, double unit, Call&& call) {
+double mean_time(int repeats, double unit, Call&& call) {
   std::vector<double> times;
   for (int k = 0; k < repeats; ++k) {
     const auto began = std::chrono::steady_clock::now();
@@ -114,7 +114,7 @@ Growth of_robots(bool quick, const Stop& stop) {
     const std::vector<Vec2> first(positions.begin(),
                                   positions.begin() + static_cast<std::ptrdiff_t>(n));
     Robots all = stepper.place(first);
-    const double ours = time_of(count, microsecond, [&](int k) {
+    const double ours = mean_time(count, microsecond, [&](int k) {
       stepper.step(all, moves[static_cast<std::size_t>(k)], ContactRule::slide);
     });
     growth.ours.emplace_back(n, ours);
@@ -152,7 +152,7 @@ Growth of_vertices(bool quick, const Stop& stop) {
   for (const int n : {1000, 4000, 16'000, 64'000}) {
     if (stop()) break;
     params.max_nodes = n;
-    const double ours = time_of(quick ? 1 : 5, millisecond, [&](int k) {
+    const double ours = mean_time(quick ? 1 : 5, millisecond, [&](int k) {
       Rng stream(1, Purpose::planner, static_cast<std::uint32_t>(k));
       plan(world, q.start, q.goal, params, stream);
     });
@@ -195,23 +195,23 @@ std::vector<Growth> of_shapes(bool quick, const Stop& stop) {
     const scenes::RawWorld raw = scenes::cluttered(rng, side);
     const auto count = static_cast<double>(raw.walls.size() + raw.discs.size());
     loads.ours.emplace_back(count,
-                            time_of(quick ? 1 : 5, millisecond, [&](int) { raw.snapshot(); }));
+                            mean_time(quick ? 1 : 5, millisecond, [&](int) { raw.snapshot(); }));
     const Snapshot world = raw.snapshot();
     std::vector<Vec2> asked(100'000);
     for (Vec2& p : asked) p = uniform_in(world.bounds(), rng);
     std::size_t sum = 0;
-    const double all = time_of(5, 1e-9, [&](int) {
+    const double all = mean_time(5, 1e-9, [&](int) {
       for (const Vec2 p : asked) sum += world.is_free(p, clearance) ? 1 : 0;
     });
     positions.ours.emplace_back(
         count, all / static_cast<double>(asked.size()) + 0 * static_cast<double>(sum));
-    const double naive = time_of(quick ? 20 : 200, 1e-9, [&](int k) {
+    const double naive = mean_time(quick ? 20 : 200, 1e-9, [&](int k) {
       sum += raw.clearance(asked[static_cast<std::size_t>(k)]) >= clearance ? 1 : 0;
     });
     positions.theirs.emplace_back(count, naive + 0 * static_cast<double>(sum));
     const std::vector<PathQuery> pairs = far_pairs(world, clearance, quick ? 5 : 20, rng);
     const auto ask = [&](const PlannerParams& params) {
-      return time_of(static_cast<int>(pairs.size()), millisecond, [&](int k) {
+      return mean_time(static_cast<int>(pairs.size()), millisecond, [&](int k) {
         const PathQuery& q = pairs[static_cast<std::size_t>(k)];
         plan(world, q.start, q.goal, params, rng);
       });

@@ -51,7 +51,7 @@ struct Watched {
   double bytes_a_frame = 0;
 };
 
-std::uint64_t number_of(const std::string& frame) {
+std::uint64_t frame_number(const std::string& frame) {
   return Json::from_cbor(frame)["number"].get<std::uint64_t>();
 }
 
@@ -77,7 +77,7 @@ Watched watch(const fs::path& scenarios, int watchers, double duration) {
   const double tick = open_session(file, settings)->scenario().tick;
   first.ask({{"do", "speed"}, {"number", tick * ticks_a_second}});
   first.ask({{"do", "play"}});
-  const std::uint64_t begin = number_of(first.next("frame"));
+  const std::uint64_t begin = frame_number(first.next("frame"));
 
   std::atomic<double> others = 0;  // CPU time of the clients
   std::atomic<std::uint64_t> bytes = 0, frames = 0, fewest = UINT64_MAX, end = begin;
@@ -96,7 +96,7 @@ Watched watch(const fs::path& scenarios, int watchers, double duration) {
     for (auto least = fewest.load();
          count < least && !fewest.compare_exchange_weak(least, count);) {
     }
-    end = number_of(last);
+    end = frame_number(last);
     others = others + cpu_time(RUSAGE_THREAD) - own;
   };
   {

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Output of a program; empty if it fails.
-std::string output_of(const std::string& command) {
+std::string run_command(const std::string& command) {
   std::string text;
   FILE* const pipe = ::popen(command.c_str(), "r");
   if (!pipe) return {};
@@ -30,8 +30,8 @@ std::vector<BenchRow> lab_in_browser(const fs::path& checkout, bool quick) {
   const fs::path bin = fs::read_symlink("/proc/self/exe").parent_path();
   const std::string text =
       fs::exists(script)
-          ? output_of(fmt::format("MICROSWARM='{}' node '{}' {}", (bin / "microswarm").string(),
-                                  script.string(), quick ? "--quick" : ""))
+          ? run_command(fmt::format("MICROSWARM='{}' node '{}' {}", (bin / "microswarm").string(),
+                                    script.string(), quick ? "--quick" : ""))
           : std::string();
   if (text.empty()) {
     std::fputs("note: no rows of a browser: Node.js, Chromium or web/node_modules are missing\n",

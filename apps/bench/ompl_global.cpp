@@ -99,7 +99,7 @@ class NoGoal : public ob::Goal {
   }
 };
 
-std::shared_ptr<ob::RealVectorStateSpace> space_of(const Map& map, std::size_t robots) {
+std::shared_ptr<ob::RealVectorStateSpace> make_space(const Map& map, std::size_t robots) {
   const auto dimension = static_cast<unsigned>(2 * robots);
   auto space = std::make_shared<ob::RealVectorStateSpace>(dimension);
   ob::RealVectorBounds bounds(dimension);
@@ -120,7 +120,7 @@ OmplGrowth grow_ompl(const Map& map, std::span<const Vec2> starts, const GlobalR
   const std::size_t n = starts.size();
   const RobotStepper stepper = input_stepper(map, params.robostep);
   std::size_t grown = 1;
-  const auto space = space_of(map, n);
+  const auto space = make_space(map, n);
   const auto controls = std::make_shared<oc::DiscreteControlSpace>(space, 0, params.directions - 1);
   auto si = std::make_shared<oc::SpaceInformation>(space, controls);
   si->setStateValidityChecker([](const ob::State*) { return true; });

@@ -108,7 +108,7 @@ ob::ScopedState<> state(const ob::SpaceInformationPtr& si, Vec2 p) {
 
 }  // namespace
 
-std::string_view name_of(OmplPlanner planner) {
+std::string_view to_text(OmplPlanner planner) {
   switch (planner) {
     case OmplPlanner::rrt_connect:
       return "OMPL RRTConnect";

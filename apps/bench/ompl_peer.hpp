@@ -12,7 +12,7 @@ namespace microswarm::bench {
 
 /// Planners of OMPL, their names, and OMPL's version.
 enum class OmplPlanner { rrt_connect, rrt_star, informed_rrt_star, bit_star, fmt_star };
-std::string_view name_of(OmplPlanner planner);
+std::string_view to_text(OmplPlanner planner);
 std::string ompl_version();
 
 /// Result of an OMPL planner.

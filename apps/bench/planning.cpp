@@ -92,7 +92,7 @@ std::vector<BenchRow> s_channel(const std::filesystem::path& scenarios, bool qui
                                       .range = usual.step},
                                      quick ? 20 : 100, stop);
       for (BenchRow& row : time_rows(fmt::format("{}, S-channel", name), ms, theirs,
-                                     std::string(name_of(peer)), median, p99))
+                                     std::string(to_text(peer)), median, p99))
         rows.push_back(std::move(row));
     }
   };

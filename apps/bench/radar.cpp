@@ -41,7 +41,7 @@ Body obstacle(Vec2 at, bool is_disc, std::uint32_t number, Rng& rng) {
 std::vector<Place> places(int obstacles, bool discs, int count, Rng& rng) {
   const double side = room_an_obstacle * std::sqrt(obstacles);
   const auto map = std::make_shared<const Map>(Box{{0, 0}, {side, side}}, std::vector<Polygon>{});
-  const RadarCircles circles = circles_of({}, swarm_radius);
+  const RadarCircles circles = make_circles({}, swarm_radius);
   std::vector<Place> all;
   for (int draw = 0; draw < 1000 * count && std::ssize(all) < count; ++draw) {
     std::vector<Body> bodies;
@@ -111,7 +111,7 @@ Observation observed(const Snapshot& world, Vec2 swarm, double now) {
           .world = borrowed(world)};
 }
 
-std::vector<BenchRow> rows_of(const std::string& name, const DecisionTimes& times, Aims aims) {
+std::vector<BenchRow> bench_rows(const std::string& name, const DecisionTimes& times, Aims aims) {
   std::vector<BenchRow> rows;
   for (const double q : {0.5, 0.99})
     rows.push_back({.name = name,
@@ -144,7 +144,7 @@ void add_rows(std::vector<BenchRow>& rows, const std::string& name, int obstacle
     if (navigator.last_look())
       sum += scan(*navigator.last_look(), *position.world, 360).weights.target;
   });
-  std::ranges::move(rows_of(name, measured, aims), std::back_inserter(rows));
+  std::ranges::move(bench_rows(name, measured, aims), std::back_inserter(rows));
   rows.back().ours += 0 * sum;
 }
 
@@ -194,7 +194,7 @@ std::vector<BenchRow> radar(bool quick, const Stop& stop) {
         {"guarded drive among 1000 moving discs", 1000, true, Aims{100, 100}},
         {"guarded drive among 12 moving boxes", 12, false, Aims{}},
         {"guarded drive among 1000 moving boxes", 1000, false, Aims{}}})
-    std::ranges::move(rows_of(name, drive(obstacles, discs, quick ? 10 : 50, stop), aims),
+    std::ranges::move(bench_rows(name, drive(obstacles, discs, quick ? 10 : 50, stop), aims),
                       std::back_inserter(rows));
   return rows;
 }

@@ -110,7 +110,7 @@ std::vector<BenchRow> efficiency(const fs::path& folder, const fs::path& scenari
 }
 
 /// Rows of all trials of a cell but the last one, as a trial gave them.
-std::vector<SweepRow> rows_of(const SweepPlan& plan, std::uint32_t cell, const SweepRow& like) {
+std::vector<SweepRow> sweep_rows(const SweepPlan& plan, std::uint32_t cell, const SweepRow& like) {
   std::vector<SweepRow> rows(static_cast<std::size_t>(plan.sweep.trials), like);
   for (std::size_t i = 0; i < rows.size(); ++i)
     rows[i].task = {cell, static_cast<std::uint32_t>(i)};
@@ -133,7 +133,7 @@ double plain_rate(const fs::path& file, const SweepPlan& plan, const SweepRow& l
   for (std::uint32_t cell = 0; cell < plan.cells.size(); ++cell) {
     SQLite::Transaction whole(database);
     SQLite::Statement insert(database, "INSERT INTO trials VALUES(" + places + ")");
-    for (const SweepRow& row : rows_of(plan, cell, like)) {
+    for (const SweepRow& row : sweep_rows(plan, cell, like)) {
       std::vector<SqlValue> values = task_values(plan, columns, row.task);
       values.insert(values.end(), row.values.begin(), row.values.end());
       for (std::size_t i = 0; i < values.size(); ++i)
@@ -158,7 +158,7 @@ double seconds_one_by_one(const SweepRow& row) {
       {.kind = SweepMessage::Kind::rows, .text = {}, .want = 1, .tasks = {}, .rows = {row}});
   std::size_t rows = 0;
   const auto began = Clock::now();
-  for (int i = 0; i < messages; ++i) rows += message_of(bytes).rows.size();
+  for (int i = 0; i < messages; ++i) rows += parse_message(bytes).rows.size();
   if (rows != messages) throw std::runtime_error("bench: a message lost its row");
   return seconds_since(began) / messages;
 }
@@ -172,14 +172,14 @@ std::vector<BenchRow> many_rows(const fs::path& folder, const fs::path& scenario
   double adding = 0, coding = 0;
   std::size_t count = 0;
   for (std::uint32_t cell = 0; cell < plan.cells.size() && !stop(); ++cell) {
-    const std::vector<SweepRow> rows = rows_of(plan, cell, like);
+    const std::vector<SweepRow> rows = sweep_rows(plan, cell, like);
     auto began = Clock::now();
     database.add(rows);
     adding += seconds_since(began);
     const std::string bytes = to_bytes(
         {.kind = SweepMessage::Kind::rows, .text = {}, .want = 1, .tasks = {}, .rows = rows});
     began = Clock::now();
-    if (message_of(bytes).rows.size() != rows.size())
+    if (parse_message(bytes).rows.size() != rows.size())
       throw std::runtime_error("bench: a message lost rows");
     coding += seconds_since(began);
     count += rows.size();

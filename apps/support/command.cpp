@@ -41,7 +41,7 @@ class HelpFormatter : public CLI::Formatter {
  public:
   explicit HelpFormatter(const Facts& facts) : facts_(&facts) {}
   std::string make_option_desc(const CLI::Option* option) const override {
-    return meaning_of(*option, *facts_);
+    return meaning(*option, *facts_);
   }
 
  private:
@@ -69,7 +69,7 @@ Check whole(std::uint64_t lo, std::uint64_t hi) {
   }};
 }
 
-Check one_of(const std::vector<std::string>& words) {
+Check any_word(const std::vector<std::string>& words) {
   return {[words](const std::string& text) -> std::string {
             if (std::find(words.begin(), words.end(), text) != words.end()) return {};
             return fmt::format("must be one of {}, not {}", fmt::join(words, ", "), quote(text));

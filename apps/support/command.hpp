@@ -28,7 +28,7 @@ Check number(double lo, double hi);
 /// An integer within lo..hi.
 Check whole(std::uint64_t lo, std::uint64_t hi);
 /// One of these `words`.
-Check one_of(const std::vector<std::string>& words);
+Check any_word(const std::vector<std::string>& words);
 /// A file name with one of these extensions, such as ".png".
 Check file_kind(const std::vector<std::string>& kinds);
 /// 2 … `most` numbers separated by commas; `form` describes the format.

@@ -33,14 +33,14 @@ struct Place {
       if (!option) return;
       given.insert(option);
       if (takes_value(*option) && word.find('=') == std::string::npos) wants = option;
-    } else if (const App* command = command_of(word)) {
+    } else if (const App* command = find_command(word)) {
       *this = {.at = command};
     } else {
       ++arguments;
     }
   }
 
-  const App* command_of(const std::string& word) const {
+  const App* find_command(const std::string& word) const {
     const auto found = at->get_subcommands([&](const App* c) { return c->check_name(word); });
     return found.empty() ? nullptr : found.front();
   }
@@ -77,7 +77,7 @@ Offer offered_options(const Place& place, const Facts& facts) {
   for (const CLI::Option* option : place.at->get_options()) {
     if (option->get_lnames().empty() || (place.given.contains(option) && !is_repeatable(*option)))
       continue;
-    offer.words.push_back({"--" + option->get_lnames().front(), meaning_of(*option, facts)});
+    offer.words.push_back({"--" + option->get_lnames().front(), meaning(*option, facts)});
   }
   return offer;
 }

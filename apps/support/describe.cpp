@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::vector<std::string> names_of(const CLI::Option& option) {
+std::vector<std::string> to_names(const CLI::Option& option) {
   std::vector<std::string> names;
   if (option.get_positional()) return {option.get_name(true)};
   for (const std::string& name : option.get_snames()) names.push_back("-" + name);
@@ -21,7 +21,7 @@ std::vector<std::string> names_of(const CLI::Option& option) {
   return names;
 }
 
-std::vector<std::string> names_of(const std::set<CLI::Option*>& options) {
+std::vector<std::string> to_names(const std::set<CLI::Option*>& options) {
   std::vector<std::string> names;
   names.reserve(options.size());
   for (const CLI::Option* option : options) names.push_back(option->get_name());
@@ -29,27 +29,27 @@ std::vector<std::string> names_of(const std::set<CLI::Option*>& options) {
   return names;
 }
 
-std::string default_of(const CLI::Option& option, const OptionFacts& facts) {
+std::string shown_default(const CLI::Option& option, const OptionFacts& facts) {
   if (option.get_required()) return "required";
   if (!takes_value(option)) return "off";
   return facts.default_text.empty() ? "none" : facts.default_text;
 }
 
 /// The name of an option's value, without the words behind it.
-std::string value_of(const CLI::Option& option) {
+std::string value_name(const CLI::Option& option) {
   const std::string name = option.get_type_name();
   return takes_value(option) ? name.substr(0, name.find(":{")) : "";
 }
 
-Json json_of(const CLI::Option& option, const OptionFacts& facts) {
-  return {{"names", names_of(option)},
-          {"value", value_of(option)},
+Json to_json(const CLI::Option& option, const OptionFacts& facts) {
+  return {{"names", to_names(option)},
+          {"value", value_name(option)},
           {"words", facts.words},
-          {"default", default_of(option, facts)},
+          {"default", shown_default(option, facts)},
           {"required", option.get_required()},
           {"repeatable", is_repeatable(option)},
-          {"needs", names_of(option.get_needs())},
-          {"excludes", names_of(option.get_excludes())},
+          {"needs", to_names(option.get_needs())},
+          {"excludes", to_names(option.get_excludes())},
           {"group", option.get_group()},
           {"doc", option.get_description()}};
 }
@@ -66,7 +66,7 @@ bool is_repeatable(const CLI::Option& option) {
   return option.get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll;
 }
 
-std::string meaning_of(const CLI::Option& option, const Facts& facts) {
+std::string meaning(const CLI::Option& option, const Facts& facts) {
   const auto found = facts.find(&option);
   const std::string value = found == facts.end() ? "" : found->second.default_text;
   return option.get_description() + (is_repeatable(option) ? " (repeatable)" : "") +
@@ -77,7 +77,7 @@ Json describe(const CLI::App& app, const Facts& facts) {
   Json arguments = Json::array(), options = Json::array(), commands = Json::array();
   for (const CLI::Option* option : app.get_options()) {
     const auto found = facts.find(option);
-    const Json json = json_of(*option, found == facts.end() ? OptionFacts{} : found->second);
+    const Json json = to_json(*option, found == facts.end() ? OptionFacts{} : found->second);
     (option->get_positional() ? arguments : options).push_back(json);
   }
   for (const CLI::App* command : listed_commands(app))

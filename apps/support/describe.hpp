@@ -18,7 +18,7 @@ bool takes_value(const CLI::Option& option);
 bool is_repeatable(const CLI::Option& option);
 
 /// Meaning of an option, as in the help: its doc, repetition and default.
-std::string meaning_of(const CLI::Option& option, const Facts& facts);
+std::string meaning(const CLI::Option& option, const Facts& facts);
 
 /// Begins the last part of a command's help.
 inline constexpr const char* example_head = "Example:\n";

@@ -63,7 +63,7 @@ std::string_view cut(std::string_view text, std::size_t columns) {
 
 }  // namespace
 
-std::size_t columns_of(std::string_view text) {
+std::size_t to_columns(std::string_view text) {
   std::size_t columns = 0;
   for (std::size_t i = 0; i < text.size();) columns += next_character(text, i);
   return columns;

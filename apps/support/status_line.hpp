@@ -10,7 +10,7 @@
 namespace microswarm::cli {
 
 /// Width of a text on a terminal [columns].
-std::size_t columns_of(std::string_view text);
+std::size_t to_columns(std::string_view text);
 
 /// A line at the end of stderr that is updated in place, on a terminal only. Output of say() and
 /// note() appears above it. Of several lines, the last one shown is visible.

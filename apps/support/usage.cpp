@@ -14,13 +14,13 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-Names commands_of(const CLI::App& app) {
+Names command_names(const CLI::App& app) {
   Names names;
   for (const CLI::App* command : listed_commands(app)) names.push_back(command->get_name());
   return names;
 }
 
-Names options_of(const CLI::App& app) {
+Names option_names(const CLI::App& app) {
   Names names;
   for (const CLI::Option* option : app.get_options())
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
@@ -36,11 +36,11 @@ std::string nearest(const std::string& word, const Names& names) {
 std::string stray(const CLI::App& app, const std::string& word) {
   if (word.starts_with('-')) {
     const std::string name = word.substr(0, word.find('='));
-    const std::string meant = nearest(name, options_of(app));
+    const std::string meant = nearest(name, option_names(app));
     return "unknown option " + quote(name) +
            (meant.empty() ? "" : ", did you mean '" + meant + "'?");
   }
-  const Names commands = commands_of(app);
+  const Names commands = command_names(app);
   if (commands.empty()) return "unexpected argument " + quote(word);
   const std::string meant = nearest(word, commands);
   return "unknown command " + quote(word) +
@@ -49,7 +49,7 @@ std::string stray(const CLI::App& app, const std::string& word) {
 }
 
 std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error) {
-  const Names commands = commands_of(app);
+  const Names commands = command_names(app);
   if (!commands.empty() && app.get_subcommands().empty())
     return fmt::format("a command is missing, there are: {}", fmt::join(commands, ", "));
   return one_line(error.what());

@@ -12,7 +12,7 @@ namespace {
 
 /// The columns of a frame, and the same for C.
 struct FrameColumns {
-  std::vector<Column> columns = columns_of<Frame>();
+  std::vector<Column> columns = to_columns<Frame>();
   std::vector<std::vector<const char*>> words{};
   std::vector<ms_column> shown{};
 
@@ -55,7 +55,7 @@ const Column& column_named(std::string_view name) {
                    (near.empty() ? "" : ", did you mean " + quote(near) + "?"));
 }
 
-double value_of(const Column& column, const Frame& frame) {
+double column_value(const Column& column, const Frame& frame) {
   if (column.kind != ColumnKind::word) return column.number(&frame);
   const std::vector<std::string_view>& words = column.type().words;
   const auto found = std::ranges::find(words, column.word(&frame));
@@ -85,7 +85,7 @@ int32_t ms_session_column(uint64_t handle, const char* name, const double** valu
     const Column& column = column_named(name);
     object.numbers.clear();
     for (const Frame& frame : session.record().frames)
-      object.numbers.push_back(value_of(column, frame));
+      object.numbers.push_back(column_value(column, frame));
     return show_numbers(object, values, count);
   });
 }
@@ -96,7 +96,7 @@ int32_t ms_session_values(uint64_t handle, const double** values, size_t* count)
     const Frame frame = object.frame ? *object.frame : session.view().frame;
     object.numbers.clear();
     for (const Column& column : frame_columns().columns)
-      object.numbers.push_back(value_of(column, frame));
+      object.numbers.push_back(column_value(column, frame));
     return show_numbers(object, values, count);
   });
 }

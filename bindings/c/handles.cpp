@@ -96,7 +96,7 @@ std::int32_t guarded(const std::function<std::int32_t()>& work) noexcept {
   }
 }
 
-Settings settings_of(const char* const* texts, std::size_t count) {
+Settings to_settings(const char* const* texts, std::size_t count) {
   std::vector<std::string> all;
   if (count > 0) require(texts, "settings");
   constexpr std::size_t most = 100'000;
@@ -109,14 +109,15 @@ Settings settings_of(const char* const* texts, std::size_t count) {
   return {all, ""};
 }
 
-std::int32_t show(Object& object, std::span<const Vec2> places, const double** xy,
+std::int32_t show(Object& object, std::span<const Vec2> positions, const double** xy,
                   std::size_t* count) {
   require(xy, "xy_um"), require(count, "count");
   object.numbers.clear();
-  object.numbers.reserve(2 * places.size());
-  for (const Vec2& place : places) object.numbers.insert(object.numbers.end(), {place.x, place.y});
-  *xy = places.empty() ? nullptr : object.numbers.data();
-  *count = places.size();
+  object.numbers.reserve(2 * positions.size());
+  for (const Vec2& position : positions)
+    object.numbers.insert(object.numbers.end(), {position.x, position.y});
+  *xy = positions.empty() ? nullptr : object.numbers.data();
+  *count = positions.size();
   return MS_OK;
 }
 
@@ -132,8 +133,8 @@ size_t ms_issue_count(void) { return c::failure().issues.size(); }
 int32_t ms_issue_at(size_t i, ms_issue* issue) {
   if (!issue || i >= ms_issue_count()) return MS_BAD_CALL;
   const Issue& one = c::failure().issues[i];
-  *issue = {one.keys.empty() ? "" : one.keys.front().c_str(), one.place.c_str(), one.text.c_str(),
-            one.value.c_str(), one.limit.c_str()};
+  *issue = {one.keys.empty() ? "" : one.keys.front().c_str(), one.location.c_str(),
+            one.text.c_str(), one.value.c_str(), one.limit.c_str()};
   return MS_OK;
 }
 

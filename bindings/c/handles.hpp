@@ -63,9 +63,9 @@ inline void require(const void* pointer, const char* name) {
   if (!pointer) throw BadCall{std::string(name) + " is null"};
 }
 
-/// The settings KEY=VALUE of an array; throws BadCall for a null one. The place of a mistake is its
-/// key alone.
-Settings settings_of(const char* const* texts, std::size_t count);
+/// The settings KEY=VALUE of an array; throws BadCall for a null one. The location of a mistake is
+/// its key alone.
+Settings to_settings(const char* const* texts, std::size_t count);
 
 /// Calls `work` with the object of a handle, if it has the `part` and no other thread uses it.
 template <class Part, class Work>
@@ -95,7 +95,7 @@ std::int32_t with_map(std::uint64_t handle, Work&& work) noexcept {
 }
 
 /// Returns positions as x0, y0, x1, ... in the object's buffer.
-std::int32_t show(Object& object, std::span<const Vec2> places, const double** xy,
+std::int32_t show(Object& object, std::span<const Vec2> positions, const double** xy,
                   std::size_t* count);
 
 inline constexpr double not_there = std::numeric_limits<double>::quiet_NaN();

@@ -48,9 +48,9 @@ int32_t ms_map_bounds(uint64_t handle, double* x_lo, double* y_lo, double* x_hi,
 int32_t ms_map_clearance(uint64_t handle, double x_um, double y_um, double* clearance_um) {
   return c::with_map(handle, [&](c::OpenMap& map, c::Object&) -> int32_t {
     c::require(clearance_um, "clearance_um");
-    const Vec2 place{x_um, y_um};
-    if (!is_finite(place)) throw InputError("the place is not finite");
-    *clearance_um = map.world.clearance(place);
+    const Vec2 position{x_um, y_um};
+    if (!is_finite(position)) throw InputError("the place is not finite");
+    *clearance_um = map.world.clearance(position);
     return MS_OK;
   });
 }
@@ -62,7 +62,7 @@ int32_t ms_plan(uint64_t handle, const ms_query* query, ms_path* path) {
         answer(map.world,
                {.start = {{query->start_x_um, query->start_y_um}, query->start_heading_rad},
                 .goal = {query->goal_x_um, query->goal_y_um},
-                .settings = c::settings_of(query->settings, query->setting_count),
+                .settings = c::to_settings(query->settings, query->setting_count),
                 .seed = query->seed},
                map.name, Stop(&object.stops));
     object.why = made.why_none();

@@ -23,17 +23,16 @@ std::unique_ptr<c::Object> of(std::unique_ptr<StandaloneNavigator> navigator) {
   return object;
 }
 
-Experiment experiment_of(const char* text, const char* folder, const char* const* settings,
-                         std::size_t count) {
+Experiment open_given(const char* text, const char* folder, const char* const* settings,
+                      std::size_t count) {
   c::require(text, "text");
   return open_experiment_text(text, "scenario", folder ? folder : "",
-                              c::settings_of(settings, count));
+                              c::to_settings(settings, count));
 }
 
-Experiment experiment_of(const ms_scenario& given) {
-  if (given.text)
-    return experiment_of(given.text, given.folder, given.settings, given.setting_count);
-  return open_experiment(given.file, c::settings_of(given.settings, given.setting_count));
+Experiment open_given(const ms_scenario& given) {
+  if (given.text) return open_given(given.text, given.folder, given.settings, given.setting_count);
+  return open_experiment(given.file, c::to_settings(given.settings, given.setting_count));
 }
 
 void require_one_source(const ms_scenario* given) {
@@ -62,7 +61,7 @@ ms_frame frame_for_c(const Frame& frame) {
 }
 
 /// Positions x0, y0, x1, ... of a caller.
-std::vector<Vec2> places(const double* xy, std::size_t count, const char* name) {
+std::vector<Vec2> positions(const double* xy, std::size_t count, const char* name) {
   if (count > 0) c::require(xy, name);
   constexpr std::size_t most = 10'000'000;
   if (count > most) throw InputError(std::string(name) + " has more than 1e7 places");
@@ -72,7 +71,7 @@ std::vector<Vec2> places(const double* xy, std::size_t count, const char* name) 
   return all;
 }
 
-ExternalObservation observation_of(const ms_observation& seen) {
+ExternalObservation to_observation(const ms_observation& seen) {
   ExternalObservation given{
       .now = seen.now_s, .seen = seen.seen_s, .are_numbered = seen.numbered != 0};
   if (seen.has_swarm) given.swarm = {{{seen.x_um, seen.y_um}, seen.heading_rad}, seen.radius_um};
@@ -84,10 +83,11 @@ ExternalObservation observation_of(const ms_observation& seen) {
                        ", must be 0 or more");
     Body body{.shape = Disc{{one.x_um, one.y_um}, one.radius_um},
               .obstacle = static_cast<std::uint32_t>(one.number)};
-    if (one.outline_um) body.shape = Polygon{places(one.outline_um, one.points, "outline_um"), {}};
+    if (one.outline_um)
+      body.shape = Polygon{positions(one.outline_um, one.points, "outline_um"), {}};
     given.obstacles.push_back(std::move(body));
   }
-  given.robots = places(seen.robots_um, seen.robot_count, "robots_um");
+  given.robots = positions(seen.robots_um, seen.robot_count, "robots_um");
   given.unseen = seen.unseen;
   return given;
 }
@@ -98,7 +98,7 @@ int32_t ms_session_open(const char* file, const char* const* settings, size_t co
                         uint64_t* session) {
   return c::guarded([&]() -> int32_t {
     c::require(file, "file"), c::require(session, "session");
-    *session = c::keep(of(open_session(file, c::settings_of(settings, count))));
+    *session = c::keep(of(open_session(file, c::to_settings(settings, count))));
     return MS_OK;
   });
 }
@@ -107,7 +107,7 @@ int32_t ms_session_open_text(const char* text, const char* folder, const char* c
                              size_t count, uint64_t* session) {
   return c::guarded([&]() -> int32_t {
     c::require(session, "session");
-    *session = c::keep(of(std::make_unique<Session>(experiment_of(text, folder, settings, count))));
+    *session = c::keep(of(std::make_unique<Session>(open_given(text, folder, settings, count))));
     return MS_OK;
   });
 }
@@ -117,10 +117,10 @@ int32_t ms_session_open_trial(const ms_scenario* scenario, uint64_t* session) {
     require_one_source(scenario), c::require(session, "session");
     if (scenario->file)
       *session = c::keep(of(
-          open_session(scenario->file, c::settings_of(scenario->settings, scenario->setting_count),
+          open_session(scenario->file, c::to_settings(scenario->settings, scenario->setting_count),
                        {.trial = scenario->trial})));
     else
-      *session = c::keep(of(std::make_unique<Session>(experiment_of(*scenario),
+      *session = c::keep(of(std::make_unique<Session>(open_given(*scenario),
                                                       SessionParts{.trial = scenario->trial})));
     return MS_OK;
   });
@@ -205,7 +205,7 @@ int32_t ms_session_obstacles(uint64_t handle, const double** xyr_um, size_t* cou
     c::require(xyr_um, "xyr_um"), c::require(count, "count");
     object.numbers.clear();
     for (const Body& body : session.view().bodies) {
-      const Disc disc = extent_of(body);
+      const Disc disc = enclosing_disc(body);
       object.numbers.insert(object.numbers.end(), {disc.centre.x, disc.centre.y, disc.radius});
     }
     *count = object.numbers.size() / 3;
@@ -248,7 +248,7 @@ int32_t ms_navigator_open(const char* file, const char* const* settings, size_t 
   return c::guarded([&]() -> int32_t {
     c::require(file, "file"), c::require(navigator, "navigator");
     *navigator = c::keep(of(std::make_unique<StandaloneNavigator>(
-        open_experiment(file, c::settings_of(settings, count)))));
+        open_experiment(file, c::to_settings(settings, count)))));
     return MS_OK;
   });
 }
@@ -258,7 +258,7 @@ int32_t ms_navigator_open_text(const char* text, const char* folder, const char*
   return c::guarded([&]() -> int32_t {
     c::require(navigator, "navigator");
     *navigator = c::keep(
-        of(std::make_unique<StandaloneNavigator>(experiment_of(text, folder, settings, count))));
+        of(std::make_unique<StandaloneNavigator>(open_given(text, folder, settings, count))));
     return MS_OK;
   });
 }
@@ -266,8 +266,8 @@ int32_t ms_navigator_open_text(const char* text, const char* folder, const char*
 int32_t ms_navigator_open_trial(const ms_scenario* scenario, uint64_t* navigator) {
   return c::guarded([&]() -> int32_t {
     require_one_source(scenario), c::require(navigator, "navigator");
-    *navigator = c::keep(
-        of(std::make_unique<StandaloneNavigator>(experiment_of(*scenario), scenario->trial)));
+    *navigator =
+        c::keep(of(std::make_unique<StandaloneNavigator>(open_given(*scenario), scenario->trial)));
     return MS_OK;
   });
 }
@@ -276,7 +276,7 @@ int32_t ms_navigator_step(uint64_t handle, const ms_observation* seen, ms_comman
   return c::with_navigator(
       handle, [&](StandaloneNavigator& navigator, c::Object& object) -> int32_t {
         c::require(seen, "seen"), c::require(command, "command");
-        const Command made = navigator.step(observation_of(*seen), Stop(&object.stops));
+        const Command made = navigator.step(to_observation(*seen), Stop(&object.stops));
         const NavigatorView view = navigator.view();
         *command = {.heading_rad = made.heading,
                     .speed_um_per_s = made.speed,

@@ -53,7 +53,7 @@ namespace py = pybind11;
 
 /// Settings from a caller; the place of a mistake in them is the key alone.
 using Given = std::vector<Setting>;
-inline Settings settings_of(Given given) { return {std::move(given), ""}; }
+inline Settings to_settings(Given given) { return {std::move(given), ""}; }
 
 /// Rows of numbers from a caller, contiguous or not, of any numeric type.
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
@@ -158,7 +158,7 @@ void warn(const Notes& notes);
 /// Positions from an array of shape (n, 2). Throws InputError for another shape.
 std::vector<Vec2> places(const Numbers& array, const char* name);
 /// Array of shape (n, 2) from positions.
-py::array_t<double> array_of(std::span<const Vec2> positions);
+py::array_t<double> to_array(std::span<const Vec2> positions);
 
 /// Adds the parts of the module.
 void add_coils(py::module_& module);

@@ -87,11 +87,11 @@ py::array_t<double> each_row(const Coils& coils, const Numbers& given, py::ssize
   return made;
 }
 
-py::ssize_t count_of(const Coils& coils) { return static_cast<py::ssize_t>(coils.system.size()); }
+py::ssize_t row_count(const Coils& coils) { return static_cast<py::ssize_t>(coils.system.size()); }
 
 py::array_t<double> currents_of_fields(const Coils& coils, const Numbers& fields,
                                        const Numbers& at) {
-  return each_row(coils, fields, 3, "fields_mt", at, count_of(coils),
+  return each_row(coils, fields, 3, "fields_mt", at, row_count(coils),
                   [](const Row& field, const Actuation& actuation, Out& out) {
                     out = currents_for(actuation, field).currents;
                   });
@@ -99,31 +99,31 @@ py::array_t<double> currents_of_fields(const Coils& coils, const Numbers& fields
 
 py::array_t<double> fields_of_currents(const Coils& coils, const Numbers& currents,
                                        const Numbers& at) {
-  return each_row(coils, currents, count_of(coils), "currents_a", at, 3,
+  return each_row(coils, currents, row_count(coils), "currents_a", at, 3,
                   [](const Row& amperes, const Actuation& actuation, Out& out) {
-                    out = actuation.field_of(amperes);
+                    out = actuation.total_field(amperes);
                   });
 }
 
 /// ∂B_i/∂x_j for each row [T/m].
 py::array_t<double> gradients_of_currents(const Coils& coils, const Numbers& currents,
                                           const Numbers& at) {
-  return each_row(coils, currents, count_of(coils), "currents_a", at, 9,
+  return each_row(coils, currents, row_count(coils), "currents_a", at, 9,
                   [](const Row& amperes, const Actuation& actuation, Out& out) {
                     const Eigen::Matrix3d slope =
-                        actuation.gradient_of(amperes) / mt_per_um_of_t_per_m;
+                        actuation.total_gradient(amperes) / mt_per_um_of_t_per_m;
                     for (Eigen::Index i = 0; i < 9; ++i) out[i] = slope(i / 3, i % 3);
                   });
 }
 
 py::array_t<double> allowed_shares(const Coils& coils, const Numbers& currents) {
-  check_columns(currents, count_of(coils), "currents_a");
+  check_columns(currents, row_count(coils), "currents_a");
   py::array_t<double> made(currents.shape(0));
   const double* in = currents.data();
   double* out = made.mutable_data();
   const Amplifiers amplifiers(coils.system.amplifiers());
   for_rows(currents.shape(0), [&](py::ssize_t i) {
-    out[i] = amplifiers.steady(Row(in + count_of(coils) * i, count_of(coils))).scale;
+    out[i] = amplifiers.steady(Row(in + row_count(coils) * i, row_count(coils))).scale;
   });
   return made;
 }
@@ -142,7 +142,7 @@ py::array_t<double> array_of_rows(const std::vector<Eigen::Vector3d>& rows) {
   return array;
 }
 
-FieldMeasurements measurements_of(const Numbers& currents, const Numbers& fields,
+FieldMeasurements to_measurements(const Numbers& currents, const Numbers& fields,
                                   const Numbers& positions, const std::vector<std::string>& names) {
   const auto coils = static_cast<py::ssize_t>(names.size());
   check_columns(currents, coils, "currents_a");
@@ -212,7 +212,7 @@ void add_coils(py::module_& module) {
                   [](const Numbers& currents, const Numbers& fields, const Numbers& positions,
                      const std::vector<std::string>& names, const std::string& name, bool offset,
                      bool gradients, const Centre& centre) {
-                    return fit(measurements_of(currents, fields, positions, names), name, offset,
+                    return fit(to_measurements(currents, fields, positions, names), name, offset,
                                gradients, centre);
                   })
       .def_static("of_file",

@@ -15,9 +15,9 @@ namespace microswarm::python {
 namespace {
 
 template <class Rules>
-Rules rules_of(const Given& settings) {
+Rules to_rules(const Given& settings) {
   Rules rules;
-  warn(set_values(rules, settings_of(settings)));
+  warn(set_values(rules, to_settings(settings)));
   return rules;
 }
 
@@ -58,7 +58,7 @@ std::unique_ptr<Guarded<Gathering>> open_gathering(
     const std::optional<std::array<int, 2>>& goal, const Given& settings, std::size_t count,
     int threads) {
   if (free.ndim() != 2) throw InputError("a maze must have 2 dimensions");
-  const auto rules = rules_of<GatheringRules>(settings);
+  const auto rules = to_rules<GatheringRules>(settings);
   std::optional<MazePlace> place;
   if (goal) place = {.row = (*goal)[1], .column = (*goal)[0]};
   const auto height = static_cast<std::size_t>(free.shape(0));
@@ -75,7 +75,7 @@ std::unique_ptr<Guarded<Gathering>> open_gathering(
 std::unique_ptr<Guarded<Navigation>> open_navigation(const ScenarioText& scenario,
                                                      const Given& settings, std::size_t count,
                                                      int threads) {
-  const auto rules = rules_of<NavigationRules>(settings);
+  const auto rules = to_rules<NavigationRules>(settings);
   auto made = interruptible([&](const Stop&) {
     NavigationTask task(scenario.open(), rules);
     const std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(task.observation_size())};
@@ -84,13 +84,13 @@ std::unique_ptr<Guarded<Navigation>> open_navigation(const ScenarioText& scenari
   return std::make_unique<Guarded<Navigation>>(std::move(made), "environment");
 }
 
-std::size_t action_of(const Gathering&, std::uint8_t action) {
+std::size_t to_action(const Gathering&, std::uint8_t action) {
   if (action >= GatheringMaze::moves.size()) throw InputError("an action must be 0 to 7");
   return action;
 }
 
 /// Action from a heading [rad] and a share of the maximum speed.
-NavigationAction action_of(const Navigation& all, double heading, double share) {
+NavigationAction to_action(const Navigation& all, double heading, double share) {
   if (!std::isfinite(heading) || !(share >= 0 && share <= 1))
     throw InputError("an action must be a finite heading_rad and a share of the speed from 0 to 1");
   return {heading, share * all.task->max_speed()};
@@ -219,7 +219,7 @@ void add_gathering(py::module_& module) {
       .def("step_one",
            [](Guarded<Gathering>& open, std::uint8_t action) {
              return open.use([&](Gathering& all) {
-               return step_one(all, all.batch.episode(0).step(action_of(all, action)));
+               return step_one(all, all.batch.episode(0).step(to_action(all, action)));
              });
            })
       .def("step",
@@ -230,7 +230,7 @@ void add_gathering(py::module_& module) {
                                                          static_cast<std::size_t>(actions.size())};
                if (given.size() != all.batch.count())
                  throw InputError("there must be an action for each environment");
-               for (const std::uint8_t action : given) action_of(all, action);
+               for (const std::uint8_t action : given) to_action(all, action);
                return step_all(all, copy, [&](std::size_t i) { return std::size_t{given[i]}; });
              });
            })
@@ -256,7 +256,7 @@ void add_navigation(py::module_& module) {
       .def("step_one",
            [](Guarded<Navigation>& open, double heading, double share) {
              return open.use([&](Navigation& all) {
-               return step_one(all, all.batch.episode(0).step(action_of(all, heading, share)));
+               return step_one(all, all.batch.episode(0).step(to_action(all, heading, share)));
              });
            })
       .def("step",
@@ -270,7 +270,7 @@ void add_navigation(py::module_& module) {
                given.reserve(count);
                const double* numbers = actions.data();
                for (std::size_t i = 0; i < count; ++i, numbers += 2)
-                 given.push_back(action_of(all, numbers[0], numbers[1]));
+                 given.push_back(to_action(all, numbers[0], numbers[1]));
                return step_all(all, copy, [&](std::size_t i) { return given[i]; });
              });
            })

@@ -18,13 +18,13 @@ py::tuple gather(const NamedMap& map, const std::array<double, 2>& goal, int rob
                           .starts = places(starts, "robots_um"),
                           .channel_width = channel_width,
                           .max_steps = max_steps,
-                          .settings = settings_of(settings),
+                          .settings = to_settings(settings),
                           .seed = seed};
   Notes notes;
   std::vector<std::string> unmet;
   double tick = 0;
   auto session = interruptible([&](const Stop&) {
-    GatherExperiment made = open_gathering(parts_of(map.map()), map.spec, query, map.name);
+    GatherExperiment made = open_gathering(to_parts(map.map()), map.spec, query, map.name);
     notes = made.notes;
     tick = made.experiment.scenario().tick;
     unmet = unmet_assumptions(made.experiment.scenario(), *made.experiment.world.map);

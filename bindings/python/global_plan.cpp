@@ -12,7 +12,7 @@ py::dict global_plan(const NamedMap& map, const Numbers& starts, const Numbers& 
                      std::optional<double> time_limit) {
   const GlobalQuery query{.starts = places(starts, "robots_um"),
                           .goals = places(goals, "goals_um"),
-                          .settings = settings_of(settings),
+                          .settings = to_settings(settings),
                           .seed = seed,
                           .shorten = shorten};
   std::optional<Stop::Clock::duration> budget;
@@ -34,7 +34,7 @@ py::dict global_plan(const NamedMap& map, const Numbers& starts, const Numbers& 
   py::dict answer;
   answer["status"] = std::string(to_string(made.plan.status));
   answer["why_none"] = made.why_none();
-  answer["inputs_um"] = array_of(made.plan.inputs);
+  answer["inputs_um"] = to_array(made.plan.inputs);
   answer["paths_um"] = paths;
   answer["worst_um"] = made.plan.worst;
   answer["inputs_found"] = made.inputs_found;

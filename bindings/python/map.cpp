@@ -48,10 +48,10 @@ NamedMap from_pixels(const py::array_t<std::uint8_t, py::array::c_style>& pixels
 
 py::list outlines(const NamedMap& map) {
   py::list all;
-  for (const Polygon& wall : parts_of(map.map()).walls) {
+  for (const Polygon& wall : to_parts(map.map()).walls) {
     py::list rings;
-    rings.append(array_of(wall.outer));
-    for (const auto& hole : wall.holes) rings.append(array_of(hole));
+    rings.append(to_array(wall.outer));
+    for (const auto& hole : wall.holes) rings.append(to_array(hole));
     all.append(rings);
   }
   return all;
@@ -59,7 +59,7 @@ py::list outlines(const NamedMap& map) {
 
 py::array_t<double> discs(const NamedMap& map) {
   std::vector<double> numbers;
-  for (const Disc& disc : parts_of(map.map()).discs)
+  for (const Disc& disc : to_parts(map.map()).discs)
     numbers.insert(numbers.end(), {disc.centre.x, disc.centre.y, disc.radius});
   py::array_t<double> array({static_cast<py::ssize_t>(numbers.size() / 3), py::ssize_t{3}});
   std::ranges::copy(numbers, array.mutable_data());
@@ -109,14 +109,14 @@ py::array_t<bool> are_free(const NamedMap& map, const Numbers& array, double cle
   return found;
 }
 
-py::dict plan_of(const NamedMap& map, const std::vector<double>& start,
-                 const std::vector<double>& goal, const Given& settings, std::uint64_t seed) {
+py::dict plan_path(const NamedMap& map, const std::vector<double>& start,
+                   const std::vector<double>& goal, const Given& settings, std::uint64_t seed) {
   if (start.size() != 2 && start.size() != 3)
     throw InputError("start must be (x_um, y_um) or (x_um, y_um, heading_rad)");
   if (goal.size() != 2) throw InputError("goal must be (x_um, y_um)");
   const PathQuery query{.start = {{start[0], start[1]}, start.size() > 2 ? start[2] : 0},
                         .goal = {goal[0], goal[1]},
-                        .settings = settings_of(settings),
+                        .settings = to_settings(settings),
                         .seed = seed};
   const auto kept = std::make_shared<const PathAnswer>(
       interruptible([&](const Stop& stop) { return answer(map.world, query, map.name, stop); }));
@@ -132,18 +132,19 @@ py::dict plan_of(const NamedMap& map, const std::vector<double>& start,
   }
   py::dict out;
   out["status"] = std::string(to_string(made.plan.status));
-  out["path_um"] = array_of(made.plan.path);
+  out["path_um"] = to_array(made.plan.path);
   out["length_um"] = path_length(made.plan);
   out["turning_rad"] = path_turning(made.plan.path, query.start.heading);
   out["time_s"] = made.seconds;
   out["why_none"] = made.why_none();
   out["planner"] = planner_json(made.planner);
-  out["tree_um"] = array_of(nodes);
+  out["tree_um"] = to_array(nodes);
   out["parents"] = parents;
   out["draw"] = py::cpp_function([kept, map, from = query.start.position,
                                   to = query.goal](const std::optional<std::string>& file) {
     return drawn(file, [&] {
-      return draw_plan(map.map(), kept->plan, from, {to, limits_of(kept->planner).goal_tolerance},
+      return draw_plan(map.map(), kept->plan, from,
+                       {to, swarm_limits(kept->planner).goal_tolerance},
                        std::string(to_string(kept->plan.status)) + ", " +
                            std::to_string(std::lround(path_length(kept->plan))) + " µm");
     });
@@ -165,7 +166,7 @@ void add_map(py::module_& module) {
       .def("discs", discs)
       .def("clearance", clearance)
       .def("are_free", are_free)
-      .def("plan", plan_of)
+      .def("plan", plan_path)
       .def("draw",
            [](const NamedMap& map, const std::optional<std::string>& file) {
              return drawn(file, [&] {

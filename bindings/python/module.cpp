@@ -51,7 +51,7 @@ void raise_input_error(const InputError& error) {
   py::list issues;
   for (const Issue& one : error.issues())
     issues.append(errors.attr("Issue")(python_text(one.keys.empty() ? "" : one.keys.front()),
-                                       python_text(one.place), python_text(one.text),
+                                       python_text(one.location), python_text(one.text),
                                        python_text(one.value), python_text(one.limit)));
   const py::object type = errors.attr("InputError");
   PyErr_SetObject(type.ptr(), type(python_text(error.what()), issues).ptr());
@@ -71,7 +71,7 @@ std::vector<Vec2> places(const Numbers& array, const char* name) {
   return all;
 }
 
-py::array_t<double> array_of(std::span<const Vec2> positions) {
+py::array_t<double> to_array(std::span<const Vec2> positions) {
   py::array_t<double> array({static_cast<py::ssize_t>(positions.size()), py::ssize_t{2}});
   double* numbers = array.mutable_data();
   for (const Vec2& position : positions) {

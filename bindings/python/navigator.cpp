@@ -22,7 +22,7 @@ class OpenNavigator : public Guarded<StandaloneNavigator> {
 constexpr const char* no_numbers =
     "t, seen and unseen must be numbers, obstacles and robots arrays of numbers";
 
-double number_of(py::handle value, const char* why = no_numbers) {
+double to_number(py::handle value, const char* why = no_numbers) {
   const double number = PyFloat_AsDouble(value.ptr());
   if (number == -1 && PyErr_Occurred()) {
     PyErr_Clear();
@@ -32,30 +32,30 @@ double number_of(py::handle value, const char* why = no_numbers) {
 }
 
 /// Converts to an array of doubles; the caller's own if it is one already.
-Numbers doubles_of(py::handle value) {
+Numbers to_doubles(py::handle value) {
   if (Numbers::check_(value)) return py::reinterpret_borrow<Numbers>(value);
   Numbers made = Numbers::ensure(value);
   if (!made) throw InputError(no_numbers);
   return made;
 }
 
-SwarmPose swarm_of(py::handle value) {
+SwarmPose to_swarm(py::handle value) {
   constexpr const char* why = "swarm must be (x_um, y_um, heading_rad, radius_um)";
   const auto items = py::reinterpret_steal<py::object>(PySequence_Fast(value.ptr(), why));
   if (!items) PyErr_Clear();
   if (!items || PySequence_Fast_GET_SIZE(items.ptr()) != 4) throw InputError(why);
   std::array<double, 4> v{};
   for (std::size_t i = 0; i < 4; ++i)
-    v[i] = number_of(PySequence_Fast_GET_ITEM(items.ptr(), static_cast<py::ssize_t>(i)), why);
+    v[i] = to_number(PySequence_Fast_GET_ITEM(items.ptr(), static_cast<py::ssize_t>(i)), why);
   return {{{v[0], v[1]}, v[2]}, v[3]};
 }
 
 /// Obstacles from a caller: rows x, y, radius, or outlines of shape (n, 2).
-std::vector<Body> bodies_of(py::handle obstacles) {
+std::vector<Body> to_bodies(py::handle obstacles) {
   std::vector<Body> bodies;
   if (obstacles.is_none()) return bodies;
   if (py::isinstance<py::array>(obstacles)) {
-    const Numbers rows = doubles_of(obstacles);
+    const Numbers rows = to_doubles(obstacles);
     if (rows.size() == 0) return bodies;
     if (rows.ndim() != 2 || rows.shape(1) != 3)
       throw InputError("obstacles must have the shape (n, 3): x_um, y_um, radius_um");
@@ -66,7 +66,7 @@ std::vector<Body> bodies_of(py::handle obstacles) {
     return bodies;
   }
   for (const py::handle one : py::reinterpret_borrow<py::object>(obstacles)) {
-    const Numbers numbers = doubles_of(one);
+    const Numbers numbers = to_doubles(one);
     if (numbers.ndim() == 1 && numbers.size() == 3)
       bodies.push_back({.shape = Disc{{numbers.at(0), numbers.at(1)}, numbers.at(2)}});
     else if (numbers.ndim() == 2 && numbers.shape(1) == 2)
@@ -110,15 +110,15 @@ py::tuple step_navigator(OpenNavigator& open, py::handle t, py::handle swarm, py
                          py::handle robots, py::handle seen,
                          const std::vector<std::int64_t>* numbers, py::handle unseen,
                          const StateNames& names) {
-  ExternalObservation given{.now = number_of(t)};
-  given.seen = seen.is_none() ? given.now : number_of(seen);
-  if (!swarm.is_none()) given.swarm = swarm_of(swarm);
-  given.obstacles = bodies_of(obstacles);
+  ExternalObservation given{.now = to_number(t)};
+  given.seen = seen.is_none() ? given.now : to_number(seen);
+  if (!swarm.is_none()) given.swarm = to_swarm(swarm);
+  given.obstacles = to_bodies(obstacles);
   if (numbers) {
     given.are_numbered = true;
     number_bodies(given.obstacles, *numbers);
   }
-  if (!robots.is_none()) given.robots = places(doubles_of(robots), "robots");
+  if (!robots.is_none()) given.robots = places(to_doubles(robots), "robots");
   if (!PyLong_CheckExact(unseen.ptr()) || PyLong_AsLong(unseen.ptr()) != 0)
     given.unseen = unseen.cast<int>();
   return open.use([&](StandaloneNavigator& navigator) {
@@ -151,7 +151,7 @@ void add_navigator(py::module_& module) {
            })
       .def("path",
            [](OpenNavigator& open) {
-             return open.use([](StandaloneNavigator& n) { return array_of(n.view().path); });
+             return open.use([](StandaloneNavigator& n) { return to_array(n.view().path); });
            })
       .def("close", &OpenNavigator::close);
 }

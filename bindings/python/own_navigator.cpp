@@ -8,11 +8,11 @@
 
 namespace microswarm::python {
 
-py::array_t<double> circles_of(std::span<const Body> bodies) {
+py::array_t<double> to_circles(std::span<const Body> bodies) {
   py::array_t<double> array({static_cast<py::ssize_t>(bodies.size()), py::ssize_t{3}});
   double* out = array.mutable_data();
   for (const Body& body : bodies) {
-    const Disc disc = extent_of(body);
+    const Disc disc = enclosing_disc(body);
     for (const double v : {disc.centre.x, disc.centre.y, disc.radius}) *out++ = v;
   }
   return array;
@@ -39,8 +39,8 @@ Command OwnNavigator::step(const Observation& seen, const Stop&) {
     sight["swarm"] =
         py::make_tuple(pose.position.x, pose.position.y, pose.heading, seen.swarm->radius);
   }
-  sight["obstacles_um"] = circles_of(seen.world->moving().bodies());
-  sight["robots_um"] = array_of(seen.robots);
+  sight["obstacles_um"] = to_circles(seen.world->moving().bodies());
+  sight["robots_um"] = to_array(seen.robots);
   const py::object observation = py::module_::import("types").attr("SimpleNamespace")(**sight);
   const py::object answer = navigator_.attr("step")(observation);
   Command command;

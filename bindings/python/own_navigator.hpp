@@ -7,7 +7,7 @@
 namespace microswarm::python {
 
 /// Obstacles as rows x, y, radius of the circle around each [µm].
-py::array_t<double> circles_of(std::span<const Body> bodies);
+py::array_t<double> to_circles(std::span<const Body> bodies);
 
 /// A navigator written in Python, in the library's loop. Its methods are called with the GIL held.
 class OwnNavigator final : public Navigator {

@@ -17,6 +17,6 @@ void take_array(const py::array& array, std::optional<int>& depth, std::string_v
                 Image& image);
 
 /// Array of booleans of shape (height, width) from a mask.
-py::array_t<bool> array_of(const Mask& mask);
+py::array_t<bool> to_array(const Mask& mask);
 
 }  // namespace microswarm::python

@@ -12,7 +12,7 @@
 namespace microswarm::python {
 namespace {
 
-py::object column_of(const Column& column, const ListRef<const void*>& list) {
+py::object to_column(const Column& column, const ListRef<const void*>& list) {
   const auto size = static_cast<py::ssize_t>(list.size());
   if (column.kind == ColumnKind::word) {
     py::list words;
@@ -37,8 +37,8 @@ py::object column_of(const Column& column, const ListRef<const void*>& list) {
 py::dict columns_of_list(const ListRef<const void*>& list, const Field* positions) {
   const Unit unit = positions ? positions->info.unit : Unit::um;
   py::dict out;
-  for (const Column& column : columns_of(list.row_type(), ColumnUnits::held, unit))
-    out[py::str(column.key)] = column_of(column, list);
+  for (const Column& column : to_columns(list.row_type(), ColumnUnits::held, unit))
+    out[py::str(column.key)] = to_column(column, list);
   return out;
 }
 
@@ -49,7 +49,7 @@ template <HasFields Value>
 py::object described(const Value& value) {
   py::dict out;
   out["type"] = std::string(Value::type_name);
-  for (const Column& column : columns_of<Value>()) {
+  for (const Column& column : to_columns<Value>()) {
     const py::str key(column.key);
     if (column.kind == ColumnKind::word)
       out[key] = std::string(column.word(&value));
@@ -81,14 +81,14 @@ struct Tables {
 
 py::dict documented(const Record&) {
   py::dict out;
-  for (const Column& column : columns_of(type_of<Frame>(), ColumnUnits::held))
+  for (const Column& column : to_columns(type_of<Frame>(), ColumnUnits::held))
     out[py::str(column.key)] = column.doc;
   return out;
 }
 
 }  // namespace
 
-py::dict tables_of(const Record& record) {
+py::dict to_tables(const Record& record) {
   Tables tables;
   visit_tables(type_of<Record>(), static_cast<const void*>(&record), tables);
   const void* log = &record.diagnostics;
@@ -97,13 +97,13 @@ py::dict tables_of(const Record& record) {
   return tables.out;
 }
 
-py::object diagnostics_of(const Diagnostics& diagnostics) {
+py::object to_dict(const Diagnostics& diagnostics) {
   return std::visit(Overloaded{[](std::monostate) -> py::object { return py::none(); },
                                []<HasFields Shown>(const Shown& of) { return described(of); }},
                     diagnostics);
 }
 
-py::dict summary_of(const RunResult& result) {
+py::dict to_dict(const RunResult& result) {
   py::dict out;
   out["status"] = std::string(to_string(result.status));
   out["metrics"] = to_json_text(result.metrics);
@@ -130,8 +130,8 @@ void add_record(py::module_& module) {
            [](const Record& record, const std::optional<std::string>& file) {
              return drawn(file, [&] { return draw_run(record); });
            })
-      .def("tables", tables_of)
-      .def("summary", [](const Record& record) { return summary_of(record.result); })
+      .def("tables", to_tables)
+      .def("summary", [](const Record& record) { return to_dict(record.result); })
       .def("hash", &Record::hash)
       .def("documented", documented)
       .def("scenario", [](const Record& record) { return scenario_text(record.scene.scenario); })

@@ -11,9 +11,9 @@ namespace microswarm::python {
 py::dict columns_of_list(const ListRef<const void*>& list, const Field* positions = nullptr);
 
 /// Dictionary of a navigator's diagnostics, or None.
-py::object diagnostics_of(const Diagnostics& diagnostics);
+py::object to_dict(const Diagnostics& diagnostics);
 
 /// Dictionary of status, metrics as JSON and times of the steps.
-py::dict summary_of(const RunResult& result);
+py::dict to_dict(const RunResult& result);
 
 }  // namespace microswarm::python

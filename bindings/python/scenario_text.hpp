@@ -48,7 +48,7 @@ struct ScenarioText {
     settings = with_setting(settings, *present, [&](const Given& list) {
       try {
         Scenario other = unset;
-        set_values(other, settings_of(list));
+        set_values(other, to_settings(list));
         return to_json_text(other) == now;
       } catch (const InputError&) {
         return false;
@@ -56,7 +56,7 @@ struct ScenarioText {
     });
   }
   Experiment open(std::optional<std::uint64_t> seed = {}) const {
-    return open_experiment_text(text, name, base, settings_of(settings), seed);
+    return open_experiment_text(text, name, base, to_settings(settings), seed);
   }
 };
 

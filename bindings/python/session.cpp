@@ -74,7 +74,7 @@ class OpenSession : public Guarded<Session> {
 };
 
 /// The session of a Python object; null while it is not constructed.
-OpenSession* session_of(PyObject* self) {
+OpenSession* to_session(PyObject* self) {
   auto* const instance = reinterpret_cast<py::detail::instance*>(self);
   const auto parts = instance->get_value_and_holder();
   return parts.holder_constructed() ? parts.value_ptr<OpenSession>() : nullptr;
@@ -86,11 +86,11 @@ void collect_garbage(PyHeapTypeObject* heap_type) {
   type.tp_flags |= Py_TPFLAGS_HAVE_GC;
   type.tp_traverse = [](PyObject* self, visitproc visit, void* arg) {
     Py_VISIT(Py_TYPE(self));
-    const OpenSession* const open = session_of(self);
+    const OpenSession* const open = to_session(self);
     return open ? open->traverse(visit, arg) : 0;
   };
   type.tp_clear = [](PyObject* self) {
-    if (OpenSession* const open = session_of(self)) open->clear();
+    if (OpenSession* const open = to_session(self)) open->clear();
     return 0;
   };
 }
@@ -107,11 +107,11 @@ std::unique_ptr<OpenSession> open(const ScenarioText& scenario, std::optional<st
 }
 
 /// The current view as a dictionary of numbers and arrays.
-py::dict view_of(const Session& session) {
+py::dict to_dict(const Session& session) {
   const SessionView view = session.view();
   py::dict out;
   const Frame& frame = view.frame;
-  for (const Column& column : columns_of(type_of<Frame>(), ColumnUnits::held)) {
+  for (const Column& column : to_columns(type_of<Frame>(), ColumnUnits::held)) {
     if (column.kind == ColumnKind::word)
       out[py::str(column.key)] = std::string(column.word(&frame));
     else
@@ -119,9 +119,9 @@ py::dict view_of(const Session& session) {
   }
   out["number"] = view.number;
   out["holding"] = view.holding;
-  out["obstacles_um"] = circles_of(view.bodies);
-  out["robots_um"] = array_of(view.robots);
-  out["path_um"] = array_of(view.path);
+  out["obstacles_um"] = to_circles(view.bodies);
+  out["robots_um"] = to_array(view.robots);
+  out["path_um"] = to_array(view.path);
   return out;
 }
 
@@ -173,7 +173,7 @@ py::dict finish(OpenSession& open, const py::object& report) {
           },
           look);
     }
-    return summary_of(session.result());
+    return to_dict(session.result());
   });
 }
 
@@ -215,15 +215,14 @@ void add_session(py::module_& module) {
                  throw InputError(issues);
              });
            })
-      .def("view", [](OpenSession& open) { return open.use(view_of); })
-      .def(
-          "diagnostics",
-          [](OpenSession& open) {
-            return open.use([](Session& session) { return diagnostics_of(session.diagnostics()); });
-          })
+      .def("view", [](OpenSession& open) { return open.use(to_dict); })
+      .def("diagnostics",
+           [](OpenSession& open) {
+             return open.use([](Session& session) { return to_dict(session.diagnostics()); });
+           })
       .def("summary",
            [](OpenSession& open) {
-             return open.use([](Session& session) { return summary_of(session.result()); });
+             return open.use([](Session& session) { return to_dict(session.result()); });
            })
       .def("draw",
            [](OpenSession& open, const std::optional<std::string>& file) {

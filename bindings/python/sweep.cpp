@@ -62,9 +62,9 @@ py::tuple sweep_scenario(const ScenarioText& scenario, const Grid& grid, const M
                          int trials, std::optional<std::uint64_t> seed, int jobs,
                          const py::object& report) {
   const Given base = unvaried(scenario.settings, grid, seed.has_value());
-  Sweep asked{.set = settings_of(base).texts(), .trials = trials, .seed = seed};
+  Sweep asked{.set = to_settings(base).texts(), .trials = trials, .seed = seed};
   for (const auto& [key, values] : grid) asked.grid.push_back({key, values});
-  for (const auto& [name, set] : methods) asked.methods.push_back({name, settings_of(set).texts()});
+  for (const auto& [name, set] : methods) asked.methods.push_back({name, to_settings(set).texts()});
   std::atomic<double> done = 0;
   SweepPlan plan;
   std::unique_ptr<SweepTable> table;

@@ -15,7 +15,7 @@ namespace {
 /// Segments a photograph, an array or the name of a file.
 py::dict segment(const py::object& photo, double um_per_px, double smooth, const Given& settings) {
   VesselParams params;
-  warn(set_values(params, settings_of(settings)));
+  warn(set_values(params, to_settings(settings)));
   Image image;
   std::string name = "image";
   if (py::isinstance<py::str>(photo)) {
@@ -32,8 +32,8 @@ py::dict segment(const py::object& photo, double um_per_px, double smooth, const
   });
   py::dict out;
   out["map"] = map_in_memory(std::move(map));
-  out["mask"] = array_of(found.vessels);
-  out["field_of_view"] = array_of(found.field_of_view);
+  out["mask"] = to_array(found.vessels);
+  out["field_of_view"] = to_array(found.field_of_view);
   out["method"] = std::string(enum_name(found.method));
   out["vessel_share"] = found.view_share;
   out["kept_share"] = found.kept_share;
@@ -45,11 +45,11 @@ py::dict segment(const py::object& photo, double um_per_px, double smooth, const
 
 TrackSettings track_settings(const Given& given) {
   TrackSettings settings;
-  warn(set_values(settings, settings_of(given)));
+  warn(set_values(settings, to_settings(given)));
   return settings;
 }
 
-py::dict events_of(const std::vector<TrackEvent>& events) {
+py::dict to_dict(const std::vector<TrackEvent>& events) {
   const auto count = static_cast<py::ssize_t>(events.size());
   py::array_t<std::int64_t> frames(count), ids(count), others(count);
   py::list words;
@@ -68,10 +68,10 @@ py::dict events_of(const std::vector<TrackEvent>& events) {
   return out;
 }
 
-py::dict tracks_of(const TrackResult& result) {
+py::dict to_tracks(const TrackResult& result) {
   py::dict out;
   out["rows"] = columns_of_list({&type_of<std::vector<TrackRow>>(), &result.rows});
-  out["events"] = events_of(result.events);
+  out["events"] = to_dict(result.events);
   out["frames"] = result.frames;
   out["is_noise"] = looks_like_noise(summarise(result.rows, result.frames));
   return out;
@@ -106,7 +106,7 @@ class ArrayTracker {
   py::dict finish() {
     tracker_.finish();
     result_.events = tracker_.events();
-    return tracks_of(result_);
+    return to_tracks(result_);
   }
 
  private:
@@ -139,7 +139,7 @@ py::dict track_file(const std::string& file, const Given& given, const py::objec
   const TrackResult result = interruptible(work, [&] {
     if (!report.is_none()) report(done.load());
   });
-  py::dict out = tracks_of(result);
+  py::dict out = to_tracks(result);
   out["ended"] = ended;
   return out;
 }

@@ -63,7 +63,7 @@ TEST(CoilSystem, CubeCoilsPushTowardsTheirAxes) {
     EXPECT_GT(b[i / 2], 0);
     EXPECT_LE((b - b[i / 2] * Eigen::Vector3d::Unit(i / 2)).norm(), 1e-12 * b.norm());
     // The field grows towards the coil that makes it.
-    EXPECT_GT(gradient_of(at.gradients.col(i))(i / 2, i / 2) * (i % 2 ? 1 : -1), 0);
+    EXPECT_GT(total_gradient(at.gradients.col(i))(i / 2, i / 2) * (i % 2 ? 1 : -1), 0);
   }
 }
 
@@ -76,13 +76,15 @@ TEST(CoilSystem, DivergenceAndCurlAreZeroOutsideOfWindings) {
     const Eigen::Vector3d p = 20000 * dice.vector();
     Eigen::VectorXd currents(6);
     for (double& i : currents) i = 5 * dice.number();
-    const auto field = [&](const Eigen::Vector3d& at) { return system.at(at).field_of(currents); };
+    const auto field = [&](const Eigen::Vector3d& at) {
+      return system.at(at).total_field(currents);
+    };
     const Eigen::Matrix3d g = test::difference_gradient(field, p, 100);
     const Actuation at = system.at(p);
     const double scale = at.gradients.norm() * currents.norm();
     EXPECT_NEAR(g.trace(), 0, 1e-8 * scale);
     EXPECT_LE((g - g.transpose()).norm(), 1e-8 * scale);
-    EXPECT_LE((g - at.gradient_of(currents)).norm(), 1e-8 * scale);
+    EXPECT_LE((g - at.total_gradient(currents)).norm(), 1e-8 * scale);
   }
 }
 
@@ -103,7 +105,7 @@ TEST(CoilSystem, AMatrixHoldsEverywhere) {
       "coils: {type: matrix, names: [a, b], field_mt_per_a: [[1, 2], [0, 3], [0, 0]], offset_mt: "
       "[0, 0, 0.05]}");
   const Actuation at = system.at({1e6, 0, 0});
-  EXPECT_EQ(at.field_of(Eigen::Vector2d(1, 2)), Eigen::Vector3d(5, 6, 0.05));
+  EXPECT_EQ(at.total_field(Eigen::Vector2d(1, 2)), Eigen::Vector3d(5, 6, 0.05));
 }
 
 TEST(CoilSystem, RefusesInOneLine) {
@@ -146,7 +148,7 @@ TEST(Currents, AreTheLeastThatMakeTheField) {
     EXPECT_TRUE(found.reached);
     EXPECT_EQ(found.rank, 3);
     EXPECT_EQ(found.missing.cols(), 0);
-    EXPECT_LE((at.field_of(found.currents) - wanted).norm(), 1e-11);
+    EXPECT_LE((at.total_field(found.currents) - wanted).norm(), 1e-11);
     const Eigen::Matrix3d square = at.field * at.field.transpose();
     const Eigen::VectorXd formula = at.field.transpose() * (square.inverse() * wanted);
     EXPECT_LE((found.currents - formula).norm(), 1e-9 * formula.norm());

@@ -44,7 +44,7 @@ FieldMeasurements measure(const CoilSystem& system, const std::vector<Eigen::Vec
   int line = 1;
   for (const MeasurementStep& step :
        measurement_plan(system, {.positions = positions, .levels = 2, .pairs = true})) {
-    Eigen::Vector3d b = system.at(step.position).field_of(step.currents) + ambient.field +
+    Eigen::Vector3d b = system.at(step.position).total_field(step.currents) + ambient.field +
                         ambient.gradient * step.position;
     for (double& component : b) component += noise * normal(source);
     measured.rows.push_back({step.currents, step.position, b, ++line});
@@ -92,15 +92,16 @@ TEST(GradientFit, FindsAnyFieldAndGradientInFreeSpaceExactly) {
     EXPECT_LE(fit.worst, 1e-9);
     // Law: a field in free space has neither sources nor curl, and the system says its field.
     for (int i = 0; i < n; ++i) {
-      const Eigen::Matrix3d G = gradient_of(FiveGradients(found.gradients.col(i)));
+      const Eigen::Matrix3d G = gradient_matrix(FiveGradients(found.gradients.col(i)));
       EXPECT_EQ(G, G.transpose());
       EXPECT_NEAR(G.trace(), 0, 1e-15);
     }
     const Eigen::Vector3d p = 5000 * dice.vector();
     const CoilSystem fitted = system_with(fit);
     const Eigen::VectorXd I = Eigen::VectorXd::LinSpaced(n, -1, 2);
-    const auto field = [&](const Eigen::Vector3d& q) { return fitted.at(q).field_of(I); };
-    EXPECT_LE((test::difference_gradient(field, p, 10) - fitted.at(p).gradient_of(I)).norm(), 1e-9);
+    const auto field = [&](const Eigen::Vector3d& q) { return fitted.at(q).total_field(I); };
+    EXPECT_LE((test::difference_gradient(field, p, 10) - fitted.at(p).total_gradient(I)).norm(),
+              1e-9);
   }
 }
 

@@ -213,7 +213,7 @@ TEST(LineCoilDriver, RefusalsAreToldInTheDriversWords) {
     const auto driver = open(server);
     EXPECT_EQ(driver->drive(amperes), status) << word << verdict;
     EXPECT_EQ(driver->report().reason, "interlock");
-    EXPECT_EQ(trouble_of(*driver, status), std::string(trouble_of(status)) + ": interlock");
+    EXPECT_EQ(trouble_text(*driver, status), std::string(trouble_text(status)) + ": interlock");
   };
   answered("arm", "refused", DriveStatus::not_armed);
   answered("arm", "off", DriveStatus::not_armed);

@@ -126,11 +126,11 @@ TEST(Winding, SolenoidHasTheKnownFieldOnItsAxis) {
   w.length = 40000;
   w.thickness = 20000;
   Issues issues;
-  const std::vector<CurrentLoop> loops = loops_of(w, issues);
+  const std::vector<CurrentLoop> loops = to_loops(w, issues);
   EXPECT_TRUE(issues.empty());
   for (const double z : {0.0, 1e4, 2e4, 5e4, -1e5}) {
     const double expected = solenoid_on_axis(z, 20000, 40000, 40000, 400);
-    const Eigen::Vector3d found = field_of(loops, {0, 0, z}).field;
+    const Eigen::Vector3d found = field_at(loops, {0, 0, z}).field;
     EXPECT_NEAR(found.z(), expected, 1e-9 * expected) << z;
   }
   double turns = 0;
@@ -146,21 +146,21 @@ TEST(Winding, ThinLayerIsManyLoops) {
   w.turns = 100;
   w.length = 30000;
   Issues issues;
-  const std::vector<CurrentLoop> loops = loops_of(w, issues);
+  const std::vector<CurrentLoop> loops = to_loops(w, issues);
   EXPECT_TRUE(issues.empty());
   std::vector<CurrentLoop> many;
   for (int i = 0; i < 3000; ++i)
     many.push_back({{1e4, 30000 * ((i + 0.5) / 3000 - 0.5), 0}, {0, 1, 0}, 20000, 100.0 / 3000});
   for (const Eigen::Vector3d& p : {Eigen::Vector3d(1e4, 0, 0), Eigen::Vector3d(1.5e4, 3e3, -4e3),
                                    Eigen::Vector3d(8e4, 1e4, 0)})
-    EXPECT_LE((field_of(loops, p).field - field_of(many, p).field).norm(),
-              1e-7 * field_of(many, p).field.norm());
+    EXPECT_LE((field_at(loops, p).field - field_at(many, p).field).norm(),
+              1e-7 * field_at(many, p).field.norm());
 }
 
 TEST(Winding, RefusesWhatIsNoWinding) {
   const auto refusal = [](const WindingParams& winding) {
     Issues issues;
-    EXPECT_TRUE(loops_of(winding, issues).empty());
+    EXPECT_TRUE(to_loops(winding, issues).empty());
     EXPECT_EQ(issues.size(), 1u);
     return issues.begin()->text;
   };

@@ -79,7 +79,7 @@ TEST(MeasurementLog, IsCompleteAfterEachRowAndGoesOn) {
     EXPECT_FALSE(std::filesystem::exists(file));
     log.add(Eigen::Vector2d(1, -0.1), Eigen::Vector2d(2, -0.2), {10, 0, 0}, {.mean = {1, 2, 3}});
     log.add(Eigen::Vector2d(0, 0), Eigen::Vector2d(0, 0), {0, 0, 0},
-            reading_of({{1, 0, 0}, {2, 0, 0}, {3, 0, 0.1 + 0.2}}));
+            mean_reading({{1, 0, 0}, {2, 0, 0}, {3, 0, 0.1 + 0.2}}));
     EXPECT_EQ(read_measurements(file).rows.size(), 2u);
   }
   std::ofstream(file, std::ios::app) << "# a remark\n\n";

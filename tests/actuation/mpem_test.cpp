@@ -36,11 +36,12 @@ TEST(Mpem, ReadsSourcesAndTheirFields) {
   ASSERT_EQ(system.coils.size(), 2u);
   EXPECT_EQ(system.coils[0].name, "Left");
   // Dipoles of 2e-5 T m³/A at 0.1 m: on their axis 2 b/r³ = 40 mT, beside it −b/r³ = −20 mT.
-  const Eigen::Vector3d left = field_of(system.coils[0].sources, {0, 0, 0}).field;
+  const Eigen::Vector3d left = total_field(system.coils[0].sources, {0, 0, 0}).field;
   EXPECT_LE((left - Eigen::Vector3d(40, 0, -1)).norm(), 1e-12);
-  const Eigen::Vector3d right = field_of(system.coils[1].sources, {0, 0, 0}).field;
+  const Eigen::Vector3d right = total_field(system.coils[1].sources, {0, 0, 0}).field;
   EXPECT_LE((right - Eigen::Vector3d(0, -20, 0)).norm(), 1e-12);
-  EXPECT_LE((field_of(system.offset, {5, 6, 7}).field - Eigen::Vector3d(0, 0.05, 0)).norm(), 1e-15);
+  EXPECT_LE((total_field(system.offset, {5, 6, 7}).field - Eigen::Vector3d(0, 0.05, 0)).norm(),
+            1e-15);
   EXPECT_TRUE(system.in_workspace({1e4, 0, 0}));
   EXPECT_FALSE(system.in_workspace({1.0001e4, 0, 0}));
   EXPECT_FALSE(system.in_workspace({0, 0, -1}));
@@ -163,10 +164,10 @@ void expect_fields(const std::filesystem::path& folder, const std::string& name)
     const std::size_t b = 3 + coils;
     const Actuation at = system.at(p);
     const Eigen::Vector3d expected = 1e3 * Eigen::Vector3d(number(b), number(b + 1), number(b + 2));
-    fields.add(at.field_of(currents), expected);
+    fields.add(at.total_field(currents), expected);
     FiveGradients five;
     for (std::size_t k = 0; k < 5; ++k) five[static_cast<Eigen::Index>(k)] = number(b + 3 + k);
-    const FiveGradients found = five_gradients(at.gradient_of(currents));
+    const FiveGradients found = five_gradients(at.total_gradient(currents));
     if (five.allFinite())
       gradients.add(found, FiveGradients(mt_per_um_of_t_per_m * five));
     else

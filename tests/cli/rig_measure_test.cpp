@@ -41,7 +41,7 @@ class RigMeasure : public DrivenRig {
   }
   Eigen::Vector3d truth(const Eigen::Vector3d& position = Eigen::Vector3d::Zero()) {
     const Eigen::Vector3d I = currents();
-    const Eigen::Matrix3d G = gradient_of(FiveGradients(truth_G * I)) * mt_per_um_of_t_per_m;
+    const Eigen::Matrix3d G = gradient_matrix(FiveGradients(truth_G * I)) * mt_per_um_of_t_per_m;
     return truth_A * I + G * position + Eigen::Vector3d(0.02, -0.03, 0.045);
   }
   static std::string typed(const Eigen::Vector3d& b) {
@@ -108,8 +108,8 @@ TEST_F(RigMeasure, AnOperatorIsGuidedToMatrixAndGradients) {
       {"rig", "field", "fitted.yaml", "--at", "1000,-2000,500", "--currents", "1,2,-1", "--json"}));
   const Eigen::Vector3d I(1, 2, -1);
   const Eigen::Vector3d expected = truth_A * I + Eigen::Vector3d(0.02, -0.03, 0.045) +
-                                   gradient_of(FiveGradients(truth_G * I)) * mt_per_um_of_t_per_m *
-                                       Eigen::Vector3d(1000, -2000, 500);
+                                   gradient_matrix(FiveGradients(truth_G * I)) *
+                                       mt_per_um_of_t_per_m * Eigen::Vector3d(1000, -2000, 500);
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(field["field_mt"][k].get<double>(), expected[k], 1e-3);
   EXPECT_TRUE(names(good({"rig", "map", "fitted.yaml", "--points", "5"}), "centre"));
 }

@@ -123,7 +123,7 @@ TEST_F(RigOperation, ByHandTheSwarmGoesWhereTheKeysSay) {
   EXPECT_EQ(hands.back().command.speed, 0);
   const double fastest =
       std::ranges::max(hands, {}, [](const Frame& f) { return f.command.speed; }).command.speed;
-  const double limit = limits_of(run.scene.scenario.swarm).max_speed;
+  const double limit = swarm_limits(run.scene.scenario.swarm).max_speed;
   EXPECT_NEAR(fastest, 0.9 * limit, 1e-6);
   const auto is_steered = [&](double heading) {
     return std::ranges::any_of(hands, [&](const Frame& f) {

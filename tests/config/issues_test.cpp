@@ -26,7 +26,7 @@ Issues issues_in(std::string_view text) {
 
 /// "KEY at PLACE is VALUE, LIMIT".
 std::string shown(const Issue& issue) {
-  return fmt::format("{} at {} is {}, {}", issue.keys.empty() ? "-" : issue.keys[0], issue.place,
+  return fmt::format("{} at {} is {}, {}", issue.keys.empty() ? "-" : issue.keys[0], issue.location,
                      issue.value, issue.limit);
 }
 
@@ -120,9 +120,9 @@ TEST(Issues, OfDocumentAndAssignmentsComeTogether) {
   Issues issues;
   read_yaml_text<Scene>("seed: -1\ntimes_s: [a]\n", "s.yaml", {"count=x", "nose=3"}, locations,
                         issues);
-  std::string places;
-  for (const Issue& issue : issues) places += issue.keys.at(0) + " at " + issue.place + "; ";
-  EXPECT_EQ(places,
+  std::string locations;
+  for (const Issue& issue : issues) locations += issue.keys.at(0) + " at " + issue.location + "; ";
+  EXPECT_EQ(locations,
             "seed at s.yaml:1:7; times_s.0 at s.yaml:2:11; count at --set count; nose at --set "
             "nose; ");
 }

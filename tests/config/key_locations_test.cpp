@@ -15,7 +15,7 @@ KeyLocations keys(std::vector<std::string> assignments = {}) {
       "  speed_um_per_s: 20\n"
       "  waypoints_um: [[1, 2],\n"
       "    [3, 4]]\n";
-  return locations_of(parse_yaml(text, "a.yaml"), "a.yaml", std::move(assignments));
+  return find_locations(parse_yaml(text, "a.yaml"), "a.yaml", std::move(assignments));
 }
 
 std::string said(const KeyLocations& at, std::string_view key) {

@@ -23,13 +23,13 @@ TEST(Error, CarriesItsIssues) {
   const InputError plain("no such coil"), placed("a.yaml", 12, 9, "bad");
   ASSERT_EQ(plain.issues().size(), 1u);
   EXPECT_EQ(plain.issues()[0].text, "no such coil");
-  EXPECT_EQ(plain.issues()[0].place, "");
+  EXPECT_EQ(plain.issues()[0].location, "");
   EXPECT_EQ(placed.issues()[0].text, "bad");
-  EXPECT_EQ(placed.issues()[0].place, "a.yaml:12:9");
+  EXPECT_EQ(placed.issues()[0].location, "a.yaml:12:9");
   const InputError copy = placed;  // shares them
   EXPECT_EQ(&copy.issues(), &placed.issues());
-  EXPECT_EQ(issues_of(placed)[0].place, "a.yaml:12:9");
-  EXPECT_EQ(issues_of(HardwareError("gone"))[0].text, "gone");
+  EXPECT_EQ(to_issues(placed)[0].location, "a.yaml:12:9");
+  EXPECT_EQ(to_issues(HardwareError("gone"))[0].text, "gone");
 }
 
 TEST(Error, ListsTwentyIssuesAndCountsTheRest) {
@@ -37,7 +37,7 @@ TEST(Error, ListsTwentyIssuesAndCountsTheRest) {
   std::string lines;
   for (int i = 1; i <= 20; ++i) {
     const std::string n = std::to_string(i);
-    issues.add(Issue{.keys = {"k"}, .text = "bad " + n, .place = "a.yaml:" + n});
+    issues.add(Issue{.keys = {"k"}, .text = "bad " + n, .location = "a.yaml:" + n});
     lines += (i > 1 ? "\n" : "") + ("a.yaml:" + n + ": bad " + n);
   }
   EXPECT_EQ(InputError(issues).what(), lines);
@@ -66,12 +66,12 @@ TEST(Issues, OfAPartOrAFileAreIssuesOfTheWhole) {
   ASSERT_EQ(map.size(), 1u);
   EXPECT_EQ(map[0].keys, std::vector<std::string>{"map.file"});
   EXPECT_EQ(map[0].text, "ros.yaml:2:13: is -1");
-  EXPECT_EQ(map[0].place, "");
+  EXPECT_EQ(map[0].location, "");
   EXPECT_EQ(map[0].value, "-1");
   EXPECT_EQ(map[0].limit, "at least 0");
   EXPECT_EQ(to_string(map.placed_in("s.yaml")), "s.yaml: ros.yaml:2:13: is -1");
   EXPECT_EQ(to_string(map.placed_in("a:1").placed_in("b")), "b: a:1: ros.yaml:2:13: is -1");
-  EXPECT_EQ(map.placed_in("b").unplaced()[0].place, "");
+  EXPECT_EQ(map.placed_in("b").unplaced()[0].location, "");
   map.drop({"map"});
   EXPECT_TRUE(map.empty());
 }

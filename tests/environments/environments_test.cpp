@@ -175,7 +175,7 @@ TEST(NavigationEpisode, EndsInTheGoal) {
   NavigationEpisode episode(task, 1, observation);
   EnvironmentStep step;
   for (int i = 0; i < 1000 && !step.terminated; ++i) {
-    step = episode.step({heading_of({observation[0], observation[1]}), task.max_speed()});
+    step = episode.step({heading_along({observation[0], observation[1]}), task.max_speed()});
     ASSERT_FALSE(step.truncated);
   }
   EXPECT_EQ(episode.status(), Status::solved);

@@ -35,7 +35,7 @@ void for_each_world(const AvoidanceOptions& options, Check&& check_one) {
   }
 }
 
-double radius_of(const Scenario& s) { return limits_of(s.swarm).radius; }
+double radius_of(const Scenario& s) { return swarm_limits(s.swarm).radius; }
 
 class AvoidanceWorlds : public testing::TestWithParam<AvoidanceOptions> {};
 
@@ -62,7 +62,7 @@ TEST_P(AvoidanceWorlds, NothingIsNearTheSwarmAtTheStart) {
 
 TEST_P(AvoidanceWorlds, ObstaclesKeepToTheirSpeeds) {
   for_each_world(GetParam(), [](const Scenario& s, const World&) {
-    const double swarm = limits_of(s.swarm).max_speed;
+    const double swarm = swarm_limits(s.swarm).max_speed;
     for (const Obstacle& obstacle : s.obstacles) {
       const double ratio = top_speed(obstacle) / swarm;
       EXPECT_LE(ratio, GetParam().max_speed_ratio + 1e-6);

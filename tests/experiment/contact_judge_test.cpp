@@ -114,7 +114,7 @@ TEST(ContactJudge, SameRunSameVerdicts) {
   const auto once = [&] {
     const World world = scenes::avoidance_world(s);
     KinematicPlant plant(s, world);
-    GoStraight straight(*s.goal, limits_of(s.swarm).max_speed);
+    GoStraight straight(*s.goal, swarm_limits(s.swarm).max_speed);
     ContactLog log;
     RunListener* const listeners[] = {&log};
     test::run(s, plant, straight, listeners);

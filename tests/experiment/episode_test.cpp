@@ -11,7 +11,7 @@ namespace microswarm {
 namespace {
 
 std::unique_ptr<Navigator> navigator_of(const Scenario& scenario) {
-  return make_navigator(scenario.navigator, task_of(scenario),
+  return make_navigator(scenario.navigator, navigation_task(scenario),
                         Rng(scenario.seed, Purpose::planner, 0));
 }
 

@@ -17,11 +17,11 @@ namespace {
 using namespace std::chrono_literals;
 
 TEST(PartFiles, AreNamedAfterTheirRecord) {
-  EXPECT_EQ(part_of("out/run.h5"), "out/run.part.h5");
-  EXPECT_EQ(whole_of("out/run.part.h5"), "out/run.h5");
-  EXPECT_EQ(whole_of(part_of("run.h5")), "run.h5");
+  EXPECT_EQ(part_file("out/run.h5"), "out/run.part.h5");
+  EXPECT_EQ(whole_file("out/run.part.h5"), "out/run.h5");
+  EXPECT_EQ(whole_file(part_file("run.h5")), "run.h5");
   for (const char* other : {"run.h5", "out/.part.h5", "part.h5", "x.part/run.h5"})
-    EXPECT_EQ(whole_of(other), "") << other;
+    EXPECT_EQ(whole_file(other), "") << other;
 }
 
 /// Of so many ticks that no computer comes to its end here.

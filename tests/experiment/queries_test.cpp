@@ -30,7 +30,7 @@ GatherQuery gather_query() {
 }
 
 TEST(GatherQuery, TheRecordOfAMapInMemoryReplays) {
-  GatherExperiment made = open_gathering(parts_of(room()), spec(), gather_query(), "room");
+  GatherExperiment made = open_gathering(to_parts(room()), spec(), gather_query(), "room");
   EXPECT_EQ(made.experiment.scenario().robots->count, 8);
   EXPECT_GT(made.measured_width, 0);
   Session session(std::move(made.experiment));
@@ -42,13 +42,13 @@ TEST(GatherQuery, TheRecordOfAMapInMemoryReplays) {
 TEST(GatherQuery, StartsStandInPlaceOfANumber) {
   GatherQuery query = gather_query();
   query.starts = {{100, 100}, {300, 320}};
-  const GatherExperiment made = open_gathering(parts_of(room()), spec(), query, "room");
+  const GatherExperiment made = open_gathering(to_parts(room()), spec(), query, "room");
   EXPECT_EQ(made.experiment.scenario().robots->count, 0);
   EXPECT_EQ(made.experiment.scenario().robots->starts, query.starts);
   query.starts = {{200, 200}};
-  EXPECT_THROW(open_gathering(parts_of(room()), spec(), query, "room"), InputError);
+  EXPECT_THROW(open_gathering(to_parts(room()), spec(), query, "room"), InputError);
   query.goal = {200, 200};
-  EXPECT_THROW(open_gathering(parts_of(room()), spec(), query, "room"), InputError);
+  EXPECT_THROW(open_gathering(to_parts(room()), spec(), query, "room"), InputError);
 }
 
 GlobalQuery global_query() {
@@ -65,7 +65,7 @@ TEST(GlobalQuery, BothPlannersAnswerAndSayWhatTheyUsed) {
     const GlobalAnswer shorter = answer(room(), query, "room");
     ASSERT_EQ(found.plan.status, Status::solved) << planner;
     EXPECT_EQ(found.why_none(), "");
-    EXPECT_EQ(play_of(found.planner).goal_tolerance, 30);
+    EXPECT_EQ(to_play(found.planner).goal_tolerance, 30);
     EXPECT_EQ(found.plan.inputs.size(), found.inputs_found);
     EXPECT_EQ(shorter.inputs_found, found.inputs_found);
     EXPECT_LE(shorter.plan.inputs.size(), found.inputs_found);

@@ -222,12 +222,12 @@ TEST(RecordLayout, TheDocsNameEveryQuantity) {
     for (const auto& column : columns)
       EXPECT_NE(docs.find(column.key + "`"), std::string::npos) << column.key;
   };
-  expect(columns_of<Frame>());
-  expect(columns_of<PathChange>());
-  expect(columns_of<PlanEvent>());
-  expect(columns_of<RunEvent>());
-  expect(columns_of<TreeNode>());
-  expect(columns_of<Detection>());
+  expect(to_columns<Frame>());
+  expect(to_columns<PathChange>());
+  expect(to_columns<PlanEvent>());
+  expect(to_columns<RunEvent>());
+  expect(to_columns<TreeNode>());
+  expect(to_columns<Detection>());
 }
 
 TEST(Record, H5pyReadsIt) {

@@ -27,7 +27,7 @@ class GoStraight : public Navigator {
   Command step(const Observation& seen, const Stop&) override {
     if (!seen.swarm) return {};
     path_ = {seen.swarm->pose.position, goal_};
-    return {heading_of(goal_ - seen.swarm->pose.position), speed_};
+    return {heading_along(goal_ - seen.swarm->pose.position), speed_};
   }
   NavigatorView view() const override {
     return {.planned = false,

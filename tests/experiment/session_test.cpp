@@ -169,7 +169,7 @@ TEST(Session, EachMistakeInAValueIsAnIssueOfItsKey) {
   for (const Issue& issue : several) {
     ASSERT_EQ(issue.keys.size(), 1u);
     EXPECT_TRUE(issue.keys[0].starts_with("navigator.")) << issue.keys[0];
-    EXPECT_EQ(issue.place, "");
+    EXPECT_EQ(issue.location, "");
   }
   EXPECT_EQ(several[1].keys[0], "navigator.speed_um_per_s");
   EXPECT_EQ(several[1].value, "bad");

@@ -17,7 +17,7 @@ namespace {
 
 const std::filesystem::path shipped = std::filesystem::path(MICROSWARM_SOURCE_DIR) / "scenarios";
 
-ExternalObservation observation_of(const Observation& seen) {
+ExternalObservation to_observation(const Observation& seen) {
   ExternalObservation given{.now = seen.now, .seen = seen.seen, .unseen = seen.unseen};
   const auto bodies = seen.world->moving().bodies();
   given.obstacles.assign(bodies.begin(), bodies.end());
@@ -41,7 +41,7 @@ TEST_P(InBothLoops, TheCommandsAreTheSame) {
   StandaloneNavigator navigator(std::move(experiment));
   ASSERT_GT(frames.size(), 10u);
   for (std::size_t k = 0; k + 1 < frames.size(); ++k) {
-    const Command command = navigator.step(observation_of(plant->observe()));
+    const Command command = navigator.step(to_observation(plant->observe()));
     ASSERT_EQ(command.heading, frames[k].command.heading) << k;
     ASSERT_EQ(command.speed, frames[k].command.speed) << k;
     ASSERT_EQ(navigator.view().state, frames[k].state) << k;

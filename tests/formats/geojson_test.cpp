@@ -103,7 +103,7 @@ TEST(GeoJson, WrittenAndReadAgainGivesTheSameBits) {
     parts.walls.push_back(normalised(std::move(wall)));
     parts.discs.push_back({point(), rng.uniform(1e-9, 1e6)});
   }
-  parts.bounds = box_of(parts);
+  parts.bounds = enclosing_box(parts);
   EXPECT_EQ(fingerprint(parsed_geojson(geojson_text(parts))), fingerprint(parts));
 }
 
@@ -187,13 +187,13 @@ TEST(JsonPlace, TextAndLine) {
   const JsonPlace seven = c.entry(2);
   const JsonPlace beyond = c.entry(3);
   EXPECT_EQ(seven.text(), "b[1].c[2]");
-  EXPECT_EQ(line_of(json, root), 1);
-  EXPECT_EQ(line_of(json, root.member("a")), 2);
-  EXPECT_EQ(line_of(json, b), 3);
-  EXPECT_EQ(line_of(json, entry), 4);
-  EXPECT_EQ(line_of(json, seven), 5);
-  EXPECT_EQ(line_of(json, beyond), 5);
-  EXPECT_EQ(line_of(json, root.member("none")), 1);
+  EXPECT_EQ(line_number(json, root), 1);
+  EXPECT_EQ(line_number(json, root.member("a")), 2);
+  EXPECT_EQ(line_number(json, b), 3);
+  EXPECT_EQ(line_number(json, entry), 4);
+  EXPECT_EQ(line_number(json, seven), 5);
+  EXPECT_EQ(line_number(json, beyond), 5);
+  EXPECT_EQ(line_number(json, root.member("none")), 1);
 }
 
 }  // namespace

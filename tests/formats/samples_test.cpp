@@ -27,8 +27,8 @@ TEST(Samples, OfEightBitsAreCopied) {
 
 TEST(Samples, OfSixteenBitsAreScaledByTheirDepth) {
   const std::vector<std::uint16_t> samples{0, 1000, 4095, 2048};
-  EXPECT_EQ(depth_of(samples), 12);
-  EXPECT_EQ(depth_of({}), 8);
+  EXPECT_EQ(used_depth(samples), 12);
+  EXPECT_EQ(used_depth({}), 8);
   Image image;
   take_samples(Samples2d<std::uint16_t>{samples, 4, 1, 1}, 12, "picture", image);
   for (std::size_t i = 0; i < 4; ++i)

@@ -29,9 +29,9 @@ TEST(WriteMap, GeoJsonIsExact) {
   const Map map = round_and_square();
   write_map(folder / "a.geojson", map);
   const LoadedMap again = load_map(GeoJsonMap{.file = "a.geojson"}, folder / "");
-  EXPECT_EQ(fingerprint(parts_of(*again.map)), fingerprint(parts_of(map)));
-  EXPECT_EQ(parts_of(map).walls.size(), 2u);
-  EXPECT_EQ(parts_of(map).discs.size(), 1u);
+  EXPECT_EQ(fingerprint(to_parts(*again.map)), fingerprint(to_parts(map)));
+  EXPECT_EQ(to_parts(map).walls.size(), 2u);
+  EXPECT_EQ(to_parts(map).discs.size(), 1u);
 }
 
 TEST(WriteMap, CellsSurviveEveryGridForm) {

@@ -20,7 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (follower_model_text(parse_follower_model(written, "again.yaml")) != written) std::abort();
     const std::vector<Vec2> path{{0, 0}, {100, 0}, {100, 100}};
     const FollowerQuery query{.path = path,
-                              .place = {},
+                              .position = {},
                               .pose = {{10, 1}, 0},
                               .speed = 60,
                               .flow = {},

@@ -41,7 +41,7 @@ void run(std::string_view bytes) {
     require(std::isfinite(request.um_per_px) && request.robots <= 10'000);
   });
   require(percent_decoded(bytes).size() <= bytes.size());
-  require(query_of(bytes, "file").size() <= bytes.size());
+  require(query_value(bytes, "file").size() <= bytes.size());
   // Without the token nobody is let in, whatever the headers say.
   const Access access("0123456789abcdef0123456789abcdef", 8080);
   const std::string_view rest = bytes.substr(bytes.size() / 2);

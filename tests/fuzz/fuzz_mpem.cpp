@@ -21,7 +21,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         if (std::abs(source.direction.norm() - 1) > 1e-9) std::abort();
         if (source.A.empty() && source.B.empty()) std::abort();
       }
-      field_of(coil.sources, {1, 2, 3});
+      field_at(coil.sources, {1, 2, 3});
     }
   } catch (const InputError& error) {
     if (std::string_view(error.what()).find('\n') != std::string_view::npos) std::abort();

@@ -13,8 +13,8 @@ namespace {
 TEST(Vec2, TurnsAndAngles) {
   const double pi = 3.141592653589793;
   EXPECT_EQ(perpendicular({1, 0}), (Vec2{0, 1}));
-  EXPECT_EQ(heading_of({0, 0}), 0);
-  EXPECT_NEAR(heading_of(rotated({2, 0}, 1.25)), 1.25, 1e-15);
+  EXPECT_EQ(heading_along({0, 0}), 0);
+  EXPECT_NEAR(heading_along(rotated({2, 0}, 1.25)), 1.25, 1e-15);
   EXPECT_NEAR(norm(rotated({3, 4}, pi / 3)), 5, 1e-15);
   EXPECT_GT(cross({1, 0}, {0, 1}), 0);
 }

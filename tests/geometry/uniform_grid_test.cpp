@@ -17,7 +17,7 @@ Vec2 random_point(Rng& rng, double beyond) {
 }
 
 Box box_of_cell(const UniformGrid& grid, int column, int row) {
-  const Vec2 centre = grid.centre_of(column, row);
+  const Vec2 centre = grid.cell_centre(column, row);
   return {centre - 0.5 * grid.cell(), centre + 0.5 * grid.cell()};
 }
 
@@ -26,7 +26,7 @@ TEST(UniformGrid, APointIsInItsCellOrNearestToIt) {
   for (const UniformGrid& grid : {UniformGrid(room, 7), UniformGrid(room, 9, 4)}) {
     for (int i = 0; i < 2000; ++i) {
       const Vec2 p = random_point(rng, 40);
-      const int column = grid.column_of(p.x), row = grid.row_of(p.y);
+      const int column = grid.find_column(p.x), row = grid.find_row(p.y);
       const Box own = box_of_cell(grid, column, row);
       const Vec2 inside{std::clamp(p.x, room.lo.x, room.hi.x),
                         std::clamp(p.y, room.lo.y, room.hi.y)};
@@ -77,14 +77,14 @@ TEST(UniformGrid, WhatIsBeyondABlockIsAtLeastAsFar) {
   const UniformGrid grid(room, 5);
   for (int i = 0; i < 500; ++i) {
     const Vec2 p = random_point(rng, 0);
-    const UniformGrid::Run columns{grid.column_of(p.x) - 1, grid.column_of(p.x) + 1};
-    const UniformGrid::Run rows{grid.row_of(p.y), grid.row_of(p.y) + 2};
+    const UniformGrid::Run columns{grid.find_column(p.x) - 1, grid.find_column(p.x) + 1};
+    const UniformGrid::Run rows{grid.find_row(p.y), grid.find_row(p.y) + 2};
     const auto [left, right, bottom, top] = grid.beyond(columns, rows, p);
     const Vec2 other = random_point(rng, 0);
-    EXPECT_TRUE(left <= p.x - other.x + 1e-9 || !(grid.column_of(other.x) < columns.first));
-    EXPECT_TRUE(right <= other.x - p.x + 1e-9 || !(grid.column_of(other.x) > columns.last));
-    EXPECT_TRUE(bottom <= p.y - other.y + 1e-9 || !(grid.row_of(other.y) < rows.first));
-    EXPECT_TRUE(top <= other.y - p.y + 1e-9 || !(grid.row_of(other.y) > rows.last));
+    EXPECT_TRUE(left <= p.x - other.x + 1e-9 || !(grid.find_column(other.x) < columns.first));
+    EXPECT_TRUE(right <= other.x - p.x + 1e-9 || !(grid.find_column(other.x) > columns.last));
+    EXPECT_TRUE(bottom <= p.y - other.y + 1e-9 || !(grid.find_row(other.y) < rows.first));
+    EXPECT_TRUE(top <= other.y - p.y + 1e-9 || !(grid.find_row(other.y) > rows.last));
     EXPECT_EQ(left == infinity, columns.first <= 0);
     EXPECT_EQ(top == infinity, rows.last >= grid.rows() - 1);
   }

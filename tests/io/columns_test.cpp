@@ -87,20 +87,20 @@ const Column& column_of(const std::vector<Column>& columns, std::string_view key
 }
 
 TEST(Columns, AreTheLeavesOfTheFields) {
-  EXPECT_EQ(csv_head(columns_of<Row>()),
+  EXPECT_EQ(csv_head(to_columns<Row>()),
             "t_s,turn_rad,seen_x_um,seen_y_um,seen_heading_rad,target_x_um,target_y_um,"
             "inner_depth_um,inner_count,mood,is_last,index,partner");
-  const std::vector<Column> columns = columns_of<Row>();
+  const std::vector<Column> columns = to_columns<Row>();
   EXPECT_EQ(column_of(columns, "inner_depth_um").doc, "Inside: how deep.");
   EXPECT_EQ(column_of(columns, "mood").kind, ColumnKind::word);
   EXPECT_EQ(column_of(columns, "index").kind, ColumnKind::integer);
   const Row row = full_row();
   EXPECT_EQ(column_of(columns, "inner_count").number(&row), 6);
-  EXPECT_EQ(column_of(columns_of<Row>(ColumnUnits::shown), "turn_deg").number(&row), 90);
+  EXPECT_EQ(column_of(to_columns<Row>(ColumnUnits::shown), "turn_deg").number(&row), 90);
 }
 
 TEST(Columns, WhatIsMissingIsNoNumberAndAnEmptyText) {
-  const std::vector<Column> columns = columns_of<Row>();
+  const std::vector<Column> columns = to_columns<Row>();
   const Row none;
   EXPECT_TRUE(std::isnan(column_of(columns, "seen_x_um").number(&none)));
   EXPECT_EQ(csv_line(columns, &none), "0,0,,,,,,0,0,calm,0,0,");
@@ -119,7 +119,7 @@ TEST(Columns, WhatIsMissingIsNoNumberAndAnEmptyText) {
 }
 
 TEST(Columns, WhatIsOutOfRangeIsRefused) {
-  const std::vector<Column> columns = columns_of<Row>();
+  const std::vector<Column> columns = to_columns<Row>();
   Row row;
   EXPECT_FALSE(column_of(columns, "is_last").set_number(&row, 2));
   EXPECT_FALSE(column_of(columns, "index").set_number(&row, -1));
@@ -142,8 +142,8 @@ TEST(Tables, ComeBackFromHdf5) {
   Results read;
   read_tables(in, type_of<Results>(), &read);
   ASSERT_EQ(read.rows.size(), 3u);
-  EXPECT_EQ(csv_line(columns_of<Row>(), &read.rows[0]),
-            csv_line(columns_of<Row>(), &results.rows[0]));
+  EXPECT_EQ(csv_line(to_columns<Row>(), &read.rows[0]),
+            csv_line(to_columns<Row>(), &results.rows[0]));
   EXPECT_FALSE(read.rows[1].seen);
   EXPECT_EQ(read.rows[0].partner, 3u);
   EXPECT_FALSE(read.rows[1].partner);

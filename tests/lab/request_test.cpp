@@ -77,12 +77,12 @@ TEST(Request, WhatIsOpenedIsReadAsStrictly) {
 }
 
 TEST(Query, ValuesAreDecoded) {
-  EXPECT_EQ(path_of("/a/b?c=d?e"), "/a/b");
-  EXPECT_EQ(query_of("/a?file=x%20y%2Fz.yaml&token=3", "file"), "x y/z.yaml");
-  EXPECT_EQ(query_of("/a?file=x+y%2B", "file"), "x y+");
-  EXPECT_EQ(query_of("/a?profile=1&file=%C3%A9", "file"), "é");
-  EXPECT_EQ(query_of("/a?file", "file"), "");
-  EXPECT_EQ(query_of("/a?file=", "file"), "");
+  EXPECT_EQ(target_path("/a/b?c=d?e"), "/a/b");
+  EXPECT_EQ(query_value("/a?file=x%20y%2Fz.yaml&token=3", "file"), "x y/z.yaml");
+  EXPECT_EQ(query_value("/a?file=x+y%2B", "file"), "x y+");
+  EXPECT_EQ(query_value("/a?profile=1&file=%C3%A9", "file"), "é");
+  EXPECT_EQ(query_value("/a?file", "file"), "");
+  EXPECT_EQ(query_value("/a?file=", "file"), "");
   for (const char* text : {"%", "%2", "%zz", "a%", "a%2", "%-1", "%+1"}) {
     std::string expected = text;
     for (char& c : expected) c = c == '+' ? ' ' : c;

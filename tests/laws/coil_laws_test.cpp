@@ -61,14 +61,14 @@ TEST_P(CoilLaws, FieldIsLinearInTheCurrents) {
     const VectorXd one = random_currents(dice, system), two = random_currents(dice, system);
     const double a = dice.number(), b = dice.number();
     const Vector3d offset = at.offset.field;
-    const Vector3d sum = a * (at.field_of(one) - offset) + b * (at.field_of(two) - offset);
-    EXPECT_LE((at.field_of(a * one + b * two) - offset - sum).norm(), 1e-12 * (1 + sum.norm()));
-    EXPECT_LE((at.field_of(-one) - offset + (at.field_of(one) - offset)).norm(),
-              1e-12 * (1 + at.field_of(one).norm()));
+    const Vector3d sum = a * (at.total_field(one) - offset) + b * (at.total_field(two) - offset);
+    EXPECT_LE((at.total_field(a * one + b * two) - offset - sum).norm(), 1e-12 * (1 + sum.norm()));
+    EXPECT_LE((at.total_field(-one) - offset + (at.total_field(one) - offset)).norm(),
+              1e-12 * (1 + at.total_field(one).norm()));
     // A coil alone is its column.
     for (Eigen::Index i = 0; i < at.field.cols(); ++i) {
       const VectorXd alone = VectorXd::Unit(at.field.cols(), i);
-      EXPECT_LE((at.field_of(alone) - offset - at.field.col(i)).norm(),
+      EXPECT_LE((at.total_field(alone) - offset - at.field.col(i)).norm(),
                 1e-12 * (1 + offset.norm()));
     }
   }
@@ -91,9 +91,9 @@ TEST_P(CoilLaws, GradientIsThatOfTheField) {
     const Vector3d p = place(dice, system);
     const VectorXd currents = random_currents(dice, system);
     const auto field = [&](const Vector3d& at) {
-      return Vector3d(system.at(at).field_of(currents));
+      return Vector3d(system.at(at).total_field(currents));
     };
-    const Eigen::Matrix3d told = system.at(p).gradient_of(currents);
+    const Eigen::Matrix3d told = system.at(p).total_gradient(currents);
     EXPECT_LE((told - told.transpose()).norm(), 1e-12 * told.norm()) << "no curl";
     EXPECT_LE(std::abs(told.trace()), 1e-12 * told.norm()) << "no divergence";
     if (!GetParam().is_smooth) continue;
@@ -127,7 +127,8 @@ TEST_P(CoilLaws, IsAsSymmetricAsItIsBuilt) {
     const Actuation there = system.at(system.centre() - away);
     // All coils alike: what one of a pair makes here, the other makes there.
     const VectorXd all = VectorXd::Ones(here.field.cols());
-    EXPECT_LE((here.field_of(all) - there.field_of(all)).norm(), 1e-10 * here.field_of(all).norm());
+    EXPECT_LE((here.total_field(all) - there.total_field(all)).norm(),
+              1e-10 * here.total_field(all).norm());
   }
 }
 
@@ -138,7 +139,7 @@ TEST_P(CoilLaws, CurrentsMakeTheFieldThatIsAskedFor) {
     const Actuation at = system.at(place(dice, system));
     const Vector3d wanted = 10 * dice.vector();
     const CurrentsForField found = currents_for(at, wanted);
-    const Vector3d made_field = at.field_of(found.currents);
+    const Vector3d made_field = at.total_field(found.currents);
     EXPECT_LE((made_field - found.field).norm(), 1e-9 * (1 + wanted.norm()));
     EXPECT_NEAR(found.short_by, (made_field - wanted).norm(), 1e-9 * (1 + wanted.norm()));
     EXPECT_EQ(found.rank == 3, GetParam().makes_any_field);
@@ -151,7 +152,7 @@ TEST_P(CoilLaws, CurrentsMakeTheFieldThatIsAskedFor) {
     }
     // Currents that change nothing only make them larger.
     const VectorXd random = random_currents(dice, system);
-    const VectorXd idle = random - currents_for(at, at.field_of(random)).currents;
+    const VectorXd idle = random - currents_for(at, at.total_field(random)).currents;
     EXPECT_LE((at.field * idle).norm(), 1e-9 * (1 + at.field.norm()));
     EXPECT_GE((found.currents + idle).norm(), found.currents.norm() * (1 - 1e-9));
   }

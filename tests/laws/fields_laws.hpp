@@ -58,13 +58,13 @@ int expect_limits_of(const T& value, const Type& type, const void* at, const Fie
     case TypeKind::optional:
       if (type.kind == TypeKind::variant || type.count(at) > 0) {
         const std::size_t held = type.kind == TypeKind::variant ? type.count(at) : 0;
-        return expect_limits_of(value, *type.parts[held], type.part_of(at), info, key);
+        return expect_limits_of(value, *type.parts[held], type.find_part(at), info, key);
       }
       return 0;
     case TypeKind::list:
       return type.count(at) == 0
                  ? 0
-                 : expect_limits_of(value, *type.parts[0], type.part_of(at, 0), info, key + ".0");
+                 : expect_limits_of(value, *type.parts[0], type.find_part(at, 0), info, key + ".0");
     case TypeKind::point:
     case TypeKind::number:
     case TypeKind::integer:

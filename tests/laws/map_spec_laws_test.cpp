@@ -30,7 +30,7 @@ void PrintTo(const MapCase& c, std::ostream* os) { *os << c.name; }
 
 /// The name of its file; null where there is none.
 std::string* named_file(MapSpec& spec) {
-  std::string* const file = file_of(spec);
+  std::string* const file = file_name(spec);
   return file && !file->empty() ? file : nullptr;
 }
 
@@ -91,7 +91,7 @@ TEST_P(MapSpecLaws, WrittenExactlyItIsTheSameMap) {
   const Map& map = *loaded.map;
   write_map(folder_ / "out.geojson", map);
   const LoadedMap again = load_map(guess_map_spec(folder_ / "out.geojson"));
-  EXPECT_EQ(fingerprint(parts_of(*again.map)), fingerprint(parts_of(map)));
+  EXPECT_EQ(fingerprint(to_parts(*again.map)), fingerprint(to_parts(map)));
 }
 
 TEST_P(MapSpecLaws, CellsSurviveEveryGridForm) {

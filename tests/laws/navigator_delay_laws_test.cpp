@@ -46,7 +46,7 @@ Approach random_approach(std::uint32_t trial) {
   Approach scene;
   scene.start = {120, rng.uniform(250, 550)};
   scene.goal = {820, rng.uniform(250, 550)};
-  const Vec2 ahead = unit_vector(heading_of(scene.goal - scene.start));
+  const Vec2 ahead = unit_vector(heading_along(scene.goal - scene.start));
   for (int i = 0; i < 8; ++i) {
     const double meets_at = rng.uniform(2.5, 9);  // [s]
     const Vec2 velocity = rng.uniform(20, 60) * unit_vector(rng.uniform(-pi, pi));

@@ -45,7 +45,7 @@ std::vector<Command> random_commands(const SwarmParams& params, int count = 80) 
   std::vector<Command> out;
   for (int i = 0; i < count; ++i) {
     const double heading = rng.uniform(-9, 9);
-    const double speed = rng.uniform(-0.2, 1.4) * limits_of(params).max_speed;
+    const double speed = rng.uniform(-0.2, 1.4) * swarm_limits(params).max_speed;
     out.push_back({heading, rng.below(5) == 0 ? 0 : speed});
   }
   return out;
@@ -60,7 +60,7 @@ void add(Hash& hash, const SwarmBody& body) {
 class SwarmBodyLaws : public testing::TestWithParam<BodyCase> {
  protected:
   SwarmParams params() const { return GetParam().params; }
-  SwarmLimits limits() const { return limits_of(params()); }
+  SwarmLimits limits() const { return swarm_limits(params()); }
 };
 
 TEST_P(SwarmBodyLaws, SameStreamSameBits) {

@@ -43,7 +43,7 @@ TEST(CellGraph, DistancesAreShortest) {
           if (next == node || all[next] == CellGraph::unreached) continue;
           const std::uint32_t step = steps == CellSteps::hops ? 1 : k % 2 == 0 ? 5 : 7;
           least = std::min(least, all[next] + step);
-          EXPECT_EQ(CellGraph::direction_of(graph[next] - graph[node]), k);
+          EXPECT_EQ(CellGraph::nearest_direction(graph[next] - graph[node]), k);
         }
         ASSERT_EQ(all[node], least);
       }

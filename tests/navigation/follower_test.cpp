@@ -14,11 +14,11 @@ namespace {
 const std::vector<Vec2> short_corner{{0, 0}, {100, 0}, {100, 100}};
 
 TEST(Follower, PlacesGoForwardOnly) {
-  PathPlace place = nearest_place(short_corner, {60, 5}, {});
-  EXPECT_EQ(place.piece, 0U);
-  EXPECT_NEAR(place.share, 0.6, 1e-12);
-  place = nearest_place(short_corner, {20, 0}, place);
-  EXPECT_NEAR(place.share, 0.6, 1e-12);
+  PathPosition position = nearest_position(short_corner, {60, 5}, {});
+  EXPECT_EQ(position.piece, 0U);
+  EXPECT_NEAR(position.share, 0.6, 1e-12);
+  position = nearest_position(short_corner, {20, 0}, position);
+  EXPECT_NEAR(position.share, 0.6, 1e-12);
 }
 
 TEST(Follower, PointAheadRunsAroundTheCornerAndEndsAtTheEnd) {
@@ -29,22 +29,22 @@ TEST(Follower, PointAheadRunsAroundTheCornerAndEndsAtTheEnd) {
 
 TEST(Follower, APathOfOnePointIsHeldOn) {
   const std::vector<Vec2> point{{3, 4}};
-  PathPlace place;
-  EXPECT_EQ(point_ahead(point, place, 10), (Vec2{3, 4}));
-  EXPECT_EQ(remaining(point, place), 0);
+  PathPosition position;
+  EXPECT_EQ(point_ahead(point, position, 10), (Vec2{3, 4}));
+  EXPECT_EQ(remaining(point, position), 0);
 }
 
 TEST(Follower, ReachesTheEndFromAnyHeading) {
   for (int k = 0; k < 16; ++k) {
     Pose2 pose{{0, 10}, wrap(k * pi / 8)};
-    PathPlace place;
+    PathPosition position;
     double worst = 0;
     for (int i = 0; i < 400 && distance(pose.position, short_corner.back()) > 5; ++i) {
-      pose = unicycle_step(pose, pursue(short_corner, place, pose, 20, 30), 3, 0.05);
+      pose = unicycle_step(pose, pursue(short_corner, position, pose, 20, 30), 3, 0.05);
       double off = 1e9;
       for (std::size_t j = 0; j + 1 < short_corner.size(); ++j) {
-        const PathPlace p = nearest_place(std::vector<Vec2>{short_corner[j], short_corner[j + 1]},
-                                          pose.position, {});
+        const PathPosition p = nearest_position(
+            std::vector<Vec2>{short_corner[j], short_corner[j + 1]}, pose.position, {});
         off = std::min(
             off, distance(pose.position,
                           short_corner[j] + p.share * (short_corner[j + 1] - short_corner[j])));

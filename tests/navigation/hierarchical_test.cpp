@@ -17,7 +17,7 @@ namespace microswarm {
 namespace {
 
 std::unique_ptr<Navigator> navigator(const Snapshot& world, std::uint64_t seed = 1) {
-  auto made = make_navigator(HierarchicalParams{}, body_task(limits_of(RibbonParams{})),
+  auto made = make_navigator(HierarchicalParams{}, body_task(swarm_limits(RibbonParams{})),
                              Rng(seed, Purpose::planner));
   made->prepare(world, {});
   return made;
@@ -136,7 +136,7 @@ Driven drive(Pose2 pose, Vec2 goal, double seconds, const std::vector<StraightDi
     return Snapshot(map, t, std::move(bodies));
   };
   const auto made = make_navigator(params,
-                                   Task{.swarm = limits_of(RibbonParams{}),
+                                   Task{.swarm = swarm_limits(RibbonParams{}),
                                         .robots = {},
                                         .goal = goal,
                                         .goal_tolerance = room_tolerance},
@@ -210,7 +210,7 @@ TEST(Hierarchical, AsPublishedSwitchesOffEveryAdditionOfOurs) {
 /// The steps at which it plans, of some on the straight path to the goal.
 int plans_on_the_path(const HierarchicalParams& params, Vec2 from, int steps) {
   const Snapshot world = room_with();
-  HierarchicalNavigator navigator(params, body_task(limits_of(RibbonParams{})),
+  HierarchicalNavigator navigator(params, body_task(swarm_limits(RibbonParams{})),
                                   Rng(1, Purpose::planner));
   navigator.prepare(world, {});
   Pose2 pose{from, 0};
@@ -233,7 +233,7 @@ TEST(Hierarchical, PlansOnceWhereThePathHolds) {
 TEST(Hierarchical, ShowsAPhasedGoalOfItsRouteOnly) {
   const Snapshot world = room_with();
   for (const Guide guide : {Guide::straight, Guide::route}) {
-    HierarchicalNavigator n({.guide = guide}, body_task(limits_of(RibbonParams{})),
+    HierarchicalNavigator n({.guide = guide}, body_task(swarm_limits(RibbonParams{})),
                             Rng(1, Purpose::planner));
     n.prepare(world, {});
     n.step(update(world, {300, 500}), {});
@@ -247,7 +247,7 @@ TEST(Hierarchical, PathsKeepTheExtraClearanceWhereItFits) {
     const Snapshot world =
         room_with({{{{500, 0}, {900, 0}, {900, 500 - half}, {500, 500 - half}}, {}},
                    {{{500, 500 + half}, {900, 500 + half}, {900, 1000}, {500, 1000}}, {}}});
-    HierarchicalNavigator n({.extra_clearance = 30}, body_task(limits_of(RibbonParams{})),
+    HierarchicalNavigator n({.extra_clearance = 30}, body_task(swarm_limits(RibbonParams{})),
                             Rng(1, Purpose::planner));
     n.prepare(world, {});
     n.step(update(world, {300, 520}), {});
@@ -265,7 +265,7 @@ TEST(Hierarchical, CorrectsTheFlow) {
   HierarchicalParams params;
   params.follower.correct_flow = true;
   const Snapshot world = room_with();
-  HierarchicalNavigator navigator(params, body_task(limits_of(RibbonParams{})),
+  HierarchicalNavigator navigator(params, body_task(swarm_limits(RibbonParams{})),
                                   Rng(1, Purpose::planner));
   navigator.prepare(world, {});
   Pose2 pose{{300, 500}, 0};

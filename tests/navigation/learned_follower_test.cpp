@@ -77,15 +77,15 @@ SwarmLimits swarm_of(double turn_rate) {
 TEST(PathFollower, HandsOverWhereItWasNotTrained) {
   const FollowerParams learned{.kind = FollowerKind::learned};
   const Pose2 pose{{50, 5}, 0.1};
-  PathPlace place;
+  PathPosition position;
   EXPECT_FALSE(
-      PathFollower(learned, swarm_of(3)).command(long_corner, place, pose, 20, 60).handed_over);
+      PathFollower(learned, swarm_of(3)).command(long_corner, position, pose, 20, 60).handed_over);
   // Slower to turn than any swarm of the training.
-  place = {};
+  position = {};
   const auto answer =
-      PathFollower(learned, swarm_of(0.1)).command(long_corner, place, pose, 20, 60);
+      PathFollower(learned, swarm_of(0.1)).command(long_corner, position, pose, 20, 60);
   EXPECT_TRUE(answer.handed_over);
-  PathPlace of_plain;
+  PathPosition of_plain;
   const Command plain = pursue(long_corner, of_plain, pose, 20, 60);
   EXPECT_EQ(answer.command.heading, plain.heading);
   EXPECT_EQ(answer.command.speed, plain.speed);
@@ -100,9 +100,9 @@ TEST(PathFollower, CommandsDoNotDependOnWhereTheWorldLies) {
     };
     const std::vector<Vec2> path{moved(long_corner[0]), moved(long_corner[1]),
                                  moved(long_corner[2])};
-    PathPlace place;
+    PathPosition position;
     return wrap(
-        follower.command(path, place, {moved({270, 4}), 0.2 + turn}, 20, 60).command.heading -
+        follower.command(path, position, {moved({270, 4}), 0.2 + turn}, 20, 60).command.heading -
         turn);
   };
   EXPECT_NEAR(off_bearing(0, {}), off_bearing(2, {500, -900}), 1e-9);
@@ -117,7 +117,7 @@ std::string drive(const FollowerParams& follower, const RibbonParams& params, do
                           Rng(1, Purpose::planner));
   Ribbon ribbon(params, {long_corner[0], 0});
   Rng rng(1, Purpose::test);
-  PathPlace place;
+  PathPosition position;
   double sum = 0;
   int ticks = 0;
   for (; ticks < 300 && navigator.view().state != NavigatorState::arrived; ++ticks) {
@@ -127,8 +127,8 @@ std::string drive(const FollowerParams& follower, const RibbonParams& params, do
                            .swarm = SwarmPose{pose, 20},
                            .robots = {},
                            .world = borrowed(world)};
-    place = nearest_place(long_corner, pose.position, place);
-    sum += squared_norm(pose.position - point_ahead(long_corner, place, 0));
+    position = nearest_position(long_corner, pose.position, position);
+    sum += squared_norm(pose.position - point_ahead(long_corner, position, 0));
     ribbon.step(navigator.step(seen, {}), 0.1, rng);
   }
   rms = std::sqrt(sum / ticks);

@@ -14,7 +14,7 @@ namespace {
 
 LocalTargetQuery towards(Vec2 from, double heading, Vec2 goal, double clearance = 40) {
   return {.swarm = {from, heading},
-          .goal_heading = heading_of(goal - from),
+          .goal_heading = heading_along(goal - from),
           .goal_distance = distance(from, goal),
           .previous_target = {},
           .clearance = clearance,

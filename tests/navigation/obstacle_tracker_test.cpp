@@ -171,7 +171,7 @@ TEST(ObstacleTracker, OutlinesOfManyVerticesAreComparedExactly) {
       const int count = k % 4 == 0 ? corners + 1 : corners;
       for (int i = 0; i < count; ++i)
         outer.push_back(Vec2{1000, 500} + rng.uniform(90, 110) * unit_vector(2 * pi * i / count));
-      const Vec2 centre = extent_of(body).centre;
+      const Vec2 centre = enclosing_disc(body).centre;
       const Snapshot world(map, 0.1 * k, {body});
       tracker.update(
           {.now = 0.1 * k, .seen = 0.1 * k, .swarm = {}, .robots = {}, .world = borrowed(world)});

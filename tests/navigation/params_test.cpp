@@ -18,9 +18,10 @@ TEST(NavigatorParams, ClearanceRangeAndFollowerAreTheNavigators) {
     const auto* drrt = std::get_if<HierarchicalParams>(&params);
     const auto* radar = std::get_if<RadarParams>(&params);
     EXPECT_EQ(required_clearance(params), drrt ? drrt->clearance : 0) << params.index();
-    EXPECT_EQ(detection_range_of(params), radar ? radar->detection_range : 50) << params.index();
+    EXPECT_EQ(required_detection_range(params), radar ? radar->detection_range : 50)
+        << params.index();
     const bool follows = drrt || std::holds_alternative<PathNavigatorParams>(params);
-    EXPECT_EQ(follower_of(params) != nullptr, follows) << params.index();
+    EXPECT_EQ(find_follower(params) != nullptr, follows) << params.index();
   }
 }
 

@@ -74,7 +74,7 @@ class PlainSafetyFilter {
     const auto bodies = world.moving().bodies();
     const SafetyFilterTuning& tuning = params_.tuning;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
-      const Disc extent = extent_of(bodies[i]);
+      const Disc extent = enclosing_disc(bodies[i]);
       const double far = distance(extent.centre, start_.position) - extent.radius - start_.radius;
       const TrackedBody motion = tracker_.body(i);
       const double widening = outward_speed(bodies[i], motion);
@@ -228,7 +228,7 @@ class PlainSafetyFilter {
     committed_ = Committed{chosen, start_.time};
     const Vec2 begin = chosen.until > 0 ? chosen.first : chosen.second;
     const double speed = norm(begin);
-    return {speed > 0 ? heading_of(begin) : 0, speed};
+    return {speed > 0 ? heading_along(begin) : 0, speed};
   }
 
   SafetyFilterParams params_;

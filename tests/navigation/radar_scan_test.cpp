@@ -22,7 +22,7 @@ RadarLook look_at(Vec2 centre, double radius, Vec2 target, const RadarParams& p 
   return {.centre = centre,
           .radius = radius,
           .target = target,
-          .circles = circles_of(p, radius),
+          .circles = make_circles(p, radius),
           .step = p.prediction_distance,
           .wall_distance = p.safety_distance,
           .target_gain = p.target_gain,
@@ -43,11 +43,11 @@ Snapshot arena(std::vector<Body> bodies = {}, std::vector<Polygon> walls = {}) {
 TEST(RadarCircles, AreThoseOfThePaper) {
   RadarParams p;
   p.detection_range = 70;
-  const RadarCircles c = circles_of(p, 100);  // case I
+  const RadarCircles c = make_circles(p, 100);  // case I
   EXPECT_EQ(c.prediction, 125);
   EXPECT_EQ(c.safety, 150);
   EXPECT_EQ(c.detection, 170);
-  EXPECT_EQ(circles_of(p, 120).safety, 170);  // Eq 26: they follow the swarm
+  EXPECT_EQ(make_circles(p, 120).safety, 170);  // Eq 26: they follow the swarm
 }
 
 TEST(RadarCircles, BadOnesAreRefused) {

@@ -112,7 +112,7 @@ TEST(SafetyFilter, TurnsNoMoreThanItMust) {
                         rng.uniform(30, 100)});
     }
     const Drive d = drive(movers, {1500, 2000}, 20, [&](double, Vec2 p) {
-      return Command{heading_of(goal - p), distance(goal, p) > 10 ? guard_speed : 0};
+      return Command{heading_along(goal - p), distance(goal, p) > 10 ? guard_speed : 0};
     });
     ASSERT_GT(d.min_gap, 0) << trial;
     most = std::max(most, d.turning);

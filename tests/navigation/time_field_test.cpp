@@ -49,7 +49,7 @@ TEST(TimeField, ADiscThatComesCostsNothingBesideItsWay) {
   disc.radius = 60;
   std::vector<PredictedBody> ahead;
   for (int s = 0; s < 2 * made.field.steps(); ++s)
-    ahead.push_back({.centre = {600 - 200 * made.field.time_of(s), 0}});
+    ahead.push_back({.centre = {600 - 200 * made.field.time_at(s), 0}});
   made.solve(std::span(&disc, 1), ahead);
   const double on_its_way = made.field.cost(1, {40, 0});
   EXPECT_GT(on_its_way, 960 / field_speed + 0.5);

@@ -105,7 +105,7 @@ scenes::Vascular star(const std::vector<double>& directions_deg) {
     graph.channels.push_back({0, static_cast<std::uint32_t>(graph.joints.size())});
     graph.joints.push_back({Vec2{60, 60} + 50.0 * unit_vector(radians(direction)), 5});
   }
-  return {"star", graph.bounds, scenes::walls_of(graph), graph.joints[1].centre, 2000, 10};
+  return {"star", graph.bounds, scenes::graph_walls(graph), graph.joints[1].centre, 2000, 10};
 }
 
 TEST(MapSegmentation, BendsAreNoJunctionsAndForksAre) {

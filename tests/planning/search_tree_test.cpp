@@ -24,7 +24,7 @@ bool hangs_below(const SearchTree& tree, std::uint32_t node, std::uint32_t above
 void expect_costs_right(const SearchTree& tree, PathCost cost) {
   for (std::uint32_t i = 1; i < tree.size(); ++i) {
     const TreeNode& parent = tree[tree[i].parent];
-    ASSERT_EQ(tree[i].heading, heading_of(tree[i].position - parent.position));
+    ASSERT_EQ(tree[i].heading, heading_along(tree[i].position - parent.position));
     ASSERT_EQ(tree[i].cost, parent.cost + cost.edge(parent, tree[i].position));
   }
 }

@@ -168,8 +168,8 @@ TEST(Corners, EveryFreeTangentLeadsToWhatIsSeen) {
         if (arcs[i].empty()) continue;
         std::set<std::pair<std::uint32_t, bool>> found;
         corners.seen_from(i, circles[i].radius, clearance, sense > 0,
-                          [&](std::uint32_t other, auto&& sides_of) {
-                            const Sides sides = sides_of();
+                          [&](std::uint32_t other, auto&& find_sides) {
+                            const Sides sides = find_sides();
                             if (sides.left) found.emplace(other, true);
                             if (sides.right) found.emplace(other, false);
                           });
@@ -183,8 +183,8 @@ TEST(Corners, EveryFreeTangentLeadsToWhatIsSeen) {
             if (!line) continue;
             const Vec2 from = circles[i].touch(sense, line->along);
             const Vec2 normal = perpendicular(line->along);
-            if (arc_at(circles[i], circles[i].angle_of(-sense * normal), arcs[i]) < 0) continue;
-            if (arc_at(circles[k], circles[k].angle_of(-there * normal), arcs[k]) < 0) continue;
+            if (arc_at(circles[i], circles[i].angle_at(-sense * normal), arcs[i]) < 0) continue;
+            if (arc_at(circles[k], circles[k].angle_at(-there * normal), arcs[k]) < 0) continue;
             EXPECT_FALSE(map.is_free(Segment{from, from + line->length * line->along}, clearance))
                 << "world " << world << " from " << i << (sense > 0 ? "+" : "-") << " to " << k
                 << (left ? "+" : "-");

@@ -45,8 +45,8 @@ TEST(TurnEdge, EndsAtThePointAndItsChordsBendNoMoreThanTheRadius) {
     for (std::size_t k = 1; k < chords.size(); ++k) {
       const Vec2 step = chords[k] - chords[k - 1];
       if (norm(step) < 1e-6) continue;
-      ASSERT_LE(turn_between(heading, heading_of(step)), pi / 18 + 1e-6);
-      heading = heading_of(step);
+      ASSERT_LE(turn_between(heading, heading_along(step)), pi / 18 + 1e-6);
+      heading = heading_along(step);
     }
     ASSERT_LT(turn_between(heading, edge.heading), pi / 36 + 1e-6);
   }
@@ -102,8 +102,8 @@ TEST(DrrtStarArcs, PathsBeginWithTheStartsHeadingAndAreOfBoundedCurvature) {
       for (std::size_t k = 1; k < made.path.size(); ++k) {
         const Vec2 step = made.path[k] - made.path[k - 1];
         if (norm(step) < 1e-6) continue;
-        EXPECT_LE(turn_between(heading, heading_of(step)), pi / 18 + 1e-6) << trial << ", " << k;
-        heading = heading_of(step);
+        EXPECT_LE(turn_between(heading, heading_along(step)), pi / 18 + 1e-6) << trial << ", " << k;
+        heading = heading_along(step);
       }
     }
   }

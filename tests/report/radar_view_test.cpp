@@ -51,7 +51,7 @@ class RadarView : public testing::Test {
 
 TEST_F(RadarView, WithoutALookTheCirclesAreThoseOfTheParameters) {
   const auto& params = std::get<RadarParams>(record_.scene.scenario.navigator);
-  const RadarCircles wanted = circles_of(params, record_.frames[3].radius);
+  const RadarCircles wanted = make_circles(params, record_.frames[3].radius);
   EXPECT_EQ(radar_circles(record_, 3).detection, wanted.detection);
   RadarLook look;
   look.circles.detection = 7;

@@ -27,7 +27,7 @@ TEST_F(LiveRigs, DrivesTheSwarmInRealTime) {
   EXPECT_EQ(result.status, Status::stopped);
   EXPECT_GT(driven, 0.1);
   // 10 pictures and 200 sendings a second are meant, far fewer come on a busy computer.
-  EXPECT_GT(distance(position, start), 0.1 * 3 * limits_of(scene.scenario.swarm).max_speed);
+  EXPECT_GT(distance(position, start), 0.1 * 3 * swarm_limits(scene.scenario.swarm).max_speed);
   EXPECT_GE(timing.frames, 3);
   EXPECT_GE(coils->drives, 30);
   EXPECT_LE(coils->drives, 700);
@@ -215,7 +215,8 @@ TEST_F(LiveRigs, ALogThatCannotBeWrittenEndsIt) {
                 {.coils = [&](const CoilMoment&) {
                   if (++moments > 50) throw InputError("commands.csv: cannot write: disk full");
                 }});
-  const auto navigator = make_navigator(s.navigator, task_of(s), Rng(1, Purpose::planner, 0));
+  const auto navigator =
+      make_navigator(s.navigator, navigation_task(s), Rng(1, Purpose::planner, 0));
   const RunResult result = test::run(s, plant, *navigator);
   EXPECT_EQ(result.status, Status::fault);
   EXPECT_EQ(result.state, "commands.csv: cannot write: disk full");
@@ -258,8 +259,8 @@ TEST_F(LiveRigs, ObstaclesOfTheScenarioAreVirtualBesideThoseOfARealCamera) {
     ASSERT_EQ(first.world->moving().bodies().size(), 1u);
     const Body& body = first.world->moving().bodies()[0];
     EXPECT_EQ(body.obstacle, 0u);
-    EXPECT_NEAR(distance(extent_of(body).centre, motion.start + first.seen * motion.velocity), 0,
-                1e-9);
+    EXPECT_NEAR(distance(enclosing_disc(body).centre, motion.start + first.seen * motion.velocity),
+                0, 1e-9);
     EXPECT_TRUE(plant.set_obstacles({}));
     EXPECT_TRUE(plant.observe().world->moving().empty());
   }
@@ -281,7 +282,8 @@ TEST_F(LiveRigs, AVirtualObstacleInTheWayIsAvoided) {
                                  std::make_unique<WatchedCoils>(coils));
   LiveRig plant(s, world.map, bench_rig, simulator.camera(40), simulator.view().scale,
                 simulator.coils());
-  const auto navigator = make_navigator(s.navigator, task_of(s), Rng(s.seed, Purpose::planner, 0));
+  const auto navigator =
+      make_navigator(s.navigator, navigation_task(s), Rng(s.seed, Purpose::planner, 0));
   const RunResult result = test::run(s, plant, *navigator, {}, Stop(std::chrono::seconds(12)));
   EXPECT_EQ(result.status, Status::stopped) << result.state;
   EXPECT_GT(result.metrics.obstacles.clearance, 60);
@@ -320,12 +322,13 @@ TEST_F(LiveRigs, AWaveformThatTheDeviceWeakensMovesTheSwarmAsItsFieldDoes) {
     RealtimeRigSimulator simulator(s, world, *rig, std::make_unique<WeakenedCoils>(share));
     LiveRig plant(s, world.map, *rig, simulator.camera(40), simulator.view().scale,
                   simulator.coils());
-    const auto navigator = make_navigator(s.navigator, task_of(s), Rng(1, Purpose::planner, 0));
+    const auto navigator =
+        make_navigator(s.navigator, navigation_task(s), Rng(1, Purpose::planner, 0));
     test::run(s, plant, *navigator, {}, Stop(std::chrono::seconds(2)));
     return distance(simulator.swarm().pose.position, start);
   };
-  EXPECT_GT(way(0.5), 0.1 * 2 * limits_of(s.swarm).max_speed);  // 4 mT turn it as 8 do
-  EXPECT_LT(way(0.03), 1);                                      // 0.24 mT turn nothing
+  EXPECT_GT(way(0.5), 0.1 * 2 * swarm_limits(s.swarm).max_speed);  // 4 mT turn it as 8 do
+  EXPECT_LT(way(0.03), 1);                                         // 0.24 mT turn nothing
 }
 
 /// Gives one picture, then fails.
@@ -353,7 +356,8 @@ TEST_F(LiveRigs, ACameraThatFailsAtTheStartEndsIt) {
   ASSERT_TRUE(camera->next(first));
   LiveRig plant(s, world.map, *rig, std::make_unique<OnePicture>(first.picture),
                 simulator.view().scale, simulator.coils());
-  const auto navigator = make_navigator(s.navigator, task_of(s), Rng(1, Purpose::planner, 0));
+  const auto navigator =
+      make_navigator(s.navigator, navigation_task(s), Rng(1, Purpose::planner, 0));
   const RunResult result = test::run(s, plant, *navigator);
   EXPECT_EQ(result.status, Status::fault);
   EXPECT_EQ(result.state, "camera: gone");

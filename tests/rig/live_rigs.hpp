@@ -161,7 +161,7 @@ class LiveRigs : public ::testing::Test {
                   std::make_unique<TroubledCamera>(simulator.camera(40), trouble),
                   turned(simulator.view().scale), simulator.coils());
     const auto navigator =
-        make_navigator(s.navigator, task_of(s), Rng(s.seed, Purpose::planner, 0));
+        make_navigator(s.navigator, navigation_task(s), Rng(s.seed, Purpose::planner, 0));
     std::atomic<bool> over = false;
     std::thread trouble_maker([&] {
       std::this_thread::sleep_for(std::chrono::milliseconds(500));

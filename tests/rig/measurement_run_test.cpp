@@ -107,7 +107,7 @@ TEST_F(MeasurementRuns, ReadsTheFieldOfSettledCurrents) {
   EXPECT_EQ(made.reading->mean, Eigen::Vector3d(2, 2, 2));
   EXPECT_EQ(made.reading->count, 2);
   ASSERT_TRUE(made.expected);
-  EXPECT_TRUE(made.expected->isApprox(rig.system.at(step.position).field_of(step.currents)));
+  EXPECT_TRUE(made.expected->isApprox(rig.system.at(step.position).total_field(step.currents)));
   EXPECT_DOUBLE_EQ(driver.most, 2);
   EXPECT_GT(reader.watched, 10) << "before the currents settle and while they ramp down";
   EXPECT_GT(heard, reader.watched);
@@ -136,7 +136,7 @@ TEST_F(MeasurementRuns, CurrentsThatTheDeviceLimitsCountAsReported) {
   EXPECT_EQ(reader.limited, std::vector<Eigen::Index>{0});
   EXPECT_DOUBLE_EQ(made.currents[0], 1);
   ASSERT_TRUE(made.expected);
-  EXPECT_TRUE(made.expected->isApprox(rig.system.at(step.position).field_of(made.currents)));
+  EXPECT_TRUE(made.expected->isApprox(rig.system.at(step.position).total_field(made.currents)));
 }
 
 TEST_F(MeasurementRuns, ADeviceWithoutCurrentIsNotMeasured) {

@@ -21,7 +21,7 @@ inline Box bounding_box(const Body& body) {
   return microswarm::bounding_box(std::get<Polygon>(body.shape));
 }
 
-inline CameraView view_of(const Microscope& m) { return {m.scale(), m.width(), m.height()}; }
+inline CameraView session_view(const Microscope& m) { return {m.scale(), m.width(), m.height()}; }
 
 inline PerceptionParams eye_params() {
   PerceptionParams p;

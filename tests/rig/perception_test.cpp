@@ -18,7 +18,7 @@ namespace {
 
 using test::channel;
 using test::eye_params;
-using test::view_of;
+using test::session_view;
 
 /// Robots that are seen for a second, then vanish but for a few.
 class VanishingRobots : public testing::Test {
@@ -42,7 +42,7 @@ class VanishingRobots : public testing::Test {
   std::vector<Vec2> robots;
   double t = 0;
   std::unique_ptr<RobotPerception> perception = std::make_unique<RobotPerception>(
-      eye_params(), RobotSwarmParams{}, *map, std::vector<Vec2>{}, view_of(microscope));
+      eye_params(), RobotSwarmParams{}, *map, std::vector<Vec2>{}, session_view(microscope));
 };
 
 TEST_F(VanishingRobots, DustIsNotTwentyRobots) {
@@ -80,7 +80,7 @@ TEST(RobotPerception, KnowsEveryRobotWhileTheyAreApart) {
   Microscope microscope(optics, *map, 1, 0);
   std::vector<Vec2> robots;
   for (int i = 0; i < 60; ++i) robots.push_back({150.0 + 90 * (i % 10), 150.0 + 100 * (i / 10)});
-  RobotPerception perception(eye_params(), {}, *map, robots, view_of(microscope));
+  RobotPerception perception(eye_params(), {}, *map, robots, session_view(microscope));
   Rng rng(3, Purpose::test);
   for (int frame = 1; frame < 30; ++frame) {
     for (Vec2& robot : robots) robot += Vec2{2 + rng.normal(), 1 + rng.normal()};
@@ -100,7 +100,7 @@ TEST(RobotPerception, PilesAreSeenAsOneAndComeApartAgain) {
   optics.um_per_px = 2;
   Microscope microscope(optics, *map, 1, 0);
   std::vector<Vec2> robots{{400, 400}, {600, 400}, {800, 600}};
-  RobotPerception perception(eye_params(), {}, *map, robots, view_of(microscope));
+  RobotPerception perception(eye_params(), {}, *map, robots, session_view(microscope));
   const auto see = [&](double t) -> const Detections& {
     return perception.process(microscope.look(Snapshot(map, t), std::nullopt, robots), t);
   };
@@ -144,7 +144,7 @@ Lost drive_to_and_fro(int count) {
   }
   const RobotStepper stepper(*map, 15);
   Robots robots = stepper.place(starts);
-  RobotPerception perception(params, {}, *map, starts, view_of(microscope));
+  RobotPerception perception(params, {}, *map, starts, session_view(microscope));
   constexpr double near = 30;  // [µm]; a robot's picture is 16 µm wide
   const auto alone = [](Vec2 position, const std::vector<Vec2>& others) {
     return std::none_of(others.begin(), others.end(),

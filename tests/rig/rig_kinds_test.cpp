@@ -44,13 +44,13 @@ TEST_F(RigKinds, ADeviceThatIsNotThereIsNeverSimulated) {
 TEST_F(RigKinds, ChannelsAndFullScaleAreTheDrivers) {
   const auto channels = [&](const std::string& driver) {
     const Rig r = rig(driver);
-    return channels_of(r.params, r.system);
+    return channel_count(r.params, r.system);
   };
   EXPECT_EQ(channels("{type: simulated, channels: 9}"), 9);
   EXPECT_EQ(channels(device_drivers[0]), coil_link_channels);
   EXPECT_EQ(channels(device_drivers[1]), 3);  // one for each coil
   EXPECT_EQ(channels("{type: socket, channels: 5}"), 5);
-  EXPECT_EQ(full_scale_of(rig("{type: program, command: [a], full_scale_a: 7}").params), 7);
+  EXPECT_EQ(driver_full_scale(rig("{type: program, command: [a], full_scale_a: 7}").params), 7);
 }
 
 TEST_F(RigKinds, WhoTurnsTheFieldAndWhoTakesIt) {
@@ -81,8 +81,8 @@ TEST_F(RigKinds, CamerasAreSimulatedDevicesOrVideos) {
     EXPECT_EQ(device_camera(r.params).has_value(), expected.kind == CameraKind::device);
     EXPECT_EQ(shows_drawn_swarm(r.params), expected.drawn) << expected.camera;
   }
-  EXPECT_EQ(open_camera_of(rig("{type: simulated}")), nullptr);
-  EXPECT_THROW(open_camera_of(rig("{type: simulated}", all[3].camera)), InputError);
+  EXPECT_EQ(open_rig_camera(rig("{type: simulated}")), nullptr);
+  EXPECT_THROW(open_rig_camera(rig("{type: simulated}", all[3].camera)), InputError);
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ struct Rehearsal {
   RunResult in_rig(SimulatedRig& plant, std::span<RunListener* const> listeners = {}) const {
     const Scenario& s = scene.scenario;
     const auto navigator =
-        make_navigator(s.navigator, task_of(s), Rng(s.seed, Purpose::planner, 0));
+        make_navigator(s.navigator, navigation_task(s), Rng(s.seed, Purpose::planner, 0));
     return test::run(s, plant, *navigator, listeners);
   }
   RunResult in_rig() const {

@@ -20,7 +20,7 @@ namespace {
 
 using test::channel;
 using test::eye_params;
-using test::view_of;
+using test::session_view;
 
 TEST(SwarmPerception, FollowsASwarmAmongObstacles) {
   const auto map = channel();
@@ -28,7 +28,7 @@ TEST(SwarmPerception, FollowsASwarmAmongObstacles) {
   optics.um_per_px = 2;
   Microscope microscope(optics, *map, 1, 0);
   SwarmPerception perception(eye_params(), {.max_speed = 100}, *map, {{200, 300}, 0},
-                             view_of(microscope));
+                             session_view(microscope));
   std::uint32_t standing_number = 0;
   for (int i = 0; i < 60; ++i) {
     const double t = 0.1 * i;
@@ -65,7 +65,7 @@ TEST(SwarmPerception, DiscsKeepTheirNumbersWhileTheirImagesJoin) {
   PerceptionParams params = eye_params();
   params.scene.obstacles.gap = 2;
   SwarmPerception perception(params, {.max_speed = 100}, *map, {{200, 300}, 0},
-                             view_of(microscope));
+                             session_view(microscope));
   for (int i = 0; i < 160; ++i) {
     const double t = 0.1 * i;
     // They pass each other, 6 µm from edge to edge: less than two pixels.
@@ -94,7 +94,7 @@ TEST(SwarmPerception, LeavesOfAValveAreOneObstacle) {
   const Obstacle valve{Valve{.span = 700, .thickness = 60, .max_gap = 400, .period = 10},
                        Still{{700, 450}, 0}};
   SwarmPerception perception(eye_params(), {.max_speed = 100}, *map, {{200, 300}, 0},
-                             view_of(microscope), std::span(&valve, 1));
+                             session_view(microscope), std::span(&valve, 1));
   const WaitZone zone{.centre = {700, 450}, .width = 400, .height = 700, .min_gap = 200};
   const Waiting swarm{{560, 450}, 50, 75, {1100, 450}};
   int waits = 0;
@@ -132,7 +132,7 @@ TEST(SwarmPerception, AnObstacleMayShrinkButDirtIsNone) {
   PerceptionParams params = eye_params();
   params.scene.obstacles.gap = 2;
   SwarmPerception perception(params, {.max_speed = 100}, *map, {{200, 300}, 0},
-                             view_of(microscope));
+                             session_view(microscope));
   for (int i = 0; i < 40; ++i) {
     const double radius = 60 - i;  // the smallest obstacle has 32 µm
     const Snapshot world(
@@ -152,7 +152,7 @@ TEST(SwarmPerception, NothingOfTheSwarmIsBeyondItsCircle) {
   for (std::uint32_t trial = 0; trial < 10; ++trial) {
     Microscope microscope(optics, *map, 1, trial);
     SwarmPerception perception(eye_params(), {.max_speed = 100}, *map, {{400, 400}, 0},
-                               view_of(microscope));
+                               session_view(microscope));
     for (int i = 0; i < 10; ++i) {
       const Detections& seen = perception.process(
           microscope.look(Snapshot(map, i), SwarmPose{{{400, 400}, 0}, 80}, {}), i);
@@ -168,7 +168,7 @@ TEST(SwarmPerception, SaysWhyThereIsNone) {
   const auto map = channel();
   Microscope microscope({}, *map, 1, 0);
   SwarmPerception perception(eye_params(), {.max_speed = 100}, *map, {{200, 300}, 0},
-                             view_of(microscope));
+                             session_view(microscope));
   const Detections& empty = perception.process(microscope.look(Snapshot(map), std::nullopt, {}), 0);
   EXPECT_FALSE(empty.swarm);
   EXPECT_EQ(empty.not_found, NotFound::none);
@@ -181,7 +181,7 @@ TEST(SwarmPerception, TwoSwarmsAreNotGuessedBetween) {
   const auto map = channel();
   Microscope microscope({}, *map, 1, 0);
   SwarmPerception perception(eye_params(), {.max_speed = 100}, *map, {{300, 400}, 0},
-                             view_of(microscope));
+                             session_view(microscope));
   Image both = microscope.look(Snapshot(map), SwarmPose{{{260, 400}, 0}, 30}, {});
   const Image right = microscope.look(Snapshot(map), SwarmPose{{{340, 400}, 0}, 30}, {});
   for (std::size_t i = 0; i < both.pixels.size(); ++i)
@@ -196,7 +196,7 @@ struct Followed {
   std::shared_ptr<const Map> map = channel();
   Microscope microscope{{}, *map, 1, 0};
   SwarmPerception perception{
-      eye_params(), {.max_speed = 40}, *map, {{300, 400}, 0}, view_of(microscope)};
+      eye_params(), {.max_speed = 40}, *map, {{300, 400}, 0}, session_view(microscope)};
   double t = 0;
   Vec2 position{300, 400};
 
@@ -249,7 +249,7 @@ struct Smooth {
   PerceptionParams params = eye_params();
   CameraScale scale = microscope.scale();
   SwarmPerception perception{
-      params, {.radius = 60, .max_speed = 40}, *map, {{300, 400}, 0}, view_of(microscope)};
+      params, {.radius = 60, .max_speed = 40}, *map, {{300, 400}, 0}, session_view(microscope)};
   double t = 0;
 
   const Detections& see(const std::vector<Disc>& discs) {

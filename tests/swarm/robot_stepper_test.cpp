@@ -210,7 +210,7 @@ TEST(FaceGrid, ListsOfADirectionLeaveOutNothingThatAMoveMeets) {
       const PointF m{static_cast<float>(move.x), static_cast<float>(move.y)};
       const FaceGrid& grid = faces.grid();
       FaceContact near, any;
-      for (const FacePack& pack : grid.near(grid.cell_at(p), grid.direction_of(m)))
+      for (const FacePack& pack : grid.near(grid.cell_at(p), grid.move_direction(m)))
         for (std::size_t i = 0; i < FacePack::size; ++i) {
           const float time = time_to_contact(pack[i], p, m, faces.guard());
           if (time < near.time) near = {time, pack[i].normal};

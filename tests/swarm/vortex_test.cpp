@@ -13,8 +13,8 @@ namespace {
 
 TEST(Vortex, IsAsFastAsItIsPitched) {
   const VortexParams params{.max_speed = 80, .max_pitch = 0.1, .response_lag = 0};
-  EXPECT_DOUBLE_EQ(pitch_of(params, {0, 40}), 0.05);
-  EXPECT_DOUBLE_EQ(pitch_of(params, {0, 400}), 0.1);
+  EXPECT_DOUBLE_EQ(helix_pitch(params, {0, 40}), 0.05);
+  EXPECT_DOUBLE_EQ(helix_pitch(params, {0, 400}), 0.1);
   Rng rng(1, Purpose::plant);
   Vortex vortex(params, {{5, 6}, 1});
   vortex.step({2, 400}, 0.5, rng);
@@ -56,7 +56,7 @@ TEST(Vortex, ItsRippleHasASpreadAndALimit) {
   for (int i = 0; i < steps; ++i) {
     vortex.step({0, 0}, 0.5, rng);
     for (const PoseStamped& p : vortex.trajectory()) {
-      ASSERT_LE(p.radius, limits_of(params).radius);
+      ASSERT_LE(p.radius, swarm_limits(params).radius);
       ASSERT_GE(p.radius, 260);
     }
     squares += (vortex.radius() - 300) * (vortex.radius() - 300);
@@ -76,7 +76,7 @@ TEST(SwarmBody, IsWhatItsParametersSay) {
   EXPECT_EQ(body.pose().pose.position, ribbon.pose().position);
   EXPECT_EQ(body.pose().radius, params.radius);
   EXPECT_EQ(body.speed(), ribbon.speed());
-  EXPECT_TRUE(std::isinf(limits_of(VortexParams{}).max_turn_rate));
+  EXPECT_TRUE(std::isinf(swarm_limits(VortexParams{}).max_turn_rate));
 }
 
 }  // namespace

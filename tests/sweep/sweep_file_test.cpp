@@ -193,7 +193,7 @@ SweepMessage some_message() {
 
 TEST(SweepMessage, ComesBackAsItWas) {
   const SweepMessage message = some_message();
-  const SweepMessage back = message_of(to_bytes(message));
+  const SweepMessage back = parse_message(to_bytes(message));
   EXPECT_EQ(back.kind, message.kind);
   EXPECT_EQ(back.text, message.text);
   EXPECT_EQ(back.want, 3u);
@@ -213,7 +213,7 @@ TEST(SweepMessage, NumbersKeepEveryBit) {
   for (const std::int64_t whole : {std::numeric_limits<std::int64_t>::min(), std::int64_t{-1},
                                    std::int64_t{0}, std::numeric_limits<std::int64_t>::max()})
     message.rows[0].values.emplace_back(whole);
-  const std::vector<SqlValue> back = message_of(to_bytes(message)).rows.at(0).values;
+  const std::vector<SqlValue> back = parse_message(to_bytes(message)).rows.at(0).values;
   ASSERT_EQ(back.size(), message.rows[0].values.size());
   for (std::size_t i = 0; i < back.size(); ++i) {
     ASSERT_EQ(back[i].index(), message.rows[0].values[i].index());
@@ -228,18 +228,18 @@ TEST(SweepMessage, NumbersKeepEveryBit) {
 TEST(SweepMessage, MalformedBytesAreRefused) {
   const std::string bytes = to_bytes(some_message());
   for (std::size_t size = 0; size < bytes.size(); ++size)
-    EXPECT_EQ(error_of([&] { message_of(bytes.substr(0, size)); }),
+    EXPECT_EQ(error_of([&] { parse_message(bytes.substr(0, size)); }),
               fmt::format("mpirun: malformed message of {} bytes", size));
-  EXPECT_NE(error_of([&] { message_of(bytes + '\0'); }), "");
+  EXPECT_NE(error_of([&] { parse_message(bytes + '\0'); }), "");
   for (std::size_t at = 0; at < bytes.size(); ++at)
     for (int value = 0; value < 256; ++value) {
       std::string changed = bytes;
       changed[at] = static_cast<char>(value);
-      error_of([&] { message_of(changed); });  // an InputError or a message
+      error_of([&] { parse_message(changed); });  // an InputError or a message
     }
   std::string unknown = to_bytes({});
   unknown[1] = 7;
-  EXPECT_EQ(error_of([&] { message_of(unknown); }),
+  EXPECT_EQ(error_of([&] { parse_message(unknown); }),
             fmt::format("mpirun: malformed message of {} bytes", unknown.size()));
 }
 

@@ -72,8 +72,8 @@ class Bench {
     const std::lock_guard lock(mutex_);
     const CoilSystem& system = on_.rig.system;
     return system.at(system.centre())
-        .field_of(Eigen::Map<const Eigen::VectorXd>(currents_.data(),
-                                                    static_cast<Eigen::Index>(system.size())));
+        .total_field(Eigen::Map<const Eigen::VectorXd>(currents_.data(),
+                                                       static_cast<Eigen::Index>(system.size())));
   }
   /// The largest current of each channel since the last call [A].
   std::array<double, 6> largest() {

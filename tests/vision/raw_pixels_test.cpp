@@ -32,13 +32,13 @@ std::string refusal(PixelFormat format, int width, int height, const Bytes& data
 }
 
 TEST(RawPixels, NamesAreThoseOfV4l2) {
-  EXPECT_EQ(fourcc_of(PixelFormat::mjpg), 0x47504a4dU);
-  EXPECT_EQ(fourcc_text(fourcc_of(PixelFormat::y16)), "Y16");
+  EXPECT_EQ(to_fourcc(PixelFormat::mjpg), 0x47504a4dU);
+  EXPECT_EQ(fourcc_text(to_fourcc(PixelFormat::y16)), "Y16");
   for (const auto& [format, name] : enum_names(PixelFormat{})) {
-    EXPECT_EQ(format_of(fourcc_of(format)), format);
-    EXPECT_EQ(fourcc_text(fourcc_of(format)), name);
+    EXPECT_EQ(find_format(to_fourcc(format)), format);
+    EXPECT_EQ(fourcc_text(to_fourcc(format)), name);
   }
-  EXPECT_EQ(format_of(0), std::nullopt);
+  EXPECT_EQ(find_format(0), std::nullopt);
   EXPECT_EQ(fourcc_text(0x01020304), "????");
 }
 

@@ -37,7 +37,7 @@ Download recorded(const Session& session) {
 
 Download scenario(const Session& session, const fs::path& folder) {
   Scenario initial = session.record().scene.scenario;
-  for (std::string* file : files_of(initial))
+  for (std::string* file : referenced_files(initial))
     if (!file->empty() && !folder.empty()) *file = (folder / *file).lexically_normal().string();
   return {.bytes = scenario_text(initial)};
 }
@@ -91,7 +91,7 @@ std::function<Download(const Session&)> download(std::string_view name, const fs
   return {};
 }
 
-std::string_view media_type_of(std::string_view name) {
+std::string_view find_media_type(std::string_view name) {
   if (name.ends_with(".h5")) return "application/x-hdf5";
   if (name.ends_with(".mp4")) return "video/mp4";
   if (name.ends_with(".gif")) return "image/gif";

@@ -47,6 +47,6 @@ struct Download {
 /// Empty for another name.
 std::function<Download(const Session&)> download(std::string_view name,
                                                  const std::filesystem::path& folder);
-std::string_view media_type_of(std::string_view name);
+std::string_view find_media_type(std::string_view name);
 
 }  // namespace microswarm::lab

@@ -48,12 +48,13 @@ bool is_within(const fs::path& file, const fs::path& folder) {
 
 }  // namespace
 
-std::vector<std::string*> files_of(Scenario& scenario) {
+std::vector<std::string*> referenced_files(Scenario& scenario) {
   std::vector<std::string*> files;
-  if (std::string* file = file_of(scenario.map)) files.push_back(file);
+  if (std::string* file = file_name(scenario.map)) files.push_back(file);
   for (Obstacle& obstacle : scenario.obstacles)
-    if (Track* track = track_of(obstacle.motion)) files.push_back(&track->file);
-  if (FollowerParams* follower = follower_of(scenario.navigator)) files.push_back(&follower->model);
+    if (Track* track = find_track(obstacle.motion)) files.push_back(&track->file);
+  if (FollowerParams* follower = find_follower(scenario.navigator))
+    files.push_back(&follower->model);
   return files;
 }
 
@@ -105,8 +106,8 @@ void Library::check(const fs::path& scenario, const Settings& settings,
   if (settings.list == trusted.list || scenario.extension() == ".h5") return;
   Scenario asked = read_scenario(scenario, settings);
   Scenario opened = read_scenario(scenario, trusted);
-  const auto known = files_of(opened);
-  for (const std::string* file : files_of(asked)) {
+  const auto known = referenced_files(opened);
+  for (const std::string* file : referenced_files(asked)) {
     const bool is_known =
         std::ranges::any_of(known, [&](const std::string* one) { return *one == *file; });
     if (!file->empty() && !is_known) find((scenario.parent_path() / *file).string());
@@ -115,7 +116,7 @@ void Library::check(const fs::path& scenario, const Settings& settings,
 
 void Library::check_all(const fs::path& scenario) const {
   Scenario asked = read_scenario(scenario);
-  for (const std::string* file : files_of(asked))
+  for (const std::string* file : referenced_files(asked))
     if (!file->empty()) find((scenario.parent_path() / *file).string());
 }
 

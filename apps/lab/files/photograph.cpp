@@ -45,7 +45,7 @@ Vec2 free_place(const Map& map, Vec2 at, double clearance, double width, const c
 
 std::string vessel_schema() { return json_schema<VesselParams>("vessels of a photograph"); }
 
-std::string jpeg_of(const std::filesystem::path& photograph) {
+std::string to_jpeg(const std::filesystem::path& photograph) {
   return encode_jpeg(read_photograph(photograph), jpeg_quality);
 }
 
@@ -81,7 +81,7 @@ std::filesystem::path make_photo_scenario(const std::filesystem::path& photograp
   scenario.map = GeoJsonMap{.file = file.filename().string()};
   if (request.start) {
     fit_swarm(scenario, width);
-    const double clearance = 1.4 * limits_of(scenario.swarm).radius;
+    const double clearance = 1.4 * swarm_limits(scenario.swarm).radius;
     scenario.start = Pose2{free_place(map, *request.start, clearance, width, "start"), 0};
     scenario.goal = free_place(map, *request.goal, clearance, width, "goal");
     scenario.time_limit = 3600;

@@ -19,7 +19,7 @@ struct FoundVessels {
 std::string vessel_schema();
 
 /// A photograph of any format as JPEG. Throws InputError.
-std::string jpeg_of(const std::filesystem::path& photograph);
+std::string to_jpeg(const std::filesystem::path& photograph);
 
 /// Searches the photograph. Throws InputError for a wrong setting.
 FoundVessels find_vessels(const std::filesystem::path& photograph, const PhotoRequest& request);

@@ -32,7 +32,7 @@ std::string_view cookie_value(std::string_view header, std::string_view name) {
 }
 
 /// The host of "HOST:PORT" or "HOST"; empty if it is neither.
-std::string_view name_of(std::string_view host) {
+std::string_view host_name(std::string_view host) {
   const std::size_t end = host.starts_with('[') ? host.find(']') + 1 : host.find(':');
   const std::string_view name = host.substr(0, end);
   std::string_view port = host.substr(name.size());
@@ -53,7 +53,7 @@ std::string Access::cookie() const {
 }
 
 std::string Access::refusal(const Origins& from) const {
-  std::string name(name_of(from.host));
+  std::string name(host_name(from.host));
   for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   const bool is_here = !name.empty() && (name == "localhost" || name == "127.0.0.1" ||
                                          name == "[::1]" || name == from.local);

@@ -75,7 +75,7 @@ void make_scenario(Exchange& e, std::string_view) {
 }
 
 /// Opening that a page asks for; without a file that of the command line.
-Opening opening_of(const OpenRequest& asked, const Shared& shared) {
+Opening to_opening(const OpenRequest& asked, const Shared& shared) {
   Opening opening;
   if (asked.file)
     opening.file = shared.library.find(*asked.file);
@@ -99,7 +99,7 @@ Opening opening_of(const OpenRequest& asked, const Shared& shared) {
 
 /// POST {"file": …, "settings": […]}
 void open_session(Exchange& e, std::string_view) {
-  Opening opening = opening_of(read_open_request(e.request().body()), e.shared());
+  Opening opening = to_opening(read_open_request(e.request().body()), e.shared());
   e.wait();
   const bool live = opening.live.has_value();
   e.shared().hub.open(std::move(opening), [self = e.shared_from_this(),
@@ -126,7 +126,7 @@ void send(Exchange& e, const std::string& name, Outcome<Download> made) {
   };
   if (!made.value.file) {
     HttpResponse response =
-        respond(e.request(), http::status::ok, media_type_of(name), std::move(made.value.bytes));
+        respond(e.request(), http::status::ok, find_media_type(name), std::move(made.value.bytes));
     name_it(response);
     return e.write(std::move(response));
   }
@@ -134,7 +134,7 @@ void send(Exchange& e, const std::string& name, Outcome<Download> made) {
   boost::beast::error_code error;
   response.body().open(made.value.file->path().c_str(), boost::beast::file_mode::scan, error);
   if (error) return e.refuse(http::status::internal_server_error, error.message());
-  set_headers(response, media_type_of(name));
+  set_headers(response, find_media_type(name));
   name_it(response);
   response.keep_alive(e.request().keep_alive());
   response.prepare_payload();
@@ -180,17 +180,17 @@ void export_run(Exchange& e, std::uint64_t session, const std::string& name,
 }
 
 /// GET /api/sessions/ID/NAME
-void download_of(Exchange& e, std::string_view path) {
+void send_download(Exchange& e, std::string_view path) {
   const std::size_t slash = std::min(path.find('/'), path.size());
   const auto number = session_number(path.substr(0, slash));
   if (!number || !e.shared().hub.has(*number) || slash == path.size()) return e.nothing();
   const std::string name(path.substr(slash + 1));
   if (e.shared().hub.drives(*number))
     return e.refuse(http::status::conflict, "the coils are driven: stop the run first");
-  const Opening& opening = e.shared().hub.opening_of(*number);
+  const Opening& opening = e.shared().hub.to_opening(*number);
   if (name == "photo.jpg" && opening.photo)
     return e.later([&e, file = opening.photo->file] {
-      return respond(e.request(), http::status::ok, "image/jpeg", jpeg_of(file));
+      return respond(e.request(), http::status::ok, "image/jpeg", to_jpeg(file));
     });
   if (auto wanted = read_run_export(name, view(e.request().target()))) {
     wanted->photo = opening.photo;
@@ -206,7 +206,7 @@ void download_of(Exchange& e, std::string_view path) {
 }
 
 void write_asset(Exchange& e, std::string_view) {
-  const auto file = asset(path_of(view(e.request().target())));
+  const auto file = asset(target_path(view(e.request().target())));
   if (!file) return e.nothing();
   HttpResponse response =
       respond(e.request(), http::status::ok, file->media_type, std::string(file->bytes));
@@ -221,7 +221,7 @@ struct Route {
   std::string_view path;
   void (*handle)(Exchange& exchange, std::string_view rest);
 
-  bool is_of(const HttpRequest& request, std::string_view target) const {
+  bool is_request_for(const HttpRequest& request, std::string_view target) const {
     return request.method() == method &&
            (path.ends_with('/') ? target.starts_with(path) : target == path);
   }
@@ -233,7 +233,7 @@ constexpr std::array<Route, 11> routes{
      {http::verb::get, "/api/thumbnail", draw_thumbnail},
      {http::verb::get, "/api/schema", write_schema},
      {http::verb::get, "/api/vessel-schema", write_vessel_schema},
-     {http::verb::get, "/api/sessions/", download_of},
+     {http::verb::get, "/api/sessions/", send_download},
      {http::verb::get, "/", write_asset},
      {http::verb::post, "/api/sessions", open_session},
      {http::verb::post, uploads_path, take_upload},
@@ -244,9 +244,9 @@ constexpr std::array<Route, 11> routes{
 }  // namespace
 
 void handle(Exchange& exchange) {
-  const std::string_view path = path_of(view(exchange.request().target()));
+  const std::string_view path = target_path(view(exchange.request().target()));
   for (const Route& route : routes)
-    if (route.is_of(exchange.request(), path))
+    if (route.is_request_for(exchange.request(), path))
       return route.handle(exchange,
                           path.substr(route.path.ends_with('/') ? route.path.size() : path.size()));
   exchange.nothing();

@@ -64,8 +64,8 @@ class HttpConnection : public Exchange {
   void read_body() {
     const auto& header = parser_->get();
     const bool is_upload = header.method() == http::verb::post &&
-                           path_of(view(header.target())) == uploads_path &&
-                           refusal_of(header).empty();
+                           target_path(view(header.target())) == uploads_path &&
+                           refusal_reason(header).empty();
     if (is_upload) {
       stream_.expires_after(shared_.hub.limits().patience +
                             std::chrono::seconds(max_upload / slowest_reader));
@@ -79,9 +79,9 @@ class HttpConnection : public Exchange {
                      [self = self()](beast::error_code error, std::size_t) { self->take(error); });
   }
 
-  std::string refusal_of(const HttpRequest& request) const {
+  std::string refusal_reason(const HttpRequest& request) const {
     if (request.count(http::field::host) > 1) return "the host is named twice";
-    const std::string token = query_of(view(request.target()), "token");
+    const std::string token = query_value(view(request.target()), "token");
     return shared_.access.refusal({view(request[http::field::host]),
                                    view(request[http::field::origin]),
                                    view(request[http::field::cookie]), token, local_});
@@ -108,8 +108,8 @@ class HttpConnection : public Exchange {
   }
 
   void serve() {
-    const std::string_view path = path_of(view(request_.target()));
-    if (const std::string why = refusal_of(request_); !why.empty())
+    const std::string_view path = target_path(view(request_.target()));
+    if (const std::string why = refusal_reason(request_); !why.empty())
       return refuse(http::status::forbidden, why);
     if (beast::websocket::is_upgrade(request_)) return upgrade(path);
     try {

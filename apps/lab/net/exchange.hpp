@@ -42,7 +42,9 @@ class Exchange : public std::enable_shared_from_this<Exchange> {
   const Shared& shared() const { return shared_; }
   const HttpRequest& request() const { return request_; }
   /// Decoded value of a key in the request's query; empty without it.
-  std::string query(std::string_view key) const { return query_of(view(request_.target()), key); }
+  std::string query(std::string_view key) const {
+    return query_value(view(request_.target()), key);
+  }
 
   virtual void write(HttpResponse response) = 0;
   virtual void write(boost::beast::http::response<boost::beast::http::file_body> response) = 0;

@@ -6,9 +6,9 @@
 namespace microswarm::lab {
 namespace http = boost::beast::http;
 
-std::string_view path_of(std::string_view target) { return target.substr(0, target.find('?')); }
+std::string_view target_path(std::string_view target) { return target.substr(0, target.find('?')); }
 
-std::string query_of(std::string_view target, std::string_view key) {
+std::string query_value(std::string_view target, std::string_view key) {
   std::size_t at = target.find('?');
   while (at != std::string_view::npos) {
     target.remove_prefix(at + 1);

@@ -16,9 +16,9 @@ using HttpResponse = boost::beast::http::response<boost::beast::http::string_bod
 inline std::string_view view(boost::beast::string_view text) { return {text.data(), text.size()}; }
 
 /// Path of a target such as "/api/thumbnail?file=a.yaml".
-std::string_view path_of(std::string_view target);
+std::string_view target_path(std::string_view target);
 /// Decoded value of a key in a target's query; empty without it.
-std::string query_of(std::string_view target, std::string_view key);
+std::string query_value(std::string_view target, std::string_view key);
 /// Decodes "%20" and "+". Invalid sequences are kept.
 std::string percent_decoded(std::string_view text);
 

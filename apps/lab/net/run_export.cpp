@@ -15,9 +15,9 @@ namespace {
 constexpr double max_time = 1e9;   // [s]
 constexpr double gif_rate = 12.5;  // a file of moderate size; a delay is a whole number of 1/100 s
 
-double number_of(std::string_view target, std::string_view key, double standard, double lo,
-                 double hi) {
-  const std::string text = query_of(target, key);
+double query_number(std::string_view target, std::string_view key, double standard, double lo,
+                    double hi) {
+  const std::string text = query_value(target, key);
   if (text.empty()) return standard;
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -48,11 +48,11 @@ std::optional<RunExport> read_run_export(std::string_view name, std::string_view
   RunExport wanted{.kind = *kind};
   RunVideoOptions& options = wanted.options;
   if (wanted.kind == gif) options.rate = gif_rate;
-  options.from = number_of(target, "from", options.from, 0, max_time);
-  options.to = number_of(target, "to", options.to, 0, max_time);
-  options.speed = number_of(target, "speed", options.speed, 1e-3, 1e6);
-  options.width = static_cast<int>(number_of(target, "width", options.width, 160, 3840));
-  wanted.t = number_of(target, "t", wanted.t, 0, max_time);
+  options.from = query_number(target, "from", options.from, 0, max_time);
+  options.to = query_number(target, "to", options.to, 0, max_time);
+  options.speed = query_number(target, "speed", options.speed, 1e-3, 1e6);
+  options.width = static_cast<int>(query_number(target, "width", options.width, 160, 3840));
+  wanted.t = query_number(target, "t", wanted.t, 0, max_time);
   return wanted;
 }
 

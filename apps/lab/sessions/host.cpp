@@ -3,7 +3,7 @@
 
 namespace microswarm::lab {
 
-Source source_of(const Opening& opening) {
+Source to_source(const Opening& opening) {
   return {.file = opening.file.string(),
           .rig = opening.options.rig.string(),
           .settings = opening.options.settings.texts(),
@@ -100,7 +100,7 @@ void Host::answer(std::uint64_t page, const Request& request) {
     obey(page, request, issues);
     if (request.ask == Ask::clearance) callbacks_.send(page, clearance_message(session().map()));
   } catch (const std::exception& error) {
-    issues.add(issues_of(error));
+    issues.add(to_issues(error));
   }
   publisher_.changed();
   callbacks_.send(page, answer_message(request.id, issues));

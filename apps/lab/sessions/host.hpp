@@ -38,7 +38,7 @@ struct Opening {
   std::optional<BackgroundPhoto> photo{};
   std::optional<RigOpening> live{};  ///< options for real time; without them in simulated time
 };
-Source source_of(const Opening& opening);
+Source to_source(const Opening& opening);
 
 /// A session in its own thread. Every function may be called from any thread; callbacks are called
 /// in the session's thread.

@@ -43,7 +43,7 @@ class Hub {
   void open(Opening opening, std::function<void(const Outcome<std::uint64_t>&)> opened);
   bool has(std::uint64_t session) const;
   /// Source of an open session.
-  const Opening& opening_of(std::uint64_t session) const {
+  const Opening& find_opening(std::uint64_t session) const {
     return sessions_.at(session).host->opening();
   }
   /// Whether it drives the coils of a rig.

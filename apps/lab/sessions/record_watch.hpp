@@ -10,7 +10,7 @@ namespace microswarm::lab {
 /// File to open for a record: the record, or the part that its run writes if it does not exist yet.
 std::filesystem::path present_record(const std::filesystem::path& record);
 
-/// Watches a record that a run is still writing: a part file (microswarm::part_of), which is
+/// Watches a record that a run is still writing: a part file (microswarm::part_file), which is
 /// replaced repeatedly, and removed when the record is complete. Other files never change.
 class RecordWatch {
  public:

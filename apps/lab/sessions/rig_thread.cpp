@@ -219,8 +219,8 @@ void RigThread::fail(const std::string& why) {
 
 void RigThread::welcome(std::uint64_t page) {
   const MessagePtr hello =
-      live_ ? rig_hello_message(live_->session(), source_of(opening_), live_->rig(), warnings_)
-            : hello_message(session(), source_of(opening_));
+      live_ ? rig_hello_message(live_->session(), to_source(opening_), live_->rig(), warnings_)
+            : hello_message(session(), to_source(opening_));
   publisher_.welcome(page, hello, session(), shown(), shown().view());
   if (page != 0) {
     welcomed_.insert(page);
@@ -259,7 +259,7 @@ void RigThread::arm(std::uint64_t page, const Request& request, std::uint64_t st
       welcome(0);
     }
   } catch (const std::exception& error) {
-    issues.add(issues_of(error));
+    issues.add(to_issues(error));
     drives_ = false;
     if (standing_.state == RigState::opening) standing_.state = RigState::ended;
     if (standing_.why.empty()) standing_.why = error.what();

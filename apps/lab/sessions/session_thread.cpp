@@ -100,12 +100,12 @@ SessionView SessionThread::present_view() {
   for (std::size_t i = 0; i < scenario.obstacles.size(); ++i)
     append_bodies(scenario.obstacles[i], static_cast<std::uint32_t>(i), view.frame.t, view.bodies);
   if (!publisher_.has_rows() && !scenario.robots)
-    view.frame.radius = limits_of(scenario.swarm).radius;
+    view.frame.radius = swarm_limits(scenario.swarm).radius;
   return view;
 }
 
 void SessionThread::welcome(std::uint64_t page) {
-  publisher_.welcome(page, hello_message(*session_, source_of(opening_)), *session_, shown(),
+  publisher_.welcome(page, hello_message(*session_, to_source(opening_)), *session_, shown(),
                      present_view());
 }
 

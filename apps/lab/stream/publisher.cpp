@@ -6,7 +6,7 @@
 namespace microswarm::lab {
 namespace {
 
-const AggregationDiagnostics* aggregation_of(const Session& shown) {
+const AggregationDiagnostics* aggregation_diagnostics(const Session& shown) {
   return std::get_if<AggregationDiagnostics>(&shown.diagnostics());
 }
 
@@ -32,14 +32,14 @@ void Publisher::take_more(const Record& record) {
   const auto& steps = record.result.timing.steps;
   for (std::size_t i = rows_.size(); i < record.frames.size(); ++i)
     rows_.push_back(
-        row_of({.frame = record.frames[i], .step_time = i < steps.size() ? steps[i] : 0}));
+        to_row({.frame = record.frames[i], .step_time = i < steps.size() ? steps[i] : 0}));
   for (std::size_t i = events_.size(); i < record.events.size(); ++i)
     events_.push_back(record.events[i]);
   standing.frames = record.frames.size();
 }
 
 void Publisher::take(const Tick& tick) {
-  rows_.push_back(row_of(tick));
+  rows_.push_back(to_row(tick));
   events_.insert(events_.end(), tick.events.begin(), tick.events.end());
   standing.frames = rows_.size();
   is_fresh_ = true;
@@ -51,7 +51,7 @@ void Publisher::welcome(std::uint64_t page, const MessagePtr& hello, Session& se
   send_(page, hello);
   send_(page, rows_message(rows_, events_, true));
   if (!view.tree.empty()) send_(page, plan_message(view));
-  if (const auto* plan = aggregation_of(shown)) send_(page, aggregation_message(*plan));
+  if (const auto* plan = aggregation_diagnostics(shown)) send_(page, aggregation_message(*plan));
   standing.frame = view.number;
   send_(page, frame_message(view, shown.diagnostics()));
   send_(page, standing_message(standing, session.result()));
@@ -75,7 +75,7 @@ void Publisher::tell_frame(const Session& shown, const SessionView& view) {
   tell_rows();
   if (view.plans != told_plans_) send_(0, plan_message(view));
   told_plans_ = view.plans;
-  if (const auto* plan = aggregation_of(shown); plan && plan->nodes != told_nodes_) {
+  if (const auto* plan = aggregation_diagnostics(shown); plan && plan->nodes != told_nodes_) {
     send_(0, aggregation_message(*plan));
     told_nodes_ = plan->nodes;
   }

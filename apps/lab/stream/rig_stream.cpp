@@ -81,7 +81,7 @@ MessagePtr rig_hello_message(const Session& session, const Source& source, const
     currents.push_back(optional(amplifier.max_current));
     temperatures.push_back(optional(amplifier.max_temperature));
   }
-  json["rig_info"] = {{"name", name_of(rig)},
+  json["rig_info"] = {{"name", rig_name(rig)},
                       {"coils", rig.system.coil_names()},
                       {"real_coils", has_coil_device(rig)},
                       {"real_camera", device_camera(rig.params).has_value()},

@@ -162,7 +162,7 @@ MessagePtr make_message(const Json& json, Message::Kind kind) {
   return made;
 }
 
-Row row_of(const Tick& tick) {
+Row to_row(const Tick& tick) {
   const Frame& frame = tick.frame;
   return {.t = frame.t,
           .position = frame.pose.position,
@@ -175,7 +175,7 @@ Row row_of(const Tick& tick) {
           .planned = frame.planned};
 }
 
-std::string command_of(const Source& source, bool is_record) {
+std::string command_line(const Source& source, bool is_record) {
   std::string command = is_record     ? "microswarm replay"
                         : source.live ? "microswarm rig run"
                                       : "microswarm run";
@@ -198,7 +198,7 @@ Json hello_json(const Session& session, const Source& source) {
     photo = {{"file", source.photo->file.string()}, {"um_per_px", source.photo->um_per_px}};
   return {{"type", "hello"},
           {"name", source.file},
-          {"command", command_of(source, session.is_playback())},
+          {"command", command_line(source, session.is_playback())},
           {"settings", source.settings},
           {"rig", source.rig},
           {"live", source.live},
@@ -337,7 +337,7 @@ MessagePtr answer_message(std::uint64_t id, const Issues& issues) {
   Json list = Json::array();
   for (const Issue& issue : issues)
     list.push_back({{"keys", issue.keys},
-                    {"place", issue.place},
+                    {"place", issue.location},
                     {"text", issue.text},
                     {"value", issue.value},
                     {"limit", issue.limit}});

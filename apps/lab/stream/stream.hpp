@@ -28,7 +28,7 @@ struct Row {
   NavigatorState state = NavigatorState::hold;
   bool planned = false;
 };
-Row row_of(const Tick& tick);
+Row to_row(const Tick& tick);
 
 /// Standing of a session, for its pages.
 struct Standing {
@@ -60,7 +60,7 @@ struct Source {
   std::optional<BackgroundPhoto> photo{};
 };
 /// Shell command that repeats the session.
-std::string command_of(const Source& source, bool is_record);
+std::string command_line(const Source& source, bool is_record);
 
 /// Hello of a session: scenario, map, keys that can be changed during the run.
 MessagePtr hello_message(const Session& session, const Source& source);

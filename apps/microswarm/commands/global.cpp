@@ -58,7 +58,7 @@ Check place_list() {
 }
 
 /// Parameters with which a tree was grown; --set must not change them.
-GlobalRrtParams parameters_of(const GlobalOptions& o, const GlobalTree& tree) {
+GlobalRrtParams search_parameters(const GlobalOptions& o, const GlobalTree& tree) {
   GlobalChoice choice;
   GlobalRrtParams grown;
   grown.robostep = tree.robostep;
@@ -80,7 +80,7 @@ GlobalRrtParams parameters_of(const GlobalOptions& o, const GlobalTree& tree) {
   return *set;
 }
 
-Json runs_of(const std::vector<Vec2>& inputs) {
+Json to_runs(const std::vector<Vec2>& inputs) {
   Json runs = Json::array();
   for (std::size_t k = 0; k < inputs.size(); ++k) {
     if (k > 0 && inputs[k] == inputs[k - 1])
@@ -91,7 +91,7 @@ Json runs_of(const std::vector<Vec2>& inputs) {
   return runs;
 }
 
-Json paths_of(const GlobalPlan& plan) {
+Json to_paths(const GlobalPlan& plan) {
   Json paths = Json::array();
   for (std::size_t robot = 0; robot < plan.configurations.at(0).size(); ++robot) {
     Json path = Json::array();
@@ -109,8 +109,8 @@ void show_json(const GlobalAnswer& found, bool has_goals) {
     json["worst_um"] = found.plan.worst;
     json["input_count"] = found.plan.inputs.size();
     json["input_count_found"] = found.inputs_found;
-    json["inputs"] = runs_of(found.plan.inputs);
-    json["ways_um"] = paths_of(found.plan);
+    json["inputs"] = to_runs(found.plan.inputs);
+    json["ways_um"] = to_paths(found.plan);
   }
   print("{}\n", json.dump(2));
 }
@@ -129,7 +129,7 @@ void show(const GlobalOptions& o, const GlobalAnswer& found) {
     print(", the worst robot ends {:.1f} µm from its goal; {} nodes, {:.3f} s\n", plan.worst,
           found.nodes, found.seconds);
     print("input_x_um,input_y_um,times\n");
-    for (const Json& run : runs_of(plan.inputs))
+    for (const Json& run : to_runs(plan.inputs))
       print("{:.6g},{:.6g},{}\n", run["x_um"].get<double>(), run["y_um"].get<double>(),
             run["times"].get<int>());
   }
@@ -149,8 +149,8 @@ void check_options(const GlobalOptions& o) {
 GlobalAnswer ask_tree(const GlobalOptions& o, const LoadedMap& map, std::span<const Vec2> goals,
                       const Stop& stop) {
   const GlobalTree tree = read_global_tree(o.tree, map);
-  const GlobalRrtParams params = parameters_of(o, tree);
-  const GlobalPlay play = play_of(params);
+  const GlobalRrtParams params = search_parameters(o, tree);
+  const GlobalPlay play = to_play(params);
   check_ends(*map.map, tree.positions(0), goals, play, o.map);
   const auto began = Stop::Clock::now();
   GlobalAnswer found{.plan = plan_to(tree, ask(tree, goals, params.goal_tolerance)),
@@ -188,7 +188,7 @@ int global_command(const GlobalOptions& o, const Context& context) {
   const std::vector<Vec2> goals = places(o.goals);
   const GlobalAnswer found = found_plan(o, map, goals, stop);
   if (!o.picture.empty())
-    draw_robots(*map.map, found.plan, goals, play_of(found.planner).goal_tolerance,
+    draw_robots(*map.map, found.plan, goals, to_play(found.planner).goal_tolerance,
                 fmt::format("{}: {}, {} inputs", o.map, to_string(found.plan.status),
                             found.plan.inputs.size()),
                 o.picture);

@@ -52,7 +52,7 @@ void open_in_browser(const std::string& url) {
 
 /// Content of the first page; opened once, so that its errors are reported before the server
 /// listens.
-std::optional<lab::Opening> opening_of(const LabOptions& o) {
+std::optional<lab::Opening> to_opening(const LabOptions& o) {
   if (o.file.empty()) {
     if (!o.settings.empty())
       throw InputError("--set: there is no scenario whose values could be set");
@@ -89,7 +89,7 @@ int lab_command(const LabOptions& o, const Context& context) {
   for (const std::string& folder : o.folders) options.folders.emplace_back(folder);
   options.listen = o.listen;
   options.port = static_cast<std::uint16_t>(o.port);
-  options.opening = opening_of(o);
+  options.opening = to_opening(o);
   lab::Server server(std::move(options));
   if (!o.listen.empty())
     note("warning: anybody who reaches {} and has the token can use this lab, unencrypted\n",

@@ -39,7 +39,7 @@ FollowerTrainingParams training_params(const LearnOptions& o) {
   return params;
 }
 
-std::string hash_of(const std::string& text) {
+std::string hash_text(const std::string& text) {
   Hash hash;
   hash.text(text);
   return hash.hex();
@@ -67,7 +67,7 @@ std::string card(const TrainedFollower& trained, const std::string& model, const
       "| not for | avoiding anything: it knows the path only |\n\n"
       "Parameters of the training:\n\n```json\n{}\n```\n\n"
       "On {} paths that it has not seen, beside pure pursuit and the expert:\n\n```text\n{}```\n",
-      command, std::string(version), model.size(), hash_of(model), trained.model.seed,
+      command, std::string(version), model.size(), hash_text(model), trained.model.seed,
       fmt::join(trained.model.network.layers, "-"), trained.demonstrations, trained.training_error,
       trained.held_out_error, trained.model.training, o.quick ? quick_tasks : tasks,
       rows_table(rows));

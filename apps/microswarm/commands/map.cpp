@@ -132,7 +132,7 @@ int segment(const SegmentOptions& o, const Context& context) {
   note_each(set_values(params, o.settings));
   if (!o.um_per_px && is_camera(o.photo))
     throw InputError(o.photo + ": µm per px is missing: give --um-per-px");
-  const Image photo = picture_of(o.photo, camera_of(o.photo, o.rig));
+  const Image photo = take_picture(o.photo, find_camera(o.photo, o.rig));
   if (!o.um_per_px) throw InputError(o.photo + ": µm per px is missing: give --um-per-px");
   const std::optional<Mask> truth = read_truth(o.truth, photo);
   const double cell = *o.um_per_px;

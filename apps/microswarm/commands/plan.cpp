@@ -33,7 +33,7 @@ void draw(const PlanOptions& o, const Snapshot& world, const PathQuery& query,
           const PathAnswer& answer) {
   const Plan& plan = answer.plan;
   draw_plan(world.map(), plan, query.start.position,
-            {query.goal, limits_of(answer.planner).goal_tolerance},
+            {query.goal, swarm_limits(answer.planner).goal_tolerance},
             fmt::format("{}: {}", o.map, to_string(plan.status)))
       ->write(o.picture);
 }

@@ -22,7 +22,7 @@ constexpr std::array<std::pair<std::string_view, Reproduce>, 4> reproduced_paper
      {"radar", reproduce::radar_figures},
      {"gather", reproduce::gather_figures}}};
 
-Reproduce reproduce_of(const std::string& paper) {
+Reproduce find_paper(const std::string& paper) {
   std::vector<std::string_view> names;
   for (const auto& [name, figures] : reproduced_papers) {
     if (name == paper) return figures;
@@ -39,7 +39,7 @@ int reproduce_command(const std::string& key, reproduce::ReproduceOptions option
   options.note = [](const std::string& what) { note("{}\n", what); };
   const std::string paper = key.substr(0, key.find('/'));
   const std::string figure = key.size() > paper.size() ? key.substr(paper.size() + 1) : "";
-  const Reproduce figures = reproduce_of(paper);
+  const Reproduce figures = find_paper(paper);
   if (figure.empty() && key != paper)
     throw InputError(
         fmt::format("reproduce: '{}' names no figure; all of them are '{}'", key, paper));

@@ -101,7 +101,7 @@ std::string summary(const RunResult& result) {
 /// Warns on stderr if a swarm moves far within a tick.
 void note_tick(const Scenario& scenario) {
   if (scenario.robots) return;
-  const SwarmLimits swarm = limits_of(scenario.swarm);
+  const SwarmLimits swarm = swarm_limits(scenario.swarm);
   const double travel = swarm.max_speed * scenario.tick;
   if (travel <= 2 * swarm.radius) return;
   note(

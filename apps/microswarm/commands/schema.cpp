@@ -41,19 +41,19 @@ void show(std::string_view name, bool keys) {
 
 using Json = nlohmann::ordered_json;
 
-Json json_of(const std::vector<KeyHelp>& keys) {
+Json to_json(const std::vector<KeyHelp>& keys) {
   Json list = Json::array();
   for (const KeyHelp& key : keys) {
     Json types = Json::array();
     for (const KeyHelp& type : key.types)
-      types.push_back({{"type", type.key}, {"keys", json_of(type.keys)}});
+      types.push_back({{"type", type.key}, {"keys", to_json(type.keys)}});
     list.push_back({{"key", key.key},
                     {"unit", key.unit},
                     {"default", key.default_text},
                     {"range", key.range},
                     {"words", key.words},
                     {"doc", key.doc},
-                    {"keys", json_of(key.keys)},
+                    {"keys", to_json(key.keys)},
                     {"types", types}});
   }
   return list;
@@ -61,7 +61,7 @@ Json json_of(const std::vector<KeyHelp>& keys) {
 
 void print_description(const CommandLine& line) {
   Json keys;
-  for (const Kind& kind : kinds()) keys[std::string(kind.name)] = json_of(key_help(kind.type));
+  for (const Kind& kind : kinds()) keys[std::string(kind.name)] = to_json(key_help(kind.type));
   const Json all = {{"version", version}, {"program", line.description()}, {"keys", keys}};
   put(all.dump() + "\n");
 }
@@ -93,7 +93,7 @@ void add_schema(Command app, Action& action) {
   cmd.add_option("kind", *name,
                  "Scenario, sweep, rig or coil system file, or the --set values of track or global")
       .type_name("KIND")
-      .check(one_of(names));
+      .check(any_word(names));
   cmd.add_flag("--keys", *keys, "Print a table with unit, default, range and meaning of each key");
   cmd.callback([=, &action] {
     action = [=](const Context&) {

@@ -63,7 +63,7 @@ SweepOrigin origin() {
   return {host.data(), fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::gmtime(std::time(nullptr)))};
 }
 
-Json json_of(const SqlValue& value) {
+Json to_json(const SqlValue& value) {
   return std::visit(Overloaded{[](std::monostate) { return Json(nullptr); },
                                [](const OneOf<std::int64_t, double, std::string> auto& held) {
                                  return Json(held);
@@ -71,12 +71,12 @@ Json json_of(const SqlValue& value) {
                     value);
 }
 
-Json json_of(const SweepReader& sweep, const CellSummary& cell) {
+Json to_json(const SweepReader& sweep, const CellSummary& cell) {
   Json parameters = Json::object(), medians = Json::object();
   std::size_t next = 0;
   for (const SweepColumn& column : sweep.columns()) {
     if (column.role == SweepColumn::Role::parameter && next < cell.parameters.size())
-      parameters[column.name] = json_of(cell.parameters[next++]);
+      parameters[column.name] = to_json(cell.parameters[next++]);
     if (const auto found = cell.medians.find(column.name); found != cell.medians.end())
       medians[column.name] = found->second;
   }
@@ -117,7 +117,7 @@ std::string table(const SweepReader& sweep, const std::vector<CellSummary>& cell
     std::vector<std::string> line;
     for (const SqlValue& value : cell.parameters) {
       const auto* text = std::get_if<std::string>(&value);
-      line.push_back(text ? *text : json_of(value).dump());
+      line.push_back(text ? *text : to_json(value).dump());
     }
     line.insert(line.end(), {cell.method, std::to_string(cell.trials),
                              fmt::format("{:.1f}", 100 * cell.share_arrived())});
@@ -139,7 +139,7 @@ void tell(const SweepOptions& o, const SweepProgress& progress) {
   const std::size_t there = progress.before + progress.added;
   if (o.json) {
     Json list = Json::array();
-    for (const CellSummary& cell : cells) list.push_back(json_of(sweep, cell));
+    for (const CellSummary& cell : cells) list.push_back(to_json(sweep, cell));
     print("{}\n", Json{{"database", o.out},
                        {"trials", there},
                        {"added", progress.added},

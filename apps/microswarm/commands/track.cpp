@@ -28,7 +28,7 @@ struct TrackOptions {
   bool json = false;
 };
 
-TrackSettings settings_of(const TrackOptions& o) {
+TrackSettings to_settings(const TrackOptions& o) {
   TrackSettings settings;
   if (o.config.empty()) {
     note_each(set_values(settings, o.settings));
@@ -68,9 +68,9 @@ void note_noise(const TrackResult& result) {
 }
 
 int track(const TrackOptions& o, const Context& context) {
-  if (o.suggest) return suggest_tracking(o.video, settings_of(o), o.out, o.json, context.stop);
+  if (o.suggest) return suggest_tracking(o.video, to_settings(o), o.out, o.json, context.stop);
   if (o.out.empty()) throw InputError("track: --out is missing");
-  const TrackSettings settings = settings_of(o);
+  const TrackSettings settings = to_settings(o);
   const std::unique_ptr<FrameSource> source = open_frames(o.video, settings.rate, settings.depth);
   if (!source->rate())
     note("note: {} has no times, one picture a second is assumed: give --rate\n", o.video);

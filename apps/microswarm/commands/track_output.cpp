@@ -42,7 +42,7 @@ std::string events_csv(const TrackResult& result) {
   return csv_table(rows);
 }
 
-std::ptrdiff_t count_of(const TrackResult& result, TrackChange change) {
+std::ptrdiff_t count_changes(const TrackResult& result, TrackChange change) {
   return std::count_if(result.events.begin(), result.events.end(),
                        [&](const TrackEvent& e) { return e.change == change; });
 }
@@ -65,7 +65,7 @@ std::string tracks_h5(const TrackResult& result) {
   file.attribute("/", "um_per_px", result.settings.um_per_px.value_or(0));
   file.attribute("/", "frame_time_s", result.frame_time);
   file.text("/settings", to_yaml(result.settings));
-  for (const Column& column : columns_of<TrackRow>(ColumnUnits::shown)) {
+  for (const Column& column : to_columns<TrackRow>(ColumnUnits::shown)) {
     const std::string path = "/tracks/" + column.key;
     if (column.kind == ColumnKind::integer) {
       std::vector<std::int64_t> values;
@@ -127,8 +127,8 @@ nlohmann::ordered_json to_json(const TrackResult& result) {
           {"drift_um", pair(1, 1)},
           {"drift_px", pair(1 / scale, -1 / scale)},
           {"mean_speed_um_per_s", s.mean_speed ? Json(*s.mean_speed) : Json(nullptr)},
-          {"merges", count_of(result, TrackChange::merge)},
-          {"splits", count_of(result, TrackChange::split)}};
+          {"merges", count_changes(result, TrackChange::merge)},
+          {"splits", count_changes(result, TrackChange::split)}};
 }
 
 std::string track_summary(const TrackResult& result) {
@@ -138,8 +138,9 @@ std::string track_summary(const TrackResult& result) {
       "  tracks    {}, of which {} have {} frames or more\n",
       s.frames, s.frames > 0 ? static_cast<double>(s.features) / s.frames : 0, s.tracks,
       s.long_tracks, TrackSummary::long_track);
-  text += fmt::format("  events    {} merges, {} splits\n", count_of(result, TrackChange::merge),
-                      count_of(result, TrackChange::split));
+  text +=
+      fmt::format("  events    {} merges, {} splits\n", count_changes(result, TrackChange::merge),
+                  count_changes(result, TrackChange::split));
   if (!s.drift || !s.mean_speed) return text + "  drift     –, speed –: no track is long enough\n";
   return text + fmt::format(
                     "  drift     ({:.3f}, {:.3f}) µm from the first frame to the last\n"

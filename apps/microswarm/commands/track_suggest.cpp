@@ -40,7 +40,7 @@ std::string typed(double mass) {
 }
 
 /// The suggested options; empty if the given settings are kept.
-std::string options_of(const ParticleSuggestion& s, const ParticleParams& given) {
+std::string to_options(const ParticleSuggestion& s, const ParticleParams& given) {
   std::string text;
   const auto add = [&](const std::string& setting) {
     text += (text.empty() ? "--set find." : " --set find.") + setting;
@@ -69,7 +69,7 @@ void tell(const ParticleSuggestion& s, const ParticleParams& given) {
     print("  diameter  {} px, where a robot's mean picture ends\n", s.params.diameter);
   else
     print("  diameter  not seen in the pictures: find.diameter_px stays {}\n", given.diameter);
-  const std::string options = options_of(s, given);
+  const std::string options = to_options(s, given);
   print("{}\n", options.empty() ? "nothing better is suggested" : options);
 }
 
@@ -83,7 +83,7 @@ nlohmann::ordered_json to_json(const ParticleSuggestion& s, const ParticleParams
       {"min_mass", s.kinds.gap ? std::stod(typed(s.params.min_mass)) : given.min_mass},
       {"diameter_px", s.params.diameter},
       {"tone", enum_name(s.params.tone)},
-      {"options", options_of(s, given)}};
+      {"options", to_options(s, given)}};
   if (s.kinds.gap) json["gap"] = {s.kinds.gap->noise_to, s.kinds.gap->robots_from};
   return json;
 }

@@ -27,12 +27,12 @@ Check triple(const char* form, double most) {
   }};
 }
 
-Eigen::Vector3d triple_of(const std::string& text) {
+Eigen::Vector3d parse_triple(const std::string& text) {
   const std::vector<double> v = numbers(text);
   return {v[0], v[1], v[2]};
 }
 
-Eigen::VectorXd currents_of(const std::string& text, const CoilSystem& system) {
+Eigen::VectorXd parse_currents(const std::string& text, const CoilSystem& system) {
   const std::vector<double> given = numbers(text);
   if (given.empty()) throw InputError("--currents: must be A,A,…, not " + quote(text));
   if (given.size() != system.size())
@@ -58,14 +58,14 @@ struct FieldOptions {
   bool json = false;
 };
 
-Json json_of(const Eigen::VectorXd& v) {
+Json to_json(const Eigen::VectorXd& v) {
   Json list = Json::array();
   for (const double x : v) list.push_back(x);
   return list;
 }
 
-std::string text_of(const LimitHit& hit, const CoilSystem& system) {
-  const std::string_view unit = unit_symbol(unit_of(hit.limit));
+std::string to_text(const LimitHit& hit, const CoilSystem& system) {
+  const std::string_view unit = unit_symbol(limit_unit(hit.limit));
   if (!std::isfinite(hit.asked))
     return fmt::format("{} of coil {}: rises without end, allowed {:.6g} {}", enum_name(hit.limit),
                        system.coil_names()[hit.coil], hit.allowed, unit);
@@ -74,10 +74,10 @@ std::string text_of(const LimitHit& hit, const CoilSystem& system) {
                      hit.allowed, unit, hit.asked - hit.allowed, unit);
 }
 
-Json json_of(const LimitHit& hit, const CoilSystem& system) {
+Json to_json(const LimitHit& hit, const CoilSystem& system) {
   return {{"limit", enum_name(hit.limit)},
           {"coil", system.coil_names()[hit.coil]},
-          {"unit", unit_suffix(unit_of(hit.limit))},
+          {"unit", unit_suffix(limit_unit(hit.limit))},
           {"asked", hit.asked},
           {"allowed", hit.allowed}};
 }
@@ -95,26 +95,27 @@ int field(const FieldOptions& o) {
   if (o.currents.empty() == o.field.empty())
     throw InputError("rig field: give either --currents or --field");
   const CoilSystem system = read_coil_system(o.system);
-  const Eigen::Vector3d position = o.at.empty() ? system.centre() : triple_of(o.at);
+  const Eigen::Vector3d position = o.at.empty() ? system.centre() : parse_triple(o.at);
   const Actuation at = system.at(position);
   std::optional<CurrentsForField> found;
-  if (!o.field.empty()) found = currents_for(at, triple_of(o.field));
-  const Eigen::VectorXd wanted = found ? found->currents : currents_of(o.currents, system);
+  if (!o.field.empty()) found = currents_for(at, parse_triple(o.field));
+  const Eigen::VectorXd wanted = found ? found->currents : parse_currents(o.currents, system);
   const LimitedCurrents held = Amplifiers(system.amplifiers()).steady(wanted);
-  const Eigen::Vector3d made = at.field_of(held.currents);
-  const FiveGradients slope = five_gradients(at.gradient_of(held.currents)) / mt_per_um_of_t_per_m;
+  const Eigen::Vector3d made = at.total_field(held.currents);
+  const FiveGradients slope =
+      five_gradients(at.total_gradient(held.currents)) / mt_per_um_of_t_per_m;
   const bool unmade = found && !found->reached;
   if (o.json) {
     Json hits = Json::array();
-    for (const LimitHit& hit : held.hits) hits.push_back(json_of(hit, system));
+    for (const LimitHit& hit : held.hits) hits.push_back(to_json(hit, system));
     Json json{{"system", system.name()},
-              {"at_um", json_of(position)},
+              {"at_um", to_json(position)},
               {"in_workspace", system.in_workspace(position)},
               {"coils", system.coil_names()},
-              {"currents_a", json_of(held.currents)},
-              {"field_mt", json_of(made)},
+              {"currents_a", to_json(held.currents)},
+              {"field_mt", to_json(made)},
               {"field_abs_mt", made.norm()},
-              {"gradients_t_per_m", json_of(slope)},
+              {"gradients_t_per_m", to_json(slope)},
               {"scale", held.scale},
               {"limits", hits}};
     if (found) {
@@ -139,7 +140,7 @@ int field(const FieldOptions& o) {
       print("  {:<10} {:12.6g} A\n", system.coil_names()[i],
             held.currents[static_cast<Eigen::Index>(i)]);
     if (unmade) print("{}\n", why_not(*found));
-    for (const LimitHit& hit : held.hits) print("{}\n", text_of(hit, system));
+    for (const LimitHit& hit : held.hits) print("{}\n", to_text(hit, system));
     if (!held.hits.empty()) print("scaled to {:.1f} % of what was asked for\n", 100 * held.scale);
   }
   return unmade || !held.hits.empty() ? not_reached : ok;

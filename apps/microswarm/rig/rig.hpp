@@ -17,13 +17,13 @@ inline constexpr double max_field = 1e6;  ///< [mT]
 /// Check for three numbers of magnitude up to `most`; `form` describes the format.
 Check triple(const char* form, double most);
 /// The numbers of a text accepted by `triple`.
-Eigen::Vector3d triple_of(const std::string& text);
+Eigen::Vector3d parse_triple(const std::string& text);
 
 /// The vector as text: "(1, 0, 0)".
 std::string triple_text(const Eigen::Vector3d& v);
 
 /// Parses "1,0,0", one current for each coil. Throws InputError.
-Eigen::VectorXd currents_of(const std::string& text, const CoilSystem& system);
+Eigen::VectorXd parse_currents(const std::string& text, const CoilSystem& system);
 
 /// Adds `rig map`.
 void add_rig_map(Command rig, Action& action);

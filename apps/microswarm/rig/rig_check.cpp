@@ -57,7 +57,7 @@ void ask_camera(const Rig& rig, const CheckOptions& o, const Stop& stop, Answers
   if (camera_kind(rig.params) == CameraKind::simulated)
     return answers.say(true, "camera", "simulated");
   try {
-    std::unique_ptr<FrameSource> source = open_camera_of(rig);
+    std::unique_ptr<FrameSource> source = open_rig_camera(rig);
     const std::optional<double> rate = source->rate();
     NewestFrame camera(std::move(source), "camera", camera_watch(rig.params));
     answer(answers, check_camera(camera, rig, rate, o.seconds, stop));

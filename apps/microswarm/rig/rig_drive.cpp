@@ -138,12 +138,12 @@ int drive_each(Bench& bench, const DriveOptions& o, const Context& context) {
   return ok;
 }
 
-ManualCommand command_of(const DriveOptions& o, const CoilSystem& system) {
+ManualCommand to_command(const DriveOptions& o, const CoilSystem& system) {
   ManualCommand command{.wanted = {}, .seconds = o.seconds, .ramp = o.ramp};
   if (!o.currents.empty())
-    command.wanted = currents_of(o.currents, system);
+    command.wanted = parse_currents(o.currents, system);
   else if (!o.field.empty())
-    command.wanted = triple_of(o.field);
+    command.wanted = parse_triple(o.field);
   else
     command.wanted = microswarm::Command{radians(*o.heading), o.speed};
   return command;
@@ -166,7 +166,7 @@ int rig_drive(const DriveOptions& o, const Context& context) {
     Bench bench(rig, o.coils);
     return drive_each(bench, o, context);
   }
-  const ManualCommand command = command_of(o, rig.system);
+  const ManualCommand command = to_command(o, rig.system);
   require_possible(command, rig.params, rig.system);
   Bench bench(rig, o.coils);
   return drive(bench, command, context);

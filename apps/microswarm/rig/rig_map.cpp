@@ -37,13 +37,13 @@ struct RigMapOptions {
 int map_field(const RigMapOptions& o, const Stop& stop) {
   keep_input(o.out, o.system);
   const CoilSystem system = read_coil_system(o.system);
-  UniformityGrid grid{.centre = o.at.empty() ? system.centre() : triple_of(o.at),
+  UniformityGrid grid{.centre = o.at.empty() ? system.centre() : parse_triple(o.at),
                       .plane = *enum_value<Plane>(o.plane),
                       .points = static_cast<int>(o.points)};
   grid.half_width = o.half_width ? *o.half_width : fitting_half_width(system, grid);
   const Eigen::VectorXd currents =
-      o.currents.empty() ? currents_for(system.at(grid.centre), triple_of(o.field)).currents
-                         : currents_of(o.currents, system);
+      o.currents.empty() ? currents_for(system.at(grid.centre), parse_triple(o.field)).currents
+                         : parse_currents(o.currents, system);
   const std::optional<UniformityMap> made = [&] {
     ProgressBar bar("map");
     return uniformity(system, currents, grid, [&](double share) {
@@ -114,7 +114,7 @@ void add_rig_map(Command rig, Action& action) {
       .excludes(currents);
   cmd.add_option("--plane", o->plane, "Plane of the map: xy, xz or yz")
       .type_name("WORD")
-      .check(one_of({"xy", "xz", "yz"}));
+      .check(any_word({"xy", "xz", "yz"}));
   cmd.add_option("--half-width", o->half_width, "Half the side of the map in µm")
       .type_name("NUMBER")
       .default_text("10000, or less in a smaller workspace")

@@ -7,7 +7,7 @@ namespace microswarm::cli {
 
 void note_field(const Rig& rig, const Scenario& scenario) {
   const std::string unusual = unusual_field(rig, scenario);
-  if (!unusual.empty()) note("note: {}: {}\n", name_of(rig), unusual);
+  if (!unusual.empty()) note("note: {}: {}\n", rig_name(rig), unusual);
 }
 
 }  // namespace microswarm::cli

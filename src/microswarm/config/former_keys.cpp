@@ -15,7 +15,7 @@ namespace {
 using Kind = YamlNode::Kind;
 
 /// Index of a key's value in the map's items; nothing if the key is absent.
-std::optional<std::size_t> value_of(const YamlNode& map, std::string_view key) {
+std::optional<std::size_t> find_value(const YamlNode& map, std::string_view key) {
   if (map.kind != Kind::map) return std::nullopt;
   for (std::size_t i = 0; i < map.items.size(); i += 2)
     if (map.items[i].text == key) return i + 1;
@@ -45,7 +45,7 @@ struct Renaming {
   /// Drops it wherever the parts of its name lead to.
   void retire(YamlNode& part, std::string_view path, std::string_view from) const {
     const std::size_t dot = path.find('.');
-    const auto value = value_of(part, path.substr(0, dot));
+    const auto value = find_value(part, path.substr(0, dot));
     if (!value) return;
     if (dot == std::string_view::npos) return retire(part.items, *value, from);
     retire(part.items[*value], path.substr(dot + 1), from);
@@ -55,15 +55,15 @@ struct Renaming {
   void move(YamlNode& document, const MovedKey& moved) const {
     if (moved.to.empty()) return retire(document, moved.from, moved.from);
     const std::size_t from = moved.from.find('.'), to = moved.to.find('.');
-    const auto source = value_of(document, moved.from.substr(0, from));
+    const auto source = find_value(document, moved.from.substr(0, from));
     if (!source) return;
-    const auto value = value_of(document.items[*source], moved.from.substr(from + 1));
+    const auto value = find_value(document.items[*source], moved.from.substr(from + 1));
     if (!value) return;
-    auto target = value_of(document, moved.to.substr(0, to));
+    auto target = find_value(document, moved.to.substr(0, to));
     if (target) {
       const YamlNode& part = document.items[*target];
       const bool is_map = part.kind == Kind::map || part.kind == Kind::null;
-      if (!is_map || value_of(part, moved.to.substr(to + 1))) return;
+      if (!is_map || find_value(part, moved.to.substr(to + 1))) return;
     }
     if (!target) {
       YamlNode part = document.items[*source], word;
@@ -94,7 +94,7 @@ struct Renaming {
       const Field* field = type.field(key.text);
       if (!field) {
         field = type.former_field(key.text);
-        if (!field || value_of(node, field->key)) continue;
+        if (!field || find_value(node, field->key)) continue;
         note(key, key.text, field->key);
         key.text = field->key;
       }
@@ -113,7 +113,7 @@ struct Renaming {
           for (YamlNode& item : node.items) rename(*type.parts[0], item);
         return;
       case TypeKind::variant: {
-        const auto chosen = value_of(node, "type");
+        const auto chosen = find_value(node, "type");
         if (!chosen) return;
         const auto word = std::ranges::find(type.words, node.items[*chosen].text);
         if (word != type.words.end())
@@ -145,7 +145,7 @@ bool use_present_keys_in_value(const Type& type, YamlNode& value, std::string_vi
     const std::string_view inside = one.from.substr(key.size() + 1);
     if (one.to.empty())
       renaming.retire(value, inside, one.from);
-    else if (value_of(value, inside))
+    else if (find_value(value, inside))
       throw InputError(std::string(name), 0, 0,
                        fmt::format("'{}' is now '{}': set that", one.from, one.to));
   }

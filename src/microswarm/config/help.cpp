@@ -21,12 +21,12 @@ bool has_parts(const Type& type) {
   return type.kind == TypeKind::record || type.kind == TypeKind::variant;
 }
 
-const Type& content_of(const Type& type) {
+const Type& content_type(const Type& type) {
   const bool wraps = type.kind == TypeKind::optional || type.kind == TypeKind::list;
-  return wraps ? content_of(*type.parts[0]) : type;
+  return wraps ? content_type(*type.parts[0]) : type;
 }
 
-std::vector<KeyHelp> keys_of(const Type& type, const void* defaults);
+std::vector<KeyHelp> list_keys(const Type& type, const void* defaults);
 
 std::string default_text(const Field& field, const void* value) {
   if (field.info.required) return "required";
@@ -41,15 +41,15 @@ std::string default_text(const Field& field, const void* value) {
 }
 
 void add_parts(const Type& type, const void* defaults, KeyHelp& to) {
-  to.keys = keys_of(type, defaults);
+  to.keys = list_keys(type, defaults);
   for (std::size_t i = 0; i < type.parts.size(); ++i) {
     const Type& part = *type.parts[i];
-    to.types.push_back({.key = std::string(type.words[i]), .keys = keys_of(part, part.defaults)});
+    to.types.push_back({.key = std::string(type.words[i]), .keys = list_keys(part, part.defaults)});
   }
 }
 
-KeyHelp help_of(const Field& field, const void* value) {
-  const Type& content = content_of(*field.type);
+KeyHelp to_help(const Field& field, const void* value) {
+  const Type& content = content_type(*field.type);
   KeyHelp help{.key = field.key,
                .unit = unit_symbol(field.info.unit),
                .default_text = default_text(field, value),
@@ -62,9 +62,9 @@ KeyHelp help_of(const Field& field, const void* value) {
   return help;
 }
 
-std::vector<KeyHelp> keys_of(const Type& type, const void* defaults) {
+std::vector<KeyHelp> list_keys(const Type& type, const void* defaults) {
   std::vector<KeyHelp> keys;
-  for (const Field& field : type.fields) keys.push_back(help_of(field, field.in(defaults)));
+  for (const Field& field : type.fields) keys.push_back(to_help(field, field.in(defaults)));
   return keys;
 }
 
@@ -95,7 +95,7 @@ std::size_t width(std::string_view text) {
 
 }  // namespace
 
-std::vector<KeyHelp> key_help(const Type& type) { return keys_of(type, type.defaults); }
+std::vector<KeyHelp> key_help(const Type& type) { return list_keys(type, type.defaults); }
 
 std::string help_text(const Type& type) {
   std::vector<Row> rows = {{"key", "unit", "default", "allowed", "meaning"}};

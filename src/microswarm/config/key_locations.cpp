@@ -48,12 +48,12 @@ struct Document {
     for (const auto& [path, value] : assignments.list) {
       const bool found = sets(path, value, key);
       if (itself && found && path != key) {
-        const Change change = change_of(path, value, key);
+        const Change change = find_change(path, value, key);
         if (change == Change::dropped) return std::nullopt;
         if (change == Change::none) continue;
       }
       if (found || (seek == KeyLocations::Seek::all_of_it && is_in_key(path, key)))
-        return place_of_setting(assignments.option, path);
+        return setting_location(assignments.option, path);
     }
     const YamlNode* node = node_at(root, key);
     if (!node) return std::nullopt;
@@ -64,7 +64,7 @@ struct Document {
 
   /// Effect on a key of an assignment to something that contains it: a map may hold the key, and a
   /// map with a type drops the keys it does not hold.
-  static Change change_of(std::string_view path, std::string_view value, std::string_view key) {
+  static Change find_change(std::string_view path, std::string_view value, std::string_view key) {
     if (!key.starts_with(path)) return Change::dropped;  // by a type
     const YamlNode node = parse_yaml(value, path);
     if (node_at(node, key.substr(path.size() + 1))) return Change::written;
@@ -91,20 +91,20 @@ IsGiven KeyLocations::is_given() const {
   return [keys = *this](std::string_view key) { return keys.given(key); };
 }
 
-std::string KeyLocations::place_of(const std::vector<std::string>& keys) const {
+std::string KeyLocations::locate(const std::vector<std::string>& keys) const {
   if (!find_) return name_;
   for (const std::string& key : keys)
-    if (const auto place = find_(key, Seek::all_of_it)) return *place;
+    if (const auto location = find_(key, Seek::all_of_it)) return *location;
   std::string key = keys.front();
   for (std::size_t dot = key.rfind('.'); dot != std::string::npos; dot = key.rfind('.')) {
     key.resize(dot);
-    if (const auto place = find_(key, Seek::missing_in_it)) return *place;
+    if (const auto location = find_(key, Seek::missing_in_it)) return *location;
   }
   return name_;
 }
 
 Issue KeyLocations::located(Issue issue) const {
-  if (!issue.keys.empty() && issue.place.empty()) issue.place = place_of(issue.keys);
+  if (!issue.keys.empty() && issue.location.empty()) issue.location = locate(issue.keys);
   return issue;
 }
 
@@ -122,8 +122,8 @@ InputError KeyLocations::error(std::string_view key, const std::string& what) co
   return InputError(located(Issue{{std::string(key)}, what}));
 }
 
-KeyLocations locations_of(YamlNode document, const std::string& name, Settings assignments,
-                          Notes notes) {
+KeyLocations find_locations(YamlNode document, const std::string& name, Settings assignments,
+                            Notes notes) {
   std::ranges::reverse(assignments.list);
   const auto found =
       std::make_shared<const Document>(Document{std::move(document), name, std::move(assignments)});

@@ -27,7 +27,8 @@ class KeyLocations {
 
   /// Locates nothing.
   KeyLocations() = default;
-  /// The place of an issue is that from `find`, or `name`. A name alone can serve as KeyLocations.
+  /// The location of an issue is that from `find`, or `name`. A name alone can serve as
+  /// KeyLocations.
   KeyLocations(std::string name, Find find) : name_(std::move(name)), find_(std::move(find)) {}
   KeyLocations(std::string name) : name_(std::move(name)) {}  // NOLINT(google-explicit-constructor)
   KeyLocations(const char* name) : name_(name) {}             // NOLINT(google-explicit-constructor)
@@ -45,8 +46,8 @@ class KeyLocations {
   /// The same as a function that owns a copy.
   IsGiven is_given() const;
 
-  /// The issue with its place: that of the first key that is given, else of the nearest enclosing
-  /// key of the first one. An issue without a key, or with a place, stays as it is.
+  /// The issue with its location: that of the first key that is given, else of the nearest
+  /// enclosing key of the first one. An issue without a key, or with a location, stays as it is.
   Issue located(Issue issue) const;
   Issues located(const Issues& issues) const;
   /// Throws InputError with the issues, located, if any.
@@ -55,7 +56,7 @@ class KeyLocations {
   InputError error(std::string_view key, const std::string& what) const;
 
  private:
-  std::string place_of(const std::vector<std::string>& keys) const;
+  std::string locate(const std::vector<std::string>& keys) const;
 
   std::string name_;
   Find find_;
@@ -64,7 +65,7 @@ class KeyLocations {
 
 /// Locations of a document's keys: "NAME:LINE:COLUMN" of their values. A key has the location
 /// "--set KEY" if an assignment set it in whole or in part or chose its alternative.
-KeyLocations locations_of(YamlNode document, const std::string& name, Settings assignments,
-                          Notes notes = {});
+KeyLocations find_locations(YamlNode document, const std::string& name, Settings assignments,
+                            Notes notes = {});
 
 }  // namespace microswarm

@@ -27,13 +27,13 @@ Json number_schema(std::string_view type, const Range& range) {
 }
 
 /// Default of a field for its schema; null for a group of keys, whose fields have their own.
-Json default_of(const Field& field, const void* record) {
+Json default_json(const Field& field, const void* record) {
   const TypeKind kind = field.type->kind;
   if (field.info.required || kind == TypeKind::record || kind == TypeKind::variant) return nullptr;
   return Json::parse(json_line(*field.type, field.info.unit, field.in(record)));
 }
 
-Json schema_of(const Type& type, const FieldInfo& info, const void* defaults);
+Json to_schema(const Type& type, const FieldInfo& info, const void* defaults);
 
 Json record_schema(const Type& type, const void* defaults, std::string_view type_name = {}) {
   Json properties = Json::object(), required = Json::array();
@@ -42,11 +42,11 @@ Json record_schema(const Type& type, const void* defaults, std::string_view type
     required.push_back("type");
   }
   for (const Field& field : type.fields) {
-    Json property = schema_of(*field.type, field.info, field.in(defaults));
+    Json property = to_schema(*field.type, field.info, field.in(defaults));
     std::string doc(field.info.doc);
     if (field.info.unit != Unit::none) doc += fmt::format(" [{}]", unit_symbol(field.info.unit));
     if (!doc.empty()) property["description"] = doc;
-    if (Json value = default_of(field, defaults); !value.is_null()) property["default"] = value;
+    if (Json value = default_json(field, defaults); !value.is_null()) property["default"] = value;
     properties[field.key] = property;
     if (field.info.required) required.push_back(field.key);
   }
@@ -56,7 +56,7 @@ Json record_schema(const Type& type, const void* defaults, std::string_view type
   return schema;
 }
 
-Json schema_of(const Type& type, const FieldInfo& info, const void* defaults) {
+Json to_schema(const Type& type, const FieldInfo& info, const void* defaults) {
   switch (type.kind) {
     case TypeKind::boolean:
       return {{"type", "boolean"}};
@@ -80,7 +80,7 @@ Json schema_of(const Type& type, const FieldInfo& info, const void* defaults) {
       return record_schema(type, defaults);
     case TypeKind::optional:
     case TypeKind::list: {
-      const Json content = schema_of(*type.parts[0], info, type.parts[0]->defaults);
+      const Json content = to_schema(*type.parts[0], info, type.parts[0]->defaults);
       if (type.kind == TypeKind::list) return {{"type", "array"}, {"items", content}};
       return {{"anyOf", Json::array({content, {{"type", "null"}}})}};
     }
@@ -99,7 +99,7 @@ Json schema_of(const Type& type, const FieldInfo& info, const void* defaults) {
 
 std::string json_schema(const Type& type, std::string_view title) {
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", title}};
-  schema.update(schema_of(type, {}, type.defaults));
+  schema.update(to_schema(type, {}, type.defaults));
   return schema.dump(2) + "\n";
 }
 

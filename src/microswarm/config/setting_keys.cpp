@@ -32,7 +32,7 @@ class Keys {
 
   void add_key(const std::string& key, std::string_view doc,
                const std::vector<std::string_view>& words) {
-    const auto [at, is_new] = places_.try_emplace(key, keys_.size());
+    const auto [at, is_new] = indices_.try_emplace(key, keys_.size());
     if (is_new) keys_.push_back({key, doc, {}});
     std::vector<std::string_view>& all = keys_[at->second].words;
     for (const std::string_view word : words)
@@ -40,7 +40,7 @@ class Keys {
   }
 
   std::vector<SettingKey> keys_;
-  std::map<std::string, std::size_t> places_;
+  std::map<std::string, std::size_t> indices_;
 };
 
 }  // namespace

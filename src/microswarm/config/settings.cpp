@@ -12,7 +12,7 @@ Setting parse_setting(std::string_view text, std::string_view option) {
   const std::size_t equals = text.find('=');
   if (equals == std::string_view::npos || equals == 0)
     throw InputError(Issue{.text = "must be KEY=VALUE",
-                           .place = place_of_setting(option, quote(text)),
+                           .location = setting_location(option, quote(text)),
                            .value = one_line(text),
                            .limit = "KEY=VALUE"});
   return {std::string(text.substr(0, equals)), std::string(text.substr(equals + 1))};
@@ -29,7 +29,7 @@ std::vector<std::string> Settings::texts() const {
   return all;
 }
 
-std::string place_of_setting(std::string_view option, std::string_view key) {
+std::string setting_location(std::string_view option, std::string_view key) {
   const std::string shown = one_line(key);
   return option.empty() ? shown : std::string(option) + " " + shown;
 }

@@ -24,7 +24,7 @@ std::string to_string(const Setting& setting);
 Setting parse_setting(std::string_view text, std::string_view option = "--set");
 
 /// Assignments applied after a file is read, and the command-line option that gave them, for the
-/// places of issues. Without an option a place is the key alone.
+/// locations of issues. Without an option a location is the key alone.
 struct Settings {
   Settings() = default;
   Settings(std::initializer_list<std::string> texts, std::string from = "--set")
@@ -44,6 +44,6 @@ struct Settings {
 };
 
 /// Place of an issue in an assignment: "--set planner.step_um", or the key alone without an option.
-std::string place_of_setting(std::string_view option, std::string_view key);
+std::string setting_location(std::string_view option, std::string_view key);
 
 }  // namespace microswarm

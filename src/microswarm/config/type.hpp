@@ -64,7 +64,7 @@ struct Type {
   /// list: entry i; optional: its content; variant: the current alternative.
   void* (*part)(void* value, std::size_t i) = nullptr;
 
-  const void* part_of(const void* value, std::size_t i = 0) const {
+  const void* find_part(const void* value, std::size_t i = 0) const {
     return part(const_cast<void*>(value), i);
   }
   /// Field with that key, or null.
@@ -149,8 +149,9 @@ struct Describe<T> {
     visit_fields(defaults, [&type]<class F>(const F& field, const FieldInfo& info) {
       const auto offset = reinterpret_cast<const std::byte*>(&field) -
                           reinterpret_cast<const std::byte*>(&defaults);
-      assert(!type.field(key_of(info)) && "two fields of one key");
-      type.fields.push_back({key_of(info), info, &type_of<F>(), static_cast<std::size_t>(offset)});
+      assert(!type.field(key_text(info)) && "two fields of one key");
+      type.fields.push_back(
+          {key_text(info), info, &type_of<F>(), static_cast<std::size_t>(offset)});
     });
     return type;
   }

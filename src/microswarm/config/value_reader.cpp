@@ -92,7 +92,7 @@ void ValueReader::fail(const YamlNode& at, std::string what, std::string value,
                        std::string limit) const {
   Issue issue{{}, std::move(what), std::string(name_), std::move(value), std::move(limit)};
   if (!key_.empty()) issue.keys.push_back(key_);
-  if (places_) issue.place += fmt::format(":{}:{}", at.line, at.column);
+  if (locations_) issue.location += fmt::format(":{}:{}", at.line, at.column);
   throw InputError(std::move(issue));
 }
 

@@ -14,10 +14,10 @@ namespace microswarm {
 /// Reads parsed YAML or JSON into described values and writes the error messages.
 class ValueReader {
  public:
-  /// `name` is the place of every issue; with `places`, the node's line and column follow it. `key`
-  /// is that of the value read; empty for a whole document.
-  ValueReader(std::string_view name, bool places, std::string key = {})
-      : name_(name), places_(places), key_(std::move(key)) {}
+  /// `name` is the location of every issue; with `locations`, the node's line and column follow it.
+  /// `key` is that of the value read; empty for a whole document.
+  ValueReader(std::string_view name, bool locations, std::string key = {})
+      : name_(name), locations_(locations), key_(std::move(key)) {}
 
   /// Reads the node into a value of this type. `info` gives unit and range of the numbers in it;
   /// `label` names it in messages and is empty for a whole document.
@@ -57,7 +57,7 @@ class ValueReader {
   void attempt(std::string_view part, Body&& body);
 
   std::string_view name_;
-  bool places_;
+  bool locations_;
   std::string key_;  ///< being read, from the top: "obstacles.3.shape"
   Issues issues_;
 };

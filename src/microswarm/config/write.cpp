@@ -83,7 +83,7 @@ void each_key(const Type& type, const void* value, VisitType&& visit_type, Visit
   if (type.kind == TypeKind::variant) {
     const std::size_t held = type.count(value);
     visit_type(type.words[held]);
-    return each_key(*type.parts[held], type.part_of(value), visit_type, visit);
+    return each_key(*type.parts[held], type.find_part(value), visit_type, visit);
   }
   for (const Field& field : type.fields) visit(field, field.in(value));
 }
@@ -123,12 +123,12 @@ std::string line(const Type& type, Unit unit, const void* value, Syntax syntax) 
     case TypeKind::choice:
       return text_value(type.words[type.count(value)], syntax);
     case TypeKind::optional:
-      return type.count(value) ? line(*type.parts[0], unit, type.part_of(value), syntax) : "null";
+      return type.count(value) ? line(*type.parts[0], unit, type.find_part(value), syntax) : "null";
     case TypeKind::list: {
       std::string text;
       for (std::size_t i = 0; i < type.count(value); ++i)
         text.append(i ? ", " : "")
-            .append(line(*type.parts[0], unit, type.part_of(value, i), syntax));
+            .append(line(*type.parts[0], unit, type.find_part(value, i), syntax));
       return fmt::format("[{}]", text);
     }
     case TypeKind::record:
@@ -164,7 +164,7 @@ class YamlWriter {
  private:
   void after_key(const Type& type, Unit unit, const void* value, std::size_t indent) {
     if (type.kind == TypeKind::optional && type.count(value))
-      return after_key(*type.parts[0], unit, type.part_of(value), indent);
+      return after_key(*type.parts[0], unit, type.find_part(value), indent);
     if (has_keys(type)) {
       out_.append("\n").append(indent, ' ');
       return keys(type, value, indent);
@@ -182,9 +182,9 @@ class YamlWriter {
     for (std::size_t i = 0; i < list.count(value); ++i) {
       out_.append(indent, ' ').append("- ");
       if (has_keys(type))
-        keys(type, list.part_of(value, i), indent + 2);
+        keys(type, list.find_part(value, i), indent + 2);
       else
-        out_.append(yaml_line(type, unit, list.part_of(value, i))).append("\n");
+        out_.append(yaml_line(type, unit, list.find_part(value, i))).append("\n");
     }
   }
 
@@ -194,7 +194,7 @@ class YamlWriter {
 void write_json(const Type& type, Unit unit, const void* value, std::size_t indent,
                 std::string& out) {
   if (type.kind == TypeKind::optional && type.count(value))
-    return write_json(*type.parts[0], unit, type.part_of(value), indent, out);
+    return write_json(*type.parts[0], unit, type.find_part(value), indent, out);
   if (!has_keys(type) && !(is_list_of_blocks(type) && type.count(value) > 0)) {
     out += json_line(type, unit, value);
     return;
@@ -209,7 +209,7 @@ void write_json(const Type& type, Unit unit, const void* value, std::size_t inde
   if (is_list) {
     for (std::size_t i = 0; i < type.count(value); ++i) {
       begin_line();
-      write_json(*type.parts[0], unit, type.part_of(value, i), indent + 2, out);
+      write_json(*type.parts[0], unit, type.find_part(value, i), indent + 2, out);
     }
   } else {
     const auto visit_type = [&](std::string_view name) {

@@ -161,7 +161,7 @@ YamlNode read_yaml(const Type& type, void* value, std::string_view text, std::st
 std::optional<Setting> set_value(const Type& type, void* value, const Setting& setting,
                                  std::string_view option, std::span<const MovedKey> moved,
                                  Notes& notes) {
-  const std::string name = place_of_setting(option, setting.key);
+  const std::string name = setting_location(option, setting.key);
   std::string_view path = setting.key;
   if (const auto at = std::ranges::find(moved, path, &MovedKey::from); at != moved.end()) {
     if (at->to.empty()) {
@@ -197,7 +197,7 @@ void check_types_first(const Settings& given) {
             Issue{.keys = {key},
                   .text = fmt::format("comes after {}, which it may drop: give it first",
                                       quote(to_string(other))),
-                  .place = place_of_setting(given.option, key),
+                  .location = setting_location(given.option, key),
                   .value = one_line(value)});
   }
 }

@@ -32,7 +32,7 @@ YamlNode read_yaml(const Type& type, void* value, std::string_view text, std::st
 
 /// Moved keys that T lists.
 template <class T>
-constexpr std::span<const MovedKey> moved_keys_of() {
+constexpr std::span<const MovedKey> list_moved_keys() {
   if constexpr (requires { T::moved_keys; })
     return T::moved_keys;
   else
@@ -51,7 +51,7 @@ std::optional<Setting> set_value(const Type& type, void* value, const Setting& s
 template <HasFields T>
 T read_yaml_text(std::string_view text, std::string_view name) {
   T value{};
-  read_yaml(type_of<T>(), &value, text, name, moved_keys_of<T>());
+  read_yaml(type_of<T>(), &value, text, name, list_moved_keys<T>());
   return value;
 }
 
@@ -63,14 +63,14 @@ T read_yaml_file(const std::filesystem::path& path) {
 
 /// Applies one assignment of `--set` or a similar option. Setting a variant's `type` to another
 /// alternative resets it to that alternative's defaults; its other keys can only be set once it is
-/// chosen. Issues are as in a file, with the place "--set planner.stpe_um", and leave `value`
+/// chosen. Issues are as in a file, with the location "--set planner.stpe_um", and leave `value`
 /// unchanged. Returns the assignment with its current keys; nothing for a key that no longer has a
 /// meaning.
 template <HasFields T>
 std::optional<Setting> set_value(T& value, const Setting& setting, std::string_view option,
                                  Notes& notes) {
   T changed = value;
-  auto present = set_value(type_of<T>(), &changed, setting, option, moved_keys_of<T>(), notes);
+  auto present = set_value(type_of<T>(), &changed, setting, option, list_moved_keys<T>(), notes);
   value = std::move(changed);
   return present;
 }
@@ -103,7 +103,7 @@ T read_yaml_text(std::string_view text, const std::string& name, const Settings&
   T value{};
   Notes notes;
   YamlNode document =
-      read_yaml(type_of<T>(), &value, text, name, issues, notes, moved_keys_of<T>());
+      read_yaml(type_of<T>(), &value, text, name, issues, notes, list_moved_keys<T>());
   check_types_first(assignments);
   Settings present(std::vector<Setting>(), assignments.option);
   for (const Setting& setting : assignments.list) {
@@ -114,7 +114,7 @@ T read_yaml_text(std::string_view text, const std::string& name, const Settings&
       issues.add(error.issues());
     }
   }
-  locations = locations_of(std::move(document), name, std::move(present), std::move(notes));
+  locations = find_locations(std::move(document), name, std::move(present), std::move(notes));
   return value;
 }
 

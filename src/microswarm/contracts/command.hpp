@@ -22,6 +22,6 @@ inline Vec2 displacement(const Command& command, double dt) {
 }
 
 /// Command that requests the displacement `move` [µm] in `dt` seconds.
-inline Command command_for(Vec2 move, double dt) { return {heading_of(move), norm(move) / dt}; }
+inline Command command_for(Vec2 move, double dt) { return {heading_along(move), norm(move) / dt}; }
 
 }  // namespace microswarm

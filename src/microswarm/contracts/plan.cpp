@@ -13,7 +13,7 @@ namespace {
 template <class Visit>
 void for_each_heading(std::span<const Vec2> path, Visit&& visit) {
   for (std::size_t i = 1; i < path.size(); ++i) {
-    if (path[i] != path[i - 1]) visit(heading_of(path[i] - path[i - 1]));
+    if (path[i] != path[i - 1]) visit(heading_along(path[i] - path[i - 1]));
   }
 }
 

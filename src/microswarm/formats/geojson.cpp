@@ -55,7 +55,7 @@ class GeoJsonReader {
     const JsonPlace document;
     object(root, document, {nullptr, nullptr});
     if (!bounds_) bounds_ = bbox(root, document);
-    parts_.bounds = bounds_.value_or(box_of(parts_));
+    parts_.bounds = bounds_.value_or(enclosing_box(parts_));
     if (!bounds_ && parts_.walls.empty() && parts_.discs.empty())
       fail(document, "no walls, no discs and no bounds");
     return std::move(parts_);
@@ -70,7 +70,7 @@ class GeoJsonReader {
 
   [[noreturn]] void fail(const JsonPlace& place, const std::string& why) const {
     const std::string where = place.text();
-    throw InputError(name_, line_of(text_, place), 0, where.empty() ? why : where + ": " + why);
+    throw InputError(name_, line_number(text_, place), 0, where.empty() ? why : where + ": " + why);
   }
 
   const Json& member(const Json& parent, const JsonPlace& place, const char* key) const {

@@ -87,7 +87,7 @@ std::string JsonPlace::text() const {
   return path.empty() ? std::string(key) : path + "." + std::string(key);
 }
 
-int line_of(std::string_view json, const JsonPlace& place) {
+int line_number(std::string_view json, const JsonPlace& place) {
   const std::size_t at = Scanner(json).find(place);
   return 1 + static_cast<int>(
                  std::count(json.begin(), json.begin() + static_cast<std::ptrdiff_t>(at), '\n'));

@@ -22,6 +22,6 @@ struct JsonPlace {
 
 /// Line, from 1, on which the value at `place` begins. `json` must be valid JSON. If `place` does
 /// not exist, it is the line of its nearest existing ancestor.
-int line_of(std::string_view json, const JsonPlace& place);
+int line_number(std::string_view json, const JsonPlace& place);
 
 }  // namespace microswarm

@@ -26,14 +26,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-MapParts parts_of(const Mask& blocked, double cell, Vec2 lo = {}) {
+MapParts to_parts(const Mask& blocked, double cell, Vec2 lo = {}) {
   return {cell_bounds(blocked, cell, lo), mask_walls(blocked, cell, lo), {}};
 }
 
 MapParts read(const ImageMap& spec, const fs::path& base, Issues&) {
   const Image image = read_image(base / spec.file);
   const bool dark_is_wall = spec.free == FreePixels::bright;
-  MapParts parts = parts_of(threshold(image, spec.threshold, dark_is_wall), spec.um_per_px);
+  MapParts parts = to_parts(threshold(image, spec.threshold, dark_is_wall), spec.um_per_px);
   simplify(parts.walls, spec.simplify);
   return parts;
 }
@@ -45,12 +45,12 @@ MapParts read(const RosMap& spec, const fs::path& base, Issues&) {
   const Image image = read_image(picture);
   const auto transparent = read_transparency(picture);
   const Vec2 origin{header.origin[0], header.origin[1]};
-  return parts_of(ros_walls(image, header, spec.unknown_free, transparent),
+  return to_parts(ros_walls(image, header, spec.unknown_free, transparent),
                   header.resolution * spec.um_per_m, spec.um_per_m * origin);
 }
 
 MapParts read(const MovingAiMap& spec, const fs::path& base, Issues&) {
-  return parts_of(read_moving_ai(base / spec.file), spec.um_per_cell);
+  return to_parts(read_moving_ai(base / spec.file), spec.um_per_cell);
 }
 
 MapParts read(const GeoJsonMap& spec, const fs::path& base, Issues&) {
@@ -68,7 +68,7 @@ MapParts read(const RectanglesMap& spec, const fs::path& base, Issues& issues) {
     std::vector<Polygon> more = read_rectangles(base / spec.file);
     std::move(more.begin(), more.end(), std::back_inserter(parts.walls));
   }
-  const Box around = box_of(parts);
+  const Box around = enclosing_box(parts);
   parts.bounds = {spec.lo.value_or(around.lo), spec.hi.value_or(around.hi)};
   return parts;
 }
@@ -114,7 +114,7 @@ struct FileFormat {
 };
 
 /// The format of a kind of map; nothing for one without a file.
-std::optional<FileFormat> format_of(const MapSpec& spec) {
+std::optional<FileFormat> file_format(const MapSpec& spec) {
   static constexpr std::array<std::string_view, 2> csv{".csv", ".txt"}, ros{".yaml", ".yml"},
       geojson{".geojson", ".json"};
   static constexpr std::array<std::string_view, 1> moving_ai{".map"};
@@ -167,7 +167,7 @@ void set_scale(MapSpec& spec, std::optional<double> um_per_px, const std::string
 
 }  // namespace
 
-std::string* file_of(MapSpec& spec) {
+std::string* file_name(MapSpec& spec) {
   return std::visit(
       Overloaded{[](OneOf<ImageMap, RosMap, MovingAiMap, GeoJsonMap, RectanglesMap> auto& s) {
                    return &s.file;
@@ -176,10 +176,10 @@ std::string* file_of(MapSpec& spec) {
       spec);
 }
 
-const std::string* file_of(const MapSpec& spec) { return file_of(const_cast<MapSpec&>(spec)); }
+const std::string* file_name(const MapSpec& spec) { return file_name(const_cast<MapSpec&>(spec)); }
 
 MapParts read_map_parts(const MapSpec& spec, const fs::path& base, Issues& issues) {
-  const std::string* file = file_of(spec);
+  const std::string* file = file_name(spec);
   const bool from_file = file && !file->empty();
   Issues of_map;
   MapParts parts;
@@ -212,7 +212,7 @@ LoadedMap load_map(const MapSpec& spec, const fs::path& base) {
 std::string map_formats() {
   std::vector<std::string_view> names;
   for (const MapSpec& spec : every_kind())
-    if (const auto format = format_of(spec)) names.push_back(format->name);
+    if (const auto format = file_format(spec)) names.push_back(format->name);
   const std::string_view last = names.back();
   names.pop_back();
   return fmt::format("{} or {}", fmt::join(names, ", "), last);
@@ -228,11 +228,11 @@ MapSpec guess_map_spec(const fs::path& path, std::optional<double> um_per_px,
     fail("µm per px is " + number_text(*um_per_px) + ", must be within 1e-6..1e6");
 
   for (MapSpec& spec : every_kind()) {
-    const auto format = format_of(spec);
+    const auto format = file_format(spec);
     if (!format ||
         std::ranges::find(format->extensions, lower_extension(path)) == format->extensions.end())
       continue;
-    *file_of(spec) = file;
+    *file_name(spec) = file;
     set_scale(spec, um_per_px, std::string(option), fail);
     return std::move(spec);
   }

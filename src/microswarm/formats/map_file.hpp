@@ -34,8 +34,8 @@ struct LoadedMap {
 LoadedMap load_map(const MapSpec& spec, const std::filesystem::path& base = {});
 
 /// File of the map; null if its kind has none.
-std::string* file_of(MapSpec& spec);
-const std::string* file_of(const MapSpec& spec);
+std::string* file_name(MapSpec& spec);
+const std::string* file_name(const MapSpec& spec);
 
 /// Formats of the files that guess_map_spec takes, in words: "picture, …".
 std::string map_formats();

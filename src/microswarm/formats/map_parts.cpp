@@ -23,7 +23,7 @@ void check_point(Vec2 p, const std::string& name, const char* what) {
 
 }  // namespace
 
-Box box_of(const MapParts& parts) {
+Box enclosing_box(const MapParts& parts) {
   Box box;
   for (const Polygon& wall : parts.walls)
     for (const Vec2 p : wall.outer) box.include(p);

@@ -18,7 +18,7 @@ struct MapParts {
 };
 
 /// Bounding box of walls and discs.
-Box box_of(const MapParts& parts);
+Box enclosing_box(const MapParts& parts);
 
 /// Hash of every bit: equal for equal maps, independent of the file format.
 std::uint64_t fingerprint(const MapParts& parts);

@@ -12,7 +12,7 @@ namespace {
 /// Occupancy of a cell from its pixel value [0, 255].
 enum class Cell { free, unknown, occupied };
 
-Cell cell_of(double value, const RosHeader& header) {
+Cell to_cell(double value, const RosHeader& header) {
   double probability = header.negate ? value / 255 : (255 - value) / 255;
   if (header.mode == RosMode::raw) {
     if (value > 100) return Cell::unknown;
@@ -54,7 +54,7 @@ Mask ros_walls(const Image& image, const RosHeader& header, bool unknown_free,
     for (std::size_t c = 0; c < channels; ++c) sum += image.pixels[i * channels + c];
     const bool is_there = transparent.empty() || transparent[i] == 0;
     const Cell cell =
-        is_there ? cell_of(static_cast<double>(sum) / image.channels, header) : Cell::unknown;
+        is_there ? to_cell(static_cast<double>(sum) / image.channels, header) : Cell::unknown;
     mask.cells[i] = cell == Cell::occupied || (cell == Cell::unknown && !unknown_free);
   }
   return mask;

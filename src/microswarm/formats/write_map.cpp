@@ -40,7 +40,7 @@ void write_ros(const std::filesystem::path& yaml, const Mask& walls, double cell
 
 }  // namespace
 
-MapParts parts_of(const Map& map) {
+MapParts to_parts(const Map& map) {
   MapParts parts{map.bounds(), {}, {}};
   for (const Body& body : map.walls().bodies())
     std::visit(Overloaded{[&](const Disc& disc) { parts.discs.push_back(disc); },
@@ -52,7 +52,7 @@ MapParts parts_of(const Map& map) {
 void write_map(const std::filesystem::path& path, const Map& map, double cell) {
   const std::string extension = path.extension().string();
   if (extension == ".geojson" || extension == ".json")
-    return write_file_atomically(path, geojson_text(parts_of(map)));
+    return write_file_atomically(path, geojson_text(to_parts(map)));
   if (extension != ".png" && extension != ".map" && extension != ".yaml")
     throw InputError(fmt::format("{}: maps are written as {}", path.string(), written_map_formats));
   if (cell == 0) throw InputError(path.string() + ": the size of a cell is missing: give --cell");

@@ -10,7 +10,7 @@
 namespace microswarm {
 
 /// The map's bounds and wall pieces, after overlapping walls were united.
-MapParts parts_of(const Map& map);
+MapParts to_parts(const Map& map);
 
 /// Formats of write_map, in words.
 inline constexpr std::string_view written_map_formats =

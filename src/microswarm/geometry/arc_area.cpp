@@ -160,8 +160,8 @@ class ArcSum {
   /// Covers the angles of a circle counter-clockwise from p to q, which are `less` or more than
   /// half of it.
   void cover(const Disc& disc, double begin, Vec2 p, Vec2 q, bool less) {
-    const double from = wrap(heading_of(p - disc.centre) - begin);
-    double length = wrap(heading_of(q - disc.centre) - begin) - from;
+    const double from = wrap(heading_along(p - disc.centre) - begin);
+    double length = wrap(heading_along(q - disc.centre) - begin) - from;
     if (length < 0) length += 2 * pi;
     if (less && length > 1.5 * pi) return;  // p and q nearly coincide
     if (!less && length < 0.5 * pi) length = 2 * pi;
@@ -232,17 +232,17 @@ class ArcSum {
     const auto last = std::ranges::upper_bound(crossings_, circle, {}, &Crossing::circle);
     const std::span<Crossing> met(first, last);
     for (Crossing& c : met)
-      c.angle = std::clamp(wrap(heading_of(c.at - disc.centre) - begin), from, to);
+      c.angle = std::clamp(wrap(heading_along(c.at - disc.centre) - begin), from, to);
     std::ranges::stable_sort(met, {}, &Crossing::angle);
-    const auto start_of = [&](std::size_t i) { return i == 0 ? from : met[i - 1].angle; };
-    const auto end_of = [&](std::size_t i) { return i == met.size() ? to : met[i].angle; };
+    const auto arc_start = [&](std::size_t i) { return i == 0 ? from : met[i - 1].angle; };
+    const auto arc_end = [&](std::size_t i) { return i == met.size() ? to : met[i].angle; };
     std::size_t longest = 0;
     for (std::size_t i = 1; i <= met.size(); ++i)
-      if (end_of(i) - start_of(i) > end_of(longest) - start_of(longest)) longest = i;
-    const double inner = start_of(longest) + within * (end_of(longest) - start_of(longest));
+      if (arc_end(i) - arc_start(i) > arc_end(longest) - arc_start(longest)) longest = i;
+    const double inner = arc_start(longest) + within * (arc_end(longest) - arc_start(longest));
     const int known = winding_at(disc.centre + disc.radius * unit_vector(wrap(begin + inner)));
     const auto note = [&](std::size_t i, int winding) {
-      if (winding != 0) covered_.push_back({start_of(i), end_of(i)});
+      if (winding != 0) covered_.push_back({arc_start(i), arc_end(i)});
     };
     note(longest, known);
     int winding = known;
@@ -255,14 +255,14 @@ class ArcSum {
   void add_circle(std::uint32_t i) {
     const Disc& disc = discs_[i];
     const double d = norm(disc.centre);
-    const double begin = d > 0 ? heading_of(-disc.centre) : 0;
+    const double begin = d > 0 ? heading_along(-disc.centre) : 0;
     covered_.clear();
     double from = -pi;
     double to = pi;
     if (d + disc.radius > query_.radius) {
       const CirclesCross at = cross_circles(query_, disc);
-      from = -std::abs(wrap(heading_of(at.last - disc.centre) - begin));
-      to = std::abs(wrap(heading_of(at.first - disc.centre) - begin));
+      from = -std::abs(wrap(heading_along(at.last - disc.centre) - begin));
+      to = std::abs(wrap(heading_along(at.first - disc.centre) - begin));
       covered_ = {{-pi, from}, {to, pi}};
     }
     if (!cover_by_discs(i, begin)) return;

@@ -43,7 +43,7 @@ Cover find_near(Disc disc, const Polygon& polygon, Edges& edges, int& winding) {
   return meets ? Cover::part : winding != 0 ? Cover::all : Cover::none;
 }
 
-Cover cover_of(double r, Disc disc) {
+Cover arc_cover(double r, Disc disc) {
   const double d = norm(disc.centre);
   return d >= r + disc.radius ? Cover::none : d + r <= disc.radius ? Cover::all : Cover::part;
 }
@@ -95,7 +95,7 @@ bool may_overlap(const NearObstacle& a, const NearObstacle& b, double r) {
   return reaches_into(a, b, r) || reaches_into(b, a, r);
 }
 
-double area_of(const NearObstacle& obstacle, double r) {
+double covered_part(const NearObstacle& obstacle, double r) {
   const Disc disc{{}, r};
   if (obstacle.is_disc) return intersection_area(disc, obstacle.disc);
   double sum = obstacle.winding * area(disc);
@@ -143,7 +143,7 @@ double covered_area(Disc disc, std::span<const Polygon* const> polygons,
   }
   for (const Disc& other : discs) {
     const Disc about{other.centre - disc.centre, other.radius};
-    const Cover cover = cover_of(r, about);
+    const Cover cover = arc_cover(r, about);
     if (cover == Cover::all) return area(disc);
     if (cover == Cover::part) obstacles.push_back({true, about, {}, 0});
   }
@@ -151,7 +151,7 @@ double covered_area(Disc disc, std::span<const Polygon* const> polygons,
   for (std::size_t first = 0; first < obstacles.size();) {
     const std::size_t end = gather_group(obstacles, first, r, stop);
     if (stop()) return 0;
-    sum += end == first + 1 ? area_of(obstacles[first], r)
+    sum += end == first + 1 ? covered_part(obstacles[first], r)
                             : union_area(r, std::span(obstacles).subspan(first, end - first),
                                          scratch.memory, stop);
     first = end;

@@ -15,7 +15,7 @@ double squared_distance_to_boundary(Vec2 p, const Polygon& polygon) {
 }
 
 /// Parameter on s (unclamped fraction) of the point nearest to `p`; 0 if s is a point.
-double fraction_of(Segment s, Vec2 p) {
+double projected_fraction(Segment s, Vec2 p) {
   const Vec2 along = s.b - s.a;
   const double length2 = squared_norm(along);
   return length2 > 0 ? dot(p - s.a, along) / length2 : 0;
@@ -44,7 +44,7 @@ double entry(Segment s, double r, Segment wall) {
   if (climb == 0 || (start > 0) == (climb > 0)) return no_contact;
   const double t = (std::abs(start) - r) / std::abs(climb);
   if (!(t >= 0 && t <= 1)) return no_contact;
-  const double foot = fraction_of(wall, s.a + t * (s.b - s.a));
+  const double foot = projected_fraction(wall, s.a + t * (s.b - s.a));
   return foot >= 0 && foot <= 1 ? t : no_contact;
 }
 
@@ -83,7 +83,7 @@ double signed_distance(Vec2 p, const Polygon& polygon) {
 }
 
 Vec2 nearest_point(Vec2 p, Segment s) {
-  const double t = fraction_of(s, p);
+  const double t = projected_fraction(s, p);
   if (t <= 0) return s.a;
   if (t >= 1) return s.b;
   return s.a + t * (s.b - s.a);
@@ -99,7 +99,7 @@ double first_contact(Segment s, double r, Segment wall) {
   double at = 1;
   for (const Vec2 end : {wall.a, wall.b}) {
     const double d = squared_distance(end, s);
-    const double f = std::clamp(fraction_of(s, end), 0.0, 1.0);
+    const double f = std::clamp(projected_fraction(s, end), 0.0, 1.0);
     if (d < best || (d == best && f < at)) {
       best = d;
       at = f;
@@ -113,7 +113,7 @@ double first_contact(Segment s, double r, Disc disc) {
   if (squared_norm(s.a - disc.centre) <= reach * reach) return 0;
   if (squared_distance(disc.centre, s) > reach * reach) return no_contact;
   const double t = entry(s, reach, disc.centre);
-  return t <= 1 ? t : std::clamp(fraction_of(s, disc.centre), 0.0, 1.0);
+  return t <= 1 ? t : std::clamp(projected_fraction(s, disc.centre), 0.0, 1.0);
 }
 
 double first_contact(Segment s, double r, const Polygon& polygon) {

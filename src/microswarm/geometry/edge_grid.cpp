@@ -57,11 +57,11 @@ class Capsule {
 
 }  // namespace
 
-void EdgeGrid::assign(std::span<const Segment> edges, std::span<const std::uint32_t> body_of,
+void EdgeGrid::assign(std::span<const Segment> edges, std::span<const std::uint32_t> enclosing_pose,
                       double cell) {
-  assert(edges.size() == body_of.size() && edges.size() < (1u << 31));
+  assert(edges.size() == enclosing_pose.size() && edges.size() < (1u << 31));
   edges_.assign(edges.begin(), edges.end());
-  bodies_.assign(body_of.begin(), body_of.end());
+  bodies_.assign(enclosing_pose.begin(), enclosing_pose.end());
   Box box;
   for (const Segment& e : edges_) {
     box.include(e.a);
@@ -114,14 +114,14 @@ void EdgeGrid::find_windings() {
     if (e.a.y == e.b.y) continue;
     const int turn = e.b.y > e.a.y ? 1 : -1;
     auto is_left = [&](Vec2 p) { return orientation_beside(e.a, e.b, p) == turn; };
-    const int last_row = grid_.row_of(std::max(e.a.y, e.b.y));
-    for (int row = grid_.row_of(std::min(e.a.y, e.b.y)); row <= last_row; ++row) {
-      const double y = grid_.centre_of(0, row).y;
+    const int last_row = grid_.find_row(std::max(e.a.y, e.b.y));
+    for (int row = grid_.find_row(std::min(e.a.y, e.b.y)); row <= last_row; ++row) {
+      const double y = grid_.cell_centre(0, row).y;
       if ((e.a.y <= y) == (e.b.y <= y)) continue;
       const double x = e.a.x + (y - e.a.y) / (e.b.y - e.a.y) * (e.b.x - e.a.x);
-      int left = grid_.column_of(x);
-      while (left < grid_.columns() && is_left(grid_.centre_of(left, row))) ++left;
-      while (left > 0 && !is_left(grid_.centre_of(left - 1, row))) --left;
+      int left = grid_.find_column(x);
+      while (left < grid_.columns() && is_left(grid_.cell_centre(left, row))) ++left;
+      while (left > 0 && !is_left(grid_.cell_centre(left - 1, row))) --left;
       if (left > 0) cells_[grid_.number(left - 1, row)].winding += turn;
     }
   }
@@ -135,9 +135,9 @@ void EdgeGrid::find_windings() {
 
 int EdgeGrid::winding(Vec2 p) const {
   if (!box().contains(p)) return 0;
-  const int column = grid_.column_of(p.x);
-  const int row = grid_.row_of(p.y);
-  const Vec2 centre = grid_.centre_of(column, row);
+  const int column = grid_.find_column(p.x);
+  const int row = grid_.find_row(p.y);
+  const Vec2 centre = grid_.cell_centre(column, row);
   int sum = cells_[grid_.number(column, row)].winding;
   for (const std::uint32_t id : edges_in(row, {column, column})) {
     sum -= winding_along(edges_[id].a, edges_[id].b, p, centre);
@@ -147,8 +147,8 @@ int EdgeGrid::winding(Vec2 p) const {
 
 bool EdgeGrid::in_solid(Vec2 p) const {
   if (!box().contains(p)) return false;
-  const int column = grid_.column_of(p.x);
-  for (const std::uint32_t id : edges_in(grid_.row_of(p.y), {column, column})) {
+  const int column = grid_.find_column(p.x);
+  for (const std::uint32_t id : edges_in(grid_.find_row(p.y), {column, column})) {
     if (contains(edges_[id], p)) return true;
   }
   return winding(p) != 0;
@@ -173,8 +173,8 @@ EdgeGrid::Found EdgeGrid::search(Vec2 p, double squared_limit) const {
   };
   const double outside_x = squared(std::max(box().lo.x - p.x, p.x - box().hi.x));
   const double outside_y = squared(std::max(box().lo.y - p.y, p.y - box().hi.y));
-  Run columns = grid_.columns_of({p, p});
-  Run rows = grid_.rows_of({p, p});
+  Run columns = grid_.column_range({p, p});
+  Run rows = grid_.row_range({p, p});
   scan(p, rows.first, columns, best);
   for (;;) {
     const UniformGrid::Beyond beyond = grid_.beyond(columns, rows, p);
@@ -201,18 +201,18 @@ double EdgeGrid::distance(Vec2 p, double limit) const {
 std::size_t EdgeGrid::nearest(Vec2 p, double limit) const { return search(p, limit * limit).edge; }
 
 /// r plus more than any rounding error in the coordinates.
-double EdgeGrid::reach_of(Segment s, double r) const {
+double EdgeGrid::padded_reach(Segment s, double r) const {
   return r + slack_ + rounding * (r + magnitude(s.a) + magnitude(s.b));
 }
 
 /// The same answers, to the bit, as for the capsule whose two ends are `p`: the tests of a segment
 /// rule out nothing there.
 bool EdgeGrid::disc_free(Vec2 p, double r) const {
-  const double reach = reach_of({p, p}, r);
+  const double reach = padded_reach({p, p}, r);
   const Box near = Box{p, p}.grown(reach);
   if (!near.overlaps(box())) return true;
-  const Run columns = grid_.columns_of(near);
-  const Run rows = grid_.rows_of(near);
+  const Run columns = grid_.column_range(near);
+  const Run rows = grid_.row_range(near);
   const double squared = r * r;
   const double touching = (reach - r) * (reach - r);
   for (int row = rows.first; row <= rows.last; ++row) {
@@ -231,7 +231,7 @@ bool EdgeGrid::disc_free(Vec2 p, double r) const {
 bool EdgeGrid::capsule_free(Segment s, double r) const {
   if (empty()) return true;
   if (s.a == s.b) return disc_free(s.a, r);
-  const double reach = reach_of(s, r);
+  const double reach = padded_reach(s, r);
   const UniformGrid::Sweep near = sweep(s, reach);
   const Capsule capsule(s, r, reach);
   for (int row = near.rows().first; row <= near.rows().last; ++row) {
@@ -246,7 +246,7 @@ double EdgeGrid::distance(Segment s, double limit) const {
   if (empty()) return limit;
   double best = limit * limit;
   for (const Vec2 end : {s.a, s.b}) best = std::min(best, search(end, best).squared);
-  const UniformGrid::Sweep near = sweep(s, reach_of(s, std::sqrt(best)));
+  const UniformGrid::Sweep near = sweep(s, padded_reach(s, std::sqrt(best)));
   for (int row = near.rows().first; row <= near.rows().last; ++row) {
     for (const std::uint32_t id : edges_in(row, near.columns(row))) {
       best = std::min(best, squared_distance(s, edges_[id]));

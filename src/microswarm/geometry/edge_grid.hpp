@@ -20,20 +20,20 @@ namespace microswarm {
 class EdgeGrid {
  public:
   EdgeGrid() = default;
-  /// `body_of[i]` is the body that edge i belongs to. The cell size [µm] is derived from the edges
-  /// if `cell` is 0.
-  EdgeGrid(std::span<const Segment> edges, std::span<const std::uint32_t> body_of,
+  /// `enclosing_pose[i]` is the body that edge i belongs to. The cell size [µm] is derived from the
+  /// edges if `cell` is 0.
+  EdgeGrid(std::span<const Segment> edges, std::span<const std::uint32_t> enclosing_pose,
            double cell = 0) {
-    assign(edges, body_of, cell);
+    assign(edges, enclosing_pose, cell);
   }
   /// Same as constructing, but reuses the memory.
-  void assign(std::span<const Segment> edges, std::span<const std::uint32_t> body_of,
+  void assign(std::span<const Segment> edges, std::span<const std::uint32_t> enclosing_pose,
               double cell = 0);
 
   std::size_t size() const { return edges_.size(); }
   bool empty() const { return edges_.empty(); }
   const Segment& edge(std::size_t i) const { return edges_[i]; }
-  std::uint32_t body_of(std::size_t i) const { return bodies_[i]; }
+  std::uint32_t enclosing_pose(std::size_t i) const { return bodies_[i]; }
   const Box& box() const { return grid_.box(); }
   /// Side of a cell [µm].
   double cell() const { return grid_.cell().x; }
@@ -71,7 +71,7 @@ class EdgeGrid {
   };
 
   UniformGrid::Sweep sweep(Segment s, double reach) const { return {grid_, s, reach, slack_}; }
-  double reach_of(Segment s, double r) const;
+  double padded_reach(Segment s, double r) const;
   bool disc_free(Vec2 p, double r) const;
   double choose_cell(const Box& box, double cell);
   void fill_cells();
@@ -123,8 +123,8 @@ class EdgeGrid::Seen {
 template <class Visit>
 void EdgeGrid::for_each_in(const Box& box, Visit&& visit) const {
   if (empty() || !box.overlaps(grid_.box())) return;
-  const Run wanted = grid_.columns_of(box);
-  const auto [first_row, last_row] = grid_.rows_of(box);
+  const Run wanted = grid_.column_range(box);
+  const auto [first_row, last_row] = grid_.row_range(box);
   std::size_t count = 0;
   for (int row = first_row; row <= last_row; ++row) count += edges_in(row, wanted).size();
   if (count <= Seen::most) {

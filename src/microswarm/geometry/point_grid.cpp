@@ -84,7 +84,7 @@ void PointGrid::insert(std::uint32_t point) {
       link(split(child, centre));
     }
     parent = child;
-    quarter = nodes_[child / 2].quarter_of(p);
+    quarter = nodes_[child / 2].find_quarter(p);
     child = nodes_[child / 2].quarters[quarter];
     half *= 0.5;
     centre += Vec2{quarter % 2 == 0 ? -half : half, quarter / 2 == 0 ? -half : half};
@@ -99,7 +99,7 @@ PointGrid::Child PointGrid::split(Child child, Vec2 centre) {
   buckets_[child / 2].box = {};
   Child spare = child;
   for (const std::uint32_t point : old.points) {
-    Child& quarter = node.quarters[node.quarter_of(points_[point])];
+    Child& quarter = node.quarters[node.find_quarter(points_[point])];
     if (quarter == nothing) {
       quarter = spare == nothing ? new_bucket() : spare;
       spare = nothing;
@@ -140,7 +140,7 @@ void PointGrid::search(const Node& node, Vec2 p, Vec2 offset, Found& best) const
     }
   };
   const Vec2 to_p = p - node.centre;
-  const int own = node.quarter_of(p);
+  const int own = node.find_quarter(p);
   const Vec2 across{std::max(offset.x, std::abs(to_p.x)), std::max(offset.y, std::abs(to_p.y))};
   const bool level_first = std::abs(to_p.x) < std::abs(to_p.y);
   visit(own, offset);

@@ -42,7 +42,7 @@ class PointGrid {
     Vec2 centre;
     std::array<Child, 4> quarters{nothing, nothing, nothing, nothing};
 
-    int quarter_of(Vec2 p) const { return (p.x >= centre.x) + 2 * (p.y >= centre.y); }
+    int find_quarter(Vec2 p) const { return (p.x >= centre.x) + 2 * (p.y >= centre.y); }
   };
   struct Bucket {
     Box box;

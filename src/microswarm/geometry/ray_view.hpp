@@ -100,13 +100,14 @@ class RayView {
     inside2_ = inside * inside;
   }
 
-  double place_of(Vec2 p) const { return rightwards ? p.x : -p.x; }
+  double position_along(Vec2 p) const { return rightwards ? p.x : -p.x; }
   /// From where on a limit by this end holds.
-  double holds_from(Vec2 p) const { return place_of(p) + 3 * rays_.keep; }
+  double holds_from(Vec2 p) const { return position_along(p) + 3 * rays_.keep; }
   /// Whether so far on nothing is seen by rays that go back. Such a ray comes from the disc, and
   /// what it passes closely at its end is less far back than the disc.
   bool goes_on(Vec2 p) const {
-    return place_of(p) >= place_of(rays_.centre) + std::abs(rays_.offset) + 2 * rays_.keep;
+    return position_along(p) >=
+           position_along(rays_.centre) + std::abs(rays_.offset) + 2 * rays_.keep;
   }
   Limits limits(Vec2 p, double radius = 0) const {
     Vec2 off = p - rays_.centre;

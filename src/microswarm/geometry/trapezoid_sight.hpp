@@ -16,7 +16,7 @@ namespace microswarm {
 
 /// Views through the cells of a decomposition, which must outlive it. Both functions call
 /// point(number, sides) for every end of a segment that a ray may pass closely, and
-/// cell(number, sides_of) for every cell that a ray passes, for some repeatedly. sides_of(disc)
+/// cell(number, find_sides) for every cell that a ray passes, for some repeatedly. find_sides(disc)
 /// returns the sides on which a disc in the cell may be passed closely. Rays that differ by less
 /// than 1e-9 rad are the same.
 class TrapezoidSight {
@@ -105,10 +105,10 @@ class TrapezoidSight::PlaceView {
     if (const std::uint32_t begin = rightwards ? cell.left : cell.right; begin != none) {
       const Vec2 at = cells_.points()[begin];
       if (holds(cone.lower, at))
-        bounds.pass_above(view_.limits(cells_.points()[cone.lower]), view_.place_of(at));
+        bounds.pass_above(view_.limits(cells_.points()[cone.lower]), view_.position_along(at));
       if (holds(cone.upper, at))
-        bounds.pass_below(view_.limits(cells_.points()[cone.upper]), view_.place_of(at));
-      bounds.reach(view_.place_of(at));
+        bounds.pass_below(view_.limits(cells_.points()[cone.upper]), view_.position_along(at));
+      bounds.reach(view_.position_along(at));
     }
     return view_.sides(disc, bounds);
   }
@@ -120,7 +120,7 @@ class TrapezoidSight::PlaceView {
   }
   Vec2 off(std::uint32_t point) const { return off(cells_.points()[point]); }
   bool holds(std::uint32_t point, Vec2 at) const {
-    return point != none && view_.place_of(at) >= view_.holds_from(cells_.points()[point]);
+    return point != none && view_.position_along(at) >= view_.holds_from(cells_.points()[point]);
   }
   /// Whether the angle from a point up to another is less than that at which the width is seen: of
   /// the strip of a ray that has the lower one to its right, and the upper one, or else what the
@@ -174,7 +174,7 @@ void TrapezoidSight::look_through(const Beam& beam, const RayView<rightwards>& v
   const Vec2 p = cells_->points()[end];
   const RayBounds::Limits limits = view.limits(p);
   RayBounds bounds = beam.bounds;
-  bounds.reach(view.place_of(p));
+  bounds.reach(view.position_along(p));
   if (const Sides sides = view.sides(limits, bounds); sides.left || sides.right) point(end, sides);
   if (beam.goes_back && view.goes_on(p)) return;
   const std::uint32_t below = rightwards ? cell.right_below : cell.left_below;

@@ -12,7 +12,7 @@ namespace microswarm {
 namespace {
 
 /// Side of p relative to a segment from left to right: +1 above.
-int side_of(const Segment& s, Vec2 p) { return orientation(s.a, s.b, p); }
+int side_from(const Segment& s, Vec2 p) { return orientation(s.a, s.b, p); }
 
 }  // namespace
 
@@ -54,14 +54,14 @@ class Trapezoids::Sweep {
       const Segment& a = segments[x.segment];
       const Segment& b = segments[y.segment];
       if (is_left_of(a.a, b.a)) {
-        const int side = side_of(a, b.a);
-        return (side != 0 ? side : side_of(a, b.b)) > 0;
+        const int side = side_from(a, b.a);
+        return (side != 0 ? side : side_from(a, b.b)) > 0;
       }
-      const int side = side_of(b, a.a);
-      return (side != 0 ? side : side_of(b, a.b)) < 0;
+      const int side = side_from(b, a.a);
+      return (side != 0 ? side : side_from(b, a.b)) < 0;
     }
-    bool operator()(const Active& x, Vec2 p) const { return side_of(segments[x.segment], p) > 0; }
-    bool operator()(Vec2 p, const Active& x) const { return side_of(segments[x.segment], p) < 0; }
+    bool operator()(const Active& x, Vec2 p) const { return side_from(segments[x.segment], p) > 0; }
+    bool operator()(Vec2 p, const Active& x) const { return side_from(segments[x.segment], p) < 0; }
   };
   using Line = std::multiset<Active, Below>;
 
@@ -151,15 +151,15 @@ std::uint32_t Trapezoids::cell_at(Vec2 p) const {
   std::size_t beneath = segments_.size();
   const auto take = [&](std::size_t i) {
     const Segment& s = segments_[i];
-    if (!is_left_of(s.a, p) || !is_left_of(p, s.b) || side_of(s, p) < 0) return;
+    if (!is_left_of(s.a, p) || !is_left_of(p, s.b) || side_from(s, p) < 0) return;
     // The higher one of two that do not cross: the one that begins later is above the other.
     if (beneath == segments_.size()) {
       beneath = i;
       return;
     }
     const Segment& now = segments_[beneath];
-    const int side = is_left_of(now.a, s.a) ? side_of(now, s.a) : -side_of(s, now.a);
-    const int far = is_left_of(s.b, now.b) ? side_of(now, s.b) : -side_of(s, now.b);
+    const int side = is_left_of(now.a, s.a) ? side_from(now, s.a) : -side_from(s, now.a);
+    const int far = is_left_of(s.b, now.b) ? side_from(now, s.b) : -side_from(s, now.b);
     if (side > 0 || (side == 0 && far > 0)) beneath = i;
   };
   if (!grid_.empty()) {

@@ -44,16 +44,16 @@ class UniformGrid {
   int rows() const { return rows_; }
   std::size_t size() const { return number(0, rows_); }
 
-  int column_of(double x) const { return index((x - box_.lo.x) * per_cell_.x, columns_); }
-  int row_of(double y) const { return index((y - box_.lo.y) * per_cell_.y, rows_); }
-  Run columns_of(const Box& box) const { return {column_of(box.lo.x), column_of(box.hi.x)}; }
-  Run rows_of(const Box& box) const { return {row_of(box.lo.y), row_of(box.hi.y)}; }
+  int find_column(double x) const { return index((x - box_.lo.x) * per_cell_.x, columns_); }
+  int find_row(double y) const { return index((y - box_.lo.y) * per_cell_.y, rows_); }
+  Run column_range(const Box& box) const { return {find_column(box.lo.x), find_column(box.hi.x)}; }
+  Run row_range(const Box& box) const { return {find_row(box.lo.y), find_row(box.hi.y)}; }
   std::size_t number(int column, int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
            static_cast<std::size_t>(column);
   }
-  std::size_t number_at(Vec2 p) const { return number(column_of(p.x), row_of(p.y)); }
-  Vec2 centre_of(int column, int row) const {
+  std::size_t number_at(Vec2 p) const { return number(find_column(p.x), find_row(p.y)); }
+  Vec2 cell_centre(int column, int row) const {
     return {box_.lo.x + (column + 0.5) * cell_.x, box_.lo.y + (row + 0.5) * cell_.y};
   }
 
@@ -93,7 +93,7 @@ class UniformGrid::Sweep {
     if (low_.y > high_.y) std::swap(low_, high_);
     left_ = std::min(low_.x, high_.x) - reach;
     right_ = std::max(low_.x, high_.x) + reach;
-    if (bounds().overlaps(grid.box_)) rows_ = grid.rows_of(bounds());
+    if (bounds().overlaps(grid.box_)) rows_ = grid.row_range(bounds());
     is_slanted_ = rows_.first != rows_.last && high_.y - low_.y > slack;
     if (is_slanted_) slope_ = (high_.x - low_.x) / (high_.y - low_.y);
   }
@@ -109,7 +109,7 @@ class UniformGrid::Sweep {
       left = std::max(left, std::min(enter, leave) - margin_);
       right = std::min(right, std::max(enter, leave) + margin_);
     }
-    return {grid_.column_of(left), grid_.column_of(right)};
+    return {grid_.find_column(left), grid_.find_column(right)};
   }
 
  private:

@@ -19,8 +19,8 @@ inline Vec2 uniform_in(const Box& box, Rng& rng) {
 inline void look_ahead(const Box& box, Rng& rng, std::span<Vec2> ahead) {
   const auto bits = rng.ahead(2 * ahead.size());
   for (std::size_t i = 0; i < ahead.size(); ++i)
-    ahead[i] = {box.lo.x + (box.hi.x - box.lo.x) * Rng::uniform_of(bits[2 * i]),
-                box.lo.y + (box.hi.y - box.lo.y) * Rng::uniform_of(bits[2 * i + 1])};
+    ahead[i] = {box.lo.x + (box.hi.x - box.lo.x) * Rng::to_uniform(bits[2 * i]),
+                box.lo.y + (box.hi.y - box.lo.y) * Rng::to_uniform(bits[2 * i + 1])};
 }
 
 }  // namespace microswarm

@@ -33,7 +33,7 @@ inline double distance(Vec2 a, Vec2 b) { return norm(b - a); }
 /// `a` rotated left by 90°.
 constexpr Vec2 perpendicular(Vec2 a) { return {-a.y, a.x}; }
 /// Heading of the vector [rad], in [-π, π]; 0 for the zero vector.
-inline double heading_of(Vec2 a) { return maths::atan2(a.y, a.x); }
+inline double heading_along(Vec2 a) { return maths::atan2(a.y, a.x); }
 inline Vec2 unit_vector(double heading) {
   const auto [sine, cosine] = maths::sincos(heading);
   return {cosine, sine};

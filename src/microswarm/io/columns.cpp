@@ -13,7 +13,7 @@ namespace {
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 constexpr double max_exact = 9007199254740992.0;  // 2^53
 
-double greatest_of(TypeKind kind) {
+double greatest_value(TypeKind kind) {
   switch (kind) {
     case TypeKind::boolean:
       return 1;
@@ -106,7 +106,7 @@ class ColumnLister {
   std::vector<Column> columns_;
 };
 
-std::vector<Column> columns_of(const Type& row, ColumnUnits units, Unit unit) {
+std::vector<Column> to_columns(const Type& row, ColumnUnits units, Unit unit) {
   ColumnLister lister(units);
   lister.list(row, FieldInfo(unit, "", ""), "", "");
   return lister.take();
@@ -117,7 +117,7 @@ const void* Column::in(const void* row) const {
     row = static_cast<const std::byte*>(row) + step.offset;
     if (!step.optional) continue;
     if (step.optional->count(row) == 0) return nullptr;
-    row = step.optional->part_of(row);
+    row = step.optional->find_part(row);
   }
   return row;
 }
@@ -149,7 +149,7 @@ bool Column::set_integer(void* row, std::int64_t value) const {
 }
 
 bool Column::set_number(void* row, double value) const {
-  if (kind == ColumnKind::integer && !(value >= 0 && value <= greatest_of(type_->kind)))
+  if (kind == ColumnKind::integer && !(value >= 0 && value <= greatest_value(type_->kind)))
     return false;
   const bool missing = std::isnan(value);
   for (const Step& step : steps_) {

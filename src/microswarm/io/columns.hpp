@@ -61,11 +61,11 @@ class Column {
 
 /// Columns of such rows, in the order of their fields. Lists are not columns; see visit_tables. A
 /// row of type Vec2 has the columns x and y in `unit`.
-std::vector<Column> columns_of(const Type& row, ColumnUnits units = ColumnUnits::held,
+std::vector<Column> to_columns(const Type& row, ColumnUnits units = ColumnUnits::held,
                                Unit unit = Unit::um);
 template <class Row>
-std::vector<Column> columns_of(ColumnUnits units = ColumnUnits::held) {
-  return columns_of(type_of<Row>(), units);
+std::vector<Column> to_columns(ColumnUnits units = ColumnUnits::held) {
+  return to_columns(type_of<Row>(), units);
 }
 
 /// Text as a CSV field, quoted if necessary.
@@ -78,7 +78,7 @@ std::string csv_line(const std::vector<Column>& columns, const void* row);
 /// CSV of rows described by `fields`: the header and a line each, in the units of people.
 template <class Rows>
 std::string csv_table(const Rows& rows) {
-  const auto columns = columns_of<typename Rows::value_type>(ColumnUnits::shown);
+  const auto columns = to_columns<typename Rows::value_type>(ColumnUnits::shown);
   std::string csv = csv_head(columns) + "\n";
   for (const auto& row : rows) csv.append(csv_line(columns, &row)).append("\n");
   return csv;

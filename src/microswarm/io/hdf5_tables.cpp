@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* words_attribute = "words";  // joined by spaces, indexed from 0
 
-std::vector<std::string> words_of(const std::string& joined) {
+std::vector<std::string> split_words(const std::string& joined) {
   const std::vector<std::string_view> list = split(joined, ' ');
   return {list.begin(), list.end()};
 }
@@ -25,7 +25,7 @@ struct TableWriter {
   void table(const std::string& group, const ListRef<const void*>& list) {
     std::vector<const void*> rows;
     for (std::size_t i = 0; i < list.size(); ++i) rows.push_back(list.row(i));
-    write(group, columns_of(list.row_type()), rows);
+    write(group, to_columns(list.row_type()), rows);
   }
   void parts(const std::string& group, const ListRef<const void*>& outer, const Field& field) {
     std::vector<const void*> rows;
@@ -35,7 +35,7 @@ struct TableWriter {
       for (std::size_t k = 0; k < part.size(); ++k) rows.push_back(part.row(k));
       offsets.push_back(static_cast<std::int64_t>(rows.size()));
     }
-    write(group, columns_of(*field.type->parts[0], ColumnUnits::held, field.info.unit), rows);
+    write(group, to_columns(*field.type->parts[0], ColumnUnits::held, field.info.unit), rows);
     file.dataset(group + "/offset", offsets);
     file.attribute(group + "/offset", "description",
                    "Row i of the table above owns offset[i] to offset[i + 1] - 1, counted from 0.");
@@ -64,7 +64,7 @@ struct TableWriter {
     values.reserve(rows.size());
     std::vector<std::string> words;
     for (const void* row : rows)
-      values.push_back(column.kind == ColumnKind::word ? index_of(column.word(row), words)
+      values.push_back(column.kind == ColumnKind::word ? find_or_append(column.word(row), words)
                                                        : column.integer(row));
     file.dataset(path, values);
     if (column.kind != ColumnKind::word) return;
@@ -72,7 +72,7 @@ struct TableWriter {
     for (const std::string& word : words) joined += (joined.empty() ? "" : " ") + word;
     file.attribute(path, words_attribute, joined);
   }
-  static std::int64_t index_of(std::string_view word, std::vector<std::string>& words) {
+  static std::int64_t find_or_append(std::string_view word, std::vector<std::string>& words) {
     auto found = std::find(words.begin(), words.end(), word);
     if (found == words.end()) found = words.insert(words.end(), std::string(word));
     return found - words.begin();
@@ -83,7 +83,7 @@ struct TableReader {
   const Hdf5Reader& file;
 
   void table(const std::string& group, const ListRef<void*>& list) {
-    read(group, columns_of(list.row_type()), list);
+    read(group, to_columns(list.row_type()), list);
   }
   void parts(const std::string& group, const ListRef<void*>& outer, const Field& field) {
     const std::vector<std::int64_t> offsets = file.integers(group + "/offset");
@@ -91,10 +91,10 @@ struct TableReader {
         !std::is_sorted(offsets.begin(), offsets.end()))
       file.fail(group + "/offset does not fit its table");
     const Type& row = *field.type->parts[0];
-    const std::vector<Column> columns = columns_of(row, ColumnUnits::held, field.info.unit);
+    const std::vector<Column> columns = to_columns(row, ColumnUnits::held, field.info.unit);
     std::vector<void*> rows;
     // Checked before memory is allocated for rows that do not exist.
-    if (size_of(group, columns.front()) != static_cast<std::size_t>(offsets.back()))
+    if (row_bytes(group, columns.front()) != static_cast<std::size_t>(offsets.back()))
       file.fail(group + "/offset does not fit its table");
     check_lengths(group, columns, static_cast<std::size_t>(offsets.back()));
     for (std::size_t i = 0; i < outer.size(); ++i) {
@@ -108,21 +108,21 @@ struct TableReader {
  private:
   void read(const std::string& group, const std::vector<Column>& columns,
             const ListRef<void*>& list) {
-    const std::size_t size = size_of(group, columns.front());
+    const std::size_t size = row_bytes(group, columns.front());
     check_lengths(group, columns, size);
     list.resize(size);
     std::vector<void*> rows;
     for (std::size_t i = 0; i < size; ++i) rows.push_back(list.row(i));
     for (const Column& column : columns) read(group, column, rows);
   }
-  std::size_t size_of(const std::string& group, const Column& column) {
+  std::size_t row_bytes(const std::string& group, const Column& column) {
     return file.length(group + "/" + column.key);
   }
   /// All columns before memory is allocated for their rows.
   void check_lengths(const std::string& group, const std::vector<Column>& columns,
                      std::size_t rows) {
     for (const Column& column : columns)
-      check_length(group + "/" + column.key, size_of(group, column), rows);
+      check_length(group + "/" + column.key, row_bytes(group, column), rows);
   }
   void read(const std::string& group, const Column& column, const std::vector<void*>& rows) {
     const std::string path = group + "/" + column.key;
@@ -136,7 +136,7 @@ struct TableReader {
     check_length(path, values.size(), rows.size());
     const bool has_words = column.kind == ColumnKind::word;
     const std::vector<std::string> known =
-        has_words ? words_of(file.text_attribute(path, words_attribute))
+        has_words ? split_words(file.text_attribute(path, words_attribute))
                   : std::vector<std::string>{};
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (has_words && !std::in_range<std::size_t>(values[i]))
@@ -174,7 +174,7 @@ void read_table(const Hdf5Reader& in, const Field& field, void* value, std::stri
 
 void write_attributes(Hdf5Writer& out, const std::string& group, const Type& type,
                       const void* value) {
-  for (const Column& column : columns_of(type)) {
+  for (const Column& column : to_columns(type)) {
     if (column.kind == ColumnKind::real)
       out.attribute(group, column.key.c_str(), column.number(value));
     else
@@ -184,7 +184,7 @@ void write_attributes(Hdf5Writer& out, const std::string& group, const Type& typ
 
 void read_attributes(const Hdf5Reader& in, const std::string& group, const Type& type,
                      void* value) {
-  for (const Column& column : columns_of(type)) {
+  for (const Column& column : to_columns(type)) {
     const char* name = column.key.c_str();
     const double number = column.kind == ColumnKind::real
                               ? in.number_attribute(group, name)

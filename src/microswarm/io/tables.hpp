@@ -19,13 +19,13 @@ struct ListRef {
 
   const Type& row_type() const { return *type->parts[0]; }
   std::size_t size() const { return type->count(value); }
-  Pointer row(std::size_t i) const { return type->part(const_cast<void*>(value_of()), i); }
+  Pointer row(std::size_t i) const { return type->part(const_cast<void*>(value_at()), i); }
   void resize(std::size_t size) const { type->set_count(value, size); }
   /// List held in a field of row i.
   ListRef part(std::size_t i, const Field& field) const { return {field.type, field.in(row(i))}; }
 
  private:
-  const void* value_of() const { return value; }
+  const void* value_at() const { return value; }
 };
 
 /// Visits one of the tables of a described value, which the field holds; see visit_tables.

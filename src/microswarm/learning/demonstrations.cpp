@@ -20,7 +20,7 @@ class Demonstrator : public SteeringNavigator {
  public:
   Demonstrator(const FollowerTask& task, const Scenario& scenario, const Plant& plant,
                bool expert_drives)
-      : SteeringNavigator(task_of(scenario),
+      : SteeringNavigator(navigation_task(scenario),
                           std::get<PathNavigatorParams>(scenario.navigator).speed),
         plant_(plant),
         path_(task.path),
@@ -38,13 +38,14 @@ class Demonstrator : public SteeringNavigator {
   }
   Decision decide(const Moment& moment) override {
     const FollowerFeatures features =
-        features_of(follower_.query(path_, place_, moment.pose, params_.speed));
+        to_features(follower_.query(path_, position_, moment.pose, params_.speed));
     const double off = wrap(wanted_.heading - features.bearing);
     if (std::abs(off) < max_off_path)
       shown.push_back({features.features, {off, wanted_.speed / params_.speed}});
     if (expert_drives_) return {wanted_, NavigatorState::follow};
-    return {follower_.command(path_, place_, moment.pose, params_.lookahead, params_.speed).command,
-            NavigatorState::follow};
+    return {
+        follower_.command(path_, position_, moment.pose, params_.lookahead, params_.speed).command,
+        NavigatorState::follow};
   }
   Decision finish(const Decision& decision, const Observation& seen) override {
     expert_.note(seen.now, decision.command);
@@ -56,7 +57,7 @@ class Demonstrator : public SteeringNavigator {
   PathNavigatorParams params_;
   PathFollower follower_;
   FollowerExpert expert_;
-  PathPlace place_;
+  PathPosition position_;
   bool expert_drives_;
   Command wanted_;  ///< the expert's
 };

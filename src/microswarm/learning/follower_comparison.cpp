@@ -52,8 +52,8 @@ class Gauge : public RunListener {
   void on_tick(const Tick& tick) override {
     if (tick.end) return;
     const Frame& frame = tick.frame;
-    place_ = nearest_place(path_, frame.pose.position, place_);
-    const double off = distance(frame.pose.position, point_ahead(path_, place_, 0));
+    position_ = nearest_position(path_, frame.pose.position, position_);
+    const double off = distance(frame.pose.position, point_ahead(path_, position_, 0));
     sum_ += off * off;
     trace.push_back(off);
     most_ = std::max(most_, off);
@@ -80,7 +80,7 @@ class Gauge : public RunListener {
 
  private:
   const std::vector<Vec2>& path_;
-  PathPlace place_;
+  PathPosition position_;
   double sum_ = 0, most_ = 0, turning_ = 0, heading_ = 0;
   int ticks_ = 0, fallbacks_ = 0;
   bool driven_ = false;

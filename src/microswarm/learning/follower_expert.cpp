@@ -32,7 +32,7 @@ SwarmLimits limits(const RibbonParams& swarm) {
 
 FollowerExpert::FollowerExpert(const RibbonParams& swarm, std::span<const Vec2> path, double speed)
     : swarm_(swarm), path_(path), speed_(speed), compensator_(limits(swarm)) {
-  last_.heading = heading_of(path[1] - path[0]);
+  last_.heading = heading_along(path[1] - path[0]);
 }
 
 void FollowerExpert::note(double now, const Command& command) {
@@ -44,11 +44,11 @@ Command FollowerExpert::command(const Pose2& pose, double now) {
   Pose2 at_effect = compensator_.at_effect(
       {.now = now, .seen = now, .swarm = SwarmPose{pose, swarm_.radius}, .robots = {}});
   at_effect.position += swarm_.response_lag * swarm_.drift;
-  place_ = nearest_place(path_, at_effect.position, place_);
+  position_ = nearest_position(path_, at_effect.position, position_);
   std::array<Trial, tried_lookaheads.size() * shares.size()> trials;
   auto trial = trials.begin();
   for (const double lookahead : tried_lookaheads)
-    for (const double share : shares) *trial++ = play(at_effect, place_, lookahead, share);
+    for (const double share : shares) *trial++ = play(at_effect, position_, lookahead, share);
   const Trial& best = *std::min_element(
       trials.begin(), trials.end(), [](const Trial& a, const Trial& b) { return a.cost < b.cost; });
   double sum = 0, off = 0, speed = 0;
@@ -68,22 +68,22 @@ Pose2 FollowerExpert::moved(const Pose2& pose, const Command& command) const {
   return next;
 }
 
-FollowerExpert::Trial FollowerExpert::play(Pose2 pose, PathPlace place, double lookahead,
+FollowerExpert::Trial FollowerExpert::play(Pose2 pose, PathPosition position, double lookahead,
                                            double share) const {
   const double speed = share * speed_;
   const double unit = speed_ * speed_;
   Trial trial{.cost = slow_weight * (1 - share) * (1 - share)};
   double heading = last_.heading;
   for (int k = 0; k < ticks; ++k) {
-    Command command = pursue_in_flow(path_, place, pose, lookahead * speed_,
+    Command command = pursue_in_flow(path_, position, pose, lookahead * speed_,
                                      swarm_.speed_factor * speed, swarm_.drift);
     command.speed = speed;
     if (k == 0) trial.first = command;
     const double turn = wrap(command.heading - heading);
     heading = command.heading;
     pose = moved(pose, command);
-    if (remaining(path_, place) < tick * speed_) break;
-    const PathPlace now = nearest_place(path_, pose.position, place);
+    if (remaining(path_, position) < tick * speed_) break;
+    const PathPosition now = nearest_position(path_, pose.position, position);
     const double off2 = squared_norm(pose.position - point_ahead(path_, now, 0));
     trial.cost += (off2 / unit + turn_weight * turn * turn) / ticks;
   }

@@ -29,14 +29,14 @@ class FollowerExpert {
     Command first;
     double cost = 0;
   };
-  Trial play(Pose2 pose, PathPlace place, double lookahead, double share) const;
+  Trial play(Pose2 pose, PathPosition position, double lookahead, double share) const;
   Pose2 moved(const Pose2& pose, const Command& command) const;
 
   RibbonParams swarm_;
   std::span<const Vec2> path_;
   double speed_;
   DelayCompensator compensator_;  ///< of the swarm's true response to commands
-  PathPlace place_;
+  PathPosition position_;
   Command last_;
 };
 

@@ -52,7 +52,7 @@ Box around(const std::vector<Vec2>& path, double margin) {
   return {box.lo - Vec2{margin, margin}, box.hi + Vec2{margin, margin}};
 }
 
-double length_of(const std::vector<Vec2>& path) { return remaining(path, {}); }
+double total_length(const std::vector<Vec2>& path) { return remaining(path, {}); }
 
 }  // namespace
 
@@ -79,10 +79,10 @@ FollowerTask follower_task(const FollowerTaskParams& params, std::uint64_t seed,
   s.swarm = swarm;
   const double turned = rng.normal(), dx = rng.normal(), dy = rng.normal();
   s.start = Pose2{path.front() + params.start_spread * speed * Vec2{dx, dy},
-                  wrap(heading_of(path[1] - path[0]) + 0.35 * turned)};
+                  wrap(heading_along(path[1] - path[0]) + 0.35 * turned)};
   s.goal = path.back();
   s.goal_tolerance = 10;
-  s.time_limit = 3 * length_of(path) / speed + 10;
+  s.time_limit = 3 * total_length(path) / speed + 10;
   s.seed = seed;
   World world{std::make_shared<const Map>(around(path, 10 * speed), std::vector<Polygon>{},
                                           std::vector<Disc>{}, 50),

@@ -86,7 +86,7 @@ void set_ranges(FollowerModel& model, const std::vector<Demonstration>& shown) {
 }
 
 /// The demonstrations within the ranges, scaled for the network.
-Examples examples_of(const FollowerModel& model, const std::vector<Demonstration>& shown) {
+Examples to_examples(const FollowerModel& model, const std::vector<Demonstration>& shown) {
   Examples examples{.in = feature_count, .out = 2, .inputs = {}, .answers = {}};
   examples.inputs.reserve(shown.size() * feature_count);
   examples.answers.reserve(shown.size() * 2);
@@ -99,7 +99,7 @@ Examples examples_of(const FollowerModel& model, const std::vector<Demonstration
   return examples;
 }
 
-double error_of(const MultilayerPerceptron& network, const Examples& examples, int jobs) {
+double mean_error(const MultilayerPerceptron& network, const Examples& examples, int jobs) {
   std::vector<double> unused;
   return std::sqrt(loss_with_gradient(network, examples, unused, jobs) / 2);
 }
@@ -117,7 +117,7 @@ TrainedFollower train_follower(const FollowerTrainingParams& p, const TrainingOp
     FollowerModel model{.seed = p.seed,
                         .training = json_line(type_of<FollowerTrainingParams>(), Unit::none, &p)};
     set_ranges(model, all.learned);
-    const Examples examples = examples_of(model, all.learned);
+    const Examples examples = to_examples(model, all.learned);
     const auto hidden = static_cast<std::size_t>(p.hidden);
     Rng rng(p.seed, Purpose::learning, ~0U);
     const auto tell = [&](int) {
@@ -131,9 +131,9 @@ TrainedFollower train_follower(const FollowerTrainingParams& p, const TrainingOp
                          .progress = tell},
                         rng, stop);
     trained.demonstrations = all.learned.size() + all.held_out.size();
-    trained.training_error = error_of(model.network, examples, options.jobs);
+    trained.training_error = mean_error(model.network, examples, options.jobs);
     trained.held_out_error =
-        error_of(model.network, examples_of(model, all.held_out), options.jobs);
+        mean_error(model.network, to_examples(model, all.held_out), options.jobs);
     student = std::make_shared<const FollowerModel>(std::move(model));
   }
   if (student) trained.model = *student;

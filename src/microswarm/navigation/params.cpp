@@ -6,7 +6,7 @@
 namespace microswarm {
 namespace {
 
-constexpr double range_of_others = 50;  // [µm]; see detection_range_of
+constexpr double range_of_others = 50;  // [µm]; see required_detection_range
 
 }  // namespace
 
@@ -30,7 +30,7 @@ double required_clearance(const NavigatorParams& params) {
       params);
 }
 
-double detection_range_of(const NavigatorParams& params) {
+double required_detection_range(const NavigatorParams& params) {
   return std::visit(
       Overloaded{
           [](const RadarParams& p) { return p.detection_range; },
@@ -40,7 +40,7 @@ double detection_range_of(const NavigatorParams& params) {
       params);
 }
 
-FollowerParams* follower_of(NavigatorParams& params) {
+FollowerParams* find_follower(NavigatorParams& params) {
   return std::visit(
       Overloaded{[](OneOf<HierarchicalParams, PathNavigatorParams> auto& p) { return &p.follower; },
                  [](OneOf<PlanExecutorParams, AggregationParams, RadarParams, StraightParams,
@@ -49,8 +49,8 @@ FollowerParams* follower_of(NavigatorParams& params) {
       params);
 }
 
-const FollowerParams* follower_of(const NavigatorParams& params) {
-  return follower_of(const_cast<NavigatorParams&>(params));
+const FollowerParams* find_follower(const NavigatorParams& params) {
+  return find_follower(const_cast<NavigatorParams&>(params));
 }
 
 }  // namespace microswarm

@@ -29,10 +29,10 @@ double required_clearance(const NavigatorParams& params);
 
 /// Gap [µm] to the swarm's edge at which an obstacle begins to be avoided, for metrics: the
 /// detection range d_r of the radar, 50 µm for navigators without one.
-double detection_range_of(const NavigatorParams& params);
+double required_detection_range(const NavigatorParams& params);
 
 /// Follower parameters of a path-following navigator; null for others.
-const FollowerParams* follower_of(const NavigatorParams& params);
-FollowerParams* follower_of(NavigatorParams& params);
+const FollowerParams* find_follower(const NavigatorParams& params);
+FollowerParams* find_follower(NavigatorParams& params);
 
 }  // namespace microswarm

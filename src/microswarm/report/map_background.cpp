@@ -5,7 +5,7 @@
 
 namespace microswarm {
 
-std::string title_of(const Record& record) {
+std::string default_title(const Record& record) {
   const std::string& name = record.scene.scenario.name;
   return name.empty() ? "run" : name;
 }

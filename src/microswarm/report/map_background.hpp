@@ -9,7 +9,7 @@
 namespace microswarm {
 
 /// Title of a run in reports.
-std::string title_of(const Record& record);
+std::string default_title(const Record& record);
 
 /// Frame at a time [s]: the last one that is not later, or the first.
 const Frame& frame_at(const Record& record, double t);

@@ -124,7 +124,7 @@ std::vector<AxisTick> log_ticks(const Plot& plot) {
   return out;
 }
 
-std::ptrdiff_t letters_of(const std::string& s) {
+std::ptrdiff_t letter_count(const std::string& s) {
   return std::ranges::count_if(s, [](char c) { return (c & 0xC0) != 0x80; });
 }
 
@@ -140,7 +140,7 @@ std::string axes(const Plot& plot) {
     for (const Series& s : plot.series)
       if (s.style == PlotStyle::box && !s.x.empty()) names.push_back({s.label, s.x[0]});
   const bool wide = std::ranges::any_of(
-      names, [](const AxisTick& t) { return letters_of(t.label) > max_upright_letters; });
+      names, [](const AxisTick& t) { return letter_count(t.label) > max_upright_letters; });
   out += names.empty()
              ? "set xtics norotate autojustify auto\n"
              : fmt::format("set xtics {} {}\n",

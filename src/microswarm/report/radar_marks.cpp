@@ -42,7 +42,7 @@ void draw_outline(Picture& picture, const Body& body) {
 
 void draw_circles(Picture& picture, const Frame& frame, const RadarParams& params,
                   const Diagnostics& kept) {
-  RadarCircles circles = circles_of(params, frame.radius);
+  RadarCircles circles = make_circles(params, frame.radius);
   circles.safety =
       SafetyRadius(params.safety_radius)
           .radius(circles.safety, circles.prediction, frame.obstacle_clearance - frame.radius);

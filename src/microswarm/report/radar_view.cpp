@@ -49,7 +49,7 @@ void arrow(Picture& picture, Vec2 from, Vec2 offset, Colour colour, double head)
 
 /// Time [s] over which velocity arrows extend.
 double arrow_time(const Scenario& scenario) {
-  const SwarmLimits swarm = limits_of(scenario.swarm);
+  const SwarmLimits swarm = swarm_limits(scenario.swarm);
   return arrow_length * swarm.radius / swarm.max_speed;
 }
 
@@ -73,7 +73,7 @@ void draw_velocities(Picture& picture, const Record& record, const World& world,
   picture.line(std::array{p, end}, deviation, 1.5, true);
   picture.text(
       end,
-      fmt::format("α = {:.0f}°", degrees(turn_between(frame.pose.heading, heading_of(towards)))),
+      fmt::format("α = {:.0f}°", degrees(turn_between(frame.pose.heading, heading_along(towards)))),
       deviation);
 }
 
@@ -97,7 +97,7 @@ void add_legend(Picture& picture, const RadarParams& params, const Record& recor
 
 void draw_wait_zones(Picture& picture, const RadarParams& params, double width_px) {
   for (const WaitZone& zone : params.wait_zones) {
-    std::vector<Vec2> outline = outline_of(zone).outer;
+    std::vector<Vec2> outline = zone_outline(zone).outer;
     outline.push_back(outline.front());
     picture.line(outline, colours::wait_zone, width_px, true);
   }
@@ -112,8 +112,8 @@ void draw_radar_circles(Picture& picture, const RadarCircles& circles, Vec2 p) {
 RadarCircles radar_circles(const Record& record, std::size_t number,
                            const std::optional<RadarLook>& look) {
   if (look) return look->circles;
-  return circles_of(std::get<RadarParams>(record.scene.scenario.navigator),
-                    record.frames[number].radius);
+  return make_circles(std::get<RadarParams>(record.scene.scenario.navigator),
+                      record.frames[number].radius);
 }
 
 void draw_radar_view(Picture& picture, const Record& record, const World& world, std::size_t number,

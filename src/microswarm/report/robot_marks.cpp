@@ -18,7 +18,7 @@ struct Pile {
   int count = 0;
 };
 
-std::vector<Pile> piles_of(std::span<const Vec2> positions, double spot) {
+std::vector<Pile> find_piles(std::span<const Vec2> positions, double spot) {
   std::map<std::pair<int, int>, Pile> by_cell;
   for (const Vec2 p : positions) {
     Pile& pile = by_cell[{static_cast<int>(p.x / spot), static_cast<int>(p.y / spot)}];
@@ -48,7 +48,7 @@ void draw_robot_marks(Picture& picture, const Scenario& scenario, const Box& bou
     return;
   }
   const double pixel = std::max(bounds.width(), bounds.height()) / 1200;  // [µm] of the picture
-  for (const Pile& pile : piles_of(positions, 6 * pixel))
+  for (const Pile& pile : find_piles(positions, 6 * pixel))
     picture.disc({pile.position, pixel * (3 + 0.8 * std::sqrt(pile.count))}, colours::swarm);
   picture.legend("robots; a larger spot is a pile of them", colours::swarm, true);
 }

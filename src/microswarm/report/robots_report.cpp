@@ -26,7 +26,7 @@ struct RobotsSubject {
   const ReportOptions& options;
   World world;
   const Scenario& scenario() const { return record.scene.scenario; }
-  std::string title() const { return title_of(record); }
+  std::string title() const { return default_title(record); }
   bool few() const { return are_few(*scenario().robots); }
 };
 

@@ -30,7 +30,7 @@ std::string verdict(const Row& row) {
 
 Json json(const std::optional<double>& v) { return v ? Json(*v) : Json(nullptr); }
 
-std::size_t columns_of(const std::string& s) {
+std::size_t to_columns(const std::string& s) {
   return static_cast<std::size_t>(
       std::count_if(s.begin(), s.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
@@ -40,13 +40,13 @@ std::string text_table(const std::vector<Cells>& lines) {
   for (const Cells& line : lines) {
     width.resize(std::max(width.size(), line.size()));
     for (std::size_t i = 0; i < line.size(); ++i)
-      width[i] = std::max(width[i], columns_of(line[i]));
+      width[i] = std::max(width[i], to_columns(line[i]));
   }
   std::string out;
   for (const Cells& line : lines) {
     std::string text;
     for (std::size_t i = 0; i < line.size(); ++i)
-      text += line[i] + std::string(width[i] - columns_of(line[i]) + 2, ' ');
+      text += line[i] + std::string(width[i] - to_columns(line[i]) + 2, ' ');
     out += text.substr(0, text.find_last_not_of(' ') + 1) + "\n";
   }
   return out;

@@ -20,9 +20,9 @@ constexpr int ghosts = 6;  // earlier obstacle positions
 constexpr double faint = 0.18;
 
 std::string run_title(const Record& record) {
-  if (record.frames.empty()) return title_of(record) + ": start";
+  if (record.frames.empty()) return default_title(record) + ": start";
   const Metrics& m = record.result.metrics;
-  return fmt::format("{}: {} after {:.1f} s, {:.0f} µm", title_of(record),
+  return fmt::format("{}: {} after {:.1f} s, {:.0f} µm", default_title(record),
                      to_string(record.result.status), m.time, m.length);
 }
 

@@ -67,7 +67,7 @@ Plot clearances(const Record& record) {
     bodies.y.push_back(f.obstacle_clearance);
   }
   const double margin = required_clearance(scenario.navigator);
-  const double radius = limits_of(scenario.swarm).radius;
+  const double radius = swarm_limits(scenario.swarm).radius;
   plot.levels = {{"swarm's radius", radius}};
   if (margin > 0) plot.levels.push_back({"navigator's margin", margin});
   plot.y_min = 0;

@@ -29,7 +29,7 @@ struct RunSubject {
   const ReportOptions& options;
   World world;
   const Scenario& scenario() const { return record.scene.scenario; }
-  std::string title() const { return title_of(record); }
+  std::string title() const { return default_title(record); }
 };
 
 std::vector<Vec2> trail(const Record& record, double until) {

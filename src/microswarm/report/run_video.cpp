@@ -71,7 +71,7 @@ class Film {
 
   std::string title(double t) const {
     const std::string speed = options_.speed == 1 ? "" : fmt::format(" (×{:g})", options_.speed);
-    return fmt::format("{}: {:.1f} s{}", title_of(*playback_.record()), t, speed);
+    return fmt::format("{}: {:.1f} s{}", default_title(*playback_.record()), t, speed);
   }
 
   void advance() {

@@ -32,7 +32,7 @@ const DeviationBand& deviation_band(double of) {
 }
 
 /// One pixel per point, the highest row on top.
-Image image_of(const UniformityMap& map) {
+Image to_image(const UniformityMap& map) {
   const int n = map.grid.points;
   Image image{n, n, 3, std::vector<std::uint8_t>(static_cast<std::size_t>(n) * n * 3)};
   for (int row = 0; row < n; ++row)
@@ -63,7 +63,7 @@ struct FieldRow {
 };
 
 /// Title: axes, with `centre` the centre, and the field there.
-std::string title_of(const UniformityMap& map, bool centre) {
+std::string default_title(const UniformityMap& map, bool centre) {
   const std::string_view plane = enum_name(map.grid.plane);
   const Eigen::Vector3d& c = map.grid.centre;
   const Eigen::Vector3d& b = map.centre_field;
@@ -79,8 +79,8 @@ void draw_uniformity(const UniformityMap& map, bool centre, const std::filesyste
   // Each point is the centre of its pixel.
   const double step = 2 * map.grid.half_width / (map.grid.points - 1);
   const double side = step * map.grid.points;
-  Picture picture(Box{{0, 0}, {side, side}}, title_of(map, centre), 800);
-  picture.photo(image_of(map), step);
+  Picture picture(Box{{0, 0}, {side, side}}, default_title(map, centre), 800);
+  picture.photo(to_image(map), step);
   picture.mark({0.5 * side, 0.5 * side}, "B0");
   for (const DeviationBand& band : deviation_bands) picture.legend(band.label, band.colour);
   picture.write(file);

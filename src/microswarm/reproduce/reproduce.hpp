@@ -37,9 +37,9 @@ struct ReproduceOptions {
 // aim gives the reason in its note.
 
 /// A plain row.
-inline ReproduceRow row_of(std::string figure, std::string quantity, std::string unit,
-                           std::optional<double> paper, std::optional<double> ours,
-                           std::optional<double> aim = {}, bool at_most = true) {
+inline ReproduceRow make_row(std::string figure, std::string quantity, std::string unit,
+                             std::optional<double> paper, std::optional<double> ours,
+                             std::optional<double> aim = {}, bool at_most = true) {
   return {std::move(figure), std::move(quantity), std::move(unit), paper, ours, aim, at_most, {}};
 }
 
@@ -64,7 +64,7 @@ inline ReproduceRow unjudged_if_quick(ReproduceRow row, const ReproduceOptions& 
 inline ReproduceRow row_without_aim(std::string_view why, std::string figure, std::string quantity,
                                     std::string unit, std::optional<double> paper,
                                     std::optional<double> ours) {
-  return noted(row_of(std::move(figure), std::move(quantity), std::move(unit), paper, ours), why);
+  return noted(make_row(std::move(figure), std::move(quantity), std::move(unit), paper, ours), why);
 }
 
 /// A row whose aim is the paper's value ± `share`. The stated bound is the one on our side. Without
@@ -75,7 +75,7 @@ inline ReproduceRow row_within(double share, std::string figure, std::string qua
   const bool above = !paper || !ours || *ours >= *paper;
   const auto aim = paper ? std::optional(*paper * (above ? 1 + share : 1 - share)) : std::nullopt;
   return noted(
-      row_of(std::move(figure), std::move(quantity), std::move(unit), paper, ours, aim, above),
+      make_row(std::move(figure), std::move(quantity), std::move(unit), paper, ours, aim, above),
       paper ? fmt::format("paper ± {:.3g} %", 100 * share) : "");
 }
 
@@ -83,14 +83,14 @@ inline ReproduceRow row_within(double share, std::string figure, std::string qua
 /// minus `share` of it.
 inline ReproduceRow row_at_most(double share, std::string figure, std::string quantity,
                                 std::string unit, double paper, std::optional<double> ours) {
-  return noted(row_of(std::move(figure), std::move(quantity), std::move(unit), paper, ours,
-                      paper + share * std::abs(paper)),
+  return noted(make_row(std::move(figure), std::move(quantity), std::move(unit), paper, ours,
+                        paper + share * std::abs(paper)),
                share == 0 ? "" : fmt::format("paper + {:.3g} %", 100 * share));
 }
 inline ReproduceRow row_at_least(double share, std::string figure, std::string quantity,
                                  std::string unit, double paper, std::optional<double> ours) {
-  return noted(row_of(std::move(figure), std::move(quantity), std::move(unit), paper, ours,
-                      paper - share * std::abs(paper), false),
+  return noted(make_row(std::move(figure), std::move(quantity), std::move(unit), paper, ours,
+                        paper - share * std::abs(paper), false),
                share == 0 ? "" : fmt::format("paper − {:.3g} %", 100 * share));
 }
 

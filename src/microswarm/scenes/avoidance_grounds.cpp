@@ -13,7 +13,7 @@
 namespace microswarm::scenes {
 namespace {
 
-constexpr double side_of(int obstacles) { return 1400 + 25.0 * obstacles; }
+constexpr double side_at(int obstacles) { return 1400 + 25.0 * obstacles; }
 
 /// Places start and goal at opposite sides, horizontally or vertically, in either order.
 void place_ends(Ground& ground, double off_border, Rng& rng) {
@@ -71,7 +71,7 @@ void add_gates(Ground& ground, const Crosser& swarm, double x, double speed, Rng
 
 Ground open_ground(const Crosser& swarm, int obstacles, Rng& rng) {
   Ground ground;
-  const double side = side_of(obstacles);
+  const double side = side_at(obstacles);
   ground.map.hi = {side, side};
   place_ends(ground, 2 * swarm.half_passage, rng);
   return ground;
@@ -137,7 +137,7 @@ Ground vessel_ground(const Crosser& swarm, Rng& rng) {
   Ground ground;
   ground.map.hi = graph.bounds.hi;
   // Split into two halves in which no wall surrounds a vessel, so outlines have no holes.
-  const std::vector<Polygon> free = difference(graph.bounds, walls_of(graph));
+  const std::vector<Polygon> free = difference(graph.bounds, graph_walls(graph));
   const Vec2 middle = graph.bounds.centre();
   for (const Box half : {Box{graph.bounds.lo, {middle.x, graph.bounds.hi.y}},
                          Box{{middle.x, graph.bounds.lo.y}, graph.bounds.hi}}) {

@@ -90,7 +90,7 @@ Straight random_passage(const Ground& ground, const Crosser& swarm, double speed
   const double share = rng.uniform(0.1, 1);
   const double arrival = share * norm(line) / swarm.speed * rng.uniform(0.9, 1.5);
   const Vec2 aside =
-      3 * swarm.half_passage * rng.uniform(-1, 1) * unit_vector(heading_of(line) + pi / 2);
+      3 * swarm.half_passage * rng.uniform(-1, 1) * unit_vector(heading_along(line) + pi / 2);
   const Vec2 velocity = speed * unit_vector(rng.uniform(-pi, pi));
   return {.start = ground.start + share * line + aside - arrival * velocity, .velocity = velocity};
 }
@@ -108,7 +108,7 @@ Track random_walk(const Ground& ground, double speed, double time_limit, Rng& rn
     samples.points.push_back(position);
     heading += 0.25 * rng.normal();
     if (distance(position, middle) > reach) {
-      const double back = wrap(heading_of(middle - position) - heading);
+      const double back = wrap(heading_along(middle - position) - heading);
       heading += std::clamp(back, -0.4, 0.4);
     }
     position += step * speed * unit_vector(heading);

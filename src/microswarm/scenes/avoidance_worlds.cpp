@@ -145,7 +145,7 @@ Scenario avoidance_scenario(std::uint64_t seed, const AvoidanceOptions& options)
   const Ground ground = random_ground(options, crosser, asked, rng);
   s.map = ground.map;
   s.obstacles = ground.fixtures;
-  s.start = Pose2{ground.start, heading_of(ground.goal - ground.start)};
+  s.start = Pose2{ground.start, heading_along(ground.goal - ground.start)};
   s.goal = ground.goal;
   s.goal_tolerance = goal_tolerance;
   s.time_limit = 60 + 5 * distance(ground.start, ground.goal) / swarm.max_speed;

@@ -58,7 +58,7 @@ Map digestive_map() {
                    {{300, 45}, colon},
                    {{240, 45}, 14},
                    {{215, 14}, 12}});
-  return {graph.bounds, walls_of(graph)};
+  return {graph.bounds, graph_walls(graph)};
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ Samples begun_at(const Samples& samples, double t) {
 }
 
 bool starts_apart(const Scenario& s) {
-  const double radius = limits_of(s.swarm).radius;
+  const double radius = swarm_limits(s.swarm).radius;
   return std::all_of(s.obstacles.begin(), s.obstacles.end(), [&](const Obstacle& walker) {
     const Placement at = placement(walker.motion, 0);
     return !at.present || distance(at.pose.position, s.start->position) >=
@@ -37,7 +37,7 @@ void place_ends(Scenario& s, Rng& rng) {
   for (int i = 0; i < max_tries; ++i) {
     s.start = Pose2{uniform_in(inner, rng), 0};
     s.goal = uniform_in(inner, rng);
-    s.start->heading = heading_of(*s.goal - s.start->position);
+    s.start->heading = heading_along(*s.goal - s.start->position);
     if (distance(s.start->position, *s.goal) > min_distance && starts_apart(s)) return;
   }
 }

@@ -146,7 +146,7 @@ ChannelGraph random_channels(const VascularShape& shape, Rng& rng) {
   return best;
 }
 
-std::vector<Polygon> walls_of(const ChannelGraph& graph) {
+std::vector<Polygon> graph_walls(const ChannelGraph& graph) {
   std::vector<Polygon> channels;
   for (const Disc& joint : graph.joints) channels.push_back(round(joint));
   for (const auto& [a, b] : graph.channels) {
@@ -176,7 +176,7 @@ Vascular random_vascular(const VascularShape& shape, Rng& rng) {
   Vascular v;
   v.name = "random_vascular";
   v.bounds = graph.bounds;
-  v.walls = walls_of(graph);
+  v.walls = graph_walls(graph);
   v.width = shape.min_half + shape.max_half;
   // Inside the dead end, as in the T-junction: 3 of 10 widths from its wall.
   const Disc end = graph.joints[0];

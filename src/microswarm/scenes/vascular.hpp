@@ -41,7 +41,7 @@ struct ChannelGraph {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> channels;
 };
 /// The walls: everything outside the channels.
-std::vector<Polygon> walls_of(const ChannelGraph& graph);
+std::vector<Polygon> graph_walls(const ChannelGraph& graph);
 
 /// Settings of a generated map.
 struct VascularShape {

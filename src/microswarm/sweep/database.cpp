@@ -29,16 +29,16 @@ constexpr int max_steps_a_row = 200;        // times the above: a second or more
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
-void bind(SQLite::Statement& statement, int place, const SqlValue& value) {
-  std::visit(Overloaded{[&](std::monostate) { statement.bind(place); },
+void bind(SQLite::Statement& statement, int index, const SqlValue& value) {
+  std::visit(Overloaded{[&](std::monostate) { statement.bind(index); },
                         [&](const OneOf<std::int64_t, double> auto& number) {
-                          statement.bind(place, number);
+                          statement.bind(index, number);
                         },
-                        [&](const std::string& text) { statement.bindNoCopy(place, text); }},
+                        [&](const std::string& text) { statement.bindNoCopy(index, text); }},
              value);
 }
 
-SqlValue value_of(const SQLite::Column& column) {
+SqlValue to_value(const SQLite::Column& column) {
   if (column.isInteger()) return std::int64_t{column.getInt64()};
   if (column.isFloat()) return column.getDouble();
   if (column.isNull()) return std::monostate{};
@@ -152,7 +152,7 @@ void Database::select(const std::string& sql, std::span<const SqlValue> values,
     steps_ = 0;
     if (!each) continue;
     for (std::size_t i = 0; i < row.size(); ++i)
-      row[i] = value_of(statement.getColumn(static_cast<int>(i)));
+      row[i] = to_value(statement.getColumn(static_cast<int>(i)));
     each(row);
   }
 } catch (const SQLite::Exception& error) {

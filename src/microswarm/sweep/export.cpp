@@ -57,13 +57,13 @@ struct RecordTables {
 
   void table(const std::string& group, const ListRef<const void*>& list) {
     if (!is_wanted(group)) return;
-    const std::vector<Column> columns = columns_of(list.row_type());
+    const std::vector<Column> columns = to_columns(list.row_type());
     csv += csv_head(columns) + "\n";
     for (std::size_t i = 0; i < list.size(); ++i) csv += csv_line(columns, list.row(i)) + "\n";
   }
   void parts(const std::string& group, const ListRef<const void*>& outer, const Field& field) {
     if (!is_wanted(group)) return;
-    const std::vector<Column> columns = columns_of(*field.type->parts[0]);
+    const std::vector<Column> columns = to_columns(*field.type->parts[0]);
     csv += "row," + csv_head(columns) + "\n";
     for (std::size_t i = 0; i < outer.size(); ++i) {
       const ListRef<const void*> part = outer.part(i, field);

@@ -17,7 +17,7 @@ namespace {
 using Json = nlohmann::json;
 
 // A number is stored as its bits in an array of one, since CBOR would make all NaNs equal.
-Json json_of(const SqlValue& value) {
+Json to_json(const SqlValue& value) {
   return std::visit(
       Overloaded{[](std::monostate) { return Json(nullptr); },
                  [](const OneOf<std::int64_t, std::string> auto& held) { return Json(held); },
@@ -27,24 +27,24 @@ Json json_of(const SqlValue& value) {
 
 // The functions below throw std::exception for other types or ranges.
 
-std::uint64_t whole_of(const Json& json, std::uint64_t max = ~std::uint64_t{0}) {
+std::uint64_t to_whole(const Json& json, std::uint64_t max = ~std::uint64_t{0}) {
   const auto whole = json.get_ref<const std::uint64_t&>();
   if (whole > max) throw std::out_of_range("number in a message");
   return whole;
 }
 
-std::uint32_t word_of(const Json& json) {
-  return static_cast<std::uint32_t>(whole_of(json, std::numeric_limits<std::uint32_t>::max()));
+std::uint32_t to_word(const Json& json) {
+  return static_cast<std::uint32_t>(to_whole(json, std::numeric_limits<std::uint32_t>::max()));
 }
 
 SqlValue value_of_json(const Json& json) {
   if (json.is_null()) return std::monostate{};
   if (json.is_number_integer()) return json.get<std::int64_t>();
-  if (json.is_array()) return std::bit_cast<double>(whole_of(json.at(0)));
+  if (json.is_array()) return std::bit_cast<double>(to_whole(json.at(0)));
   return json.get_ref<const std::string&>();
 }
 
-const Json::array_t& list_of(const Json& json) { return json.get_ref<const Json::array_t&>(); }
+const Json::array_t& to_list(const Json& json) { return json.get_ref<const Json::array_t&>(); }
 
 }  // namespace
 
@@ -54,7 +54,7 @@ std::string to_bytes(const SweepMessage& message) {
   Json rows = Json::array();
   for (const SweepRow& row : message.rows) {
     Json values = Json::array();
-    for (const SqlValue& value : row.values) values.push_back(json_of(value));
+    for (const SqlValue& value : row.values) values.push_back(to_json(value));
     rows.push_back({row.task.cell, row.task.trial, std::move(values)});
   }
   const Json all = {static_cast<std::uint8_t>(message.kind), message.text, message.want,
@@ -64,18 +64,18 @@ std::string to_bytes(const SweepMessage& message) {
   return bytes;
 }
 
-SweepMessage message_of(std::string_view bytes) try {
+SweepMessage parse_message(std::string_view bytes) try {
   const Json all = Json::from_cbor(bytes);
   SweepMessage message;
   constexpr auto last = static_cast<std::uint64_t>(SweepMessage::Kind::over);
-  message.kind = static_cast<SweepMessage::Kind>(whole_of(all.at(0), last));
+  message.kind = static_cast<SweepMessage::Kind>(to_whole(all.at(0), last));
   message.text = all.at(1).get_ref<const std::string&>();
-  message.want = word_of(all.at(2));
-  for (const Json& task : list_of(all.at(3)))
-    message.tasks.push_back({word_of(task.at(0)), word_of(task.at(1))});
-  for (const Json& row : list_of(all.at(4))) {
-    message.rows.push_back({{word_of(row.at(0)), word_of(row.at(1))}, {}});
-    for (const Json& value : list_of(row.at(2)))
+  message.want = to_word(all.at(2));
+  for (const Json& task : to_list(all.at(3)))
+    message.tasks.push_back({to_word(task.at(0)), to_word(task.at(1))});
+  for (const Json& row : to_list(all.at(4))) {
+    message.rows.push_back({{to_word(row.at(0)), to_word(row.at(1))}, {}});
+    for (const Json& value : to_list(row.at(2)))
       message.rows.back().values.push_back(value_of_json(value));
   }
   return message;

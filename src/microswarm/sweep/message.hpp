@@ -24,6 +24,6 @@ struct SweepMessage {
 std::string to_bytes(const SweepMessage& message);
 
 /// Decodes a message. Throws InputError "mpirun: malformed message of … bytes".
-SweepMessage message_of(std::string_view bytes);
+SweepMessage parse_message(std::string_view bytes);
 
 }  // namespace microswarm

@@ -52,11 +52,11 @@ bool are_words(const SweepParameter& parameter, SweepColumnKind kind) {
 }
 
 /// A grid value as a number: itself, 1 and 0 for true and false, its index for words.
-std::string property_value(const SweepParameter& parameter, std::size_t place,
+std::string property_value(const SweepParameter& parameter, std::size_t index,
                            SweepColumnKind kind) {
-  const std::string& text = parameter.values[place];
+  const std::string& text = parameter.values[index];
   if (kind != SweepColumnKind::text) return number_text(parse_number(text).value_or(0));
-  if (are_words(parameter, kind)) return std::to_string(place);
+  if (are_words(parameter, kind)) return std::to_string(index);
   return text == "true" ? "1" : "0";
 }
 
@@ -132,7 +132,7 @@ class LogWriter {
         read_yaml_text<Scenario>(sweep_.scenario(cell), sweep_.name() + ", cell's scenario");
     std::string text = fmt::format("microswarm version {}\nExperiment {}\n",
                                    sweep_.about("version"), one_word(sweep.name, "sweep"));
-    text += properties_of(cell / sweep.methods.size());
+    text += properties_text(cell / sweep.methods.size());
     text += fmt::format("Running on {}\nStarting at {}\n",
                         one_word(sweep_.about("host"), "UNKNOWN"), sweep_.about("begun"));
     text += "<<<|\n" + setup(cell / sweep.methods.size()) + "|>>>\n";
@@ -146,27 +146,27 @@ class LogWriter {
   }
 
   /// Indices of the grid's values in their lists.
-  std::vector<std::size_t> places_of(std::size_t combination) const {
+  std::vector<std::size_t> value_indices(std::size_t combination) const {
     const auto& grid = sweep_.sweep().grid;
-    std::vector<std::size_t> places(grid.size());
+    std::vector<std::size_t> indices(grid.size());
     for (std::size_t i = grid.size(); i-- > 0;) {
-      places[i] = combination % grid[i].values.size();
+      indices[i] = combination % grid[i].values.size();
       combination /= grid[i].values.size();
     }
-    return places;
+    return indices;
   }
 
   /// The grid's values as properties of the experiment.
-  std::string properties_of(std::size_t combination) const {
+  std::string properties_text(std::size_t combination) const {
     const auto& grid = sweep_.sweep().grid;
     if (grid.empty()) return {};
-    const std::vector<std::size_t> places = places_of(combination);
+    const std::vector<std::size_t> indices = value_indices(combination);
     std::string text = fmt::format("{} experiment properties\n", grid.size());
     for (std::size_t i = 0; i < grid.size(); ++i) {
       const SweepColumn& column = sweep_.columns()[parameters_[i]];
       text += fmt::format("{} {} = {}\n", property_name(column.name),
                           property_type(grid[i], column.kind),
-                          property_value(grid[i], places[i], column.kind));
+                          property_value(grid[i], indices[i], column.kind));
     }
     return text;
   }
@@ -178,10 +178,10 @@ class LogWriter {
       text += fmt::format("description: {}\n", plain_line(sweep.description));
     for (const std::string& setting : sweep.set)
       text += fmt::format("set: {}\n", plain_line(setting));
-    const std::vector<std::size_t> places = places_of(combination);
+    const std::vector<std::size_t> indices = value_indices(combination);
     for (std::size_t i = 0; i < sweep.grid.size(); ++i)
       text += fmt::format("set: {}={}\n", sweep.grid[i].key,
-                          plain_line(sweep.grid[i].values[places[i]]));
+                          plain_line(sweep.grid[i].values[indices[i]]));
     return text;
   }
 

@@ -40,7 +40,7 @@ void for_each_in_order(std::size_t count, int jobs, const Stop& stop, Body body)
 /// Maps by fingerprint, each built once.
 class MapCache {
  public:
-  World world_of(const Scene& scene) {
+  World find_world(const Scene& scene) {
     const std::uint64_t key = fingerprint(scene.map);
     {
       const std::lock_guard lock(mutex_);
@@ -66,10 +66,10 @@ std::string cell_name(const SweepPlan& plan, const SweepCell& cell) {
 }
 
 /// Locations that prefix issues with the cell's name and know only whether a key is given.
-KeyLocations locations_of(const SweepPlan& plan, const SweepCell& cell) {
+KeyLocations find_locations(const SweepPlan& plan, const SweepCell& cell) {
   using Seek = KeyLocations::Seek;
   const std::string name = cell_name(plan, cell);
-  const KeyLocations written = locations_of(plan.scenario_document, name, {cell.settings, ""});
+  const KeyLocations written = find_locations(plan.scenario_document, name, {cell.settings, ""});
   return {name, [written](std::string_view key, Seek seek) -> std::optional<std::string> {
             if (seek != Seek::itself || !written.given(key)) return std::nullopt;
             return "";
@@ -82,7 +82,7 @@ struct Loader {
   std::filesystem::path folder;
   MapCache& maps;
 
-  /// Applies a setting and stores it with its current keys; places of issues begin with `what`.
+  /// Applies a setting and stores it with its current keys; locations of issues begin with `what`.
   /// False for a key that no longer exists, which becomes a note.
   bool apply(SweepCell& cell, const Setting& setting, const std::string& what) const {
     Notes notes;
@@ -122,13 +122,13 @@ struct Loader {
     if (plan.sweep.seed) cell.scenario.seed = *plan.sweep.seed;
   }
 
-  const SweepMethod& method_of(std::size_t index) const {
+  const SweepMethod& method_at(std::size_t index) const {
     return plan.sweep.methods[index % plan.sweep.methods.size()];
   }
 
-  SweepCell cell_of(std::size_t index) const {
+  SweepCell cell_at(std::size_t index) const {
     SweepCell cell;
-    const SweepMethod& method = method_of(index);
+    const SweepMethod& method = method_at(index);
     index /= plan.sweep.methods.size();
     cell.method = method.name;
     cell.values.resize(plan.sweep.grid.size());
@@ -144,7 +144,7 @@ struct Loader {
     }
     const Scene scene = load_scene(cell.scenario, folder, cell_name(plan, cell));
     cell.input_hash = scene.hash();
-    cell.world = maps.world_of(scene);
+    cell.world = maps.find_world(scene);
     cell.scenario = scene.scenario;
     return cell;
   }
@@ -171,9 +171,9 @@ SweepPlan plan_sweep(Sweep sweep, const std::string& name, const SweepBase& base
   MapCache maps;
   const Loader loader{plan, scenario, base.folder, maps};
   std::vector<SweepCell> cells(cell_count(plan.sweep));
-  cells[0] = loader.cell_of(0);  // first, for the map that all may share
+  cells[0] = loader.cell_at(0);  // first, for the map that all may share
   for_each_in_order(cells.size() - 1, jobs, stop,
-                    [&](std::size_t i) { cells[i + 1] = loader.cell_of(i + 1); });
+                    [&](std::size_t i) { cells[i + 1] = loader.cell_at(i + 1); });
   if (stop()) return plan;
   plan.cells = std::move(cells);
   for (const SweepCell& cell : plan.cells)
@@ -193,7 +193,7 @@ SweepPlan load_sweep(const std::filesystem::path& file, int jobs, const Stop& st
 void check(const SweepPlan& plan, int jobs, const Stop& stop) {
   for_each_in_order(plan.cells.size(), jobs, stop, [&](std::size_t i) {
     const SweepCell& cell = plan.cells[i];
-    const KeyLocations keys = locations_of(plan, cell);
+    const KeyLocations keys = find_locations(plan, cell);
     keys.require_none(validate(cell.scenario, cell.world, keys.is_given()));
   });
 }

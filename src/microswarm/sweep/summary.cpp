@@ -9,7 +9,7 @@ namespace {
 
 using Role = SweepColumn::Role;
 
-std::optional<double> number_of(const SqlValue& value) {
+std::optional<double> to_number(const SqlValue& value) {
   using Number = std::optional<double>;
   return std::visit(
       Overloaded{[](const OneOf<std::int64_t, double> auto& number) {
@@ -23,7 +23,7 @@ bool is_measured(const SweepColumn& column) {
   return column.role == Role::metric || column.role == Role::wall_clock;
 }
 
-CellSummary summary_of(const SweepReader& sweep, std::size_t cell) {
+CellSummary summarise_cell(const SweepReader& sweep, std::size_t cell) {
   const std::vector<SweepColumn>& columns = sweep.columns();
   const std::size_t method = sweep.column("method"), status = sweep.column("status"),
                     arrived = sweep.column("arrived");
@@ -37,10 +37,10 @@ CellSummary summary_of(const SweepReader& sweep, std::size_t cell) {
             if (columns[i].role == Role::parameter) summary.parameters.push_back(row[i]);
         }
         if (const auto* word = std::get_if<std::string>(&row[status])) ++summary.endings[*word];
-        if (number_of(row[arrived]).value_or(0) == 0) return;
+        if (to_number(row[arrived]).value_or(0) == 0) return;
         ++summary.arrived;
         for (std::size_t i = 0; i < columns.size(); ++i)
-          if (const auto number = number_of(row[i]); number && is_measured(columns[i]))
+          if (const auto number = to_number(row[i]); number && is_measured(columns[i]))
             values[i].push_back(*number);
       },
       cell);
@@ -54,7 +54,7 @@ CellSummary summary_of(const SweepReader& sweep, std::size_t cell) {
 std::vector<CellSummary> summarise(const SweepReader& sweep) {
   std::vector<CellSummary> summaries;
   for (std::size_t cell = 0; cell < sweep.cells(); ++cell)
-    summaries.push_back(summary_of(sweep, cell));
+    summaries.push_back(summarise_cell(sweep, cell));
   return summaries;
 }
 

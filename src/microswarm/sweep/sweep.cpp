@@ -85,7 +85,7 @@ void RemoteWorkers::handle(int from, SweepMessage message, const std::string& pl
 
 std::vector<SweepRow> RemoteWorkers::take(const std::string& plan_hash) {
   while (auto message = ranks_.receive())
-    handle(message->from, message_of(message->bytes), plan_hash);
+    handle(message->from, parse_message(message->bytes), plan_hash);
   if (!failure_.empty()) throw InputError(failure_);
   return std::exchange(rows_, {});
 }
@@ -107,7 +107,7 @@ std::vector<SweepRow> RemoteWorkers::shutdown() {
     ranks_.send(rank, to_bytes({.kind = MessageKind::over, .text = {}, .tasks = {}, .rows = {}}));
   while (at_work_ > 0) {  // ends: each worker sends done once, or mpirun aborts
     if (auto message = ranks_.receive())
-      handle(message->from, message_of(message->bytes), "");
+      handle(message->from, parse_message(message->bytes), "");
     else
       std::this_thread::sleep_for(rank_poll_timeout);
   }
@@ -191,7 +191,7 @@ void run_sweep_worker(const Ranks& ranks, const std::filesystem::path& file, int
     const auto message = ranks.receive();
     if (!message && !pool) std::this_thread::sleep_for(rank_poll_timeout);
     if (!message) continue;
-    const SweepMessage order = message_of(message->bytes);
+    const SweepMessage order = parse_message(message->bytes);
     over = order.kind == MessageKind::over;
     if (!pool) continue;
     pool->give(order.tasks);

@@ -18,7 +18,7 @@ namespace {
 constexpr std::int64_t application_id = 0x6d737770;  // "mswp"
 constexpr std::int64_t layout = 1;
 
-std::string text_of(const SqlValue& value) {
+std::string to_text(const SqlValue& value) {
   const auto* text = std::get_if<std::string>(&value);
   return text ? *text : std::string();
 }
@@ -42,7 +42,7 @@ void check_layout(const Database& database) {
 std::map<std::string, std::string> read_about(const Database& database) {
   std::map<std::string, std::string> about;
   database.select("SELECT key, value FROM sweep", {},
-                  [&](std::span<const SqlValue> row) { about[text_of(row[0])] = text_of(row[1]); });
+                  [&](std::span<const SqlValue> row) { about[to_text(row[0])] = to_text(row[1]); });
   return about;
 }
 
@@ -51,10 +51,10 @@ std::vector<SweepColumn> read_columns(const Database& database) {
   database.select(
       "SELECT name, kind, unit, description, role FROM columns ORDER BY place", {},
       [&](std::span<const SqlValue> row) {
-        const auto kind = enum_value<SweepColumnKind>(text_of(row[1]));
-        const auto role = enum_value<SweepColumn::Role>(text_of(row[4]));
+        const auto kind = enum_value<SweepColumnKind>(to_text(row[1]));
+        const auto role = enum_value<SweepColumn::Role>(to_text(row[4]));
         if (!kind || !role) database.fail("is damaged: an unknown kind of column");
-        columns.push_back({text_of(row[0]), *kind, text_of(row[2]), text_of(row[3]), *role});
+        columns.push_back({to_text(row[0]), *kind, to_text(row[2]), to_text(row[3]), *role});
       });
   return columns;
 }
@@ -68,9 +68,9 @@ std::string trials_sql(const std::vector<SweepColumn>& columns) {
 }
 
 std::string insert_sql(const std::vector<SweepColumn>& columns) {
-  std::string places;
-  for (std::size_t i = 0; i < columns.size(); ++i) places += i ? ", ?" : "?";
-  return fmt::format("INSERT INTO trials VALUES({})", places);
+  std::string placeholders;
+  for (std::size_t i = 0; i < columns.size(); ++i) placeholders += i ? ", ?" : "?";
+  return fmt::format("INSERT INTO trials VALUES({})", placeholders);
 }
 
 std::string inputs_hash(const SweepPlan& plan) {
@@ -86,7 +86,7 @@ struct Identity {
   std::string value;
 };
 
-std::vector<Identity> identity_of(const SweepPlan& plan) {
+std::vector<Identity> plan_identity(const SweepPlan& plan) {
   return {{"version", "version of this program", std::string(version)},
           {"sweep", "sweep file", to_yaml(plan.sweep)},
           {"scenario", "scenario", plan.scenario_text},
@@ -131,7 +131,7 @@ void SweepDatabase::make(const SweepOrigin& origin) {
   const auto about = [&](const std::string& key, const std::string& value) {
     database_.run("INSERT INTO sweep VALUES(?, ?)", std::vector<SqlValue>{key, value});
   };
-  for (const Identity& one : identity_of(plan_)) about(one.key, one.value);
+  for (const Identity& one : plan_identity(plan_)) about(one.key, one.value);
   about("name", plan_.sweep.name);
   about("hash", plan_.hash());
   about("trials", std::to_string(plan_.sweep.trials));
@@ -162,7 +162,7 @@ void SweepDatabase::make(const SweepOrigin& origin) {
 
 void SweepDatabase::check_same() const {
   auto about = read_about(database_);
-  for (const Identity& one : identity_of(plan_))
+  for (const Identity& one : plan_identity(plan_))
     if (about[one.key] != one.value)
       database_.fail(fmt::format(
           "was begun with another {}: go on with that one, or give another database with --out",
@@ -237,7 +237,7 @@ std::string SweepReader::scenario(std::size_t cell) const {
   std::string text;
   database_.select("SELECT scenario FROM cells WHERE cell = ?",
                    std::vector<SqlValue>{static_cast<std::int64_t>(cell)},
-                   [&](std::span<const SqlValue> row) { text = text_of(row[0]); });
+                   [&](std::span<const SqlValue> row) { text = to_text(row[0]); });
   return text;
 }
 

@@ -32,7 +32,7 @@ struct Results {
   }
 };
 
-Results results_of(const TrialResult& trial) {
+Results to_results(const TrialResult& trial) {
   Results r;
   const RunResult& run = trial.result;
   r.add({"status", SweepColumnKind::text, "", "How it ended.", Role::result},
@@ -40,7 +40,7 @@ Results results_of(const TrialResult& trial) {
   r.add(
       {"arrived", SweepColumnKind::whole, "", "1 when the goal was reached, else 0.", Role::result},
       std::int64_t{run.status == Status::solved});
-  for (const Column& column : columns_of<Metrics>(ColumnUnits::shown)) {
+  for (const Column& column : to_columns<Metrics>(ColumnUnits::shown)) {
     const double value = column.number(&run.metrics);
     const bool real = column.kind == ColumnKind::real;
     r.add({column.key, real ? SweepColumnKind::real : SweepColumnKind::whole,
@@ -71,7 +71,7 @@ std::string column_name(std::string_view key) {
   return name;
 }
 
-SweepColumnKind kind_of(const std::vector<std::string>& values) {
+SweepColumnKind column_kind(const std::vector<std::string>& values) {
   SweepColumnKind kind = SweepColumnKind::whole;
   for (const std::string& value : values) {
     const auto number = parse_number(value);
@@ -81,7 +81,7 @@ SweepColumnKind kind_of(const std::vector<std::string>& values) {
   return kind;
 }
 
-SqlValue value_of(const std::string& text, SweepColumnKind kind) {
+SqlValue to_value(const std::string& text, SweepColumnKind kind) {
   if (kind == SweepColumnKind::text) return text;
   const double number = parse_number(text).value_or(0);
   if (kind == SweepColumnKind::real) return number;
@@ -97,9 +97,9 @@ std::vector<SweepColumn> sweep_columns(const SweepPlan& plan) {
       {"cell", SweepColumnKind::whole, "", "Combination of values and method, from 0.", Role::key},
       {"trial", SweepColumnKind::whole, "", "Trial of the seed, from 0.", Role::key},
       {"method", SweepColumnKind::text, "", "The method's name.", Role::key}};
-  std::vector<SweepColumn> results = results_of({}).columns;
+  std::vector<SweepColumn> results = to_results({}).columns;
   for (const SweepParameter& parameter : plan.sweep.grid)
-    columns.push_back({column_name(parameter.key), kind_of(parameter.values), "",
+    columns.push_back({column_name(parameter.key), column_kind(parameter.values), "",
                        "Set by the sweep: " + parameter.key, Role::parameter});
   columns.insert(columns.end(), results.begin(), results.end());
   for (std::size_t i = 0; i < columns.size(); ++i)
@@ -115,11 +115,11 @@ std::vector<SqlValue> task_values(const SweepPlan& plan, const std::vector<Sweep
   const SweepCell& cell = plan.cells[task.cell];
   std::vector<SqlValue> values = {std::int64_t{task.cell}, std::int64_t{task.trial}, cell.method};
   for (std::size_t i = 0; i < cell.values.size(); ++i)
-    values.push_back(value_of(cell.values[i], columns[first_parameter + i].kind));
+    values.push_back(to_value(cell.values[i], columns[first_parameter + i].kind));
   return values;
 }
 
-std::vector<SqlValue> result_values(const TrialResult& trial) { return results_of(trial).values; }
+std::vector<SqlValue> result_values(const TrialResult& trial) { return to_results(trial).values; }
 
 SweepTable::SweepTable(const SweepPlan& plan)
     : plan_(plan),

@@ -23,7 +23,7 @@ std::string length_text(double d, double r) {
   return number_text(d) + " µm";
 }
 
-std::string name_of(const BodySet& set, std::size_t body, const char* kind) {
+std::string body_name(const BodySet& set, std::size_t body, const char* kind) {
   return kind + std::string(" ") + std::to_string(set.bodies()[body].obstacle + 1);
 }
 
@@ -33,8 +33,8 @@ std::optional<std::string> inside_text(const BodySet& set, Vec2 p, const char* k
   const std::size_t body = set.nearest(p, infinity);
   if (body == set.bodies().size()) return std::nullopt;
   const double depth = depth_in(set.bodies()[body], p);
-  if (!(depth > 0)) return "touches " + name_of(set, body, kind);
-  return "is " + length_text(depth, infinity) + " inside " + name_of(set, body, kind);
+  if (!(depth > 0)) return "touches " + body_name(set, body, kind);
+  return "is " + length_text(depth, infinity) + " inside " + body_name(set, body, kind);
 }
 
 template <class Solid>
@@ -123,9 +123,9 @@ std::string Snapshot::blocked_reason(Vec2 p, double r) const {
   if (!(least > 0)) return "touches the border";
   std::string from = "the border";
   if (to_obstacle < to_wall) {
-    from = name_of(moving_, moving_.nearest(p, to_wall), "obstacle");
+    from = body_name(moving_, moving_.nearest(p, to_wall), "obstacle");
   } else if (to_wall < to_border) {
-    from = name_of(map_->walls(), map_->walls().nearest(p, to_border), "wall");
+    from = body_name(map_->walls(), map_->walls().nearest(p, to_border), "wall");
   }
   return "is " + length_text(least, r) + " from " + from + ", needs " + number_text(r) + " µm";
 }

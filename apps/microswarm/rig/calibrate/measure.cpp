@@ -221,7 +221,7 @@ int measure(const Rig& rig, const MeasureOptions& o, const FitOptions& fit, cons
             const Context& context) {
   if (!o.probe.empty() && o.dwell > o.hold) throw InputError("--dwell: is longer than --hold");
   const std::vector<MeasurementStep> steps =
-      measurement_plan(rig.system, {.positions = positions_of(o.positions, rig.system),
+      measurement_plan(rig.system, {.positions = probe_positions(o.positions, rig.system),
                                     .current = o.current,
                                     .levels = o.levels,
                                     .pairs = o.pairs});

@@ -41,7 +41,7 @@ std::vector<Eigen::Vector3d> positions_in(const std::string& file) {
 
 }  // namespace
 
-std::vector<Eigen::Vector3d> positions_of(const std::string& given, const CoilSystem& system) {
+std::vector<Eigen::Vector3d> probe_positions(const std::string& given, const CoilSystem& system) {
   if (given.empty()) return {system.centre()};
   std::vector<Eigen::Vector3d> positions;
   for (const std::string_view one : split(given, ';')) {

@@ -37,13 +37,13 @@ struct Calibration {
   std::optional<double> rms_with_gradients;  ///< [mT], if `fit` has none and they are determined
 };
 
-Json rows_of(const Eigen::MatrixXd& m) {
+Json to_rows(const Eigen::MatrixXd& m) {
   Json rows = Json::array();
   for (const auto& row : m.rowwise()) rows.push_back(std::vector<double>(row.begin(), row.end()));
   return rows;
 }
 
-Json list_of(const Eigen::Vector3d& v) { return std::vector<double>(v.begin(), v.end()); }
+Json to_json(const Eigen::Vector3d& v) { return std::vector<double>(v.begin(), v.end()); }
 
 void tell_json(const Calibration& of) {
   const FittedMatrix& fit = of.fit;
@@ -52,20 +52,20 @@ void tell_json(const Calibration& of) {
             {"coils", fit.coils.names},
             {"field_mt_per_a", fit.coils.field},
             {"offset_mt", fit.coils.offset},
-            {"rms_mt", list_of(fit.rms)},
+            {"rms_mt", to_json(fit.rms)},
             {"rms_abs_mt", fit.total_rms},
             {"worst_mt", fit.worst},
             {"worst_line", worst.line},
-            {"worst_at_um", list_of(worst.position)},
-            {"field_error_mt_per_a", rows_of(fit.field_errors)},
+            {"worst_at_um", to_json(worst.position)},
+            {"field_error_mt_per_a", to_rows(fit.field_errors)},
             {"largest_error", nullptr}};
   if (const auto error = largest_error(fit)) json["largest_error"] = error->share;
   if (of.uniform) {
     json["centre_um"] = fit.coils.centre;
     json["gradient_t_per_m_per_a"] = fit.coils.gradient;
-    json["gradient_error_t_per_m_per_a"] = rows_of(fit.gradient_errors);
+    json["gradient_error_t_per_m_per_a"] = to_rows(fit.gradient_errors);
     json["offset_gradient_t_per_m"] = fit.coils.offset_gradient;
-    json["rms_without_gradients_mt"] = list_of(of.uniform->rms);
+    json["rms_without_gradients_mt"] = to_json(of.uniform->rms);
   }
   cli::print("{}\n", json.dump(2));
 }
@@ -142,7 +142,7 @@ int calibrate(const CalibrateOptions& o, const Context& context) {
   CoilSystemParams system;
   system.name = std::filesystem::path(o.measured).stem().string();
   FitOptions options{.offset = o.offset, .gradients = o.gradients, .centre = {}};
-  if (!o.centre.empty()) options.centre = triple_of(o.centre);
+  if (!o.centre.empty()) options.centre = parse_triple(o.centre);
   if (!o.measure.rig.empty()) {
     const Rig rig = reading([&] { return read_rig(o.measure.rig, {o.measure.settings, "--set"}); });
     keep_input(o.out, o.measure.rig);

@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json json_of(const ListedCamera& camera) {
+Json to_json(const ListedCamera& camera) {
   Json json{{"device", camera.device}, {"model", camera.model}, {"formats", Json::array()}};
   for (const ListedFormat& format : camera.formats)
     json["formats"].push_back(
@@ -33,7 +33,7 @@ int cameras(bool as_json) {
   const std::vector<ListedCamera> list = list_cameras();
   if (as_json) {
     Json json{{"genicam", has_genicam()}, {"cameras", Json::array()}};
-    for (const ListedCamera& camera : list) json["cameras"].push_back(json_of(camera));
+    for (const ListedCamera& camera : list) json["cameras"].push_back(to_json(camera));
     print("{}\n", json.dump(2));
     return ok;
   }

@@ -45,7 +45,7 @@ struct ScalePiece {
   }
 };
 
-std::optional<Vec2> origin_of(const ScaleOptions& o) {
+std::optional<Vec2> chosen_origin(const ScaleOptions& o) {
   if (o.origin.empty()) return std::nullopt;
   constexpr double farthest = 1e6;  // [px], as in a rig file
   const std::vector<double> v = numbers(o.origin);
@@ -71,7 +71,7 @@ FoundScale from_points(const ScaleOptions& o, const Image& picture) {
       throw InputError(fmt::format("--points: {:.6g},{:.6g} is outside {}, which is {} × {} px",
                                    p.x, p.y, o.picture, picture.width, picture.height));
   const CameraScale scale =
-      scale_of_distance(a, b, *o.distance, picture.height, origin_of(o), !o.mirrored);
+      scale_of_distance(a, b, *o.distance, picture.height, chosen_origin(o), !o.mirrored);
   return {.fit = {.scale = scale, .residuals = {}}, .lens = {}};
 }
 
@@ -95,7 +95,7 @@ FoundScale from_grid(const ScaleOptions& o, const Image& picture) {
   if (fit.worst > 0.25 * params.pitch)
     throw InputError(fmt::format("{}: a point is {:.3g} µm off a grid of {:.6g} µm", o.picture,
                                  fit.worst, params.pitch));
-  if (const auto origin = origin_of(o)) fit.scale.origin_px = *origin;
+  if (const auto origin = chosen_origin(o)) fit.scale.origin_px = *origin;
   return {fit, fit_distortion(points, !o.mirrored, picture.width, picture.height)};
 }
 
@@ -123,7 +123,7 @@ void tell_lens(const LensDistortion& lens) {
 }
 
 Image picture_for(const ScaleOptions& o) {
-  return picture_of(o.picture, camera_of(o.picture, o.rig, o.settings));
+  return take_picture(o.picture, find_camera(o.picture, o.rig, o.settings));
 }
 
 int scale(const ScaleOptions& o) {
@@ -197,7 +197,7 @@ void add_rig_scale(Command rig, Action& action) {
       .needs(grid);
   cmd.add_option("--pattern", o->pattern, "Kind of grid points")
       .type_name("WORD")
-      .check(one_of({"dots", "chessboard"}))
+      .check(any_word({"dots", "chessboard"}))
       .needs(grid);
   cmd.add_option("--origin", o->origin, "World origin in the picture in px")
       .type_name("X,Y")

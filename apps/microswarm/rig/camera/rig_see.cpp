@@ -48,7 +48,7 @@ struct SeeOptions {
 };
 
 /// Reads a picture of the same scene. Throws InputError if its size differs.
-Image still_of(const std::string& file, const Image& picture) {
+Image read_still(const std::string& file, const Image& picture) {
   Image still = read_photograph(file);
   if (still.width != picture.width || still.height != picture.height)
     throw InputError(fmt::format("{}: is {} × {} px, the picture is {} × {} px", file, still.width,
@@ -56,7 +56,7 @@ Image still_of(const std::string& file, const Image& picture) {
   return still;
 }
 
-Json json_of(const Blob& b) {
+Json to_json(const Blob& b) {
   return {{"centre_px", {b.centre_px.x, b.centre_px.y}},
           {"radius_px", b.radius_px},
           {"semi_axes_px", {b.semi_major_px, b.semi_minor_px}},
@@ -66,7 +66,7 @@ Json json_of(const Blob& b) {
           {"is_cut", b.is_cut}};
 }
 
-std::string text_of(const Blob& b) {
+std::string to_text(const Blob& b) {
   return fmt::format(
       "({:.2f}, {:.2f}) px, radius {:.2f} px, axes {:.1f} and {:.1f} px, contrast "
       "{:.0f}, texture {:.1f}{}",
@@ -74,8 +74,8 @@ std::string text_of(const Blob& b) {
       b.texture, b.is_cut ? ", cut" : "");
 }
 
-Json json_of(const NotSwarm& no) {
-  Json json = json_of(no.blob);
+Json to_json(const NotSwarm& no) {
+  Json json = to_json(no.blob);
   json["criterion"] = enum_name(no.criterion);
   if (no.criterion != SwarmCriterion::tone) {
     json["value"] = no.value;
@@ -87,7 +87,7 @@ Json json_of(const NotSwarm& no) {
 }
 
 /// Settings of the rig or the settings file, then of `--set`.
-SeeSettings settings_of(const SeeOptions& o) {
+SeeSettings to_settings(const SeeOptions& o) {
   SeeSettings settings;
   if (!o.rig.empty()) {
     const Rig rig = read_rig(o.rig);
@@ -112,7 +112,7 @@ struct Overlay {
   PerceptionParams perception;
 };
 
-std::optional<Overlay> overlay_of(const SeeOptions& o) {
+std::optional<Overlay> read_overlay(const SeeOptions& o) {
   if (o.scenario.empty()) return std::nullopt;
   if (o.out.empty() || o.rig.empty())
     throw InputError("rig see: --scenario needs --rig, whose scale it takes, and --out");
@@ -126,7 +126,7 @@ std::optional<Overlay> overlay_of(const SeeOptions& o) {
 void draw_overlay(Image& shown, const Overlay& over) {
   const Scenario& scenario = over.experiment.scenario();
   draw_scenario(shown, scenario, *over.experiment.world.map, over.scale);
-  const std::vector<Vec2> positions = places_of(scenario);
+  const std::vector<Vec2> positions = robot_positions(scenario);
   const auto outside = std::ranges::count_if(positions, [&](Vec2 position) {
     const Vec2 at = over.scale.to_picture(position);
     return at.x < -0.5 || at.y < -0.5 || at.x > shown.width - 0.5 || at.y > shown.height - 0.5;
@@ -136,15 +136,15 @@ void draw_overlay(Image& shown, const Overlay& over) {
 }
 
 /// Start of the scenario's swarm in the picture, if it is one body.
-std::optional<Vec2> start_of(const std::optional<Overlay>& over) {
+std::optional<Vec2> start_position(const std::optional<Overlay>& over) {
   if (!over || !over->experiment.scenario().start) return std::nullopt;
   return over->scale.to_picture(over->experiment.scenario().start->position);
 }
 
 /// Size that a smooth swarm must have.
-SwarmPrior prior_of(const std::optional<Overlay>& over) {
-  if (!start_of(over)) return {};
-  return expected_swarm(limits_of(over->experiment.scenario().swarm), over->perception,
+SwarmPrior swarm_prior(const std::optional<Overlay>& over) {
+  if (!start_position(over)) return {};
+  return expected_swarm(swarm_limits(over->experiment.scenario().swarm), over->perception,
                         over->scale);
 }
 
@@ -175,11 +175,11 @@ std::string json_text(const Told& told) {
             {"not_swarm", Json::array()},
             {"obstacles", Json::array()}};
   for (const Blob& b : told.scene.swarm.candidates)
-    json["candidates"].push_back(told.with_distance(json_of(b), b));
+    json["candidates"].push_back(told.with_distance(to_json(b), b));
   for (const NotSwarm& no : told.not_swarm)
-    json["not_swarm"].push_back(told.with_distance(json_of(no), no.blob));
+    json["not_swarm"].push_back(told.with_distance(to_json(no), no.blob));
   for (const SeenObstacle& b : told.scene.obstacles) {
-    json["obstacles"].push_back(json_of(b.blob));
+    json["obstacles"].push_back(to_json(b.blob));
     json["obstacles"].back()["shape"] = b.disc ? "disc" : "polygon";
   }
   return json.dump(2);
@@ -187,10 +187,10 @@ std::string json_text(const Told& told) {
 
 void tell(const Told& told) {
   print("swarm: {}\n", enum_name(told.scene.swarm.sight));
-  for (const Blob& b : told.scene.swarm.candidates) print("  {}{}\n", text_of(b), told.off(b));
+  for (const Blob& b : told.scene.swarm.candidates) print("  {}{}\n", to_text(b), told.off(b));
   print("not the swarm: {}\n", told.not_swarm.size());
   for (const NotSwarm& no : told.not_swarm)
-    print("  {}: {}{}\n", reason(no), text_of(no.blob), told.off(no.blob));
+    print("  {}: {}{}\n", reason(no), to_text(no.blob), told.off(no.blob));
   if (told.not_swarm.empty() && told.scene.swarm.candidates.empty())
     print(
         "  nothing has a contrast above {:.1f}: `min_contrast` or five times the background's "
@@ -199,7 +199,7 @@ void tell(const Told& told) {
         told.contrast_limit);
   print("obstacles: {}\n", told.scene.obstacles.size());
   for (const SeenObstacle& b : told.scene.obstacles)
-    print("  {} {}\n", b.disc ? "disc" : "polygon", text_of(b.blob));
+    print("  {} {}\n", b.disc ? "disc" : "polygon", to_text(b.blob));
 }
 
 /// Warns on stderr if a run would not accept the swarm at this position.
@@ -216,20 +216,20 @@ void note_far(const Told& told, double jump) {
 int see(const SeeOptions& o) {
   for (const std::string& input : {o.picture, o.still, o.config, o.rig, o.scenario})
     keep_input(o.out, input);
-  const SeeSettings settings = settings_of(o);
+  const SeeSettings settings = to_settings(o);
   Issues issues = validate(settings.scene.swarm.look);
   issues.add(validate(settings.scene.obstacles));
   KeyLocations().require_none(issues);
-  const std::optional<Overlay> over = overlay_of(o);
-  const Image picture = picture_of(o.picture, settings.camera);
+  const std::optional<Overlay> over = read_overlay(o);
+  const Image picture = take_picture(o.picture, settings.camera);
   std::optional<Mask> walls;
-  if (!o.still.empty()) walls = find_walls(still_of(o.still, picture), settings.walls);
+  if (!o.still.empty()) walls = find_walls(read_still(o.still, picture), settings.walls);
   const Mask* hidden = walls ? &*walls : nullptr;
   const SceneParams& params = settings.scene;
-  const SwarmPrior prior = prior_of(over);
+  const SwarmPrior prior = swarm_prior(over);
   Told told{.scene = find_scene(picture, params, prior, hidden),
             .not_swarm = {},
-            .start_px = start_of(over),
+            .start_px = start_position(over),
             .um_per_px = over ? over->scale.um_per_px : 1,
             .contrast_limit = contrast_limit(picture, params.swarm.look, hidden)};
   told.not_swarm = why_not_swarm(told.scene, picture, params, prior, hidden);

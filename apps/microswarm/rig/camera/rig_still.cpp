@@ -20,7 +20,7 @@ struct StillOptions {
 int still(const StillOptions& o) {
   if (!is_camera(o.camera)) throw InputError(o.camera + ": is no " + camera_names);
   keep_input(o.out, o.rig);
-  const Image picture = picture_of(o.camera, camera_of(o.camera, o.rig, o.settings));
+  const Image picture = take_picture(o.camera, find_camera(o.camera, o.rig, o.settings));
   write_png(o.out, picture);
   print("wrote {}: {} × {} px, {}\n", o.out, picture.width, picture.height,
         picture.channels == 1 ? "grey" : "in colours");

@@ -35,8 +35,8 @@ AnyCameraParams camera_for(const std::string& source, const AnyCameraParams& giv
   return camera;
 }
 
-AnyCameraParams camera_of(const std::string& source, const std::string& rig,
-                          const std::vector<std::string>& settings) {
+AnyCameraParams find_camera(const std::string& source, const std::string& rig,
+                            const std::vector<std::string>& settings) {
   AnyCameraParams given;
   if (!rig.empty()) given = device_camera(read_rig(rig).params).value_or(given);
   AnyCameraParams camera = camera_for(source, given);
@@ -44,7 +44,7 @@ AnyCameraParams camera_of(const std::string& source, const std::string& rig,
   return camera;
 }
 
-Image picture_of(const std::string& source, const AnyCameraParams& camera) {
+Image take_picture(const std::string& source, const AnyCameraParams& camera) {
   if (!is_camera(source)) return read_photograph(source);
   NewestFrame live = live_camera(camera_for(source, camera));
   LiveFrame frame;

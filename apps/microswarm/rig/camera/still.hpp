@@ -21,11 +21,11 @@ bool is_camera(const std::string& source);
 AnyCameraParams camera_for(const std::string& source, const AnyCameraParams& given);
 
 /// The same with the camera of a rig file, if one is named, and settings by --set.
-AnyCameraParams camera_of(const std::string& source, const std::string& rig,
-                          const std::vector<std::string>& settings = {});
+AnyCameraParams find_camera(const std::string& source, const std::string& rig,
+                            const std::vector<std::string>& settings = {});
 
 /// Picture from a file, or from a camera with these settings after settling for one second. Throws
 /// InputError or HardwareError.
-Image picture_of(const std::string& source, const AnyCameraParams& camera);
+Image take_picture(const std::string& source, const AnyCameraParams& camera);
 
 }  // namespace microswarm::cli

@@ -9,7 +9,7 @@ namespace {
 
 constexpr char esc = '\x1b';
 
-Key key_of(char final) {
+Key arrow_key(char final) {
   switch (final) {
     case 'A':
       return {Key::Kind::up};
@@ -33,13 +33,13 @@ struct Sequence {
 constexpr Sequence lone_escape{1, {Key::Kind::escape}};
 
 /// Parses ESC [ parameters final, or ESC O final.
-Sequence sequence_of(std::string_view text) {
+Sequence parse_sequence(std::string_view text) {
   constexpr std::size_t longest = 32;
   if (text.size() < 2) return {};
   if (text[1] != '[' && text[1] != 'O') return lone_escape;
   for (std::size_t i = 2; i < std::min(text.size(), longest); ++i) {
     const char byte = text[i];
-    if (byte >= 0x40 && byte < 0x7F) return {i + 1, key_of(byte)};
+    if (byte >= 0x40 && byte < 0x7F) return {i + 1, arrow_key(byte)};
     if (byte < 0x20 || byte > 0x3F) return lone_escape;
   }
   return text.size() < longest ? Sequence{} : lone_escape;
@@ -55,7 +55,7 @@ std::vector<Key> take_keys(std::string& input, bool is_all) {
       keys.push_back({Key::Kind::character, input[at++]});
       continue;
     }
-    Sequence sequence = sequence_of(std::string_view(input).substr(at));
+    Sequence sequence = parse_sequence(std::string_view(input).substr(at));
     if (sequence.length == 0 && !is_all) break;
     if (sequence.length == 0) sequence = lone_escape;
     keys.push_back(sequence.key);

@@ -155,7 +155,7 @@ void require_new(const std::filesystem::path& folder, const std::filesystem::pat
   if (!folder.empty())
     for (const char* name : {"run.h5", "commands.csv", "commands.csv.part"})
       files.push_back(folder / name);
-  if (!video.empty()) files.insert(files.end(), {video, VideoRecorder::times_of(video)});
+  if (!video.empty()) files.insert(files.end(), {video, VideoRecorder::times_file(video)});
   for (const std::filesystem::path& file : files)
     if (std::error_code none; std::filesystem::exists(file, none))
       throw InputError(

@@ -56,7 +56,7 @@ struct SimulateOptions {
   int jobs = 0;
 };
 
-std::vector<Pair> pairs_of(const SimulateOptions& o) {
+std::vector<Pair> paired_values(const SimulateOptions& o) {
   if (o.scenario.empty()) return usual_pairs();
   return {{o.scenario, o.rig, o.settings, o.rig_settings}};
 }
@@ -68,7 +68,7 @@ std::string time_text(const RunSummary& of) {
 int simulate_trials(const SimulateOptions& o, const Context& context) {
   if (o.scenario.empty() != o.rig.empty())
     throw InputError("rig simulate: a scenario and --rig go together");
-  const std::vector<Pair> pairs = pairs_of(o);
+  const std::vector<Pair> pairs = paired_values(o);
   std::vector<RigExperiment> scenes;  // open all first, so that errors are reported before any run
   scenes.reserve(pairs.size());
   for (const Pair& pair : pairs)

@@ -61,7 +61,7 @@ std::string joined(const std::vector<Part>& parts, std::string_view between) {
   return line;
 }
 
-std::vector<Part> parts_of(const LiveStatus& s) {
+std::vector<Part> status_parts(const LiveStatus& s) {
   std::vector<Part> parts{{1, fmt::format("{:.1f} s", s.t)}, {0, state_text(s)}};
   if (std::isfinite(s.goal_distance))
     parts.push_back({4, fmt::format("goal {:.0f} µm", s.goal_distance)});
@@ -80,11 +80,11 @@ std::vector<Part> parts_of(const LiveStatus& s) {
 }  // namespace
 
 std::string status_text(const LiveStatus& status, std::size_t columns) {
-  std::vector<Part> parts = parts_of(status);
+  std::vector<Part> parts = status_parts(status);
   while (true) {
     for (const std::string_view between : {"  ", " "}) {
       std::string line = joined(parts, between);
-      if (columns_of(line) <= columns || parts.size() == 1) return line;
+      if (to_columns(line) <= columns || parts.size() == 1) return line;
     }
     parts.erase(std::ranges::max_element(parts, {}, &Part::rank));
   }

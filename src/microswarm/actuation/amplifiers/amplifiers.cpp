@@ -68,13 +68,13 @@ struct Turning {
 };
 
 /// Upper bound [K] of a coil's temperature above its mean within a turn, or within `seconds`.
-double ripple_of(const AmplifierParams& d, const Turning& coil, double omega, double seconds) {
+double ripple(const AmplifierParams& d, const Turning& coil, double omega, double seconds) {
   const double A = coil.amplitude(), c = std::abs(coil.constant);
   const double per_square = d.thermal_resistance * hot_resistance(d) / d.thermal_time;
   return per_square * std::min((A * A / 4 + 2 * c * A) / omega, (c + A) * (c + A) * seconds);
 }
 
-Turning coil_of(const TurningCurrents& currents, Eigen::Index i) {
+Turning turning_current(const TurningCurrents& currents, Eigen::Index i) {
   return {currents.constant[i], currents.cosine[i], currents.sine[i]};
 }
 
@@ -112,7 +112,7 @@ void narrow_by_heat(double& lo, double& hi, const AmplifierParams& d, double tem
 
 }  // namespace
 
-Unit unit_of(AmplifierLimit limit) {
+Unit limit_unit(AmplifierLimit limit) {
   switch (limit) {
     case AmplifierLimit::current:
       return Unit::a;
@@ -279,8 +279,8 @@ double Amplifiers::turn(const TurningCurrents& wanted, double dt) {
   const double extent = 2 * pi * to.frequency * dt;
   for (std::size_t k = 0; k < amplifiers_.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
-    const double square = std::max(coil_of(turning_, i).mean_square(to.phase, extent),
-                                   coil_of(to, i).mean_square(to.phase, extent));
+    const double square = std::max(turning_current(turning_, i).mean_square(to.phase, extent),
+                                   turning_current(to, i).mean_square(to.phase, extent));
     temperatures_[i] = temperature_later(amplifiers_[k], temperatures_[i], square, dt);
   }
   turning_ = std::move(to);
@@ -299,7 +299,7 @@ double Amplifiers::max_turn_scale(const TurningCurrents& wanted, double dt) cons
   };
   for (std::size_t k = 0; k < amplifiers_.size(); ++k) {
     const AmplifierParams& d = amplifiers_[k];
-    const Turning coil = coil_of(wanted, static_cast<Eigen::Index>(k));
+    const Turning coil = turning_current(wanted, static_cast<Eigen::Index>(k));
     const double A = coil.amplitude();
     if (d.max_current) limit(std::abs(coil.constant) + A, *d.max_current);
     if (d.max_slew) limit(omega * A, share_of_turn * *d.max_slew);
@@ -312,7 +312,7 @@ double Amplifiers::max_turn_scale(const TurningCurrents& wanted, double dt) cons
       const double ahead = steps_ahead * dt;
       const double turning = 2 * pi * std::abs(wanted.frequency);
       const double allowed = mean_square_to_limit(d, temperatures_[static_cast<Eigen::Index>(k)],
-                                                  ahead, ripple_of(d, coil, turning, ahead));
+                                                  ahead, ripple(d, coil, turning, ahead));
       limit(std::sqrt(coil.max_mean_square(turning * ahead)), std::sqrt(std::max(0.0, allowed)));
     }
   }
@@ -326,7 +326,7 @@ double Amplifiers::share_of_change(const TurningCurrents& to, double dt) const {
   for (std::size_t k = 0; k < amplifiers_.size(); ++k) {
     const AmplifierParams& d = amplifiers_[k];
     const auto i = static_cast<Eigen::Index>(k);
-    const Turning a = coil_of(turning_, i), b = coil_of(to, i);
+    const Turning a = turning_current(turning_, i), b = turning_current(to, i);
     const Turning change{b.constant - a.constant, b.cosine - a.cosine, b.sine - a.sine};
     const double rate = (std::abs(change.constant) + change.amplitude()) / dt;
     const double A = std::max(a.amplitude(), b.amplitude());

@@ -23,7 +23,7 @@ constexpr auto enum_names(AmplifierLimit) {
 }
 
 /// Unit of the limited quantity.
-Unit unit_of(AmplifierLimit limit);
+Unit limit_unit(AmplifierLimit limit);
 
 /// A limit that a command would exceed: requested and allowed value [A, V, A/s, °C].
 struct LimitHit {

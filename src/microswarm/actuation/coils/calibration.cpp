@@ -29,7 +29,7 @@ Eigen::Index whole(std::size_t n) { return static_cast<Eigen::Index>(n); }
 /// Field at `off` from the centre as a linear function of five gradients.
 Eigen::Matrix<double, 3, 5> field_of_gradients(const Eigen::Vector3d& off) {
   Eigen::Matrix<double, 3, 5> m;
-  for (int k = 0; k < 5; ++k) m.col(k) = gradient_of(FiveGradients::Unit(k)) * off;
+  for (int k = 0; k < 5; ++k) m.col(k) = gradient_matrix(FiveGradients::Unit(k)) * off;
   return m;
 }
 
@@ -100,7 +100,7 @@ class Design {
 
 /// The triangle R of a QR decomposition of the design, row by row, so that a long file takes the
 /// memory of a short one.
-Eigen::MatrixXd triangle_of(const Design& design, const FieldMeasurements& measured) {
+Eigen::MatrixXd reduced_triangle(const Design& design, const FieldMeasurements& measured) {
   const Eigen::Index columns = design.columns() + design.sides();
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(4 * columns + 3, columns);
   Eigen::Index filled = 0;
@@ -124,7 +124,7 @@ Eigen::MatrixXd triangle_of(const Design& design, const FieldMeasurements& measu
 /// A least-squares problem with pivots.
 struct Solver {
   explicit Solver(const Design& design, const FieldMeasurements& measured) {
-    const Eigen::MatrixXd triangle = triangle_of(design, measured);
+    const Eigen::MatrixXd triangle = reduced_triangle(design, measured);
     sides = triangle.rightCols(design.sides());
     qr.setThreshold(min_difference);
     qr.compute(triangle.leftCols(design.columns()));

@@ -96,7 +96,7 @@ Eigen::VectorXd CoilController::wanted_currents(double dt) {
   return std::visit(Overloaded{[&](const Command&) { return make(generator_.advance(dt)); },
                                [&](const Eigen::Vector3d& field) { return make(field); },
                                [&](const Eigen::VectorXd& currents) {
-                                 output_.wanted = actuation_.field_of(currents);
+                                 output_.wanted = actuation_.total_field(currents);
                                  output_.reached = true;
                                  return currents;
                                }},
@@ -122,7 +122,7 @@ void CoilController::send_waveform(double dt, double share) {
 
 std::string CoilController::trouble() const {
   const bool waits = output_.status == DriveStatus::no_answer && misses_ < max_missed_answers;
-  return waits ? std::string() : trouble_of(driver_, output_.status);
+  return waits ? std::string() : trouble_text(driver_, output_.status);
 }
 
 StopReport CoilController::stop() noexcept {

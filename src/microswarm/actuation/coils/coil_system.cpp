@@ -72,16 +72,16 @@ void CoilSystem::check_names(Issues& issues) const {
 }
 
 void CoilSystem::add(const HelmholtzCoils& params, Issues& issues) {
-  centre_ = vector_of(params.centre, "centre_um", issues);
-  const Eigen::Vector3d radius = vector_of(params.radius, "radius_um", issues);
-  const Eigen::Vector3d turns = vector_of(params.turns, "turns", issues);
+  centre_ = to_vector(params.centre, "centre_um", issues);
+  const Eigen::Vector3d radius = to_vector(params.radius, "radius_um", issues);
+  const Eigen::Vector3d turns = to_vector(params.turns, "turns", issues);
   std::vector<LoopCoil> pairs;
   for (int axis = 0; axis < 3 && issues.empty(); ++axis) {
     LoopCoil pair{axis_names[static_cast<std::size_t>(axis)], {}};
     for (const double side : {-0.5, 0.5}) {
       if (!issues.empty()) return;
       const Eigen::Vector3d middle = centre_ + side * radius[axis] * Eigen::Vector3d::Unit(axis);
-      append(pair.loops, loops_of(winding(middle, axis, radius[axis], turns[axis], params.length,
+      append(pair.loops, to_loops(winding(middle, axis, radius[axis], turns[axis], params.length,
                                           params.thickness),
                                   issues));
     }
@@ -92,14 +92,14 @@ void CoilSystem::add(const HelmholtzCoils& params, Issues& issues) {
 }
 
 void CoilSystem::add(const CubeCoils& params, Issues& issues) {
-  centre_ = vector_of(params.centre, "centre_um", issues);
+  centre_ = to_vector(params.centre, "centre_um", issues);
   std::vector<LoopCoil> coils;
   for (int axis = 0; axis < 3; ++axis)
     for (const int side : {-1, 1}) {
       if (!issues.empty()) return;
       const Eigen::Vector3d middle = centre_ + side * params.distance * Eigen::Vector3d::Unit(axis);
       LoopCoil coil{axis_names[static_cast<std::size_t>(axis)] + std::string(side < 0 ? "-" : "+"),
-                    loops_of(winding(middle, axis, params.radius, params.turns, params.length,
+                    to_loops(winding(middle, axis, params.radius, params.turns, params.length,
                                      params.thickness),
                              issues)};
       names_.push_back(coil.name);
@@ -120,8 +120,8 @@ void CoilSystem::add(const LoopCoils& params, Issues& issues) {
     LoopCoil coil{given.name, {}};
     for (std::size_t k = 0; k < given.windings.size(); ++k) {
       Issues of_winding;
-      append(coil.loops, loops_of(given.windings[k], of_winding));
-      if (of_winding.empty()) centre_ += vector_of(given.windings[k].centre, "", of_winding);
+      append(coil.loops, to_loops(given.windings[k], of_winding));
+      if (of_winding.empty()) centre_ += to_vector(given.windings[k].centre, "", of_winding);
       of_coil.add_within(fmt::format("windings.{}", k), of_winding);
       ++windings;
     }
@@ -166,7 +166,7 @@ void CoilSystem::add(const VfieldCoils& params, Issues& issues) {
 namespace {
 
 /// The rows of a matrix with a column for each of `columns` coils.
-Eigen::MatrixXd matrix_of(const std::vector<std::vector<double>>& rows, std::size_t count,
+Eigen::MatrixXd to_matrix(const std::vector<std::vector<double>>& rows, std::size_t count,
                           std::size_t columns, const std::string& key, Issues& issues) {
   Eigen::MatrixXd matrix =
       Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(columns));
@@ -190,20 +190,20 @@ Eigen::MatrixXd matrix_of(const std::vector<std::vector<double>>& rows, std::siz
 
 void CoilSystem::add(const MatrixCoils& params, Issues& issues) {
   names_ = params.names;
-  centre_ = vector_of(params.centre, "centre_um", issues);
-  offset_.field = vector_of(params.offset, "offset_mt", issues);
+  centre_ = to_vector(params.centre, "centre_um", issues);
+  offset_.field = to_vector(params.offset, "offset_mt", issues);
   if (params.offset_gradient.size() != 5)
     issues.add("offset_gradient_t_per_m",
                fmt::format("offset_gradient_t_per_m has {} numbers, must have 5",
                            params.offset_gradient.size()));
   else
-    offset_.gradient = microswarm::gradient_of(FiveGradients(params.offset_gradient.data())) *
+    offset_.gradient = microswarm::gradient_matrix(FiveGradients(params.offset_gradient.data())) *
                        mt_per_um_of_t_per_m;
   LinearField linear;
-  linear.field = matrix_of(params.field, 3, size(), "field_mt_per_a", issues);
+  linear.field = to_matrix(params.field, 3, size(), "field_mt_per_a", issues);
   linear.gradients = Eigen::MatrixXd::Zero(5, static_cast<Eigen::Index>(size()));
   if (!params.gradient.empty())
-    linear.gradients = matrix_of(params.gradient, 5, size(), "gradient_t_per_m_per_a", issues) *
+    linear.gradients = to_matrix(params.gradient, 5, size(), "gradient_t_per_m_per_a", issues) *
                        mt_per_um_of_t_per_m;
   model_ = std::move(linear);
 }
@@ -228,12 +228,12 @@ Actuation CoilSystem::at(const Eigen::Vector3d& position) const {
     result.gradients.col(static_cast<Eigen::Index>(i)) = five_gradients(one.gradient);
   };
   const auto of_loops = [&](const std::vector<LoopCoil>& coils) {
-    for (std::size_t i = 0; i < size(); ++i) put(i, field_of(coils[i].loops, position));
+    for (std::size_t i = 0; i < size(); ++i) put(i, field_at(coils[i].loops, position));
   };
   const auto of_sources = [&](const MpemSystem& mpem) {
     for (std::size_t i = 0; i < size(); ++i)
-      put(i, microswarm::field_of(mpem.coils[i].sources, position));
-    result.offset += microswarm::field_of(mpem.offset, position);
+      put(i, microswarm::field_at(mpem.coils[i].sources, position));
+    result.offset += microswarm::field_at(mpem.offset, position);
   };
   const auto of_grids = [&](const std::vector<FieldGrid>& grids) {
     for (std::size_t i = 0; i < size(); ++i) {
@@ -249,7 +249,7 @@ Actuation CoilSystem::at(const Eigen::Vector3d& position) const {
     const Eigen::Vector3d off = position - centre_;
     for (std::size_t i = 0; i < size(); ++i) {
       const auto k = static_cast<Eigen::Index>(i);
-      const Eigen::Matrix3d gradient = microswarm::gradient_of(linear.gradients.col(k));
+      const Eigen::Matrix3d gradient = microswarm::gradient_matrix(linear.gradients.col(k));
       put(i, {linear.field.col(k) + gradient * off, gradient});
     }
     result.offset.field += offset_.gradient * off;

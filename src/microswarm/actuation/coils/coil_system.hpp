@@ -134,11 +134,11 @@ struct Actuation {
   Eigen::Matrix<double, 5, Eigen::Dynamic> gradients;  ///< five_gradients of each coil [mT/µm/A]
   FieldGradient offset;                                ///< at zero current [mT], [mT/µm]
 
-  Eigen::Vector3d field_of(const Eigen::VectorXd& currents) const {
+  Eigen::Vector3d total_field(const Eigen::VectorXd& currents) const {
     return field * currents + offset.field;
   }
-  Eigen::Matrix3d gradient_of(const Eigen::VectorXd& currents) const {
-    return microswarm::gradient_of(gradients * currents) + offset.gradient;
+  Eigen::Matrix3d total_gradient(const Eigen::VectorXd& currents) const {
+    return microswarm::gradient_matrix(gradients * currents) + offset.gradient;
   }
 };
 

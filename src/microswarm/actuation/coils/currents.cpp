@@ -26,7 +26,7 @@ CurrentsForField currents_for(const Actuation& at, const Eigen::Vector3d& field)
   for (int k = 0; k < result.rank; ++k)
     result.currents += svd.matrixU().col(k).dot(wanted) / strength[k] * svd.matrixV().col(k);
   result.missing = svd.matrixU().rightCols(3 - result.rank);
-  result.field = at.field_of(result.currents);
+  result.field = at.total_field(result.currents);
   result.short_by = (result.field - field).norm();
   result.reached = result.short_by <= current_rounding * (field.norm() + at.offset.field.norm());
   return result;

@@ -48,7 +48,7 @@ std::string row_text(const Eigen::VectorXd& currents, const Eigen::VectorXd& pla
 
 }  // namespace
 
-FieldReading reading_of(const std::vector<Eigen::Vector3d>& readings) {
+FieldReading mean_reading(const std::vector<Eigen::Vector3d>& readings) {
   assert(!readings.empty());
   const auto n = static_cast<double>(readings.size());
   FieldReading result{.count = static_cast<int>(readings.size())};

@@ -16,7 +16,7 @@ struct FieldReading {
   int count = 1;
 };
 /// Mean and spread of readings, at least one.
-FieldReading reading_of(const std::vector<Eigen::Vector3d>& readings);
+FieldReading mean_reading(const std::vector<Eigen::Vector3d>& readings);
 
 /// A growing file of measurements, complete after each one even if the program is killed. An
 /// existing file is continued. `read_measurements` reads it.

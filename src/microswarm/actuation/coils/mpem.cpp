@@ -77,7 +77,7 @@ FieldGradient multipole_field(const Multipole& source, const Eigen::Vector3d& po
   return sum;
 }
 
-FieldGradient field_of(const std::vector<Multipole>& sources, const Eigen::Vector3d& position) {
+FieldGradient field_at(const std::vector<Multipole>& sources, const Eigen::Vector3d& position) {
   FieldGradient sum;
   for (const Multipole& source : sources) sum += multipole_field(source, position);
   return sum;

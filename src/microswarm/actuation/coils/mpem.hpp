@@ -44,7 +44,7 @@ struct MpemSystem {
 };
 
 /// Field of several multipoles.
-FieldGradient field_of(const std::vector<Multipole>& sources, const Eigen::Vector3d& position);
+FieldGradient field_at(const std::vector<Multipole>& sources, const Eigen::Vector3d& position);
 
 /// Reads a calibration in MPEM YAML: Coil_List, and for each coil Source_List and sources with
 /// A_Coeff, B_Coeff, Source_Direction and Source_Position. Throws InputError "NAME:LINE:COLUMN:

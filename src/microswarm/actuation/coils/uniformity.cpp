@@ -11,7 +11,7 @@
 namespace microswarm {
 namespace {
 
-std::pair<int, int> axes_of(Plane plane) {
+std::pair<int, int> plane_axes(Plane plane) {
   if (plane == Plane::xy) return {0, 1};
   return plane == Plane::xz ? std::pair{0, 2} : std::pair{1, 2};
 }
@@ -19,7 +19,7 @@ std::pair<int, int> axes_of(Plane plane) {
 }  // namespace
 
 Eigen::Vector3d UniformityMap::place(int column, int row) const {
-  const auto [first, second] = axes_of(grid.plane);
+  const auto [first, second] = plane_axes(grid.plane);
   const double step = 2 * grid.half_width / (grid.points - 1);
   Eigen::Vector3d p = grid.centre;
   p[first] += column * step - grid.half_width;
@@ -51,12 +51,12 @@ std::optional<UniformityMap> uniformity(const CoilSystem& system, const Eigen::V
                                         const UniformityGrid& grid,
                                         const std::function<bool(double share)>& go_on) {
   assert(grid.points >= 2 && grid.half_width > 0);
-  UniformityMap map{.grid = grid, .centre_field = system.at(grid.centre).field_of(currents)};
+  UniformityMap map{.grid = grid, .centre_field = system.at(grid.centre).total_field(currents)};
   const double strength = map.centre_field.norm();
   if (!(strength > 0)) throw InputError("the field at the centre of the map is 0");
   for (int row = 0; row < grid.points; ++row) {
     for (int column = 0; column < grid.points; ++column) {
-      map.field.push_back(system.at(map.place(column, row)).field_of(currents));
+      map.field.push_back(system.at(map.place(column, row)).total_field(currents));
       map.deviation.push_back((map.field.back() - map.centre_field).norm() / strength);
     }
     if (go_on && !go_on((row + 1.0) / grid.points)) return std::nullopt;

@@ -34,17 +34,17 @@ std::vector<Node> nodes(bool extended) {
 
 }  // namespace
 
-Eigen::Vector3d vector_of(const std::vector<double>& numbers, std::string_view key,
+Eigen::Vector3d to_vector(const std::vector<double>& numbers, std::string_view key,
                           Issues& issues) {
   if (numbers.size() == 3) return {numbers[0], numbers[1], numbers[2]};
   issues.add(key, fmt::format("{} has {} numbers, must be [x, y, z]", key, numbers.size()));
   return Eigen::Vector3d::Zero();
 }
 
-std::vector<CurrentLoop> loops_of(const WindingParams& winding, Issues& issues) {
+std::vector<CurrentLoop> to_loops(const WindingParams& winding, Issues& issues) {
   const std::size_t before = issues.size();
-  const Eigen::Vector3d centre = vector_of(winding.centre, "centre_um", issues);
-  const Eigen::Vector3d axis = vector_of(winding.axis, "axis", issues);
+  const Eigen::Vector3d centre = to_vector(winding.centre, "centre_um", issues);
+  const Eigen::Vector3d axis = to_vector(winding.axis, "axis", issues);
   if (winding.axis.size() == 3 && !(axis.norm() > 0))
     issues.add("axis", "axis is [0, 0, 0], must have a direction");
   if (winding.thickness >= 2 * winding.radius)
@@ -62,7 +62,7 @@ std::vector<CurrentLoop> loops_of(const WindingParams& winding, Issues& issues) 
   return loops;
 }
 
-FieldGradient field_of(const std::vector<CurrentLoop>& loops, const Eigen::Vector3d& position) {
+FieldGradient field_at(const std::vector<CurrentLoop>& loops, const Eigen::Vector3d& position) {
   FieldGradient sum;
   for (const CurrentLoop& loop : loops) sum += loop_field(loop, position);
   return sum;

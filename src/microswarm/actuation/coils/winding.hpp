@@ -44,12 +44,12 @@ struct CoilParams {
 
 /// Loops that approximate a winding. The field is exact to about 1e-9 at distances above half the
 /// winding's length and thickness. Reports invalid parameters to `issues`.
-std::vector<CurrentLoop> loops_of(const WindingParams& winding, Issues& issues);
+std::vector<CurrentLoop> to_loops(const WindingParams& winding, Issues& issues);
 
 /// Field of several loops for one ampere.
-FieldGradient field_of(const std::vector<CurrentLoop>& loops, const Eigen::Vector3d& position);
+FieldGradient field_at(const std::vector<CurrentLoop>& loops, const Eigen::Vector3d& position);
 
 /// List of three numbers as a vector; otherwise the issue "KEY has 2 numbers, must be [x, y, z]".
-Eigen::Vector3d vector_of(const std::vector<double>& numbers, std::string_view key, Issues& issues);
+Eigen::Vector3d to_vector(const std::vector<double>& numbers, std::string_view key, Issues& issues);
 
 }  // namespace microswarm

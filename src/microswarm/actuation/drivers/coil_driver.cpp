@@ -23,7 +23,7 @@ bool is_acknowledged(DriveStatus status) {
          status == DriveStatus::resumed;
 }
 
-std::string_view trouble_of(DriveStatus status) {
+std::string_view trouble_text(DriveStatus status) {
   switch (status) {
     case DriveStatus::refused:
       return "the coil driver refuses the currents";
@@ -45,9 +45,9 @@ std::string_view trouble_of(DriveStatus status) {
   return {};
 }
 
-std::string trouble_of(const CoilDriver& driver, DriveStatus status) {
+std::string trouble_text(const CoilDriver& driver, DriveStatus status) {
   std::string trouble(status == DriveStatus::no_answer ? "the coil driver does not answer"
-                                                       : trouble_of(status));
+                                                       : trouble_text(status));
   const std::string reason = trouble.empty() ? std::string() : driver.report().reason;
   return reason.empty() ? trouble : trouble + ": " + reason;
 }

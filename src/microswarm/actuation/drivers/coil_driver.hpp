@@ -34,7 +34,7 @@ std::string_view to_string(DriveStatus status);
 /// Whether the device acknowledged the command.
 bool is_acknowledged(DriveStatus status);
 /// Why this status ends a run, as text; empty if it does not by itself.
-std::string_view trouble_of(DriveStatus status);
+std::string_view trouble_text(DriveStatus status);
 
 /// The most that a device does by itself.
 enum class CoilInput : std::uint8_t {
@@ -118,7 +118,7 @@ class CoilDriver {
 };
 
 /// Why this status ends a run, with the driver's own reason; also for no_answer.
-std::string trouble_of(const CoilDriver& driver, DriveStatus status);
+std::string trouble_text(const CoilDriver& driver, DriveStatus status);
 
 /// Driver without hardware. It takes requests of all kinds; a waveform has the commanded phase.
 class SimulatedCoilDriver final : public CoilDriver {

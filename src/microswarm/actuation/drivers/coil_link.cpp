@@ -35,7 +35,7 @@ int signed16(std::span<const std::uint8_t> bytes, std::size_t at) {
 }
 
 // Consistent overhead byte stuffing (Cheshire and Baker 1999): the only 0 is at the end.
-std::vector<std::uint8_t> frame_of(std::vector<std::uint8_t> packet) {
+std::vector<std::uint8_t> to_frame(std::vector<std::uint8_t> packet) {
   append16(packet, crc16(packet));
   std::vector<std::uint8_t> frame{0};
   std::size_t mark = 0;
@@ -54,7 +54,7 @@ std::vector<std::uint8_t> frame_of(std::vector<std::uint8_t> packet) {
   return frame;
 }
 
-std::optional<CoilReply> reply_of(std::span<const std::uint8_t> p) {
+std::optional<CoilReply> parse_reply(std::span<const std::uint8_t> p) {
   if (p.size() < former_reply || !(p[0] & reply_bit)) return std::nullopt;
   const bool ours = p[2] == coil_link_version;
   if (p.size() != (ours ? reply_size : former_reply)) return std::nullopt;
@@ -92,7 +92,7 @@ std::vector<std::uint8_t> encode(CoilMessage message, std::uint8_t sequence,
                                  std::span<const std::uint8_t> payload) {
   std::vector<std::uint8_t> packet{static_cast<std::uint8_t>(message), sequence};
   packet.insert(packet.end(), payload.begin(), payload.end());
-  return frame_of(std::move(packet));
+  return to_frame(std::move(packet));
 }
 
 std::vector<std::uint8_t> encode_set(std::uint8_t sequence, int deadline,
@@ -136,7 +136,7 @@ std::vector<std::uint8_t> encode(const CoilReply& reply) {
     packet.push_back(static_cast<std::uint8_t>(reply.slew));
     for (const int value : {reply.scale, reply.aim_sum, reply.phase}) append16(packet, value);
   }
-  return frame_of(std::move(packet));
+  return to_frame(std::move(packet));
 }
 
 CoilAim scaled(const CoilAim& aim, int scale) {
@@ -178,7 +178,7 @@ std::optional<CoilReply> CoilReplyReader::take(std::uint8_t byte) {
   if (frame_.empty()) return std::nullopt;
   std::optional<CoilReply> reply;
   if (frame_.size() <= longest_frame)
-    if (const auto packet = decode(frame_)) reply = reply_of(*packet);
+    if (const auto packet = decode(frame_)) reply = parse_reply(*packet);
   if (!reply) ++bad_;
   frame_.clear();
   return reply;

@@ -18,7 +18,7 @@ namespace {
 constexpr double stop_wait = 0.5;  // [s] for the confirmation of zeros
 constexpr double hello_wait = 2;   // [s] for the answer to the second hello
 
-std::span<const std::uint8_t> bytes_of(const std::string& text) {
+std::span<const std::uint8_t> to_bytes(const std::string& text) {
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast)
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
@@ -33,12 +33,12 @@ double scale_between(std::span<const double> values, std::span<const double> app
   return square > 0 ? std::clamp(product / square, 0.0, 1.0) : 1;
 }
 
-std::size_t channels_of(const LineDriverParams& params, std::size_t coils) {
+std::size_t channel_count(const LineDriverParams& params, std::size_t coils) {
   if (params.send == DriverInput::field || !params.channels) return coils;
   return static_cast<std::size_t>(*params.channels);
 }
 
-std::string list_of(std::span<const double> values) {
+std::string to_list(std::span<const double> values) {
   return one_line(fmt::format("{:.6g}", fmt::join(values, " ")), 100);
 }
 
@@ -50,7 +50,7 @@ LineCoilDriver::LineCoilDriver(OpenConnection open, const LineDriverParams& para
       open_(std::move(open)),
       connection_(open_(params.connect_timeout)),
       params_(params),
-      report_{.currents = std::vector<double>(channels_of(params, coils))},
+      report_{.currents = std::vector<double>(channel_count(params, coils))},
       sent_(params.send == DriverInput::field ? 3 : report_.currents.size()) {
   greet(params_.connect_timeout);
 }
@@ -66,7 +66,7 @@ void LineCoilDriver::greet(double timeout) {
                      report_.reason));
   if (reply->verdict != LineVerdict::ok) fail("refuses: " + reply->text);
   if (!is_zero(*reply))
-    fail(fmt::format("acknowledges {} as its values, not {} zeros", list_of(reply->values), sent_));
+    fail(fmt::format("acknowledges {} as its values, not {} zeros", to_list(reply->values), sent_));
 }
 
 LineCoilDriver::~LineCoilDriver() { stop(); }
@@ -78,7 +78,7 @@ bool LineCoilDriver::is_possible(std::span<const double> currents) const {
 }
 
 Capabilities LineCoilDriver::capabilities() const {
-  return {static_cast<int>(report_.currents.size()), input_of(params_.send)};
+  return {static_cast<int>(report_.currents.size()), coil_input(params_.send)};
 }
 
 DriveStatus LineCoilDriver::drive(const CoilRequest& request) {
@@ -155,8 +155,8 @@ DriveStatus LineCoilDriver::compare(std::span<const double> values, const LineRe
   for (std::size_t i = 0; agree && i < values.size(); ++i)
     agree = std::abs(reply.values[i] - scale * values[i]) <= params_.tolerance;
   if (agree) return limited ? DriveStatus::scaled : DriveStatus::driven;
-  report_.reason = fmt::format("sent {}, acknowledged {}", list_of(values),
-                               reply.values.empty() ? "no numbers" : list_of(reply.values));
+  report_.reason = fmt::format("sent {}, acknowledged {}", to_list(values),
+                               reply.values.empty() ? "no numbers" : to_list(reply.values));
   return DriveStatus::mismatched;
 }
 
@@ -165,7 +165,7 @@ DriveStatus LineCoilDriver::arm() {
   DriveStatus status = take(reply);
   if (status == DriveStatus::refused) status = DriveStatus::not_armed;
   if (status == DriveStatus::driven && !is_zero(*reply)) {
-    report_.reason = fmt::format("armed with {}, not {} zeros", list_of(reply->values), sent_);
+    report_.reason = fmt::format("armed with {}, not {} zeros", to_list(reply->values), sent_);
     status = DriveStatus::mismatched;
   }
   armed_ = status == DriveStatus::driven;
@@ -224,7 +224,7 @@ std::optional<LineReply> LineCoilDriver::exchange(std::string_view word, double 
                                    static_cast<int>(std::lround(1e3 * params_.watchdog)))
                       : line_message(word, sequence_, values);
   std::optional<LineReply> reply;
-  if (connection_->stream().put(bytes_of(message), timeout, gives_up))
+  if (connection_->stream().put(to_bytes(message), timeout, gives_up))
     reply = answer(timeout, gives_up);
   if (reply) return reply;
   if (is_gone()) return std::nullopt;

@@ -29,7 +29,7 @@ constexpr auto enum_names(DriverInput) {
 }
 
 /// Input of a device that is sent these.
-inline CoilInput input_of(DriverInput sent) {
+inline CoilInput coil_input(DriverInput sent) {
   return sent == DriverInput::field ? CoilInput::field : CoilInput::currents;
 }
 

@@ -30,7 +30,7 @@ std::string_view take_word(std::string_view& text) {
   return word;
 }
 
-std::vector<double> values_of(std::string_view text) {
+std::vector<double> parse_values(std::string_view text) {
   std::vector<double> values;
   for (const std::string_view word : words(text)) {
     const auto value = parse_number(word);
@@ -72,7 +72,7 @@ std::optional<LineReply> parse_line_reply(std::string_view line) {
   if (number.empty() || error != std::errc{} || end != number.data() + number.size())
     return std::nullopt;
   if (reply.verdict == LineVerdict::ok || reply.verdict == LineVerdict::limited)
-    reply.values = values_of(line);
+    reply.values = parse_values(line);
   else
     reply.text = one_line(trimmed(line));
   return reply;

@@ -110,7 +110,7 @@ DriveStatus SerialCoilDriver::drive(const CoilRequest& request) {
 DriveStatus SerialCoilDriver::hold(std::span<const double> currents) {
   assert(currents.size() == coil_link_channels);
   CoilAim aim;
-  if (!outputs_of(currents, aim.constant)) return DriveStatus::refused;
+  if (!to_outputs(currents, aim.constant)) return DriveStatus::refused;
   report_.phase.reset();
   return follow(CoilMessage::set, aim);
 }
@@ -119,8 +119,8 @@ DriveStatus SerialCoilDriver::turn(const CurrentWaveform& waveform) {
   const double mhz = 1e3 * waveform.frequency;
   if (!(std::abs(mhz) <= coil_link_max_frequency)) return DriveStatus::refused;
   CoilAim aim{.frequency = static_cast<int>(std::lround(mhz))};
-  if (!outputs_of(waveform.constant, aim.constant) || !outputs_of(waveform.cosine, aim.cosine) ||
-      !outputs_of(waveform.sine, aim.sine))
+  if (!to_outputs(waveform.constant, aim.constant) || !to_outputs(waveform.cosine, aim.cosine) ||
+      !to_outputs(waveform.sine, aim.sine))
     return DriveStatus::refused;
   for (std::size_t c = 0; c < report_.currents.size(); ++c)
     if (!(waveform.largest(c) <= params_.full_scale * (1 + full_scale_slack)))
@@ -130,7 +130,7 @@ DriveStatus SerialCoilDriver::turn(const CurrentWaveform& waveform) {
   return follow(CoilMessage::waveform, aim);
 }
 
-bool SerialCoilDriver::outputs_of(std::span<const double> currents, CoilOutputs& outputs) const {
+bool SerialCoilDriver::to_outputs(std::span<const double> currents, CoilOutputs& outputs) const {
   assert(currents.size() == outputs.size());
   for (std::size_t c = 0; c < currents.size(); ++c) {
     const double share = currents[c] / params_.full_scale;
@@ -187,7 +187,7 @@ DriveStatus SerialCoilDriver::arm() {
   return DriveStatus::driven;
 }
 
-std::vector<std::uint8_t> SerialCoilDriver::bytes_of(CoilMessage message,
+std::vector<std::uint8_t> SerialCoilDriver::to_bytes(CoilMessage message,
                                                      const CoilAim& aim) const {
   if (message == CoilMessage::hello) return encode_hello(sequence_);
   if (message != CoilMessage::set && message != CoilMessage::waveform)
@@ -206,7 +206,7 @@ std::optional<CoilReply> SerialCoilDriver::exchange(CoilMessage message, const C
   const Stop gives_up = message == CoilMessage::stop ? Stop(max_stop) : Stop(&interrupted_);
   for (int k = 0; k < params_.attempts && !gives_up(); ++k) {
     const auto began = Clock::now();
-    if (!(*port_)->put(bytes_of(message, aim), params_.reply_timeout, gives_up)) continue;
+    if (!(*port_)->put(to_bytes(message, aim), params_.reply_timeout, gives_up)) continue;
     if (auto reply = answer_to(message, params_.reply_timeout, gives_up)) {
       round_trip_ = seconds_since(began);
       failures_ = 0;

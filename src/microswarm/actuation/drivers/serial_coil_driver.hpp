@@ -44,7 +44,7 @@ struct SerialCoilParams {
 };
 
 /// Input of its device.
-inline CoilInput input_of(const SerialCoilParams& params) {
+inline CoilInput coil_input(const SerialCoilParams& params) {
   return params.waveforms ? CoilInput::waveform : CoilInput::currents;
 }
 
@@ -63,7 +63,7 @@ class SerialCoilDriver final : public CoilDriver {
   SerialCoilDriver(const SerialCoilDriver&) = delete;
   SerialCoilDriver& operator=(const SerialCoilDriver&) = delete;
 
-  Capabilities capabilities() const override { return {coil_link_channels, input_of(params_)}; }
+  Capabilities capabilities() const override { return {coil_link_channels, coil_input(params_)}; }
   DriveStatus drive(const CoilRequest& request) override;
   const DeviceReport& report() const override { return report_; }
   /// Sent also after three exchanges without an answer. Waits at most 2 s for the confirmation.
@@ -81,8 +81,8 @@ class SerialCoilDriver final : public CoilDriver {
   DriveStatus hold(std::span<const double> currents);
   DriveStatus turn(const CurrentWaveform& waveform);
   DriveStatus follow(CoilMessage message, const CoilAim& aim);
-  bool outputs_of(std::span<const double> currents, CoilOutputs& outputs) const;
-  std::vector<std::uint8_t> bytes_of(CoilMessage message, const CoilAim& aim) const;
+  bool to_outputs(std::span<const double> currents, CoilOutputs& outputs) const;
+  std::vector<std::uint8_t> to_bytes(CoilMessage message, const CoilAim& aim) const;
   std::optional<CoilReply> exchange(CoilMessage message, const CoilAim& aim = {});
   std::optional<CoilReply> answer_to(CoilMessage message, double timeout, const Stop& gives_up);
   bool hears_start(double timeout);

@@ -30,7 +30,7 @@ inline FiveGradients five_gradients(const Eigen::Matrix3d& g) {
 }
 
 /// The gradient with these entries; curl and divergence are 0.
-inline Eigen::Matrix3d gradient_of(const FiveGradients& five) {
+inline Eigen::Matrix3d gradient_matrix(const FiveGradients& five) {
   Eigen::Matrix3d g;
   g << five[0], five[1], five[2], five[1], five[3], five[4], five[2], five[4], -five[0] - five[3];
   return g;

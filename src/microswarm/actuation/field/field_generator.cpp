@@ -63,7 +63,7 @@ void FieldGenerator::roll(double dt) {
   if (const double most = max_owed * length; norm(owed_) > most) owed_ = most / norm(owed_) * owed_;
   const double speed = norm(velocity_);
   if (speed > 0) {
-    const double wanted = heading_of(owed_ + catch_up_lengths * length / speed * velocity_);
+    const double wanted = heading_along(owed_ + catch_up_lengths * length / speed * velocity_);
     const bool backwards = std::abs(wrap(wanted - heading_)) > pi / 2;
     turn_to(backwards ? wanted + pi : wanted, dt);
   }

@@ -7,13 +7,13 @@
 namespace microswarm {
 namespace {
 
-std::string place_of(const std::string& file, int line, int column) {
+std::string location_text(const std::string& file, int line, int column) {
   if (line <= 0) return file;
-  const std::string place = file + ":" + std::to_string(line);
-  return column <= 0 ? place : place + ":" + std::to_string(column);
+  const std::string location = file + ":" + std::to_string(line);
+  return column <= 0 ? location : location + ":" + std::to_string(column);
 }
 
-Issues list_of(Issue issue) {
+Issues to_issues(Issue issue) {
   Issues issues;
   issues.add(std::move(issue));
   return issues;
@@ -24,9 +24,9 @@ Issues list_of(Issue issue) {
 InputError::InputError(const std::string& what) : InputError(Issue{.text = what}) {}
 
 InputError::InputError(const std::string& file, int line, int column, const std::string& what)
-    : InputError(Issue{.text = what, .place = place_of(file, line, column)}) {}
+    : InputError(Issue{.text = what, .location = location_text(file, line, column)}) {}
 
-InputError::InputError(Issue issue) : InputError(list_of(std::move(issue))) {}
+InputError::InputError(Issue issue) : InputError(to_issues(std::move(issue))) {}
 
 InputError::InputError(Issues issues)
     : std::runtime_error(to_string(issues)),
@@ -34,9 +34,9 @@ InputError::InputError(Issues issues)
   assert(!issues_->empty());
 }
 
-Issues issues_of(const std::exception& error) {
+Issues to_issues(const std::exception& error) {
   if (const auto* input = dynamic_cast<const InputError*>(&error)) return input->issues();
-  return list_of(Issue{.text = error.what()});
+  return to_issues(Issue{.text = error.what()});
 }
 
 }  // namespace microswarm

@@ -30,7 +30,7 @@ class InputError : public std::runtime_error {
 };
 
 /// Issues of an InputError; the text of any other exception as one.
-Issues issues_of(const std::exception& error);
+Issues to_issues(const std::exception& error);
 
 /// Calls `read` and adds the issues of its InputError as issues about `key`.
 template <class Read>

@@ -6,7 +6,7 @@
 namespace microswarm {
 
 std::string to_string(const Issue& issue) {
-  return issue.place.empty() ? issue.text : issue.place + ": " + issue.text;
+  return issue.location.empty() ? issue.text : issue.location + ": " + issue.text;
 }
 
 std::string to_string(const Issues& issues) {
@@ -43,13 +43,13 @@ void Issues::add_about(std::string_view key, const Issues& of_file) {
 Issues Issues::placed_in(std::string_view outer) const {
   Issues same = *this;
   for (Issue& issue : same.list_)
-    issue.place = std::string(outer) + (issue.place.empty() ? "" : ": ") + issue.place;
+    issue.location = std::string(outer) + (issue.location.empty() ? "" : ": ") + issue.location;
   return same;
 }
 
 Issues Issues::unplaced() const {
   Issues same = *this;
-  for (Issue& issue : same.list_) issue.place.clear();
+  for (Issue& issue : same.list_) issue.location.clear();
   return same;
 }
 

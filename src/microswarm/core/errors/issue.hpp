@@ -11,12 +11,12 @@ namespace microswarm {
 
 /// One mistake in a value.
 struct Issue {
-  /// Keys concerned; the first one present in the file gives the place. Empty if no key is.
+  /// Keys concerned; the first one present in the file gives the location. Empty if no key is.
   std::vector<std::string> keys{};
   std::string text{};
   /// Place where the value was given, in words of who gave it: "flight.yaml:12:3", "--set seed", a
   /// file. Empty as long as it is not located.
-  std::string place{};
+  std::string location{};
   std::string value{};  ///< the value as written, cut if it is long; empty if unknown
   std::string limit{};  ///< what is allowed: "1..1e5 µm", "slide, stop"; empty if unknown
 };
@@ -26,7 +26,7 @@ std::string to_string(const Issue& issue);
 
 /// List of all mistakes in a value. Keys are relative to it and joined by dots; list entries count
 /// from 0: "obstacles.3.shape.radius_um". Validation returns issues and knows no file; KeyLocations
-/// adds the places.
+/// adds the locations.
 class Issues {
  public:
   void add(Issue issue) { list_.push_back(std::move(issue)); }
@@ -36,11 +36,11 @@ class Issues {
   /// Adds the issues of the part held by `key`; `words` (e.g. "obstacle 4") is put before each
   /// text.
   void add_within(std::string_view key, const Issues& part, const std::string& words = {});
-  /// Adds the issues of a file or text that `key` names: their places become part of the texts.
+  /// Adds the issues of a file or text that `key` names: their locations become part of the texts.
   void add_about(std::string_view key, const Issues& of_file);
-  /// The same issues, with `outer` before their places: "sweep.yaml: --set seed".
+  /// The same issues, with `outer` before their locations: "sweep.yaml: --set seed".
   Issues placed_in(std::string_view outer) const;
-  /// The same issues without places, for one who gave the key.
+  /// The same issues without locations, for one who gave the key.
   Issues unplaced() const;
   /// Removes issues about any of these keys or anything within them.
   void drop(const std::vector<std::string>& keys);

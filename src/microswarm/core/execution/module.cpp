@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Candidate paths of the file, in the order of search.
-std::vector<fs::path> places(const std::string& file_name) {
+std::vector<fs::path> search_paths(const std::string& file_name) {
   std::vector<fs::path> all;
   const auto beside = [&](const fs::path& folder) {
     if (!folder.is_absolute()) return;
@@ -43,7 +43,7 @@ std::vector<fs::path> places(const std::string& file_name) {
 void* load_module(const std::string& name, const std::string& users) {
   const std::string file_name = "libmicroswarm_" + name + ".so";
   std::string why;
-  for (const fs::path& file : places(file_name)) {
+  for (const fs::path& file : search_paths(file_name)) {
     if (void* const module = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL))
       if (void* const function = ::dlsym(module, ("microswarm_" + name).c_str())) return function;
     if (const char* text = ::dlerror(); text && why.empty()) why = text;

@@ -7,7 +7,7 @@
 namespace microswarm {
 namespace {
 
-std::size_t threads_of(int jobs) {
+std::size_t thread_count(int jobs) {
   return jobs > 0 ? static_cast<std::size_t>(jobs)
                   : std::max(1U, std::thread::hardware_concurrency());
 }
@@ -16,7 +16,7 @@ std::size_t threads_of(int jobs) {
 
 ThreadTeam::ThreadTeam(int jobs) {
   try {
-    for (std::size_t i = 1; i < threads_of(jobs); ++i) helpers_.emplace_back([this] { help(); });
+    for (std::size_t i = 1; i < thread_count(jobs); ++i) helpers_.emplace_back([this] { help(); });
   } catch (...) {
     end();
     throw;
@@ -75,7 +75,7 @@ void ThreadTeam::take_calls(std::unique_lock<std::mutex>& lock) {
 }
 
 void for_each_index(std::size_t count, int jobs, const std::function<void(std::size_t)>& body) {
-  ThreadTeam(static_cast<int>(std::min(threads_of(jobs), std::max<std::size_t>(1, count))))
+  ThreadTeam(static_cast<int>(std::min(thread_count(jobs), std::max<std::size_t>(1, count))))
       .for_each_index(count, body);
 }
 

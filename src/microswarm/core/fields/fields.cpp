@@ -3,7 +3,7 @@
 
 namespace microswarm {
 
-std::string key_of(const FieldInfo& info) {
+std::string key_text(const FieldInfo& info) {
   const std::string_view suffix = unit_suffix(info.unit);
   std::string key(info.name);
   if (!suffix.empty()) key.append("_").append(suffix);

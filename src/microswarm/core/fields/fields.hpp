@@ -96,7 +96,7 @@ constexpr FieldInfo per_k(FieldName n, auto... of) { return {Unit::per_k, n, of.
 }  // namespace field_units
 
 /// Key of a field: its name with the unit's suffix.
-std::string key_of(const FieldInfo& info);
+std::string key_text(const FieldInfo& info);
 
 /// A key that stood elsewhere in earlier versions, in a part of the document: it is read there
 /// still. One that had no effect and is gone is ignored there. A struct lists them as

@@ -33,7 +33,7 @@ class Comparison {
                         reinterpret_cast<const char*>(&given_);  // NOLINT
     const V& paper = at<V>(paper_, offset);
     const V& usual = at<V>(usual_, offset);
-    const std::string key = prefix_ + key_of(info);
+    const std::string key = prefix_ + key_text(info);
     if constexpr (HasFields<V>) {
       V::fields(value, Comparison<V>(issues_, is_given_, value, paper, usual, key + "."));
     } else if constexpr (std::is_arithmetic_v<V> || std::is_enum_v<V>) {

@@ -15,7 +15,7 @@ struct UnitText {
   double shown_per_stored = 1;
 };
 
-UnitText text_of(Unit unit) {
+UnitText unit_text(Unit unit) {
   switch (unit) {
     case Unit::none:
       return {"", ""};
@@ -74,8 +74,8 @@ UnitText text_of(Unit unit) {
 
 }  // namespace
 
-std::string_view unit_suffix(Unit unit) { return text_of(unit).suffix; }
-std::string_view unit_symbol(Unit unit) { return text_of(unit).symbol; }
-double unit_shown_per_stored(Unit unit) { return text_of(unit).shown_per_stored; }
+std::string_view unit_suffix(Unit unit) { return unit_text(unit).suffix; }
+std::string_view unit_symbol(Unit unit) { return unit_text(unit).symbol; }
+double unit_shown_per_stored(Unit unit) { return unit_text(unit).shown_per_stored; }
 
 }  // namespace microswarm

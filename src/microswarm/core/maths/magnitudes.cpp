@@ -27,12 +27,12 @@ double median_of_magnitudes(std::span<const double> values) {
   if (values.empty()) return 0;
   const std::int64_t first =
       leading_bits(*std::max_element(values.begin(), values.end())) - (buckets - 1);
-  const auto bucket_of = [&](double v) {
+  const auto find_bucket = [&](double v) {
     return static_cast<std::size_t>(
         std::clamp<std::int64_t>(leading_bits(v) - first, 0, buckets - 1));
   };
   std::array<std::uint32_t, buckets> count{};
-  for (const double v : values) ++count[bucket_of(v)];
+  for (const double v : values) ++count[find_bucket(v)];
   const std::size_t lower = (values.size() - 1) / 2;  // ranks of the two middle values
   const std::size_t upper = values.size() / 2;
   std::size_t before = 0;
@@ -43,7 +43,7 @@ double median_of_magnitudes(std::span<const double> values) {
   std::vector<double> middle;
   middle.reserve(count[bucket] + count[last]);
   for (const double v : values)
-    if (const std::size_t b = bucket_of(v); b == bucket || b == last) middle.push_back(v);
+    if (const std::size_t b = find_bucket(v); b == bucket || b == last) middle.push_back(v);
   const auto at = middle.begin() + static_cast<std::ptrdiff_t>(upper - before);
   std::nth_element(middle.begin(), at, middle.end());
   return lower == upper ? *at : std::midpoint(*std::max_element(middle.begin(), at), *at);

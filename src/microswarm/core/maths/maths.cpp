@@ -48,7 +48,7 @@ inline bool reduce(double angle, Reduced& left) {
 }
 
 /// Minimax polynomials for angles within ±π/4.
-inline double sine_of(double high, double low) {
+inline double polynomial_sine(double high, double low) {
   const double z = high * high;
   const double cube = high * z;
   const double p =
@@ -57,7 +57,7 @@ inline double sine_of(double high, double low) {
            z * (0x1.71de379252004p-19 + z * (-0x1.ae60069e53ef1p-26 + z * 0x1.5e098556d302ep-33)));
   return high - ((z * (0.5 * low - cube * p) - low) + cube * 0x1.5555555555555p-3);
 }
-inline double cosine_of(double high, double low) {
+inline double polynomial_cosine(double high, double low) {
   const double z = high * high;
   const double q = 0x1.5555555555555p-5 +
                    z * (-0x1.6c16c16c1696p-10 +
@@ -72,8 +72,8 @@ inline double cosine_of(double high, double low) {
 /// Sine of the angle plus `quarters` quarter turns.
 inline double sine_after(const Reduced& left, int quarters) {
   const int quarter = (left.quarter + quarters) & 3;
-  const double size =
-      (quarter & 1) == 0 ? sine_of(left.high, left.low) : cosine_of(left.high, left.low);
+  const double size = (quarter & 1) == 0 ? polynomial_sine(left.high, left.low)
+                                         : polynomial_cosine(left.high, left.low);
   return (quarter & 2) == 0 ? size : -size;
 }
 
@@ -121,8 +121,8 @@ SineCosine sincos(double angle) {
     const Sleef_double_2 both = Sleef_cinz_sincosd1_u10purec(angle);
     return {both.x, both.y};
   }
-  double sine = sine_of(left.high, left.low);
-  double cosine = cosine_of(left.high, left.low);
+  double sine = polynomial_sine(left.high, left.low);
+  double cosine = polynomial_cosine(left.high, left.low);
   if ((left.quarter & 1) != 0) {
     std::swap(sine, cosine);
     cosine = -cosine;

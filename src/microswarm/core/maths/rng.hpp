@@ -46,8 +46,8 @@ class Rng {
     next_ += count;
   }
   /// Uniform in [0, 1).
-  double uniform() { return uniform_of(bits()); }
-  static double uniform_of(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1p-53; }
+  double uniform() { return to_uniform(bits()); }
+  static double to_uniform(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1p-53; }
   /// Uniform in [lo, hi).
   double uniform(double lo, double hi) { return lo + (hi - lo) * uniform(); }
   /// Uniform integer in [0, n), always from 64 bits; the bias of a value is below 2^-64. n must not

@@ -53,7 +53,7 @@ fs::path staged_for(const fs::path& target, int n) {
 }
 
 /// Process that made a temporary file of this name; 0 for any other name.
-pid_t maker_of(const fs::path& file) {
+pid_t creating_process(const fs::path& file) {
   const std::string name = file.filename().string();
   const auto mark = name.rfind(staged_mark);
   if (mark == std::string::npos) return 0;
@@ -133,7 +133,7 @@ void clear_staged(const fs::path& folder) {
   std::vector<fs::path> left;
   for (fs::directory_iterator at(folder, error); !error && at != fs::directory_iterator();
        at.increment(error)) {
-    const pid_t program = maker_of(at->path());
+    const pid_t program = creating_process(at->path());
     const bool is_left = program > 0 && ::kill(program, 0) != 0 && errno == ESRCH;
     if (is_left && at->symlink_status(none).type() == fs::file_type::regular)
       left.push_back(at->path());

@@ -138,12 +138,12 @@ void ParticleMotion::step_physical(MazePlace move) {
   accelerate(columns_, move.column);
   const double last_row = maze_.height() - 1;
   const double last_column = maze_.width() - 1;
-  const auto cell_of = [](const Axis& axis, std::size_t i, double last) {
+  const auto find_cell = [](const Axis& axis, std::size_t i, double last) {
     const double exact = axis.at[i] + axis.speed[i];
     return static_cast<int>(nearest(std::min(std::max(exact, 0.0), last)));
   };
   for (std::size_t i = 0; i < n; ++i) {
-    aims[i] = maze_.number({cell_of(rows_, i, last_row), cell_of(columns_, i, last_column)});
+    aims[i] = maze_.number({find_cell(rows_, i, last_row), find_cell(columns_, i, last_column)});
     moves[i] = maze_.is_free(aims[i]);
   }
   if (rules_.particle_self_collision) block_full_cells(scratch);

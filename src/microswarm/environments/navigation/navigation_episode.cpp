@@ -59,7 +59,7 @@ NavigationTask::NavigationTask(Experiment experiment, const NavigationRules& rul
   if (scenario.robots || !scenario.start || !scenario.goal)
     throw InputError("an environment of navigation needs a scenario with one swarm");
   scenario.hold_at_goal = 0;
-  max_speed_ = limits_of(scenario.swarm).max_speed;
+  max_speed_ = swarm_limits(scenario.swarm).max_speed;
 }
 
 std::size_t NavigationTask::observation_size() const {
@@ -86,7 +86,7 @@ void NavigationEpisode::reset() {
   scenario.seed = seed_;
   const NavigationRules& rules = task_.rules();
   Rng rng(seed_, Purpose::start_goal, trial_);
-  const double clearance = 2 * limits_of(scenario.swarm).radius;
+  const double clearance = 2 * swarm_limits(scenario.swarm).radius;
   const Map& map = *task_.world().map;
   if (rules.random_start)
     scenario.start =
@@ -188,11 +188,11 @@ void NavigationEpisode::see_obstacles(const Snapshot& world, std::span<float> ou
   std::ranges::partial_sort(seen, seen.begin() + static_cast<std::ptrdiff_t>(shown), {},
                             &Seen::gap);
   for (std::size_t k = 0; k < shown; ++k) {
-    const Disc now = extent_of(bodies[seen[k].index]);
+    const Disc now = enclosing_disc(bodies[seen[k].index]);
     Vec2 velocity{};
     if (time_ > past && before.moving().bodies().size() == bodies.size())
-      velocity =
-          (now.centre - extent_of(before.moving().bodies()[seen[k].index]).centre) / (time_ - past);
+      velocity = (now.centre - enclosing_disc(before.moving().bodies()[seen[k].index]).centre) /
+                 (time_ - past);
     const Vec2 from = now.centre - pose_.position;
     float* to = &out[k * NavigationTask::obstacle_numbers];
     for (const double v : {from.x, from.y, now.radius, velocity.x, velocity.y})

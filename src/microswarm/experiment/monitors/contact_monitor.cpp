@@ -15,7 +15,7 @@ namespace {
 
 constexpr int max_samples = 20'000;  // of one obstacle on one trajectory
 
-double top_speed_of(std::span<const PoseStamped> poses) {
+double find_top_speed(std::span<const PoseStamped> poses) {
   double speed = 0;
   for (std::size_t i = 1; i < poses.size(); ++i)
     speed = std::max(speed, distance(poses[i - 1].pose.position, poses[i].pose.position) /
@@ -24,7 +24,7 @@ double top_speed_of(std::span<const PoseStamped> poses) {
 }
 
 /// Maximum growth rate of the radius [µm/s].
-double top_growth_of(std::span<const PoseStamped> poses) {
+double find_top_growth(std::span<const PoseStamped> poses) {
   double growth = 0;
   for (std::size_t i = 1; i < poses.size(); ++i)
     if (poses[i].radius != poses[i - 1].radius)
@@ -67,7 +67,7 @@ void ContactMonitor::take_obstacles() {
 std::vector<RunEvent> ContactMonitor::follow(double t0, std::span<const PoseStamped> trajectory) {
   std::vector<RunEvent> events;
   if (trajectory.empty()) return events;
-  const Course course{t0, trajectory, top_speed_of(trajectory), top_growth_of(trajectory)};
+  const Course course{t0, trajectory, find_top_speed(trajectory), find_top_growth(trajectory)};
   if (const auto touch = wall_touch(course)) events.push_back(*touch);
   for (std::uint32_t i = 0; i < world_->obstacles.size(); ++i) {
     const std::optional<Sample> touch = first_touch(course, i);

@@ -62,7 +62,7 @@ Observation RobotPlant::observe() {
       p += sensing_.position_noise * Vec2{dx, noise_.normal()};
     }
   observation.robots = seen_;
-  observation.swarm = body_of(seen_, command_.heading);
+  observation.swarm = enclosing_pose(seen_, command_.heading);
   return observation;
 }
 
@@ -78,7 +78,7 @@ void RobotPlant::apply(const Command& command, double dt) {
 std::optional<GroundTruth> RobotPlant::ground_truth() const {
   const std::vector<Vec2>& robots = history_.back().robots;
   return GroundTruth{.now = now_,
-                     .swarm = body_of(robots, command_.heading),
+                     .swarm = enclosing_pose(robots, command_.heading),
                      .speed = command_.speed,
                      .trajectory = {},
                      .robots = robots,

@@ -47,7 +47,7 @@ std::vector<std::string> unmet_assumptions(const Scenario& scenario, const Map& 
   const auto* params = std::get_if<AggregationParams>(&scenario.navigator);
   if (!params || !scenario.goal) return {};
   Rng rng(scenario.seed, Purpose::scene);
-  const double width = published_channel_width * scale_of(*params, map, rng);
+  const double width = published_channel_width * published_scale(*params, map, rng);
   return unmet_assumptions(map, *scenario.goal, width);
 }
 

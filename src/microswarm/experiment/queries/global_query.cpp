@@ -67,7 +67,7 @@ std::string GlobalAnswer::why_none() const {
   return fmt::format("{}: {} nodes of at most max_nodes {}", word, nodes, limit);
 }
 
-GlobalPlay play_of(const GlobalPlannerParams& planner) {
+GlobalPlay to_play(const GlobalPlannerParams& planner) {
   return std::visit(
       [](const auto& p) {
         return GlobalPlay{p.robostep, p.contact, p.separation, p.goal_tolerance};
@@ -92,7 +92,7 @@ GlobalAnswer answer(const Map& map, const GlobalQuery& query, const std::string&
   GlobalAnswer made;
   made.notes = set_values(choice, query.settings);
   made.planner = choice.planner;
-  const GlobalPlay play = play_of(made.planner);
+  const GlobalPlay play = to_play(made.planner);
   check_finite(query.starts, "start", name);
   check_finite(query.goals, "goal", name);
   check_ends(map, query.starts, query.goals, play, name);

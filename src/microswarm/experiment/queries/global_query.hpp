@@ -54,7 +54,7 @@ GlobalAnswer answer(const Map& map, const GlobalQuery& query, const std::string&
                     const Stop& stop = {});
 
 /// Execution of a planner's inputs, and their goals.
-GlobalPlay play_of(const GlobalPlannerParams& planner);
+GlobalPlay to_play(const GlobalPlannerParams& planner);
 
 /// Throws InputError if a robot cannot reach its goal. Unequal numbers are left to the planner.
 void check_ends(const Map& map, std::span<const Vec2> starts, std::span<const Vec2> goals,

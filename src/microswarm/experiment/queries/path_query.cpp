@@ -41,7 +41,7 @@ void check_planner(const PlannerParams& planner, const KeyLocations& keys) {
 /// Throws InputError if no path can exist.
 void explain(const Snapshot& world, const PathQuery& query, const std::string& name,
              const PlannerParams& planner, Status status) {
-  const auto [clearance, tolerance] = limits_of(planner);
+  const auto [clearance, tolerance] = path_limits(planner);
   const Vec2 start = query.start.position;
   if (status == Status::start_blocked)
     throw InputError(fmt::format("{}: start {}", name, world.blocked_reason(start, clearance)));
@@ -54,7 +54,7 @@ void explain(const Snapshot& world, const PathQuery& query, const std::string& n
 
 }  // namespace
 
-PathLimits limits_of(const PlannerParams& planner) {
+PathLimits path_limits(const PlannerParams& planner) {
   return std::visit(
       [](const auto& p) {
         return PathLimits{p.clearance, p.goal_tolerance};
@@ -83,7 +83,7 @@ PathAnswer answer(const Snapshot& world, const PathQuery& query, const std::stri
   PathAnswer made;
   PathChoice choice;
   made.notes = set_values(choice, query.settings);
-  const KeyLocations keys = locations_of({}, "plan", query.settings);
+  const KeyLocations keys = find_locations({}, "plan", query.settings);
   check_planner(choice.planner, keys);
   made.planner = fit_to_map(choice.planner, world.map(), given_within(keys.is_given(), "planner"));
   Rng rng(query.seed, Purpose::planner);

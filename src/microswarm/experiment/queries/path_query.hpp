@@ -49,7 +49,7 @@ struct PathLimits {
   double clearance = 0;
   double goal_tolerance = 0;
 };
-PathLimits limits_of(const PlannerParams& planner);
+PathLimits path_limits(const PlannerParams& planner);
 
 /// Planner and values as a JSON object.
 std::string planner_json(const PlannerParams& planner);

@@ -15,10 +15,10 @@ struct TableHasher {
   Hash& hash;
 
   void table(const std::string&, const ListRef<const void*>& list) const {
-    rows(list, columns_of(list.row_type()));
+    rows(list, to_columns(list.row_type()));
   }
   void parts(const std::string&, const ListRef<const void*>& outer, const Field& field) const {
-    const auto columns = columns_of(*field.type->parts[0]);
+    const auto columns = to_columns(*field.type->parts[0]);
     for (std::size_t i = 0; i < outer.size(); ++i) rows(outer.part(i, field), columns);
   }
   void rows(const ListRef<const void*>& list, const std::vector<Column>& columns) const {
@@ -32,7 +32,7 @@ struct TableHasher {
 
 /// Hashes integers as integers.
 void hash_metrics(Hash& hash, const Metrics& metrics) {
-  for (const Column& column : columns_of<Metrics>()) {
+  for (const Column& column : to_columns<Metrics>()) {
     const double value = column.number(&metrics);
     column.kind == ColumnKind::real ? hash.value(value) : hash.value(static_cast<int>(value));
   }

@@ -40,7 +40,7 @@ void write_times(Hdf5Writer& out, const std::string& path, const std::vector<dou
   out.attribute(path, "description", doc);
 }
 
-Status status_of(const Hdf5Reader& in, const std::string& word) {
+Status to_status(const Hdf5Reader& in, const std::string& word) {
   if (const auto status = enum_value<Status>(word)) return *status;
   in.fail("attribute status is the unknown word '" + word + "'");
 }
@@ -153,7 +153,7 @@ Record read_record(const std::filesystem::path& file) {
   record.diagnostics = read_diagnostics(in);
   record.rig_log = read_rig_log(in);
   if (format == record_format_version) record.changes = read_changes(in);
-  record.result.status = status_of(in, in.text_attribute("/", "status"));
+  record.result.status = to_status(in, in.text_attribute("/", "status"));
   read_attributes(in, "/metrics", type_of<Metrics>(), &record.result.metrics);
   record.stated_hash = in.text_attribute("/", "record_hash");
   record.result.timing = {in.numbers("/timing/step_s"), in.numbers("/timing/planning_s")};

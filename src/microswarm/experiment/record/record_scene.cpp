@@ -83,10 +83,10 @@ std::vector<Polygon> read_walls(const Hdf5Reader& in) {
   return polygons;
 }
 
-std::vector<Track*> tracks_of(std::vector<Obstacle>& obstacles) {
+std::vector<Track*> find_tracks(std::vector<Obstacle>& obstacles) {
   std::vector<Track*> tracks;
   for (Obstacle& obstacle : obstacles)
-    if (auto* track = track_of(obstacle.motion)) tracks.push_back(track);
+    if (auto* track = find_track(obstacle.motion)) tracks.push_back(track);
   return tracks;
 }
 
@@ -95,7 +95,7 @@ void write_tracks(Hdf5Writer& out, const std::vector<Obstacle>& obstacles) {
   std::vector<Vec2> points;
   Offsets ends{0};
   for (const Obstacle& obstacle : obstacles) {
-    const auto* track = track_of(obstacle.motion);
+    const auto* track = find_track(obstacle.motion);
     if (!track) continue;
     if (track->samples) {
       times.insert(times.end(), track->samples->times.begin(), track->samples->times.end());
@@ -116,7 +116,7 @@ void read_track_samples(const Hdf5Reader& in, std::vector<Obstacle>& obstacles) 
   const std::vector<Vec2> points = read_points(in, "/tracks");
   if (points.size() != times.size()) in.fail("/tracks: t_s and x_um differ in length");
   const Offsets ends = read_offsets(in, "/tracks/offset", times.size());
-  const std::vector<Track*> tracks = tracks_of(obstacles);
+  const std::vector<Track*> tracks = find_tracks(obstacles);
   if (ends.size() != tracks.size() + 1) in.fail("/tracks does not fit the scenario's obstacles");
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     Samples samples{{times.begin() + ends[i], times.begin() + ends[i + 1]},
@@ -143,7 +143,7 @@ void write_scene(Hdf5Writer& out, const Scene& scene) {
   write_points(out, "/map/discs", centres);
   number_column(out, "/map/discs/radius_um", radii, "µm");
   write_tracks(out, scene.scenario.obstacles);
-  if (const FollowerParams* follower = follower_of(scene.scenario.navigator);
+  if (const FollowerParams* follower = find_follower(scene.scenario.navigator);
       follower && follower->loaded)
     out.text("/follower_model", follower_model_text(*follower->loaded));
 }
@@ -161,7 +161,7 @@ Scene read_scene(const Hdf5Reader& in) {
   for (std::size_t i = 0; i < radii.size(); ++i) scene.map.discs.push_back({centres[i], radii[i]});
   check(scene.map, in.name());
   read_track_samples(in, scene.scenario.obstacles);
-  if (FollowerParams* follower = follower_of(scene.scenario.navigator);
+  if (FollowerParams* follower = find_follower(scene.scenario.navigator);
       follower && !follower->model.empty())
     follower->loaded = std::make_shared<const FollowerModel>(
         parse_follower_model(in.text("/follower_model"), in.name() + ":/follower_model"));

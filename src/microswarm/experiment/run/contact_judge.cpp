@@ -120,7 +120,7 @@ class Judge {
       : scenario_(scenario),
         world_(world),
         params_(params),
-        limits_(limits_of(scenario.swarm)),
+        limits_(swarm_limits(scenario.swarm)),
         answers_(answers(limits_.max_speed, params.directions)) {}
 
   ContactVerdict operator()(const RunEvent& contact, const std::vector<State>& states) const {

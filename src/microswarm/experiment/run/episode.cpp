@@ -253,7 +253,8 @@ void Episode::fill(const Observation& seen) {
   frame.wall_clearance = one_is_there ? world_->map().clearance(frame.pose.position) : infinity;
   frame.obstacle_clearance =
       one_is_there ? world_->moving().clearance(frame.pose.position, infinity) : infinity;
-  const double range = scenario_.detection_range.value_or(detection_range_of(scenario_.navigator));
+  const double range =
+      scenario_.detection_range.value_or(required_detection_range(scenario_.navigator));
   tick_.detects = !goal_.has_robots() && frame.obstacle_clearance - frame.radius < range;
   if (tick_.detects)
     frame.avoidance_cost = avoidance_cost(

@@ -10,7 +10,7 @@ namespace microswarm {
 namespace {
 
 /// The event of the arrival in this tick; null for none.
-const RunEvent* arrival_of(const Tick& tick) {
+const RunEvent* find_arrival(const Tick& tick) {
   const auto found = std::ranges::find(tick.events, EventKind::goal_reached, &RunEvent::kind);
   return found == tick.events.end() ? nullptr : &*found;
 }
@@ -34,7 +34,7 @@ void MetricsListener::on_tick(const Tick& tick) {
   else
     note_step(tick);
   summarise(tick.frame);
-  if (const RunEvent* arrival = arrival_of(tick)) result_.metrics.time = arrival->t;
+  if (const RunEvent* arrival = find_arrival(tick)) result_.metrics.time = arrival->t;
 }
 
 /// Stops counting while the swarm is held at the goal: metrics end with the arrival.
@@ -57,7 +57,7 @@ void MetricsListener::note_contacts(const Tick& tick) {
 
 void MetricsListener::note_distance(const Tick& tick) {
   move_to(tick.frame.pose);
-  const RunEvent* const arrival = tick.end ? nullptr : arrival_of(tick);
+  const RunEvent* const arrival = tick.end ? nullptr : find_arrival(tick);
   for (const PoseStamped& pose : tick.trajectory)
     if (!arrival || tick.frame.t + pose.t <= arrival->t) move_to(pose.pose);
   if (arrival && at_) move_to({arrival->position, at_->heading});

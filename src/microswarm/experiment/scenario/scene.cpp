@@ -53,7 +53,7 @@ Issues load_obstacles(std::vector<Obstacle>& obstacles, const std::filesystem::p
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
     Issues of_obstacle;
     const std::size_t before = issues.size();
-    if (auto* track = track_of(obstacles[i].motion))
+    if (auto* track = find_track(obstacles[i].motion))
       attempt(issues, fmt::format("obstacles.{}.motion.file", i),
               [&] { of_obstacle.add_within("motion", files.load(*track)); });
     if (of_obstacle.empty() && issues.size() == before) of_obstacle = validate(obstacles[i]);
@@ -65,7 +65,7 @@ Issues load_obstacles(std::vector<Obstacle>& obstacles, const std::filesystem::p
 
 /// Reads the navigator's learned follower model, if it has one.
 void load_follower(NavigatorParams& navigator, const std::filesystem::path& base) {
-  FollowerParams* follower = follower_of(navigator);
+  FollowerParams* follower = find_follower(navigator);
   if (!follower || follower->model.empty()) return;
   const std::filesystem::path path = base / follower->model;
   follower->loaded = std::make_shared<const FollowerModel>(
@@ -98,12 +98,12 @@ std::string Scene::hash() const {
   hash.text(scenario_text(scenario));
   hash_map(hash, map);
   for (const Obstacle& obstacle : scenario.obstacles) {
-    const auto* track = track_of(obstacle.motion);
+    const auto* track = find_track(obstacle.motion);
     if (!track || !track->samples) continue;
     for (const double t : track->samples->times) hash.value(t);
     hash_points(hash, track->samples->points);
   }
-  if (const FollowerParams* follower = follower_of(scenario.navigator);
+  if (const FollowerParams* follower = find_follower(scenario.navigator);
       follower && follower->loaded)
     hash.text(follower_model_text(*follower->loaded));
   return hash.hex();
@@ -129,8 +129,8 @@ World build_world(const Scene& scene) {
           scene.scenario.obstacles};
 }
 
-Task task_of(const Scenario& scenario) {
-  return {.swarm = limits_of(scenario.swarm),
+Task navigation_task(const Scenario& scenario) {
+  return {.swarm = swarm_limits(scenario.swarm),
           .robots = scenario.robots,
           .goal = scenario.goal,
           .goal_tolerance = scenario.goal_tolerance,

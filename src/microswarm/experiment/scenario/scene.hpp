@@ -29,7 +29,7 @@ Scene load_scene(Scenario scenario, const std::filesystem::path& base,
                  const KeyLocations& keys = {});
 
 /// The navigator's task in a scenario.
-Task task_of(const Scenario& scenario);
+Task navigation_task(const Scenario& scenario);
 
 /// Builds the world of a scene. Throws InputError like Map.
 World build_world(const Scene& scene);

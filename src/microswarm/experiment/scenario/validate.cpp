@@ -66,7 +66,7 @@ Issues validate_margin(const Scenario& scenario, const World& world) {
 
 Issues validate_body(const Scenario& scenario, const World& world) {
   Issues issues;
-  const double radius = limits_of(scenario.swarm).radius;
+  const double radius = swarm_limits(scenario.swarm).radius;
   if (!scenario.start)
     issues.add("start", "missing key 'start'");
   else if (const auto why = world.at(0).blocked_reason(scenario.start->position, radius);
@@ -108,10 +108,10 @@ Issues validate(const Scenario& scenario, const World& world, const IsGiven& is_
   Issues issues = validate_sensing(scenario);
   if (scenario.robots) issues.add(validate_robots(scenario));
   const bool is_complete = issues.empty() && (scenario.robots || scenario.goal);
-  const auto lack = unsupported_reason(scenario.navigator, task_of(scenario));
+  const auto lack = unsupported_reason(scenario.navigator, navigation_task(scenario));
   if (is_complete && !lack.empty())
     issues.add({"navigator.type", "navigator"}, fmt::format("this navigator needs {}", lack));
-  issues.add_within("navigator", validate(scenario.navigator, task_of(scenario), *world.map,
+  issues.add_within("navigator", validate(scenario.navigator, navigation_task(scenario), *world.map,
                                           given_within(is_given, "navigator")));
   if (!scenario.robots)
     issues.add(validate_body(scenario, world));

@@ -17,7 +17,7 @@ struct Stage {
   std::string key;
 };
 
-std::vector<Stage> stages_of(const Scenario& scenario, const RadarParams& radar) {
+std::vector<Stage> radar_stages(const Scenario& scenario, const RadarParams& radar) {
   std::vector<Stage> stages{{scenario.start->position, "start", "start"}};
   for (std::size_t i = 0; i < radar.waypoints.size(); ++i)
     stages.push_back({radar.waypoints[i], fmt::format("waypoint {}", i + 1),
@@ -54,7 +54,7 @@ Issues validate_area(const WaitZone& area, const Scenario& scenario, const Map& 
   Issues issues;
   const Box b = map.bounds();
   const Body ground{Polygon{{b.lo, {b.hi.x, b.lo.y}, b.hi, {b.lo.x, b.hi.y}}, {}}};
-  if (gap_between(Body{outline_of(area)}, ground) > 0) {
+  if (gap_between(Body{zone_outline(area)}, ground) > 0) {
     issues.add("centre_um", fmt::format("at ({:.6g}, {:.6g}) µm it is outside the map",
                                         area.centre.x, area.centre.y));
     return issues;
@@ -78,7 +78,8 @@ Issues validate_radar(const Scenario& scenario, const World& world) {
   Issues issues;
   const auto* radar = std::get_if<RadarParams>(&scenario.navigator);
   if (!radar || !scenario.start || !scenario.goal) return issues;
-  if (!radar->waypoints.empty()) issues.add(validate_legs(stages_of(scenario, *radar), *world.map));
+  if (!radar->waypoints.empty())
+    issues.add(validate_legs(radar_stages(scenario, *radar), *world.map));
   for (std::size_t i = 0; i < radar->wait_zones.size(); ++i)
     issues.add_within(fmt::format("navigator.wait_zones.{}", i),
                       validate_area(radar->wait_zones[i], scenario, *world.map),

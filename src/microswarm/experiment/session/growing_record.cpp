@@ -46,13 +46,13 @@ void yield_to_others() {
 
 }  // namespace
 
-std::filesystem::path part_of(const std::filesystem::path& record) {
+std::filesystem::path part_file(const std::filesystem::path& record) {
   std::filesystem::path part = record;
   return part.replace_filename(record.stem().string() + std::string(part_mark) +
                                record.extension().string());
 }
 
-std::filesystem::path whole_of(const std::filesystem::path& part) {
+std::filesystem::path whole_file(const std::filesystem::path& part) {
   std::string stem = part.stem().string();
   if (!stem.ends_with(part_mark) || stem.size() == part_mark.size()) return {};
   stem.resize(stem.size() - part_mark.size());
@@ -63,7 +63,7 @@ std::filesystem::path whole_of(const std::filesystem::path& part) {
 GrowingRecord::GrowingRecord(Session& session, const std::filesystem::path& record,
                              std::chrono::milliseconds period)
     : session_(session),
-      part_(part_of(record)),
+      part_(part_file(record)),
       period_(period),
       frame_cost_(first_cost),
       whole_(session.record()),

@@ -14,9 +14,9 @@
 namespace microswarm {
 
 /// File with the record so far of a run that will write `record`: run.part.h5 for run.h5.
-std::filesystem::path part_of(const std::filesystem::path& record);
+std::filesystem::path part_file(const std::filesystem::path& record);
 /// Record of a part file: run.h5 for run.part.h5; empty for another file.
-std::filesystem::path whole_of(const std::filesystem::path& part);
+std::filesystem::path whole_file(const std::filesystem::path& part);
 
 /// Writes the record so far of a session into the part file of its record, so that other programs
 /// can follow the run. The file is replaced atomically every few seconds and removed by the

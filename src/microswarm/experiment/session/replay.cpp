@@ -30,9 +30,9 @@ std::string shown(const Column& column, const void* row) {
 }
 
 /// The first row and quantity in which two lists differ; empty if they are equal.
-std::string difference_of(const std::string& row_name, const ListRef<const void*>& stored,
-                          const ListRef<const void*>& now) {
-  const std::vector<Column> columns = columns_of(stored.row_type());
+std::string first_difference(const std::string& row_name, const ListRef<const void*>& stored,
+                             const ListRef<const void*>& now) {
+  const std::vector<Column> columns = to_columns(stored.row_type());
   const bool timed = columns.front().key == "t_s";
   for (std::size_t i = 0; i < std::min(stored.size(), now.size()); ++i) {
     for (const Column& column : columns) {
@@ -58,13 +58,13 @@ struct Comparison {
   std::string difference;
 
   void table(const std::string& group, const ListRef<const void*>& stored) {
-    if (difference.empty()) difference = difference_of(row_name(group), stored, of_now(stored));
+    if (difference.empty()) difference = first_difference(row_name(group), stored, of_now(stored));
   }
   void parts(const std::string& group, const ListRef<const void*>& stored, const Field& field) {
     const ListRef<const void*> again = of_now(stored);
     for (std::size_t i = 0; i < stored.size() && difference.empty(); ++i)
-      difference = difference_of(group.substr(1) + " " + std::to_string(i) + ", row",
-                                 stored.part(i, field), again.part(i, field));
+      difference = first_difference(group.substr(1) + " " + std::to_string(i) + ", row",
+                                    stored.part(i, field), again.part(i, field));
   }
 
  private:
@@ -136,8 +136,8 @@ bool repeat(const Record& record, Session& session, Inputs& inputs, const Stop& 
   return true;
 }
 
-std::string difference_of(const Metrics& stored, const Metrics& now) {
-  for (const Column& column : columns_of<Metrics>()) {
+std::string first_difference(const Metrics& stored, const Metrics& now) {
+  for (const Column& column : to_columns<Metrics>()) {
     const double was = column.number(&stored), is = column.number(&now);
     if (!same_bits(was, is))
       return "metrics: " + column.key + " is " + number_text(was) + " in the record, " +
@@ -147,7 +147,7 @@ std::string difference_of(const Metrics& stored, const Metrics& now) {
 }
 
 /// The first difference of the replay; empty if there is none.
-std::string difference_of(const Record& record, const Record& now, const std::string& refused) {
+std::string first_difference(const Record& record, const Record& now, const std::string& refused) {
   Comparison comparison{&record, &now, refused};
   visit_tables(type_of<Record>(), static_cast<const void*>(&record), comparison);
   if (!record.diagnostics.empty()) {
@@ -159,7 +159,7 @@ std::string difference_of(const Record& record, const Record& now, const std::st
   if (record.result.status != now.result.status)
     return "status is " + std::string(to_string(record.result.status)) + " in the record, " +
            std::string(to_string(now.result.status)) + " in the replay";
-  std::string difference = difference_of(record.result.metrics, now.result.metrics);
+  std::string difference = first_difference(record.result.metrics, now.result.metrics);
   if (difference.empty() && !record.stated_hash.empty() && record.stated_hash != record.hash())
     difference = "record_hash is " + record.stated_hash + " in the record, " + record.hash() +
                  " by what it holds";
@@ -178,7 +178,7 @@ ReplayResult replay(const Record& record, const Stop& stop) {
   if (!repeat(record, session, inputs, stop))
     return {.identical = false, .stopped = true, .difference = {}};
 
-  std::string difference = difference_of(record, session.record(), inputs.refused());
+  std::string difference = first_difference(record, session.record(), inputs.refused());
   const bool identical = difference.empty();
   return {.identical = identical, .stopped = false, .difference = std::move(difference)};
 }

@@ -19,14 +19,14 @@ constexpr std::array<std::string_view, 8> changeable{
     "navigator",    "goal_um",      "goal_tolerance_um", "obstacles",
     "time_limit_s", "hold_limit_s", "hold_at_goal_s",    "stop_at_contact"};
 
-double max_speed_of(const Scenario& scenario) {
-  return scenario.robots ? scenario.robots->max_speed : limits_of(scenario.swarm).max_speed;
+double swarm_max_speed(const Scenario& scenario) {
+  return scenario.robots ? scenario.robots->max_speed : swarm_limits(scenario.swarm).max_speed;
 }
 
 /// Whether the model file changes; model files are read only when the scenario is opened.
 bool names_another_model(const Scenario& a, const Scenario& b) {
-  const FollowerParams* first = follower_of(a.navigator);
-  const FollowerParams* second = follower_of(b.navigator);
+  const FollowerParams* first = find_follower(a.navigator);
+  const FollowerParams* second = find_follower(b.navigator);
   return second && !second->model.empty() && (!first || first->model != second->model);
 }
 
@@ -58,11 +58,11 @@ RunningExperiment::RunningExperiment(Scenario scenario, World world, std::uint32
       plant_(plant ? std::move(plant) : make_kinematic_plant(scenario_, world_, trial)),
       has_external_navigator_(navigator != nullptr),
       navigator_(navigator ? std::move(navigator) : made()),
-      operation_(max_speed_of(scenario_)),
+      operation_(swarm_max_speed(scenario_)),
       episode_(scenario_, *plant_, *navigator_, &operation_) {}
 
 std::shared_ptr<Navigator> RunningExperiment::made() const {
-  return make_navigator(scenario_.navigator, task_of(scenario_),
+  return make_navigator(scenario_.navigator, navigation_task(scenario_),
                         Rng(scenario_.seed, Purpose::planner, trial_));
 }
 

@@ -76,7 +76,7 @@ bool Session::seek(std::size_t frame) {
 }
 
 SessionView Session::view() const {
-  if (tick_) return view_of(*tick_, ticks_ - 1, plans_);
+  if (tick_) return session_view(*tick_, ticks_ - 1, plans_);
   SessionView view;
   if (scenario().start) view.frame.pose = *scenario().start;
   return view;

@@ -40,7 +40,7 @@ void require_place(const char* name, Vec2 p) {
 
 StandaloneNavigator::StandaloneNavigator(Experiment experiment, std::uint32_t trial)
     : experiment_(std::move(experiment)),
-      navigator_(make_navigator(scenario().navigator, task_of(scenario()),
+      navigator_(make_navigator(scenario().navigator, navigation_task(scenario()),
                                 Rng(scenario().seed, Purpose::planner, trial))),
       numbers_(reach_in(map())),
       memory_(scenario().sensing.obstacle_memory) {
@@ -106,7 +106,7 @@ Command StandaloneNavigator::step(const ExternalObservation& given, const Stop& 
   std::vector<Body> bodies = given.obstacles;
   if (!given.are_numbered) numbers_.number(bodies, given.seen, stop);
   std::optional<SwarmPose> swarm = given.swarm;
-  if (!given.robots.empty()) swarm = body_of(given.robots, command_.heading);
+  if (!given.robots.empty()) swarm = enclosing_pose(given.robots, command_.heading);
   const Observation seen =
       memory_.complete({.now = given.now,
                         .seen = given.seen,

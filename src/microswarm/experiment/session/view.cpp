@@ -3,7 +3,7 @@
 
 namespace microswarm {
 
-SessionView view_of(const Tick& tick, std::uint64_t number, std::uint64_t plans) {
+SessionView session_view(const Tick& tick, std::uint64_t number, std::uint64_t plans) {
   SessionView view{.frame = tick.frame,
                    .number = number,
                    .end = tick.end,

@@ -31,6 +31,6 @@ struct SessionView {
 };
 
 /// View of a tick.
-SessionView view_of(const Tick& tick, std::uint64_t number, std::uint64_t plans);
+SessionView session_view(const Tick& tick, std::uint64_t number, std::uint64_t plans);
 
 }  // namespace microswarm

@@ -241,7 +241,7 @@ std::string encode_png(const Image& image) {
   return {static_cast<const char*>(bytes.get()), size};
 }
 
-std::vector<std::uint8_t> transparency_of(Bytes bytes, std::string_view name) {
+std::vector<std::uint8_t> transparency(Bytes bytes, std::string_view name) {
   if (!is_png(bytes)) return {};
   const OpenPng png(bytes, name);
   if (!png.transparent) return {};

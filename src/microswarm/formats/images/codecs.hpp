@@ -24,7 +24,7 @@ DecodedImage decode_pixels(std::span<const std::byte> bytes, std::string_view na
 
 /// 1 for each pixel of a PNG that is not opaque, else 0; empty for a picture without transparency.
 /// Throws as `decode_pixels`.
-std::vector<std::uint8_t> transparency_of(std::span<const std::byte> bytes, std::string_view name);
+std::vector<std::uint8_t> transparency(std::span<const std::byte> bytes, std::string_view name);
 
 /// Encodes an image as an 8-bit PNG. Throws InputError "cannot encode a PNG: WHY".
 std::string encode_png(const Image& image);

@@ -55,7 +55,7 @@ bool has_image_extension(const std::filesystem::path& path) {
 
 std::vector<std::uint8_t> read_transparency(const std::filesystem::path& path) {
   const std::string bytes = read_file(path, max_file_bytes);
-  return transparency_of(std::as_bytes(std::span(bytes.data(), bytes.size())), path.string());
+  return transparency(std::as_bytes(std::span(bytes.data(), bytes.size())), path.string());
 }
 
 std::optional<int> sample_depth(const std::filesystem::path& path) {
@@ -64,7 +64,7 @@ std::optional<int> sample_depth(const std::filesystem::path& path) {
   if (!is_png(raw) && !is_tiff(raw)) return std::nullopt;
   const DecodedImage decoded = decode_pixels(raw, path.string());
   const auto* deep = std::get_if<DeepImage>(&decoded);
-  return deep ? std::optional(depth_of(deep->samples)) : std::nullopt;
+  return deep ? std::optional(used_depth(deep->samples)) : std::nullopt;
 }
 
 Image read_photograph(const std::filesystem::path& path) {

@@ -132,9 +132,9 @@ std::vector<Polygon> mask_walls(const Mask& set, double cell, Vec2 lo) {
   check_cell(set, cell, lo);
   Tracer tracer(set);
   std::vector<Polygon> walls;
-  std::vector<std::uint32_t> wall_of;  // for each ring
+  std::vector<std::uint32_t> ring_walls;  // for each ring
   const auto ring = [&](Corner start, unsigned direction) {
-    const auto number = static_cast<std::uint32_t>(wall_of.size());
+    const auto number = static_cast<std::uint32_t>(ring_walls.size());
     const std::vector<Corner> corners = tracer.trace(start, direction, number);
     std::vector<Vec2> points;
     points.reserve(corners.size());
@@ -154,11 +154,11 @@ std::vector<Polygon> mask_walls(const Mask& set, double cell, Vec2 lo) {
       if (tracer.ring_of_left_edge(column, row) == Tracer::no_ring) {
         if (is_set) {
           walls.push_back({ring({column, row}, south), {}});
-          wall_of.push_back(static_cast<std::uint32_t>(walls.size() - 1));
+          ring_walls.push_back(static_cast<std::uint32_t>(walls.size() - 1));
         } else {
-          const std::uint32_t wall = wall_of[left_ring];
+          const std::uint32_t wall = ring_walls[left_ring];
           walls[wall].holes.push_back(ring({column, row + 1}, north));
-          wall_of.push_back(wall);
+          ring_walls.push_back(wall);
         }
       }
       left_ring = tracer.ring_of_left_edge(column, row);

@@ -24,7 +24,7 @@ void check(const Samples2d<Sample>& picture, std::string_view name) {
 
 }  // namespace
 
-int depth_of(std::span<const std::uint16_t> samples) {
+int used_depth(std::span<const std::uint16_t> samples) {
   const std::uint16_t largest = samples.empty() ? 0 : *std::ranges::max_element(samples);
   return std::clamp(static_cast<int>(std::bit_width(largest)), 8, 16);
 }

@@ -19,7 +19,7 @@ struct Samples2d {
 };
 
 /// Bits, 8 to 16, that the largest sample needs.
-int depth_of(std::span<const std::uint16_t> samples);
+int used_depth(std::span<const std::uint16_t> samples);
 
 /// Scales numbers of `depth` bits to 8 bits, rounded to the nearest; what is larger becomes 255.
 void to_8_bits(std::span<const std::uint16_t> samples, int depth, std::span<std::uint8_t> out);

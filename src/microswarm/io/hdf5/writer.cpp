@@ -17,7 +17,7 @@ void need(bool done) {
 }
 
 /// UTF-8 only where it is needed: Octave cannot read it.
-H5T_cset_t characters_of(std::string_view text) {
+H5T_cset_t character_set(std::string_view text) {
   const bool plain = std::ranges::all_of(text, [](char c) { return (c & 0x80) == 0; });
   return plain ? H5T_CSET_ASCII : H5T_CSET_UTF8;
 }
@@ -116,20 +116,20 @@ class ImageWriter : public Hdf5Writer {
     for (const std::string& value : values) longest = std::max(longest, value.size());
     std::string bytes(longest * values.size(), '\0');
     for (std::size_t i = 0; i < values.size(); ++i) values[i].copy(&bytes[i * longest], longest);
-    write_column(file_, path, text_type(longest, characters_of(bytes)), values.size(),
+    write_column(file_, path, text_type(longest, character_set(bytes)), values.size(),
                  bytes.data());
   }
 
   void text(const std::string& path, std::string_view value) override {
     const Use use;
     const Id space(H5Screate(H5S_SCALAR), H5Sclose);
-    const Id type = text_type(value.size(), characters_of(value));
+    const Id type = text_type(value.size(), character_set(value));
     write_dataset(file_, path, type, space, 1, std::string(value).c_str());
   }
 
   void attribute(const std::string& path, const char* name, std::string_view value) override {
     const Use use;
-    const Id type = text_type(value.size(), characters_of(value));
+    const Id type = text_type(value.size(), character_set(value));
     write_attribute(file_, path, name, type, std::string(value).c_str());
   }
 

@@ -11,12 +11,12 @@ namespace microswarm {
 namespace {
 
 /// Nearest point of an outline to `p`.
-Vec2 nearest_of(const Disc& disc, Vec2 p) {
+Vec2 nearest_to(const Disc& disc, Vec2 p) {
   const Vec2 away = p - disc.centre;
   const double d = norm(away);
   return d > 0 ? disc.centre + (disc.radius / d) * away : disc.centre;
 }
-Vec2 nearest_of(const Polygon& polygon, Vec2 p) {
+Vec2 nearest_to(const Polygon& polygon, Vec2 p) {
   Vec2 nearest;
   double least = std::numeric_limits<double>::infinity();
   for_each_edge(polygon, [&](Vec2 a, Vec2 b) {
@@ -27,8 +27,8 @@ Vec2 nearest_of(const Polygon& polygon, Vec2 p) {
   });
   return nearest;
 }
-Vec2 nearest_of(const Body& body, Vec2 p) {
-  return std::visit([&](const auto& shape) { return nearest_of(shape, p); }, body.shape);
+Vec2 nearest_to(const Body& body, Vec2 p) {
+  return std::visit([&](const auto& shape) { return nearest_to(shape, p); }, body.shape);
 }
 
 }  // namespace
@@ -56,11 +56,11 @@ Decision PotentialFieldNavigator::decide(const Moment& moment) {
   const Vec2 p = moment.pose.position;
   const Vec2 target = guide_.target(world.map(), p);
   step_view().local_target = target;
-  const Vec2 draw = unit_vector(heading_of(target - p));
+  const Vec2 draw = unit_vector(heading_along(target - p));
   Vec2 pushes = push_of_walls(world.map(), p);
   const auto bodies = world.moving().bodies();
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    pushes += push_of(bodies[i], tracker_.body(i), p, speed() * draw);
+    pushes += repulsive_push(bodies[i], tracker_.body(i), p, speed() * draw);
   const Vec2 force = draw + pushes;
   if (norm(force) < params_.min_force) return hold(NavigatorState::stuck);
   if (const auto command = clear_of_walls(world.map(), moment.pose, force))
@@ -98,11 +98,11 @@ Vec2 PotentialFieldNavigator::push_of_walls(const Map& map, Vec2 p) const {
 /// point, and sideways in the direction in which the two already pass each other. `wanted` is the
 /// swarm's velocity without obstacles. Using its current velocity, it would oscillate in front of
 /// resting obstacles.
-Vec2 PotentialFieldNavigator::push_of(const Body& body, const TrackedBody& motion, Vec2 p,
-                                      Vec2 wanted) const {
+Vec2 PotentialFieldNavigator::repulsive_push(const Body& body, const TrackedBody& motion, Vec2 p,
+                                             Vec2 wanted) const {
   const Vec2 at = p - delay() * motion.velocity;  // relative to the body's observed position
   const bool inside = depth_in(body, at) >= 0;
-  const Vec2 offset = (inside ? motion.centre : nearest_of(body, at)) - at;
+  const Vec2 offset = (inside ? motion.centre : nearest_to(body, at)) - at;
   const double d = norm(offset);
   if (d == 0) return {};
   const Vec2 n = (1 / d) * offset;
@@ -128,7 +128,7 @@ std::optional<Command> PotentialFieldNavigator::clear_of_walls(const Map& map, c
   for (int k = 0; k <= 2 * max_aside; ++k) {
     const int steps = k % 2 == 0 ? -k / 2 : (k + 1) / 2;
     const double aside = steps * step_aside;
-    Command command{wrap(heading_of(force) + aside), commanded};
+    Command command{wrap(heading_along(force) + aside), commanded};
     const double turn = std::isinf(turn_rate) ? 0 : wrap(command.heading - pose.heading);
     if (std::abs(turn) > pi / 2) command.speed *= 0.5;
     const Pose2 next = unicycle_step(pose, command, turn_rate, params_.tuning.command_time / 2);

@@ -24,7 +24,7 @@ class PotentialFieldNavigator : public SteeringNavigator {
   Decision decide(const Moment& moment) override;
   double push(double gap, double influence) const;
   Vec2 push_of_walls(const Map& map, Vec2 p) const;
-  Vec2 push_of(const Body& body, const TrackedBody& motion, Vec2 p, Vec2 wanted) const;
+  Vec2 repulsive_push(const Body& body, const TrackedBody& motion, Vec2 p, Vec2 wanted) const;
   double calm_near_goal(Vec2 p) const;
   std::optional<Command> clear_of_walls(const Map& map, const Pose2& pose, Vec2 force) const;
 

@@ -18,7 +18,7 @@ void StraightNavigator::prepare(const Snapshot& world, const Stop&) {
 Decision StraightNavigator::decide(const Moment& moment) {
   step_view().local_target = aim().position;
   if (!path_is_clear(moment.world(), moment.pose)) return hold();
-  return {{heading_of(aim().position - moment.pose.position), speed()}, NavigatorState::follow};
+  return {{heading_along(aim().position - moment.pose.position), speed()}, NavigatorState::follow};
 }
 
 /// Whether the path to the goal, including the turn into it, is clear up to the stop distance.
@@ -31,7 +31,7 @@ bool StraightNavigator::path_is_clear(const Snapshot& world, Pose2 pose) const {
       std::min(wall_clearance(wanted, pose.position, params_.stop_distance), here);
   double left = std::min(params_.stop_distance, distance(pose.position, aim().position));
   for (int k = 0; k < max_ticks && left > rounding; ++k) {
-    const Command command{heading_of(aim().position - pose.position), speed()};
+    const Command command{heading_along(aim().position - pose.position), speed()};
     const bool aligned = std::isinf(swarm().max_turn_rate) ||
                          std::abs(wrap(command.heading - pose.heading)) < rounding;
     const double dt =

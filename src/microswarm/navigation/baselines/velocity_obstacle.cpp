@@ -89,7 +89,7 @@ Decision VelocityObstacleNavigator::decide(const Moment& moment) {
   const Vec2 target = guide_.target(map, pose.position);
   step_view().local_target = target;
   find_threats(moment.world(), pose.position);
-  const double preferred = heading_of(target - pose.position);
+  const double preferred = heading_along(target - pose.position);
   Command best{pose.heading, 0};
   double min_penalty = never;
   for (const Choice& choice : choices_) {

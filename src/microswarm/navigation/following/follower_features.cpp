@@ -9,13 +9,14 @@
 
 namespace microswarm {
 
-FollowerFeatures features_of(const FollowerQuery& query) {
+FollowerFeatures to_features(const FollowerQuery& query) {
   const Vec2 from = query.pose.position;
   const auto ahead = [&](std::size_t k) {
-    return point_ahead(query.path, query.place, preview_times[k] * query.speed) - from;
+    return point_ahead(query.path, query.position, preview_times[k] * query.speed) - from;
   };
   const Vec2 to = ahead(bearing_preview);
-  FollowerFeatures features{.bearing = squared_norm(to) > 0 ? heading_of(to) : query.pose.heading};
+  FollowerFeatures features{.bearing =
+                                squared_norm(to) > 0 ? heading_along(to) : query.pose.heading};
   const Vec2 x = unit_vector(features.bearing);
   const Vec2 y{-x.y, x.x};
   auto feature = features.features.begin();

@@ -11,7 +11,7 @@ namespace microswarm {
 /// Inputs of a learned follower.
 struct FollowerQuery {
   std::span<const Vec2> path;
-  PathPlace place;           ///< position nearest to the swarm
+  PathPosition position;     ///< position nearest to the swarm
   Pose2 pose;                ///< pose at which the command takes effect
   double speed = 0;          ///< commanded [µm/s]
   Vec2 flow;                 ///< estimated drift of the swarm [µm/s]
@@ -32,6 +32,6 @@ struct FollowerFeatures {
   double bearing = 0;  ///< direction of the path point 0.5 s ahead [rad]
   std::array<double, feature_count> features{};
 };
-FollowerFeatures features_of(const FollowerQuery& query);
+FollowerFeatures to_features(const FollowerQuery& query);
 
 }  // namespace microswarm

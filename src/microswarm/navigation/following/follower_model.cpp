@@ -25,7 +25,7 @@ std::optional<std::array<double, feature_count>> FollowerModel::scaled(
 }
 
 std::optional<Command> FollowerModel::command(const FollowerQuery& query) const {
-  const FollowerFeatures seen = features_of(query);
+  const FollowerFeatures seen = to_features(query);
   const auto features = scaled(seen.features);
   if (!features) return std::nullopt;
   std::array<double, 2> answer{};

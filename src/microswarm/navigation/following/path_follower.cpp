@@ -26,28 +26,28 @@ void PathFollower::update(const Observation& seen, const DelayCompensator& compe
   flow_.update(seen, compensator);
 }
 
-FollowerQuery PathFollower::query(std::span<const Vec2> path, PathPlace& place, const Pose2& pose,
-                                  double speed) const {
+FollowerQuery PathFollower::query(std::span<const Vec2> path, PathPosition& position,
+                                  const Pose2& pose, double speed) const {
   // The delay compensator does not include the flow.
   const Pose2 carried{pose.position + delay_ * flow(), pose.heading};
-  place = nearest_place(path, carried.position, place);
-  return {path, place, carried, speed, flow(), max_turn_rate_};
+  position = nearest_position(path, carried.position, position);
+  return {path, position, carried, speed, flow(), max_turn_rate_};
 }
 
-PathFollower::Answer PathFollower::command(std::span<const Vec2> path, PathPlace& place,
+PathFollower::Answer PathFollower::command(std::span<const Vec2> path, PathPosition& position,
                                            const Pose2& pose, double lookahead,
                                            double speed) const {
-  if (!knows_flow()) return {pursue(path, place, pose, lookahead, speed)};
-  const FollowerQuery asked = query(path, place, pose, speed);
+  if (!knows_flow()) return {pursue(path, position, pose, lookahead, speed)};
+  const FollowerQuery asked = query(path, position, pose, speed);
   if (learned_)
     if (const auto command = learned_->command(asked)) return {*command};
-  return {pursue_in_flow(path, place, asked.pose, lookahead, speed, asked.flow),
+  return {pursue_in_flow(path, position, asked.pose, lookahead, speed, asked.flow),
           learned_ != nullptr};
 }
 
-Command pursue_in_flow(std::span<const Vec2> path, PathPlace& place, const Pose2& pose,
+Command pursue_in_flow(std::span<const Vec2> path, PathPosition& position, const Pose2& pose,
                        double lookahead, double speed, Vec2 flow) {
-  Command command = pursue(path, place, pose, lookahead, speed);
+  Command command = pursue(path, position, pose, lookahead, speed);
   const Vec2 along = unit_vector(command.heading);
   const double across = along.x * flow.y - along.y * flow.x;
   // No heading holds the line if the flow is as fast as the swarm.

@@ -24,12 +24,12 @@ class PathFollower {
 
   /// Processes a frame with a swarm; call it first in a step.
   void update(const Observation& seen, const DelayCompensator& compensator);
-  /// Command for a swarm that is at `pose` when it takes effect; advances `place`. `lookahead` [µm]
-  /// is that of pure pursuit. Future poses may be queried too. Does not allocate.
-  Answer command(std::span<const Vec2> path, PathPlace& place, const Pose2& pose, double lookahead,
-                 double speed) const;
-  /// Inputs of a learned follower at that pose; advances `place`.
-  FollowerQuery query(std::span<const Vec2> path, PathPlace& place, const Pose2& pose,
+  /// Command for a swarm that is at `pose` when it takes effect; advances `position`. `lookahead`
+  /// [µm] is that of pure pursuit. Future poses may be queried too. Does not allocate.
+  Answer command(std::span<const Vec2> path, PathPosition& position, const Pose2& pose,
+                 double lookahead, double speed) const;
+  /// Inputs of a learned follower at that pose; advances `position`.
+  FollowerQuery query(std::span<const Vec2> path, PathPosition& position, const Pose2& pose,
                       double speed) const;
   Vec2 flow() const { return flow_.flow(); }  ///< [µm/s]
 
@@ -47,7 +47,7 @@ class PathFollower {
 
 /// Pure pursuit with drift correction: the heading at which a swarm of `speed`, moved by itself and
 /// by the flow, reaches the point `lookahead` µm ahead.
-Command pursue_in_flow(std::span<const Vec2> path, PathPlace& place, const Pose2& pose,
+Command pursue_in_flow(std::span<const Vec2> path, PathPosition& position, const Pose2& pose,
                        double lookahead, double speed, Vec2 flow);
 
 }  // namespace microswarm

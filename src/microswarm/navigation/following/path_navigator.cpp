@@ -27,8 +27,8 @@ void PathNavigator::update(const Observation& seen, const Stop&) {
 
 Decision PathNavigator::decide(const Moment& moment) {
   if (path_.size() < 2) path_.insert(path_.begin(), moment.seen.swarm->pose.position);
-  const auto next = follower_.command(path_, place_, moment.pose, params_.lookahead, speed());
-  step_view().local_target = point_ahead(path_, place_, params_.lookahead);
+  const auto next = follower_.command(path_, position_, moment.pose, params_.lookahead, speed());
+  step_view().local_target = point_ahead(path_, position_, params_.lookahead);
   if (!path_is_clear(moment.world(), moment.pose)) return hold();
   return {next.command, next.handed_over ? NavigatorState::fallback : NavigatorState::follow};
 }
@@ -46,9 +46,9 @@ bool PathNavigator::path_is_clear(const Snapshot& world, Pose2 pose) const {
   const double wanted =
       wall_clearance(swarm().radius + params_.gap, pose.position, speed() * params_.horizon);
   const double r = std::min(wanted, (1 - rounding) * world.clearance(pose.position));
-  PathPlace place = place_;
+  PathPosition position = position_;
   for (double t = 0; t < params_.horizon && !arrives(pose.position); t += tick) {
-    const auto next = follower_.command(path_, place, pose, params_.lookahead, speed()).command;
+    const auto next = follower_.command(path_, position, pose, params_.lookahead, speed()).command;
     const Pose2 moved = unicycle_step(pose, next, swarm().max_turn_rate, tick);
     if (!world.is_free(Segment{pose.position, moved.position}, r)) return false;
     pose = moved;

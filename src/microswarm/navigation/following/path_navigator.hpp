@@ -28,7 +28,7 @@ class PathNavigator : public SteeringNavigator {
   PathNavigatorParams params_;
   PathFollower follower_;
   std::vector<Vec2> path_;  ///< including the goal
-  PathPlace place_;
+  PathPosition position_;
 };
 
 }  // namespace microswarm

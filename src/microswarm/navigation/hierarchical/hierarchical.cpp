@@ -123,7 +123,7 @@ std::optional<Decision> HierarchicalNavigator::keep_path(const Snapshot& seen) {
   for (const double ease : params_.tuning.speed_shares) {
     const double speed = ease * params_.speed;
     if (!params_.as_published && !path_is_safe(seen, speed)) continue;
-    const auto next = follow(place_, pose_, speed);
+    const auto next = follow(position_, pose_, speed);
     return Decision{next.command,
                     next.handed_over ? NavigatorState::fallback : NavigatorState::follow};
   }
@@ -133,17 +133,17 @@ std::optional<Decision> HierarchicalNavigator::keep_path(const Snapshot& seen) {
 // A path to a local target is replaced before its end, the one to the aim at its end.
 bool HierarchicalNavigator::is_used_up() {
   if (!has_path() || !target_) return false;
-  if (!(*target_ == aim().position)) return remaining(path_, place_) < used_up();
+  if (!(*target_ == aim().position)) return remaining(path_, position_) < used_up();
   if (params_.as_published) return false;
-  place_ = nearest_place(path_, pose_.position, place_);
-  return remaining(path_, place_) < path_end();
+  position_ = nearest_position(path_, pose_.position, position_);
+  return remaining(path_, position_) < path_end();
 }
 
 // Path Safety, P_clt Unsafe: tests the rest of the path against the current observation.
 bool HierarchicalNavigator::path_holds(const Snapshot& world) const {
   if (!has_path()) return false;
-  std::vector<Vec2> rest{point_ahead(path_, place_, 0)};
-  rest.insert(rest.end(), path_.begin() + static_cast<std::ptrdiff_t>(place_.piece) + 1,
+  std::vector<Vec2> rest{point_ahead(path_, position_, 0)};
+  rest.insert(rest.end(), path_.begin() + static_cast<std::ptrdiff_t>(position_.piece) + 1,
               path_.end());
   const double clearance = std::min(params_.clearance, path_clearance_);
   return path_in_time_ ? is_free_in_time(world, obstacles_, rest, params_.speed, delay(),
@@ -153,7 +153,7 @@ bool HierarchicalNavigator::path_holds(const Snapshot& world) const {
 
 void HierarchicalNavigator::replan(const Snapshot& seen, const Stop& stop) {
   path_.clear();
-  place_ = {};
+  position_ = {};
   const double here = seen.clearance(pose_.position);
   double wanted = params_.clearance + params_.extra_clearance;
   if (distance(pose_.position, aim().position) <= ahead())  // it may have less
@@ -228,7 +228,7 @@ bool HierarchicalNavigator::replan_with(const Snapshot& world, double clearance,
   if (!world.is_free(from, clearance)) return false;
   path_in_time_ = false;
   const LocalTargetQuery query{.swarm = pose_,
-                               .goal_heading = heading_of(towards() - from),
+                               .goal_heading = heading_along(towards() - from),
                                .goal_distance = distance(from, aim().position),
                                .previous_target = target_,
                                .clearance = clearance,
@@ -269,7 +269,7 @@ void HierarchicalNavigator::plan_to(const Snapshot& world, Vec2 target, double c
 // A learned follower circles a small goal, so pure pursuit takes over for the last part. At the
 // goal and at the end of the path it holds, and it does not pass the aim within a tick, so that the
 // look-ahead matches the motion.
-PathFollower::Answer HierarchicalNavigator::follow(PathPlace& position, const Pose2& pose,
+PathFollower::Answer HierarchicalNavigator::follow(PathPosition& position, const Pose2& pose,
                                                    double speed) const {
   const double lookahead = params_.as_published ? params_.lookahead : lookahead_at(speed);
   const bool last_bit =
@@ -285,7 +285,7 @@ PathFollower::Answer HierarchicalNavigator::follow(PathPlace& position, const Po
 }
 
 bool HierarchicalNavigator::path_is_safe(const Snapshot& seen, double speed) const {
-  PathPlace position = place_;
+  PathPosition position = position_;
   const auto follow_path = [&](const Pose2& pose, double) {
     return follow(position, pose, speed).command;
   };

@@ -49,7 +49,7 @@ class HierarchicalNavigator : public SteeringNavigator {
   Vec2 towards();
   /// Look-ahead along the route [µm]; within it a visible goal is the target.
   double ahead() const { return 1.5 * params_.target.base_distance; }
-  PathFollower::Answer follow(PathPlace& position, const Pose2& pose, double speed) const;
+  PathFollower::Answer follow(PathPosition& position, const Pose2& pose, double speed) const;
   bool path_is_safe(const Snapshot& seen, double speed) const;
   double lookahead_at(double speed) const {
     return params_.lookahead * std::max(0.5, speed / params_.speed);
@@ -76,7 +76,7 @@ class HierarchicalNavigator : public SteeringNavigator {
   PathFollower follower_;
   Pose2 pose_;  ///< pose at which the command of this step takes effect
   std::vector<Vec2> path_;
-  PathPlace place_;
+  PathPosition position_;
   double path_clearance_ = 0;
   bool path_in_time_ = false;  ///< whether the path was chosen among predicted obstacles
   std::optional<Vec2> target_;

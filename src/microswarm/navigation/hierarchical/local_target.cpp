@@ -27,7 +27,7 @@ double selection_cost(const Snapshot& world, const LocalTargetQuery& q, const Lo
                 p.border_weight * nearness(world.map().border_clearance(test), range) +  // Eq 4d
                 p.goal_weight * goal_turn * goal_turn;                                   // Eq 4e
   if (q.previous_target) {                                                               // Eq 4f
-    const double previous = heading_of(*q.previous_target - q.swarm.position);
+    const double previous = heading_along(*q.previous_target - q.swarm.position);
     const double turn = turn_between(heading, previous) / (2 * pi);
     cost += p.direction_weight * turn * turn;
   }
@@ -55,14 +55,14 @@ std::optional<double> best_heading(const Snapshot& world, const LocalTargetQuery
 }
 
 // The circle lies midway to the previous target; for the first one its diameter is ‖s_s − s_g‖.
-Detection detection_of(const Snapshot& world, const LocalTargetQuery& query,
-                       const LocalTargetParams& params, const Stop& stop) {
+Detection detect_obstacles(const Snapshot& world, const LocalTargetQuery& query,
+                           const LocalTargetParams& params, const Stop& stop) {
   const Vec2 from = query.swarm.position;
   const double ahead = query.previous_target
                            ? std::min(params.base_distance, distance(from, *query.previous_target))
                            : query.goal_distance;
   const double towards =
-      query.previous_target ? heading_of(*query.previous_target - from) : query.goal_heading;
+      query.previous_target ? heading_along(*query.previous_target - from) : query.goal_heading;
   const double diameter = query.previous_target ? params.detection_diameter : query.goal_distance;
   return detect(world, {from + 0.5 * ahead * unit_vector(towards), 0.5 * diameter}, params.rho_min,
                 stop);
@@ -72,7 +72,7 @@ Detection detection_of(const Snapshot& world, const LocalTargetQuery& query,
 
 double target_distance(const Snapshot& world, const LocalTargetQuery& query,
                        const LocalTargetParams& params, const Stop& stop) {
-  return detection_of(world, query, params, stop).rho * params.base_distance;
+  return detect_obstacles(world, query, params, stop).rho * params.base_distance;
 }
 
 std::optional<LocalTarget> select_local_target(const Snapshot& world, const LocalTargetQuery& query,
@@ -81,7 +81,7 @@ std::optional<LocalTarget> select_local_target(const Snapshot& world, const Loca
   if (!world.is_free(from, query.clearance)) return std::nullopt;
   const double r = std::max(1.0, query.clearance);
   const double range = params.influence_range.value_or(r * r);
-  const Detection detection = detection_of(world, query, params, stop);
+  const Detection detection = detect_obstacles(world, query, params, stop);
 
   double reach = std::min(detection.rho * params.base_distance, query.goal_distance);
   const double least = std::min(reach, std::max(query.min_distance, 1e-3));

@@ -38,7 +38,7 @@ class PredictedChoice {
   void consider(Vec2 target, double wait) {
     const Vec2 from = q_.swarm.position;
     const double length = distance(from, target);
-    const double heading = heading_of(target - from);
+    const double heading = heading_along(target - from);
     double cost = length + q_.wait_weight * q_.speed * wait +
                   q_.turn_weight * turn_between(heading, q_.swarm.heading);
     if (!(cost < best_cost_) || !frame_.map().is_free(Segment{from, target}, q_.clearance)) return;
@@ -49,7 +49,7 @@ class PredictedChoice {
     const Vec2 next = distance(target, q_.towards) > same_place ? q_.towards : q_.goal;
     const double left = std::min(q_.horizon - wait - time, distance(target, next) / q_.speed);
     if (left > 0) {
-      const double next_heading = heading_of(next - target);
+      const double next_heading = heading_along(next - target);
       cost += q_.turn_weight * turn_between(next_heading, heading);
       if (cost >= best_cost_) return;  // a contact only adds to it
       cost += q_.contact_weight * q_.speed *
@@ -89,7 +89,7 @@ std::optional<PredictedTarget> select_predicted_target(
     const Snapshot& frame, const ObstaclePredictor& obstacles, const PredictedTargetQuery& q,
     const std::function<double(Vec2)>& length_from) {
   const Vec2 from = q.swarm.position;
-  const double straight = heading_of(q.towards - from);
+  const double straight = heading_along(q.towards - from);
   const double goal_distance = distance(from, q.goal);
   const int directions = std::max(4, static_cast<int>(std::lround(2 * pi / q.angle_step)));
   PredictedChoice choice(frame, obstacles, q, length_from);
@@ -112,7 +112,7 @@ bool is_free_in_time(const Snapshot& frame, const ObstaclePredictor& obstacles,
     if (!frame.map().is_free(leg, clearance)) return false;
     const double time = std::min(horizon - t, distance(leg.a, leg.b) / speed);
     if (time <= 0) continue;
-    if (free_time(frame, obstacles, leg, heading_of(leg.b - leg.a), speed, delay + t, time,
+    if (free_time(frame, obstacles, leg, heading_along(leg.b - leg.a), speed, delay + t, time,
                   clearance) < time)
       return false;
     t += time;

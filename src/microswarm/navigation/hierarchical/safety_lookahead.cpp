@@ -101,7 +101,7 @@ SafetyLookahead::Rollout SafetyLookahead::look_ahead(const Start& start, double 
 
 Command SafetyLookahead::escape(const Start& start) const {
   constexpr int directions = 16;
-  const double goal_heading = heading_of(start.aim.position - start.pose.position);
+  const double goal_heading = heading_along(start.aim.position - start.pose.position);
   Command best{start.pose.heading, 0};
   double best_score = -1;
   double best_clearance = 0;

@@ -81,16 +81,16 @@ void BodyNumbers::number(std::vector<Body>& bodies, double t, const Stop& stop) 
   Pairing pairing(expected, reach_);
   std::vector<AssignmentEdge> edges;
   for (std::size_t b = 0; b < bodies.size() && !stop(); ++b)
-    pairing.add(static_cast<int>(b), extent_of(bodies[b]).centre, edges);
-  const auto known_of =
+    pairing.add(static_cast<int>(b), enclosing_disc(bodies[b]).centre, edges);
+  const auto known_numbers =
       assignment_.solve(static_cast<int>(bodies.size()), static_cast<int>(known_.size()), edges,
                         reach_ * reach_, stop);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const Vec2 centre = extent_of(bodies[b]).centre;
+    const Vec2 centre = enclosing_disc(bodies[b]).centre;
     const double radius = std::visit(Overloaded{[](const Disc& disc) { return disc.radius; },
                                                 [](const Polygon&) { return 0.0; }},
                                      bodies[b].shape);
-    if (!known_of[b]) {
+    if (!known_numbers[b]) {
       bodies[b].obstacle = next_++;
       known_.push_back({.number = bodies[b].obstacle,
                         .radius = radius,
@@ -99,7 +99,7 @@ void BodyNumbers::number(std::vector<Body>& bodies, double t, const Stop& stop) 
                         .t = t});
       continue;
     }
-    Known& known = known_[static_cast<std::size_t>(*known_of[b])];
+    Known& known = known_[static_cast<std::size_t>(*known_numbers[b])];
     bodies[b].obstacle = known.number;
     if (t > known.t) {
       const Vec2 moved = (centre - known.centre) / (t - known.t);

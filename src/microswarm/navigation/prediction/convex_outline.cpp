@@ -80,7 +80,7 @@ void ConvexOutline::distances_at(std::span<const double> x, std::span<const doub
 }
 
 void ConvexOutliner::take(const Body& body, ConvexOutline& out) {
-  const Disc extent = extent_of(body);
+  const Disc extent = enclosing_disc(body);
   out.centre = extent.centre;
   out.radius = extent.radius;
   out.edges.clear();

@@ -54,7 +54,7 @@ bool is_noiseless(std::span<const Sighting> sightings, std::size_t count, double
   return small > count / 2;
 }
 
-double noise_of(std::span<const Sighting> sightings, const MotionFitTuning& tuning) {
+double noise_level(std::span<const Sighting> sightings, const MotionFitTuning& tuning) {
   if (sightings.size() < static_cast<std::size_t>(tuning.min_noise_sightings))
     return tuning.initial_noise;
   const std::size_t count = std::min(sightings.size() - 3, max_differences);
@@ -92,7 +92,7 @@ struct Curve {
   double rate_variance = 0;  ///< of c₁, for a noise of 1
 };
 
-double residual_of(const Moments& m, const std::array<Vec2, 3>& c) {
+double squared_residual(const Moments& m, const std::array<Vec2, 3>& c) {
   double sum = m.squares;
   for (std::size_t k = 0; k < 3; ++k) sum -= dot(c[k], m.p[k]);
   return std::max(0.0, sum);
@@ -103,7 +103,7 @@ Curve straight_through(const Moments& m) {
   Curve out;
   out.c[0] = (m.t[2] * m.p[0] - m.t[1] * m.p[1]) / det;
   out.c[1] = (m.t[0] * m.p[1] - m.t[1] * m.p[0]) / det;
-  out.residual = residual_of(m, out.c);
+  out.residual = squared_residual(m, out.c);
   out.rate_variance = m.t[0] / det;
   return out;
 }
@@ -122,7 +122,7 @@ Curve curved_through(const Moments& m) {
   out.c[0] = (a * m.p[0] + b * m.p[1] + c * m.p[2]) / det;
   out.c[1] = (b * m.p[0] + d * m.p[1] + e * m.p[2]) / det;
   out.c[2] = (c * m.p[0] + e * m.p[1] + f * m.p[2]) / det;
-  out.residual = residual_of(m, out.c);
+  out.residual = squared_residual(m, out.c);
   out.rate_variance = d / det;
   return out;
 }
@@ -167,7 +167,7 @@ MotionFit fit_motion(std::span<const Sighting> sightings, int most, const Motion
   if (sightings.empty()) return {};
   MotionFit out;
   out.position = sightings.back().position;
-  out.noise = noise_of(sightings, tuning);
+  out.noise = noise_level(sightings, tuning);
   out.velocity_error = std::numeric_limits<double>::infinity();
   out.sightings = 1;
   if (sightings.size() < 2) return out;

@@ -113,9 +113,9 @@ void MotionModels::fit_arcs(std::span<const Sighting> seen, double noise, Oscill
                                        tuning_.max_circle_radius);
     if (!circle) continue;
     along_.resize(part.size());
-    double angle = heading_of(part.back().position - circle->centre);
+    double angle = heading_along(part.back().position - circle->centre);
     for (std::size_t i = part.size(); i-- > 0;) {
-      angle += wrap(heading_of(part[i].position - circle->centre) - angle);
+      angle += wrap(heading_along(part[i].position - circle->centre) - angle);
       along_[i] = {part[i].t, {circle->radius * angle, 0}};
     }
     const auto fits = fit.fit(along_);

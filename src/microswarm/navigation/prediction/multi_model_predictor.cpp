@@ -18,7 +18,7 @@ std::size_t max_open(const MultiModelPredictorTuning& tuning) {
 }
 
 /// Error expected of a model before it has shown any, as a share of the predicted distance.
-double prior_of(std::size_t model, const MultiModelPredictorTuning& tuning) {
+double model_prior(std::size_t model, const MultiModelPredictorTuning& tuning) {
   if (model == MotionModels::straight) return tuning.straight_prior;
   if (model == MotionModels::curved) return tuning.curved_prior;
   if (model == MotionModels::again) return tuning.recurrence_prior;
@@ -66,7 +66,7 @@ void MultiModelPredictor::take(const Snapshot& frame) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const auto same = [&](const Body& b) { return b.obstacle == bodies[i].obstacle; };
     const auto leaf = std::count_if(bodies.begin(), bodies.begin() + static_cast<long>(i), same);
-    const std::size_t at = history_of(bodies[i].obstacle, static_cast<std::uint32_t>(leaf));
+    const std::size_t at = find_history(bodies[i].obstacle, static_cast<std::uint32_t>(leaf));
     BodyHistory& history = histories_[at];
     const TrackedBody& motion = history.motion = tracker_.body(i);
     append(history, bodies[i], motion);
@@ -78,7 +78,7 @@ void MultiModelPredictor::take(const Snapshot& frame) {
   }
 }
 
-std::size_t MultiModelPredictor::history_of(std::uint32_t obstacle, std::uint32_t leaf) {
+std::size_t MultiModelPredictor::find_history(std::uint32_t obstacle, std::uint32_t leaf) {
   const auto at = std::find_if(histories_.begin(), histories_.end(), [&](const BodyHistory& b) {
     return b.obstacle == obstacle && b.leaf == leaf;
   });
@@ -97,9 +97,9 @@ void MultiModelPredictor::append(BodyHistory& history, const Body& body,
     history.trail.clear();
     for (auto& open : history.open) open.clear();
   }
-  const Disc extent = extent_of(body);
+  const Disc extent = enclosing_disc(body);
   double turn = history.trail.empty() ? 0 : history.trail.back().turn;
-  if (const auto* outline = outline_of(body)) {
+  if (const auto* outline = find_outline(body)) {
     if (history.trail.empty() || history.outline.size() != outline->size()) {
       history.outline.assign(outline->begin(), outline->end());
       for (Vec2& v : history.outline) v -= extent.centre;
@@ -170,7 +170,7 @@ void MultiModelPredictor::select_model(BodyHistory& history, double speed) const
     for (std::size_t k = 0; k < span_count; ++k) {
       const Record& record = history.records[m][k];
       const double prior =
-          prior_of(m, params_.tuning) * speed * spans_[k] * params_.tuning.prior_weight;
+          model_prior(m, params_.tuning) * speed * spans_[k] * params_.tuning.prior_weight;
       last = (record.errors + prior) / (record.weight + params_.tuning.prior_weight);
       sum += last / spans_[k];
     }

@@ -72,7 +72,7 @@ class MultiModelPredictor {
   };
 
   void take(const Snapshot& frame);
-  std::size_t history_of(std::uint32_t obstacle, std::uint32_t leaf);
+  std::size_t find_history(std::uint32_t obstacle, std::uint32_t leaf);
   void append(BodyHistory& history, const Body& body, const TrackedBody& motion);
   void update_errors(BodyHistory& history) const;
   void model(BodyHistory& history, const TrackedBody& motion);

@@ -128,7 +128,7 @@ void ObstacleTracker::find_trails(std::span<const Body> bodies) {
 
 void ObstacleTracker::extend(Trail& trail, const Body& body, Disc within) const {
   trail.present = seen_;
-  const Disc extent = extent_of(body);
+  const Disc extent = enclosing_disc(body);
   if (distance(extent.centre, within.centre) - extent.radius > within.radius) {
     trail.positions.clear();
     trail.radii.clear();
@@ -190,8 +190,8 @@ double ObstacleTracker::outline_speed_within(std::size_t body, const Body& shape
   };
   return std::visit(Overloaded{[](const Disc&) { return 0.0; },
                                [&](const Polygon& polygon) {
-                                 return outward_distance(polygon, extent_of(shape).centre, before,
-                                                         near) /
+                                 return outward_distance(polygon, enclosing_disc(shape).centre,
+                                                         before, near) /
                                         (seen_ - before.t);
                                }},
                     shape.shape);

@@ -123,15 +123,15 @@ OscillationFit::Fits OscillationFit::fit(std::span<const Sighting> sightings) {
     if (row == 0) break;
     if (rows_[row - 1].t < seen.t - same_time) continue;
     for (; window < window_count && now_ - seen.t > windows_[window]; ++window)
-      out[window] = best_of(sums, origin);
+      out[window] = best_fit(sums, origin);
     if (window == window_count) return out;
     sums.add(rows_[row - 1], seen.position - origin);
   }
-  if (window < window_count) out[window] = best_of(sums, origin);
+  if (window < window_count) out[window] = best_fit(sums, origin);
   return out;
 }
 
-std::optional<Oscillation> OscillationFit::best_of(const Sums& sums, Vec2 origin) const {
+std::optional<Oscillation> OscillationFit::best_fit(const Sums& sums, Vec2 origin) const {
   if (sums.count < tuning_.min_sightings) return std::nullopt;
   std::array<std::optional<Terms>, rungs> terms;
   std::size_t best = rungs;

@@ -52,7 +52,7 @@ class OscillationFit {
   struct Sums;
 
   void fill(Row& row) const;
-  std::optional<Oscillation> best_of(const Sums& sums, Vec2 origin) const;
+  std::optional<Oscillation> best_fit(const Sums& sums, Vec2 origin) const;
 
   OscillationTuning tuning_;
   std::array<double, window_count> windows_;

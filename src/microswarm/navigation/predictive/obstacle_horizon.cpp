@@ -53,7 +53,7 @@ void ObstacleHorizon::update(const Snapshot& world, const MultiModelPredictor& p
   leg_ahead_.clear();
   for (int s = 0; s < 2 * field.steps(); ++s)
     for (const std::size_t body : body_of_)
-      ahead_.push_back(predictor.at(body, effect + field.time_of(s)));
+      ahead_.push_back(predictor.at(body, effect + field.time_at(s)));
   for (int s = 0; s <= leg_pieces; ++s)
     for (const std::size_t body : body_of_)
       leg_ahead_.push_back(predictor.at(body, effect + field.step() * s / leg_pieces));
@@ -74,7 +74,8 @@ ObstacleHorizon::Meeting ObstacleHorizon::meeting(int piece, Segment move, doubl
     if (squared_norm(p) > away * away) continue;
     const double gap =
         distance_along(outlines_[i], rotated(p, -a.turn), rotated(q, -b.turn), near) - grown;
-    const auto risk = risk_of(risk_, static_cast<float>(gap), static_cast<float>(b.uncertainty));
+    const auto risk =
+        penetration_risk(risk_, static_cast<float>(gap), static_cast<float>(b.uncertainty));
     out.gap = std::min(out.gap, gap);
     out.risk = std::max(out.risk, static_cast<double>(risk));
   }
@@ -87,7 +88,7 @@ PredictiveDiagnostics ObstacleHorizon::diagnostics(const TimeField& field, doubl
     for (std::size_t i = 0; i < size(); ++i) {
       const PredictedBody& body = sample(s)[i];
       out.bodies.push_back({.body = static_cast<std::uint32_t>(body_of_[i]),
-                            .t = effect_ + field.time_of(s),
+                            .t = effect_ + field.time_at(s),
                             .centre = body.centre,
                             .turn = body.turn,
                             .radius = outlines_[i].radius + body.growth,

@@ -96,7 +96,7 @@ Decision PredictiveNavigator::decide(const Moment& moment) {
   if (goal_is_clear(map, pose)) {
     step_view().local_target = aim().position;
     path_.push_back(aim().position);
-    return {{heading_of(aim().position - pose.position), speed()}, NavigatorState::follow};
+    return {{heading_along(aim().position - pose.position), speed()}, NavigatorState::follow};
   }
   step_view().planned = true;
   solve(map, pose.position);
@@ -117,13 +117,13 @@ Decision PredictiveNavigator::decide(const Moment& moment) {
 /// body may have approached by half the distance that both moved.
 bool PredictiveNavigator::goal_is_clear(const Map& map, const Pose2& pose) const {
   const Vec2 offset = aim().position - pose.position;
-  const double heading = heading_of(offset);
+  const double heading = heading_along(offset);
   constexpr double turned = 0.02;  // [rad]
   const bool turns = std::isfinite(swarm().max_turn_rate);
   if (!in_sight_ || (turns && turn_between(heading, pose.heading) > turned)) return false;
   const double own_step = 0.5 * field_.step() * speed();
   for (int s = 0; s < 2 * field_.steps(); ++s) {
-    const double gone = std::min(norm(offset), field_.time_of(s) * speed());
+    const double gone = std::min(norm(offset), field_.time_at(s) * speed());
     const Vec2 p = pose.position + gone * unit_vector(heading);
     if (standing_risk(map, p) > 0) return false;
     for (std::size_t i = 0; i < horizon_.size(); ++i) {
@@ -175,7 +175,7 @@ PredictiveNavigator::Leg PredictiveNavigator::best_leg(const Map& map, const Pos
   // With nothing moving, waiting is useless: a swarm with limited turn rate does not turn at rest,
   // and the final approach is finer than the field's cells.
   if (alone && (turns_slowly || ending_)) best.cost = std::numeric_limits<double>::infinity();
-  const double straight = heading_of(aim().position - pose.position);
+  const double straight = heading_along(aim().position - pose.position);
   const std::span shares(params_.tuning.speed_shares);
   for (const double share :
        turns_slowly ? shares : shares.first(std::min<std::size_t>(2, shares.size())))
@@ -223,14 +223,14 @@ std::optional<double> PredictiveNavigator::best_heading(Vec2 p) const {
   const Vec2 from = p;
   for (int k = 1; k < std::min(steps_ahead + 1, field_.steps()); ++k) p = field_.next(k, p);
   if (p == from) return std::nullopt;
-  return heading_of(p - from);
+  return heading_along(p - from);
 }
 
 /// Time lost to turning into the best continuation, which the field ignores [s]. While the swarm
 /// turns by an angle at its full rate, it advances only by the sine of that angle.
 double PredictiveNavigator::turning_time(const Pose2& pose) const {
   if (!wanted_) return 0;
-  const double wanted = ending_ ? heading_of(aim().position - pose.position) : *wanted_;
+  const double wanted = ending_ ? heading_along(aim().position - pose.position) : *wanted_;
   const double turn = turn_between(wanted, pose.heading);
   return (turn - maths::sin(turn)) / swarm().max_turn_rate;
 }

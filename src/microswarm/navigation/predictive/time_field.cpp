@@ -62,7 +62,7 @@ void TimeField::begin(Vec2 centre, Disc goal, const std::function<float(Vec2)>& 
   const double speed = cells_a_step * cell_ / step_;
   for (int row = 0; row < width_; ++row)
     for (int column = 0; column < width_; ++column) {
-      const std::size_t c = cell_of(column, row);
+      const std::size_t c = cell_index(column, row);
       const Vec2 p = place(column, row);
       standing_[c] = standing(p);
       const double away = distance(p, goal.centre);
@@ -93,13 +93,13 @@ void TimeField::step_back(int k, std::span<const ConvexOutline> outlines,
   paint(wide, outlines, sample(2 * k + 1), radius, risk);
   for (int row = half_ - wide; row <= half_ + wide; ++row)
     for (int column = half_ - wide; column <= half_ + wide; ++column) {
-      const std::size_t c = cell_of(column, row);
+      const std::size_t c = cell_index(column, row);
       after_[c] = next[c] + half_step * risk_[c];
     }
   paint(reach, outlines, sample(2 * k), radius, risk);
   const int count = 2 * reach + 1;
   for (int row = half_ - reach; row <= half_ + reach; ++row) {
-    const std::size_t first = cell_of(half_ - reach, row);
+    const std::size_t first = cell_index(half_ - reach, row);
     float* const least = row_.data();
     std::copy_n(&after_[first], count, least);
     for (const Move& move : moves_) {
@@ -117,7 +117,7 @@ void TimeField::step_back(int k, std::span<const ConvexOutline> outlines,
 void TimeField::paint(int reach, std::span<const ConvexOutline> outlines,
                       std::span<const PredictedBody> ahead, double radius, const RiskParams& risk) {
   for (int row = half_ - reach; row <= half_ + reach; ++row) {
-    const std::size_t first = cell_of(half_ - reach, row);
+    const std::size_t first = cell_index(half_ - reach, row);
     std::copy_n(&standing_[first], 2 * reach + 1, &risk_[first]);
   }
   for (std::size_t i = 0; i < outlines.size(); ++i)
@@ -160,10 +160,10 @@ void TimeField::paint_one(int reach, const ConvexOutline& outline, const Predict
       for (int i = 0; i < count; ++i)
         gap[i] = std::max(gap[i], base + static_cast<float>(i) * slope);
     }
-    float* const worst = &risk_[cell_of(left, row)];
+    float* const worst = &risk_[cell_index(left, row)];
     const auto uncertainty = static_cast<float>(ahead.uncertainty);
     for (int i = 0; i < count; ++i)
-      worst[i] = std::max(worst[i], risk_of(risk, gap[i], uncertainty));
+      worst[i] = std::max(worst[i], penetration_risk(risk, gap[i], uncertainty));
   }
 }
 
@@ -179,7 +179,7 @@ double TimeField::cost(int k, Vec2 p) const {
   const double fy = std::clamp(at.y - row, 0.0, 1.0);
   const auto& cost = cost_[static_cast<std::size_t>(k)];
   const auto value = [&](int i, int j) {
-    return static_cast<double>(cost[cell_of(column + i, row + j)]);
+    return static_cast<double>(cost[cell_index(column + i, row + j)]);
   };
   return (1 - fy) * ((1 - fx) * value(0, 0) + fx * value(1, 0)) +
          fy * ((1 - fx) * value(0, 1) + fx * value(1, 1));

@@ -13,7 +13,7 @@
 namespace microswarm {
 
 /// Cost rate at a gap [µm] that is known up to `uncertainty` [µm].
-inline float risk_of(const RiskParams& p, float gap, float uncertainty) {
+inline float penetration_risk(const RiskParams& p, float gap, float uncertainty) {
   const float reach = static_cast<float>(p.reach) + uncertainty;
   const float contact =
       std::clamp(0.5F - 0.5F * gap / (static_cast<float>(p.softness) + uncertainty), 0.0F, 1.0F);
@@ -38,7 +38,7 @@ class TimeField {
   /// Duration of a step [s].
   double step() const { return step_; }
   /// Time of a sample [s], the midpoint of a half step; `sample` is 0 … 2 steps() − 1.
-  double time_of(int sample) const { return 0.5 * step_ * (sample + 0.5); }
+  double time_at(int sample) const { return 0.5 * step_ * (sample + 0.5); }
 
   /// Starts a field around `centre`. If the goal is smaller than a cell, the cells next to it count
   /// too, at the cost of the remaining distance. `standing` is the time-invariant risk at a
@@ -65,7 +65,7 @@ class TimeField {
                  const RiskParams& risk);
   void step_back(int k, std::span<const ConvexOutline> outlines,
                  std::span<const PredictedBody> ahead, double radius, const RiskParams& risk);
-  std::size_t cell_of(int column, int row) const {
+  std::size_t cell_index(int column, int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
            static_cast<std::size_t>(column);
   }

@@ -34,7 +34,7 @@ RadarNavigator::RadarNavigator(const RadarParams& params, const Task& task, Rng 
       params_(params.in_effect()),
       rng_(rng),
       safety_radius_(params.safety_radius),
-      scanner_(directions_of(params), params.tuning),
+      scanner_(direction_count(params), params.tuning),
       filter_(params.safety_filter, speed()) {
   params_.speed = speed();
 }
@@ -115,7 +115,7 @@ Decision RadarNavigator::decide(const Moment& moment) {
       return rest(seen, NavigatorState::wait);
   if (const auto heading = scanner_.choose(*look_, *seen.world)) {
     const bool straight =
-        !contact_ && turn_between(*heading, heading_of(target - pose_.position)) < 1e-9;
+        !contact_ && turn_between(*heading, heading_along(target - pose_.position)) < 1e-9;
     return {{*heading, params_.speed}, straight ? NavigatorState::direct : NavigatorState::avoid};
   }
   const bool near_wall = !seen.world->map().is_free(pose_.position, look_->wall_reach());
@@ -176,7 +176,7 @@ void RadarNavigator::look_around(const Observation& seen, Vec2 target) {
   RadarLook look{.centre = pose_.position,
                  .radius = radius,
                  .target = target,
-                 .circles = circles_of(params_, radius),
+                 .circles = make_circles(params_, radius),
                  .step = params_.prediction_distance,
                  .wall_distance = from_walls - radius,
                  .approach = params_.compensate_delay ? params_.obstacle_speed_bound * delay() : 0,

@@ -39,7 +39,7 @@ class RadarNavigator : public SteeringNavigator {
   /// inside a body.
   const std::optional<RadarLook>& last_look() const { return look_; }
   /// Number of candidate directions.
-  int directions() const { return directions_of(params_); }
+  int directions() const { return direction_count(params_); }
 
  private:
   /// Last observed swarm.

@@ -9,14 +9,14 @@
 
 namespace microswarm {
 
-RadarCircles circles_of(const RadarParams& params, double swarm_radius) {
+RadarCircles make_circles(const RadarParams& params, double swarm_radius) {
   const double prediction = swarm_radius + params.prediction_distance;  // Eq 6
   return {.prediction = prediction,
           .safety = prediction + params.safety_distance,        // Eq 7
           .detection = swarm_radius + params.detection_range};  // Eq 7
 }
 
-int directions_of(const RadarParams& params) {
+int direction_count(const RadarParams& params) {
   return static_cast<int>(std::lround(2 * pi / params.angle_step));
 }
 

@@ -9,10 +9,10 @@
 namespace microswarm {
 
 /// Circles of a swarm observed with the radius r_s [µm]: Eq 6, 7, 26 [radar].
-RadarCircles circles_of(const RadarParams& params, double swarm_radius);
+RadarCircles make_circles(const RadarParams& params, double swarm_radius);
 
 /// Number of directions, 360° / β.
-int directions_of(const RadarParams& params);
+int direction_count(const RadarParams& params);
 
 /// Reports an issue if the safety circle is not within the detection circle, β does not divide
 /// 360°, there is no speed, waypoints are both given and planned, the planner's parameters are

@@ -15,13 +15,13 @@ double nearness(Vec2 position, Vec2 target) {
   return 1 / std::max(distance(position, target), min_distance);
 }
 
-Vec2 place_of(const RadarLook& look, double heading) {
+Vec2 position_ahead(const RadarLook& look, double heading) {
   return look.centre + look.step * unit_vector(heading);
 }
 
 /// Eq 17, 30
 void screen(RadarBeam& beam, const RadarLook& look, const Snapshot& world) {
-  const Vec2 position = place_of(look, beam.heading);
+  const Vec2 position = position_ahead(look, beam.heading);
   for (const Body& body : world.moving().bodies()) {
     if (distance(position, body) >= look.obstacle_reach()) continue;
     beam.fate = BeamFate::obstacle;
@@ -61,19 +61,19 @@ void rate(RadarDiagnostics& out, const RadarLook& look, const Snapshot& world) {
   const auto gap = [&](Vec2 p) {
     if (!out.nearest) return 0.0;
     const Body& body = world.moving().bodies()[*out.nearest];
-    const auto centre = centre_of(body);
+    const auto centre = rotation_centre(body);
     return centre ? distance(*centre, p) : distance(p, body);
   };
   MinMax towards, away;
   for (const RadarBeam& beam : out.beams) {
     if (beam.fate != BeamFate::kept) continue;
-    const Vec2 position = place_of(look, beam.heading);
+    const Vec2 position = position_ahead(look, beam.heading);
     towards.include(nearness(position, look.target));
     away.include(gap(position));
   }
   for (RadarBeam& beam : out.beams) {
     if (beam.fate != BeamFate::kept) continue;
-    const Vec2 position = place_of(look, beam.heading);
+    const Vec2 position = position_ahead(look, beam.heading);
     beam.score = out.weights.target * towards.normalised(nearness(position, look.target)) +
                  out.weights.avoidance * away.normalised(gap(position));
   }
@@ -90,8 +90,8 @@ void choose(RadarDiagnostics& out) {
 
 }  // namespace
 
-std::optional<Vec2> centre_of(const Body& body) {
-  const Vec2 centre = extent_of(body).centre;
+std::optional<Vec2> rotation_centre(const Body& body) {
+  const Vec2 centre = enclosing_disc(body).centre;
   return distance(centre, body) > 0 ? std::nullopt : std::optional(centre);
 }
 
@@ -125,7 +125,7 @@ RadarDiagnostics scan(const RadarLook& look, const Snapshot& world, int directio
   } else {
     out.weights = {radar_weights(look, look.circles.detection).target, 0};
     // Eq 14–16; no farther than the target, which may be in front of a wall.
-    const double heading = heading_of(look.target - look.centre);
+    const double heading = heading_along(look.target - look.centre);
     const double ahead = std::min(look.step, distance(look.centre, look.target));
     if (world.map().is_free(look.centre + ahead * unit_vector(heading), look.wall_reach()))
       out.straight = heading;

@@ -66,6 +66,6 @@ RadarDiagnostics scan(const RadarLook& look, const Snapshot& world, int directio
 /// O_ob of Eq 9 [radar]: the disc's centre or the polygon's centroid, so that along a flat face one
 /// direction is better than the other. Nothing if the centroid is not inside the body, as in a
 /// hollow one; then the distance to its edge counts.
-std::optional<Vec2> centre_of(const Body& body);
+std::optional<Vec2> rotation_centre(const Body& body);
 
 }  // namespace microswarm

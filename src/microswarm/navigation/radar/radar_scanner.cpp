@@ -50,7 +50,7 @@ std::optional<RadarContact> RadarScanner::detect(const RadarLook& look, const Sn
     const Disc disc = moving.discs().disc(i);
     const double d = distance(look.centre, disc);
     if (d >= reach) return;
-    const std::uint32_t body = moving.discs().body_of(i);
+    const std::uint32_t body = moving.discs().enclosing_pose(i);
     discs_.push_back({disc, d});
     bodies_.push_back(body);
     note({body, d - look.approach});
@@ -128,7 +128,7 @@ void RadarScanner::measure_distance(Vec2 target) {
 
 // ‖O_pe O_ob‖ of Eq 9; N(·) removes r_s and r_ob.
 void RadarScanner::measure_gap(const Snapshot& world) {
-  if (const auto centre = centre_of(world.moving().bodies()[nearest_->body])) {
+  if (const auto centre = rotation_centre(world.moving().bodies()[nearest_->body])) {
     for (std::size_t i = 0; i < gap_.size(); ++i) {
       const double dx = centre->x - px_[i];
       const double dy = centre->y - py_[i];
@@ -181,7 +181,7 @@ std::optional<std::size_t> RadarScanner::best(const RadarLook& look, const Snaps
 
 std::optional<double> RadarScanner::choose(const RadarLook& look, const Snapshot& world) {
   if (!nearest_) {  // Eq 14–16
-    const double straight = heading_of(look.target - look.centre);
+    const double straight = heading_along(look.target - look.centre);
     const double ahead = std::min(look.step, distance(look.centre, look.target));
     if (world.map().is_free(look.centre + ahead * unit_vector(straight), look.wall_reach()))
       return straight;

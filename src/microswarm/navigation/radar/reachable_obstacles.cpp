@@ -53,7 +53,7 @@ void ReachableObstacles::find_threats(const ObstacleTracker& tracker) {
   const auto bodies = world_->moving().bodies();
   const double ahead = start_.time - seen_;
   for (std::size_t i = 0; i < bodies.size() && i < tracker.size(); ++i) {
-    const Disc extent = extent_of(bodies[i]);
+    const Disc extent = enclosing_disc(bodies[i]);
     const double far = distance(extent.centre, start_.position) - extent.radius - start_.radius;
     if (far > range()) continue;
     const TrackedBody motion = tracker.body(i);

@@ -18,9 +18,11 @@ constexpr double tie = 1e-6;
 constexpr std::size_t sectors = 8;  // of the circle, from the wanted heading on
 constexpr double half_sector = pi / sectors;
 
-Vec2 velocity_of(const Command& command) { return command.speed * unit_vector(command.heading); }
+Vec2 escape_velocity(const Command& command) {
+  return command.speed * unit_vector(command.heading);
+}
 
-std::vector<Vec2> velocities_of(const SafetyFilterParams& params, double speed) {
+std::vector<Vec2> escape_velocities(const SafetyFilterParams& params, double speed) {
   std::vector<Vec2> velocities(1);
   velocities.reserve(static_cast<std::size_t>(params.directions) + 1);
   for (int k = 0; k < params.directions; ++k)
@@ -42,7 +44,7 @@ SafetyFilter::SafetyFilter(const SafetyFilterParams& params, double speed)
       speed_(speed),
       tracker_(params.tracker),
       seen_(params, speed),
-      escapes_(velocities_of(params, speed), speed),
+      escapes_(escape_velocities(params, speed), speed),
       turns_(every_other(escapes_.velocities()), speed) {
   const SafetyFilterTuning& tuning = params_.tuning;
   choices_.reserve(static_cast<std::size_t>(tuning.refinement * params_.directions) + 1);
@@ -69,7 +71,7 @@ std::optional<Command> SafetyFilter::filter(const Command& wanted, const Start& 
 
 std::optional<Command> SafetyFilter::checked(const Command& wanted, double lasting) {
   std::optional<Command> instead;
-  if (!escapes_.has_free(seen_, velocity_of(wanted), lasting, 1)) {
+  if (!escapes_.has_free(seen_, escape_velocity(wanted), lasting, 1)) {
     instead = nearest_safe(wanted, lasting);
     if (!instead) return best_manoeuvre();
   }
@@ -89,7 +91,7 @@ std::optional<Command> SafetyFilter::nearest_safe(const Command& wanted, double 
   bool is_first = true;
   for (const auto& [turn, command, sector] : choices_) {
     if (sector && excluded[*sector]) continue;
-    if (escapes_.has_free(seen_, velocity_of(command), lasting, count)) return command;
+    if (escapes_.has_free(seen_, escape_velocity(command), lasting, count)) return command;
     if (std::exchange(is_first, false) && escapes_.excludes(seen_, {}, speed_, lasting, count))
       return std::nullopt;
     if (!sector || std::exchange(tried[*sector], true)) continue;
@@ -147,7 +149,7 @@ Command SafetyFilter::best_manoeuvre() {
   committed_ = Committed{chosen, now};
   const Vec2 begin = chosen.until > 0 ? chosen.first : chosen.second;
   const double speed = norm(begin);
-  return {speed > 0 ? heading_of(begin) : 0, speed};
+  return {speed > 0 ? heading_along(begin) : 0, speed};
 }
 
 }  // namespace microswarm

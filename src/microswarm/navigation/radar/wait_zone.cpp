@@ -39,7 +39,7 @@ double gap(const Polygon& a, const Polygon& b) {
   return least;
 }
 
-Vec2 middle_of(const Body& body) {
+Vec2 body_middle(const Body& body) {
   return std::visit(
       Overloaded{[](const Disc& disc) { return disc.centre; },
                  [](const Polygon& polygon) { return bounding_box(polygon).centre(); }},
@@ -67,8 +67,8 @@ Range united(Range a, Range b) { return {std::min(a.min, b.min), std::max(a.max,
 
 /// Rectangle of both leaves and the passage between them, aligned with the line through their
 /// centres.
-Frame frame_of(const Body& a, const Body& b) {
-  const Vec2 between = middle_of(b) - middle_of(a);
+Frame zone_frame(const Body& a, const Body& b) {
+  const Vec2 between = body_middle(b) - body_middle(a);
   const double length = norm(between);
   const Vec2 along = length > 0 ? between / length : Vec2{1, 0};
   const Vec2 across = perpendicular(along);
@@ -80,16 +80,16 @@ Frame frame_of(const Body& a, const Body& b) {
           .half_width = 0.5 * (y.max - y.min)};
 }
 
-Frame frame_of(const WaitZone& area) {
+Frame zone_frame(const WaitZone& area) {
   return {area.centre, unit_vector(area.heading), area.width / 2, area.height / 2};
 }
 
 }  // namespace
 
-bool contains(const WaitZone& area, Vec2 p) { return frame_of(area).distance_to(p) <= 0; }
+bool contains(const WaitZone& area, Vec2 p) { return zone_frame(area).distance_to(p) <= 0; }
 
-Polygon outline_of(const WaitZone& area) {
-  const Frame frame = frame_of(area);
+Polygon zone_outline(const WaitZone& area) {
+  const Frame frame = zone_frame(area);
   const Vec2 x = frame.half_length * frame.along;
   const Vec2 y = frame.half_width * perpendicular(frame.along);
   return {{area.centre - x - y, area.centre + x - y, area.centre + x + y, area.centre - x + y}, {}};
@@ -102,11 +102,11 @@ double gap_between(const Body& a, const Body& b) {
 }
 
 bool must_wait(const WaitZone& area, std::span<const Body> bodies, const Waiting& swarm) {
-  const Frame A = frame_of(area);
+  const Frame A = zone_frame(area);
   if (A.distance_to(swarm.position) > swarm.radius) return false;
   for (std::size_t i = 0; i + 1 < bodies.size(); ++i) {
     if (bodies[i].obstacle != bodies[i + 1].obstacle) continue;
-    const Frame valve = frame_of(bodies[i], bodies[i + 1]);
+    const Frame valve = zone_frame(bodies[i], bodies[i + 1]);
     if (A.distance_to(valve.centre) > 0) continue;
     const bool passed = valve.local(swarm.position).y * valve.local(swarm.target).y > 0;
     const bool is_safe = valve.distance_to(swarm.position) >= swarm.reach;

@@ -23,7 +23,7 @@ struct Waiting {
 bool contains(const WaitZone& area, Vec2 p);
 
 /// Rectangle of the zone.
-Polygon outline_of(const WaitZone& area);
+Polygon zone_outline(const WaitZone& area);
 
 /// Distance [µm] between two bodies; 0 if they touch or overlap.
 double gap_between(const Body& a, const Body& b);

@@ -17,7 +17,7 @@ namespace microswarm {
 ///
 ///     class Homing : public SteeringNavigator {
 ///       Decision decide(const Moment& now) override {
-///         return {{heading_of(aim().position - now.pose.position), speed()},
+///         return {{heading_along(aim().position - now.pose.position), speed()},
 ///         NavigatorState::follow};
 ///       }
 ///     };

@@ -85,8 +85,8 @@ void ShortestPathTree::look_on(double length) {
   const auto see = [this](std::uint32_t wheel) {
     if (std::exchange(seen_in_[wheel], query_) != query_) seen_.push_back(wheel);
   };
-  graph_->corners().look_on(look_, length, [&](std::uint32_t corner, auto&& sides_of) {
-    const Sides sides = sides_of();
+  graph_->corners().look_on(look_, length, [&](std::uint32_t corner, auto&& find_sides) {
+    const Sides sides = find_sides();
     if (sides.left) see(2 * corner + 1);
     if (sides.right) see(2 * corner);
   });

@@ -61,7 +61,7 @@ void TangentGraph::find_hops(std::uint32_t wheel) {
 
 /// Adds the tangent of two wheels if it leaves from a free arc.
 void TangentGraph::add_hop(std::uint32_t from, std::uint32_t to) {
-  const auto line = join(circle_of(from), sense(from), circle_of(to), sense(to));
+  const auto line = join(wheel_circle(from), sense(from), wheel_circle(to), sense(to));
   if (!line) return;
   Hop hop{.line = *line, .leave = angle_at(from, *line), .to = to};
   const int arc = arc_at(from / 2, hop.leave);

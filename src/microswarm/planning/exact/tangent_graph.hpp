@@ -64,16 +64,16 @@ class TangentGraph {
   /// Number of circles around the map's corners.
   std::uint32_t still_count() const { return static_cast<std::uint32_t>(seen_.size() / 2); }
   const TurningCircle& circle(std::uint32_t number) const { return circles_[number]; }
-  const TurningCircle& circle_of(std::uint32_t wheel) const { return circles_[wheel / 2]; }
+  const TurningCircle& wheel_circle(std::uint32_t wheel) const { return circles_[wheel / 2]; }
   static double sense(std::uint32_t wheel) { return wheel % 2 == 0 ? 1 : -1; }
 
   /// Point of the wheel where a line leaves or arrives.
   Vec2 touch(std::uint32_t wheel, const TangentLine& line) const {
-    return circle_of(wheel).touch(sense(wheel), line.along);
+    return wheel_circle(wheel).touch(sense(wheel), line.along);
   }
   /// Angle of the normal at which a line leaves or arrives [rad].
   double angle_at(std::uint32_t wheel, const TangentLine& line) const {
-    return circle_of(wheel).angle_of(-sense(wheel) * perpendicular(line.along));
+    return wheel_circle(wheel).angle_at(-sense(wheel) * perpendicular(line.along));
   }
   /// Tangent of two circles; the margin admits a point on a circle that rounding put inside.
   std::optional<TangentLine> join(const TurningCircle& a, double sense_a, const TurningCircle& b,
@@ -129,12 +129,12 @@ class TangentGraph {
 
 /// Calls `take` with the wheels of a corner that a line may reach and this look has not seen yet.
 template <class SidesOf, class Take>
-void take_unseen(std::uint32_t corner, SidesOf&& sides_of, std::vector<std::uint32_t>& seen,
+void take_unseen(std::uint32_t corner, SidesOf&& find_sides, std::vector<std::uint32_t>& seen,
                  std::uint32_t look, Take&& take) {
   std::uint32_t& left = seen[2 * corner];
   std::uint32_t& right = seen[2 * corner + 1];
   if (left == look && right == look) return;
-  const Sides sides = sides_of();
+  const Sides sides = find_sides();
   if (sides.left && std::exchange(left, look) != look) take(2 * corner);
   if (sides.right && std::exchange(right, look) != look) take(2 * corner + 1);
 }

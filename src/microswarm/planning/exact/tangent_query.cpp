@@ -79,7 +79,7 @@ void TangentQuery::look_from_start(double length) {
 
 void TangentQuery::open_from_start(std::uint32_t to) {
   const auto line =
-      graph_->join({.centre = start_}, 1, graph_->circle_of(to), TangentGraph::sense(to));
+      graph_->join({.centre = start_}, 1, graph_->wheel_circle(to), TangentGraph::sense(to));
   if (!line) return;
   const double left = distance(graph_->touch(to, *line), goal_);
   const auto number = static_cast<std::uint32_t>(guesses_.size());
@@ -89,7 +89,7 @@ void TangentQuery::open_from_start(std::uint32_t to) {
 
 /// Whether an earlier label at the wheel reaches this one's arrival with no greater length.
 bool TangentQuery::is_dominated(const Label& label) const {
-  const TurningCircle& circle = graph_->circle_of(label.wheel);
+  const TurningCircle& circle = graph_->wheel_circle(label.wheel);
   const double to = TangentGraph::sense(label.wheel);
   for (std::uint32_t i = last_labels_[label.wheel]; i != none; i = labels_[i].next) {
     const Label& other = labels_[i];
@@ -152,7 +152,7 @@ void TangentQuery::guess_both(const Label& label, std::uint32_t number, std::uin
 std::optional<TangentQuery::Leaving> TangentQuery::leaving(const Label& label,
                                                            const TurningCircle& there,
                                                            double sense_there) {
-  const TurningCircle& circle = graph_->circle_of(label.wheel);
+  const TurningCircle& circle = graph_->wheel_circle(label.wheel);
   const double turn = TangentGraph::sense(label.wheel);
   const auto line = graph_->join(circle, turn, there, sense_there);
   if (!line) return std::nullopt;
@@ -269,7 +269,7 @@ void TangentQuery::add(Vec2 p, std::vector<Vec2>& path) const {
 
 /// Adds tangent lines around the arc from the label's arrival to the angle `to`.
 void TangentQuery::draw_arc(const Label& label, double to, std::vector<Vec2>& points) const {
-  const TurningCircle& circle = graph_->circle_of(label.wheel);
+  const TurningCircle& circle = graph_->wheel_circle(label.wheel);
   const double sense = TangentGraph::sense(label.wheel);
   const double angle = circle.angle_around(sense, label.arrive, to);
   constexpr double step = 0.1;  // [rad]

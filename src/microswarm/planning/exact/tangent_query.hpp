@@ -63,7 +63,7 @@ class TangentQuery {
   std::uint32_t last_label(std::uint32_t wheel) const { return last_labels_[wheel]; }
   /// Distance of a position from a wheel's circle [µm], 0 inside.
   double distance_to(std::uint32_t wheel, Vec2 position) const {
-    const TurningCircle& circle = graph_->circle_of(wheel);
+    const TurningCircle& circle = graph_->wheel_circle(wheel);
     return std::max(0.0, distance(circle.centre, position) - circle.radius);
   }
   /// Line from a label's wheel to a position; nothing if it cannot belong to a shortest path. It is

@@ -67,7 +67,7 @@ class ArcCutter {
 
  private:
   void cut_at(Vec2 p) {
-    const double angle = positive(heading_of(p - circle_.centre) - circle_.from);
+    const double angle = positive(heading_along(p - circle_.centre) - circle_.from);
     if (angle < circle_.width) cuts_.push_back(angle);
   }
   /// The line is a + t u, shifted to the left.
@@ -105,8 +105,8 @@ bool TurningCircle::is_taut(Vec2 normal) const {
           dot(first + last, normal) > 0);
 }
 
-double TurningCircle::angle_of(Vec2 normal) const {
-  if (is_disc) return positive(heading_of(normal));
+double TurningCircle::angle_at(Vec2 normal) const {
+  if (is_disc) return positive(heading_along(normal));
   return std::clamp(maths::atan2(cross(first, normal), dot(first, normal)), 0.0, width);
 }
 

@@ -26,7 +26,7 @@ struct TurningCircle {
 
   /// Whether a path that touches with this normal is taut, so bends around the corner.
   bool is_taut(Vec2 normal) const;
-  double angle_of(Vec2 normal) const;
+  double angle_at(Vec2 normal) const;
   /// Angle from one angle to another [rad], counter-clockwise (`sense` 1) or clockwise (−1);
   /// negative if the second is not ahead. On a disc every angle is ahead.
   double angle_around(double sense, double leaves, double arrives) const;

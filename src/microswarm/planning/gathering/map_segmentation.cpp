@@ -68,7 +68,7 @@ std::vector<double> bundles(std::vector<double>& angles, double gap, std::size_t
     sum += unit_vector(angles[i]);
     ++size;
     if (k + 1 < n && !opens((i + 1) % n)) continue;
-    if (size >= least) means.push_back(heading_of(sum));
+    if (size >= least) means.push_back(heading_along(sum));
     sum = {};
     size = 0;
   }
@@ -89,7 +89,7 @@ void merge_nearest(std::vector<double>& directions, int most) {
         }
       }
     }
-    directions[a] = heading_of(unit_vector(directions[a]) + unit_vector(directions[b]));
+    directions[a] = heading_along(unit_vector(directions[a]) + unit_vector(directions[b]));
     directions.erase(directions.begin() + static_cast<std::ptrdiff_t>(b));
   }
 }
@@ -156,7 +156,8 @@ class Segmenter {
       const Vec2 p = grid_[i];
       if (!sees(at(node), p)) continue;
       spread.add(p - at(node));
-      if (distance(at(node), p) >= ring_begin * range) angles_.push_back(heading_of(p - at(node)));
+      if (distance(at(node), p) >= ring_begin * range)
+        angles_.push_back(heading_along(p - at(node)));
     }
     if (spread.eccentricity() >= params_.eccentricity) return false;
     return static_cast<int>(bundles(angles_, params_.arm_gap, min_in_channel).size()) >=
@@ -269,7 +270,7 @@ class Segmenter {
 
   /// Direction of a node from its region's junction.
   double direction(std::uint32_t v) const {
-    return heading_of(at(v) - out_.regions[out_.region[v]].junction);
+    return heading_along(at(v) - out_.regions[out_.region[v]].junction);
   }
 
   /// Branches are distinguished by the direction in which the route to a node leaves the junction;

@@ -129,7 +129,7 @@ NodeLookup::NodeLookup(const Map& map, const PointGrid& grid, const Stop& stop) 
         listed_.push_back(0);
         continue;
       }
-      const auto nodes = search.nodes_around(grid_.centre_of(column, row));
+      const auto nodes = search.nodes_around(grid_.cell_centre(column, row));
       listed_.insert(listed_.end(), nodes.begin(), nodes.end());
     }
   }
@@ -138,7 +138,7 @@ NodeLookup::NodeLookup(const Map& map, const PointGrid& grid, const Stop& stop) 
 
 std::optional<std::uint32_t> NodeLookup::nearest_visible(const Map& map, Vec2 p,
                                                          std::span<const Vec2> nodes) const {
-  const int column = grid_.column_of(p.x), row = grid_.row_of(p.y);
+  const int column = grid_.find_column(p.x), row = grid_.find_row(p.y);
   const double side = std::min(grid_.cell().x, grid_.cell().y);
   std::optional<std::uint32_t> best;
   double least = std::numeric_limits<double>::infinity();

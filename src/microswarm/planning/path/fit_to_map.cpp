@@ -95,7 +95,7 @@ class Fit {
   void describe(Params& p, const Value& field, Change&& change) const {
     Params::fields(p, [&]<class Other>(Other& other, const FieldInfo& info) {
       if constexpr (std::same_as<Other, Value>)
-        if (&other == &field && !is_given_(key_of(info))) change(info);
+        if (&other == &field && !is_given_(key_text(info))) change(info);
     });
   }
   void set(auto& p, double& field, double fitted) const {

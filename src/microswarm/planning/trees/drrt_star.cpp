@@ -140,10 +140,10 @@ class DrrtStar {
       const std::uint32_t nearest = growth_.tree().nearest(*x_rand);  // line 4
       const TreeNode& node = growth_.tree()[nearest];
       if (*x_rand == node.position || !growth_.is_free(Segment{node.position, *x_rand}))
-        continue;                                                              // line 7
-      Candidate x_steer{nearest, heading_of(*x_rand - node.position), 0, {}};  // Eq 5 [drrt]
-      if (!steer(node, *x_rand, x_steer)) continue;                            // lines 10–11
-      ++found;                                                                 // line 14
+        continue;                                                                 // line 7
+      Candidate x_steer{nearest, heading_along(*x_rand - node.position), 0, {}};  // Eq 5 [drrt]
+      if (!steer(node, *x_rand, x_steer)) continue;                               // lines 10–11
+      ++found;                                                                    // line 14
       const double cost =
           params_.smoothness_weight * turn_between(x_steer.heading, node.heading);  // Eq 8
       if (cost < best_cost) {                                                       // lines 16–17

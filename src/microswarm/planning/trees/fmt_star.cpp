@@ -176,7 +176,7 @@ void FmtStar::try_to_join(std::uint32_t x) {
     return;
   }
   nodes_[x] = static_cast<std::uint32_t>(tree_.size());
-  tree_.push_back({p, heading_of(p - from), least, nodes_[*best]});
+  tree_.push_back({p, heading_along(p - from), least, nodes_[*best]});
   samples_of_.push_back(x);
   joined_.push_back(x);
   visited_[x] = true;

@@ -19,7 +19,7 @@ SampleBuckets::SampleBuckets(std::span<const Vec2> points, double radius)
 }
 
 void SampleBuckets::append_near(Vec2 p, std::vector<std::uint32_t>& out) const {
-  const int column = grid_.column_of(p.x), row = grid_.row_of(p.y);
+  const int column = grid_.find_column(p.x), row = grid_.find_row(p.y);
   const int left = std::max(0, column - 1), right = std::min(grid_.columns() - 1, column + 1);
   for (int r = std::max(0, row - 1); r <= std::min(grid_.rows() - 1, row + 1); ++r) {
     const std::span<const Placed> run(placed_.data() + first_[grid_.number(left, r)],

@@ -16,11 +16,11 @@ double PathCost::turned_edge(const TreeNode& node, Vec2 p) const {
 
 double PathCost::heading_at_end(const TreeNode& node, Vec2 p) const {
   return turn_radius > 0 ? turn_edge({node.position, node.heading}, p, turn_radius).heading
-                         : heading_of(p - node.position);
+                         : heading_along(p - node.position);
 }
 
 double PathCost::turn(const TreeNode& node, Vec2 p) {
-  return turn_between(node.heading, heading_of(p - node.position));
+  return turn_between(node.heading, heading_along(p - node.position));
 }
 
 SearchTree::SearchTree(const Box& bounds, Pose2 root, PathCost cost)

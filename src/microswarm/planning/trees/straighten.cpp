@@ -87,7 +87,7 @@ void Straightener::lay_out(std::span<const Vec2> points) {
     points_.push_back({.position = p});
     if (rest == Vec2{}) continue;
     points_.back().length_left = cost_.per_length * norm(rest);
-    points_.back().heading_left = heading_of(rest);
+    points_.back().heading_left = heading_along(rest);
   }
 }
 
@@ -97,7 +97,7 @@ Straightener::Edge Straightener::reach(std::size_t i, std::size_t j, double know
   const double length = cost_.per_length * distance(a.position, b.position);
   const double least = i == 0 ? length : a.min_cost + length;
   if (!(least + b.length_left <= known)) return {};
-  Edge to{.from = i, .heading = heading_of(b.position - a.position)};
+  Edge to{.from = i, .heading = heading_along(b.position - a.position)};
   if (i == 0) to.cost = length + cost_.per_turn * turn_between(start_heading_, to.heading);
   for (const Edge& from : edges_to(i)) {
     if (from.cost + length >= to.cost) continue;

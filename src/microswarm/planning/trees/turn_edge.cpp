@@ -14,17 +14,17 @@ namespace {
 constexpr double chord_angle = pi / 18;
 constexpr double turn_rounding = 1e-9;  // [rad]
 
-Vec2 left_of(double heading) { return perpendicular(unit_vector(heading)); }
+Vec2 left_normal(double heading) { return perpendicular(unit_vector(heading)); }
 
 /// Edge that turns to one side; infinitely long if `to` lies inside that turning circle.
 TurnEdge turn_to_side(const Pose2& from, Vec2 to, double radius, double side) {
-  const Vec2 centre = from.position + side * radius * left_of(from.heading);
+  const Vec2 centre = from.position + side * radius * left_normal(from.heading);
   const Vec2 off = to - centre;
   const double far = norm(off);
   if (far < radius * (1 - turn_rounding))
     return {.length = std::numeric_limits<double>::infinity()};
-  const double touching = heading_of(off) - side * maths::acos(std::min(1.0, radius / far));
-  double turn = wrap(side * (touching - heading_of(from.position - centre)));
+  const double touching = heading_along(off) - side * maths::acos(std::min(1.0, radius / far));
+  double turn = wrap(side * (touching - heading_along(from.position - centre)));
   if (turn < -turn_rounding) turn += 2 * pi;
   turn = std::max(0.0, turn);
   const double straight = std::sqrt(std::max(0.0, far * far - radius * radius));
@@ -47,10 +47,10 @@ void append_chords(const Pose2& from, const TurnEdge& edge, double radius, doubl
   append(from.position);
   const double side = edge.turn < 0 ? -1 : 1;
   const double turn = std::min(std::abs(edge.turn), most / radius);
-  const Vec2 centre = from.position + side * radius * left_of(from.heading);
+  const Vec2 centre = from.position + side * radius * left_normal(from.heading);
   const int chords = static_cast<int>(std::ceil(turn / chord_angle));
   for (int k = 1; k <= chords; ++k)
-    append(centre - side * radius * left_of(from.heading + side * turn * k / chords));
+    append(centre - side * radius * left_normal(from.heading + side * turn * k / chords));
   const double straight = std::min(edge.straight, most - radius * std::abs(edge.turn));
   if (straight > 0) append(out.back() + straight * unit_vector(edge.heading));
 }

@@ -48,8 +48,8 @@ RadarParams radar(const HierarchicalParams& drrt, double prediction_distance, bo
   return params;
 }
 
-std::vector<Contestant> contestants_of(const Scenario& scenario) {
-  const double radius = limits_of(scenario.swarm).radius;
+std::vector<Contestant> list_contestants(const Scenario& scenario) {
+  const double radius = swarm_limits(scenario.swarm).radius;
   const auto& ours = std::get<HierarchicalParams>(scenario.navigator);
   HierarchicalParams published = ours;
   published.as_published = true;
@@ -132,8 +132,8 @@ ReproduceRow claim(const char* what, const Contestant& drrt, const Study& of_drr
   std::optional<double> less;
   if (!a.empty() && !b.empty()) less = percent_less(median(a), median(b));
   ReproduceRow row =
-      noted(row_of("comparison", fmt::format("{} {} than {}", drrt.name, what, radar.name), "%", {},
-                   less, 0, false),
+      noted(make_row("comparison", fmt::format("{} {} than {}", drrt.name, what, radar.name), "%",
+                     {}, less, 0, false),
             "claimed without a figure");
   const auto share = [](const Study& s) { return s.arrived / static_cast<double>(s.least.size()); };
   if (std::min(share(of_drrt), share(of_radar)) >= enough) return row;
@@ -167,7 +167,7 @@ void plot_study(const std::vector<Contestant>& who, const std::vector<Study>& st
 
 std::vector<ReproduceRow> drrt_comparison(const ReproduceOptions& options, const Stop& stop) {
   DrrtSetting s = load_drrt(options, "moving_obstacles.yaml");
-  const std::vector<Contestant> who = contestants_of(s.scene.scenario);
+  const std::vector<Contestant> who = list_contestants(s.scene.scenario);
   std::vector<Study> studies;
   std::vector<ReproduceRow> rows;
   const double shortest = shortest_path_length(s);

@@ -121,7 +121,7 @@ void common_rows(const Outcome& o, std::vector<ReproduceRow>& rows) {
                                  {}, median(o.excess)));
   const double n = std::max<double>(1, static_cast<double>(o.time.size()));
   rows.push_back(
-      noted(row_of(figure3, o.name + ": paths found", "%", {}, 100.0 * o.solved / n, 100, false),
+      noted(make_row(figure3, o.name + ": paths found", "%", {}, 100.0 * o.solved / n, 100, false),
             "aim is ours"));
 }
 
@@ -192,8 +192,8 @@ std::vector<ReproduceRow> fig3_rows(const std::vector<Outcome>& o) {
   };
   straightened("shorter", length_median);
   straightened("less turning", turning_median);
-  rows.push_back(noted(row_of(figure3, "D-RRT*, ours: planning time, p99", "ms", {},
-                              quantile(o[at::ours].time, 0.99), 5),
+  rows.push_back(noted(make_row(figure3, "D-RRT*, ours: planning time, p99", "ms", {},
+                                quantile(o[at::ours].time, 0.99), 5),
                        "aim is ours"));
   return rows;
 }

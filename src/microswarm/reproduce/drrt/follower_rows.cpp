@@ -15,7 +15,7 @@ namespace {
 
 /// One value for each path that was followed to its end.
 template <class Value>
-std::vector<double> values_of(const FollowerOutcome& outcome, Value&& value) {
+std::vector<double> collect_values(const FollowerOutcome& outcome, Value&& value) {
   std::vector<double> values;
   values.reserve(outcome.paths.size());
   for (const FollowedPath& path : outcome.paths)
@@ -28,7 +28,7 @@ double turning(const FollowedPath& p) { return degrees(p.field_turning); }
 double relative_time(const FollowedPath& p) { return 100 * p.time / p.fair_time; }
 
 double arrived_share(const FollowerOutcome& o) {
-  return 100 * static_cast<double>(values_of(o, rms_off).size()) /
+  return 100 * static_cast<double>(collect_values(o, rms_off).size()) /
          std::max<double>(1, static_cast<double>(o.paths.size()));
 }
 
@@ -51,25 +51,27 @@ std::vector<ReproduceRow> follower_rows(const std::vector<FollowerOutcome>& outc
   std::vector<ReproduceRow> rows;
   const auto row = [&](std::string what, const char* unit, double ours,
                        std::optional<double> aim = {}, bool at_most = true) {
-    rows.push_back(row_of("follower", std::move(what), unit, {}, ours, aim, at_most));
+    rows.push_back(make_row("follower", std::move(what), unit, {}, ours, aim, at_most));
   };
   for (const FollowerOutcome& o : outcomes) {
     const bool learned = o.name == "learned";
     row(o.name + ": arrived", "%", arrived_share(o), learned ? std::optional(100.0) : std::nullopt,
         false);
-    row(o.name + ": RMS off the path, median", "µm", median(values_of(o, rms_off)));
-    row(o.name + ": RMS off the path, mean", "µm", mean(values_of(o, rms_off)));
+    row(o.name + ": RMS off the path, median", "µm", median(collect_values(o, rms_off)));
+    row(o.name + ": RMS off the path, mean", "µm", mean(collect_values(o, rms_off)));
     row(o.name + ": most off the path, p95", "µm",
-        quantile(values_of(o, [](const FollowedPath& p) { return p.max_off; }), 0.95));
-    row(o.name + ": turning of the field, median", "°/s", median(values_of(o, turning)));
-    row(o.name + ": time beside way ÷ speed, median", "%", median(values_of(o, relative_time)));
+        quantile(collect_values(o, [](const FollowedPath& p) { return p.max_off; }), 0.95));
+    row(o.name + ": turning of the field, median", "°/s", median(collect_values(o, turning)));
+    row(o.name + ": time beside way ÷ speed, median", "%",
+        median(collect_values(o, relative_time)));
   }
-  const auto off = [&](std::size_t i) { return mean(values_of(outcomes[i], rms_off)); };
+  const auto off = [&](std::size_t i) { return mean(collect_values(outcomes[i], rms_off)); };
   row("learned nearer to the path than pure pursuit", "%", 100 * (1 - off(2) / off(0)), 20, false);
   row("learned nearer than pure pursuit against the flow", "%", 100 * (1 - off(2) / off(1)), 0,
       false);
   row("learned: steps handed over, mean", "%",
-      100 * mean(values_of(outcomes[2], [](const FollowedPath& p) { return p.fallback_share; })));
+      100 * mean(collect_values(outcomes[2],
+                                [](const FollowedPath& p) { return p.fallback_share; })));
   return rows;
 }
 
@@ -90,7 +92,7 @@ void write_follower_figures(const std::vector<FollowerOutcome>& outcomes,
   const std::array<double (*)(const FollowedPath&), 3> values{rms_off, turning, relative_time};
   for (std::size_t i = 0; i < outcomes.size(); ++i)
     for (std::size_t k = 0; k < boxes.size(); ++k) {
-      std::vector<double> y = values_of(outcomes[i], values[k]);
+      std::vector<double> y = collect_values(outcomes[i], values[k]);
       std::vector<double> x(y.size(), static_cast<double>(i + 1));
       boxes[k].series.push_back({names[i], std::move(x), std::move(y), PlotStyle::box});
     }

@@ -57,7 +57,7 @@ ReproduceRow frames_row(const char* figure, const std::string& what, std::option
 }
 
 ReproduceRow gathered_row(const char* figure, const std::string& what, double share) {
-  return noted(row_of(figure, what + ": gathered", "%", {}, 100 * share, 100, false),
+  return noted(make_row(figure, what + ": gathered", "%", {}, 100 * share, 100, false),
                "aim is ours");
 }
 

@@ -36,7 +36,7 @@ double by_area(double xi) {
 double by_area_smooth(double xi) { return (1 - xi) * (2 - xi); }
 
 /// ξ of a map divided into regions of equal size.
-double xi_of(std::size_t regions) { return 1 - 1 / static_cast<double>(regions); }
+double model_xi(std::size_t regions) { return 1 - 1 / static_cast<double>(regions); }
 
 /// Merges the smallest region into its successor until `regions` remain.
 MapSegmentation coarsened(MapSegmentation map, const ObstacleWeightedRrt& tree,
@@ -92,14 +92,14 @@ Measured measured(const scenes::Vascular& scene, int trials, const Stop& stop) {
     AggregationMap map = whole;
     map.segmentation = coarsened(whole.segmentation, whole.tree, regions);
     out.regions.push_back(regions);
-    out.xi.push_back(xi_of(regions));
+    out.xi.push_back(model_xi(regions));
     out.steps.push_back(mean_steps(scene, map, trials, stop));
   }
   return out;
 }
 
 /// The model's unit kρm², by least squares.
-double unit_of(const Measured& m, double (*model)(double)) {
+double fitted_unit(const Measured& m, double (*model)(double)) {
   double product = 0;
   double square = 0;
   for (std::size_t i = 0; i < m.xi.size(); ++i) {
@@ -134,10 +134,10 @@ Plot plot_of_models() {
   return plot;
 }
 
-Plot plot_of(const std::string& name, const Measured& m) {
+Plot draw_plot(const std::string& name, const Measured& m) {
   Plot plot{.title = name, .x_label = "ξ = 1 - 1 / regions", .y_label = "steps", .y_min = 0};
-  const double by_area_unit = unit_of(m, by_area_smooth);
-  const double by_factor_unit = unit_of(m, by_factor_smooth);
+  const double by_area_unit = fitted_unit(m, by_area_smooth);
+  const double by_factor_unit = fitted_unit(m, by_factor_smooth);
   const double last = m.xi.back();
   plot.series.push_back({.label = "DCA, n = 1024", .x = m.xi, .y = m.steps});
   plot.series.push_back(curve(
@@ -154,8 +154,8 @@ void add_rows(const std::string& name, const Measured& m, std::vector<ReproduceR
                                    fmt::format("{}, regions {}: {}", name, m.regions[i], what), "1",
                                    {}, steps));
   };
-  const double by_area_unit = unit_of(m, by_area_smooth);
-  const double by_factor_unit = unit_of(m, by_factor_smooth);
+  const double by_area_unit = fitted_unit(m, by_area_smooth);
+  const double by_factor_unit = fitted_unit(m, by_factor_smooth);
   for (std::size_t i = 0; i < m.xi.size(); ++i) {
     add(i, "steps of DCA, n = 1024", m.steps[i]);
     add(i, "predicted by Eq 10", by_factor_unit * by_factor_smooth(m.xi[i]));
@@ -175,7 +175,7 @@ void gather_fig7(const ReproduceOptions& options, const Stop& stop,
     if (stop()) return;
     const Measured m = measured(scene, trials, stop);
     add_rows(name, m, rows);
-    plots.push_back(plot_of(name, m));
+    plots.push_back(draw_plot(name, m));
   }
   if (!options.out.empty() && !stop())
     write_plots_everywhere(plots, std::filesystem::path(options.out) / "fig7");

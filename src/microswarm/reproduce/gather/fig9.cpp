@@ -59,17 +59,17 @@ class Trials {
   std::size_t size() const { return all_.size(); }
   std::size_t count() const { return count_; }
   Trial& operator[](std::size_t i) { return all_[i]; }
-  std::size_t method_of(std::size_t i) const { return i / count_ % gather_methods.size(); }
+  std::size_t method_at(std::size_t i) const { return i / count_ % gather_methods.size(); }
   /// Largest population first, since it takes the longest.
-  std::size_t population_of(std::size_t i) const {
+  std::size_t population_at(std::size_t i) const {
     return populations - 1 - i / (count_ * gather_methods.size());
   }
-  std::size_t number_of(std::size_t i) const { return i % count_; }
+  std::size_t number_at(std::size_t i) const { return i % count_; }
 
   std::vector<double> steps(std::size_t method, std::size_t population) const {
     std::vector<double> out;
     for (std::size_t i = 0; i < size(); ++i) {
-      if (all_[i].ran && method_of(i) == method && population_of(i) == population)
+      if (all_[i].ran && method_at(i) == method && population_at(i) == population)
         out.push_back(all_[i].result.steps);
     }
     return out;
@@ -89,7 +89,7 @@ class Trials {
     double yes = 0;
     double ran = 0;
     for (std::size_t i = 0; i < size(); ++i) {
-      if (method_of(i) != method || !all_[i].ran) continue;
+      if (method_at(i) != method || !all_[i].ran) continue;
       ran += 1;
       yes += is(all_[i]);
     }
@@ -130,12 +130,12 @@ Trials gather_on(const Ground& ground, int count, bool quick, const Progress& ba
   std::atomic<std::size_t> done = 0;
   std::mutex bar_mutex;
   for_each_index(trials.size(), 0, [&](std::size_t i) {
-    const std::size_t k = trials.population_of(i);
+    const std::size_t k = trials.population_at(i);
     if (stop() || !trials.has(k)) return;
-    const std::size_t m = trials.method_of(i);
+    const std::size_t m = trials.method_at(i);
     Robots robots =
         gather_robots(ground.scene, weighted, stepper, population(k),
-                      static_cast<std::uint32_t>(trials.number_of(i)), ground.min_length);
+                      static_cast<std::uint32_t>(trials.number_at(i)), ground.min_length);
     Trial& trial = trials[i];
     trial.result = gathered(gather_methods[m].weighted ? weighted : plain, stepper,
                             parameters(ground, m, k, quick), robots, stop);
@@ -174,10 +174,10 @@ void add_means(const Ground& ground, const Trials& trials, std::vector<Reproduce
     if (!trials.all_ran(m, of_8)) continue;  // population of the last trials
     const auto add_share = [&](const char* what, const char* why, auto&& is,
                                std::optional<double> aim) {
-      rows.push_back(
-          noted(row_of("fig9", fmt::format("{}, {}: {}", ground.name, gather_methods[m].name, what),
-                       "%", {}, 100 * trials.share(m, is), aim, false),
-                why));
+      rows.push_back(noted(
+          make_row("fig9", fmt::format("{}, {}: {}", ground.name, gather_methods[m].name, what),
+                   "%", {}, 100 * trials.share(m, is), aim, false),
+          why));
     };
     add_share(
         "gathered", "aim is ours", [](const Trial& t) { return t.result.status == Status::solved; },
@@ -201,10 +201,10 @@ void add_order(const Ground& ground, const Trials& trials, std::vector<Reproduce
         paper = *published(ground, of_dca, k) /
                 std::min(*published(ground, of_hra, k), plain.value_or(1e9));
       ReproduceRow row =
-          noted(row_of("fig9",
-                       fmt::format("{}, n = {}: {}'s steps ÷ the best HRA's", ground.name,
-                                   population(k), name),
-                       "1", paper, trials.mean_steps(m, k) / std::max(1.0, others), 1),
+          noted(make_row("fig9",
+                         fmt::format("{}, n = {}: {}'s steps ÷ the best HRA's", ground.name,
+                                     population(k), name),
+                         "1", paper, trials.mean_steps(m, k) / std::max(1.0, others), 1),
                 "the paper: DCA is the best");
       rows.push_back(trials.quick() ? unjudged(std::move(row), "too few trials") : row);
     }
@@ -230,7 +230,7 @@ void add_rollout(const Ground& ground, const Trials& trials, std::vector<Reprodu
       trials.mean_steps(of_rollout, of_1024) / std::max(1.0, trials.mean_steps(of_ours, of_1024));
   const std::string what =
       fmt::format("{}, n = 1024: rollout's steps ÷ those of DCA, ours", ground.name);
-  rows.push_back(noted(row_of("fig9", what, "1", {}, share, 1), "aim is ours"));
+  rows.push_back(noted(make_row("fig9", what, "1", {}, share, 1), "aim is ours"));
 }
 
 /// Processor time so far [s]; wall-clock time would include other processes.
@@ -299,9 +299,9 @@ std::string trials_csv(const std::vector<Ground>& maps, std::vector<Trials>& tri
       const Trial& t = trials[g][i];
       if (!t.ran) continue;
       rows.push_back({.map = maps[g].name,
-                      .method = std::string(gather_methods[trials[g].method_of(i)].name),
-                      .robots = population(trials[g].population_of(i)),
-                      .trial = static_cast<int>(trials[g].number_of(i)),
+                      .method = std::string(gather_methods[trials[g].method_at(i)].name),
+                      .robots = population(trials[g].population_at(i)),
+                      .trial = static_cast<int>(trials[g].number_at(i)),
                       .status = t.result.status,
                       .steps = t.result.steps,
                       .mean_distance = t.result.mean_distance,
@@ -318,7 +318,7 @@ std::string superscript(std::size_t n) {
 }
 
 /// Violins for every n, a line through the means, and the paper's means.
-Plot plot_of(const Ground& ground, const Trials& trials) {
+Plot draw_plot(const Ground& ground, const Trials& trials) {
   Plot plot{.title = ground.name, .x_label = "robots", .y_label = "steps", .y_min = 0};
   plot.key_below = true;
   constexpr double apart = 0.16;
@@ -353,7 +353,7 @@ Plot plot_of(const Ground& ground, const Trials& trials) {
 }
 
 /// Mean steps of every method, one line per population.
-std::vector<std::vector<std::string>> table_of(const Ground& ground, const Trials& trials) {
+std::vector<std::vector<std::string>> to_table(const Ground& ground, const Trials& trials) {
   std::vector<std::vector<std::string>> lines{{"n"}};
   for (const GatherMethod& method : gather_methods) lines[0].emplace_back(method.name);
   for (std::size_t k = 0; k < populations; ++k) {
@@ -382,8 +382,8 @@ void write_figure(const std::vector<Ground>& maps, std::vector<Trials>& trials, 
        {{"fig9.svg", "DCA, HRA and the rollout planner"}}}};
   for (std::size_t g = 0; g < trials.size(); ++g) {
     if (g != of_anywhere)  // the same map as the first
-      plots.push_back(plot_of(maps[g], trials[g]));
-    sections.push_back({maps[g].name, "Mean steps.", table_of(maps[g], trials[g]), {}});
+      plots.push_back(draw_plot(maps[g], trials[g]));
+    sections.push_back({maps[g].name, "Mean steps.", to_table(maps[g], trials[g]), {}});
   }
   write_file_atomically(out / "fig9-trials.csv", trials_csv(maps, trials));
   write_plots_everywhere(plots, out / "fig9");
@@ -408,12 +408,12 @@ void gather_fig9(const ReproduceOptions& options, const Stop& stop,
     add_rollout(map, trials.back(), rows);
   }
   if (!options.quick && !stop()) {  // quick rows are the same on every machine
-    rows.push_back(noted(row_of("fig9", "(c), DCA+OWRRT, ours, n = 1024: processor time of a run",
-                                "s", {}, time_of_a_run(maps.back(), stop), 0.2),
+    rows.push_back(noted(make_row("fig9", "(c), DCA+OWRRT, ours, n = 1024: processor time of a run",
+                                  "s", {}, time_of_a_run(maps.back(), stop), 0.2),
                          "aim is ours"));
     rows.push_back(
-        noted(row_of("fig9", "(c), rollout, n = 1024: processor time of the longest decision", "s",
-                     {}, longest_decision(maps.back(), stop), 0.2),
+        noted(make_row("fig9", "(c), rollout, n = 1024: processor time of the longest decision",
+                       "s", {}, longest_decision(maps.back(), stop), 0.2),
               "aim is ours"));
   }
   if (!options.out.empty() && !trials.empty()) write_figure(maps, trials, stop(), options.out);

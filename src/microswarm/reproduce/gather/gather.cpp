@@ -45,7 +45,7 @@ void write_everywhere(const std::vector<Plot>& plots, const std::filesystem::pat
 namespace {
 
 template <auto add>
-std::vector<ReproduceRow> rows_of(const ReproduceOptions& options, const Stop& stop) {
+std::vector<ReproduceRow> measure_rows(const ReproduceOptions& options, const Stop& stop) {
   std::vector<ReproduceRow> rows;
   add(options, stop, rows);
   return rows;
@@ -55,13 +55,13 @@ std::vector<ReproduceRow> rows_of(const ReproduceOptions& options, const Stop& s
 
 std::vector<ReproduceRow> gather_figures(const std::string& figure, const ReproduceOptions& options,
                                          const Stop& stop) {
-  constexpr std::array<Figure, 7> figures{{{"fig3-6", rows_of<gather_maps>},
-                                           {"fig7", rows_of<gather_fig7>},
-                                           {"fig9", rows_of<gather_fig9>},
-                                           {"generated", rows_of<gather_generated>},
-                                           {"fig10", rows_of<gather_fig10>},
-                                           {"fig10-rig", rows_of<gather_fig10_rig>},
-                                           {"fig10-frames", rows_of<gather_fig10_frames>}}};
+  constexpr std::array<Figure, 7> figures{{{"fig3-6", measure_rows<gather_maps>},
+                                           {"fig7", measure_rows<gather_fig7>},
+                                           {"fig9", measure_rows<gather_fig9>},
+                                           {"generated", measure_rows<gather_generated>},
+                                           {"fig10", measure_rows<gather_fig10>},
+                                           {"fig10-rig", measure_rows<gather_fig10_rig>},
+                                           {"fig10-frames", measure_rows<gather_fig10_frames>}}};
   // The runs through the rig take minutes or longer: only on request.
   const std::size_t with_all = options.quick ? 5 : 6;
   const std::span<const Figure> all(figures);

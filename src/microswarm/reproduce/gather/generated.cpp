@@ -113,8 +113,8 @@ void gather_generated(const ReproduceOptions& options, const Stop& stop,
                                      "generated", what + ": DCA needs fewer steps than HRA", "%",
                                      {}, 100 * best / count));
       ReproduceRow ratio =
-          row_of("generated", what + ": DCA's steps ÷ HRA's, geometric mean", "1", {},
-                 maths::exp(logs / count), many ? std::optional(1.0) : std::nullopt);
+          make_row("generated", what + ": DCA's steps ÷ HRA's, geometric mean", "1", {},
+                   maths::exp(logs / count), many ? std::optional(1.0) : std::nullopt);
       rows.push_back(
           noted(std::move(ratio), many ? "the paper: DCA is the best" : "too few to divide"));
     }

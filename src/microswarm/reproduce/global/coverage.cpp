@@ -250,7 +250,7 @@ std::vector<ReproduceRow> global_initial_distances(const ReproduceOptions& optio
             fmt::format("Robostep {:g}, {} nodes: coverage at {}, share of that at 200 µm", step,
                         tree_sizes[size], at);
         rows.push_back(unjudged_if_quick(
-            noted(row_of("fig7", what, "%", {}, 100 * curve.at(k) / curve.at(0), aim, at_most),
+            noted(make_row("fig7", what, "%", {}, 100 * curve.at(k) / curve.at(0), aim, at_most),
                   at_most ? "aim is ours, for \"drops quickly\""
                           : "aim is ours, for \"little effect\""),
             options));

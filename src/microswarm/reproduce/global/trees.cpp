@@ -50,14 +50,14 @@ GlobalRrtParams parameters(const TreeSetting& setting, int nodes) {
 
 Rng tree_rng(std::size_t seed) { return {1, Purpose::planner, static_cast<std::uint32_t>(seed)}; }
 
-double share_of(std::ptrdiff_t part, std::size_t all) {
+double percentage(std::ptrdiff_t part, std::size_t all) {
   return 100 * static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(1, all));
 }
 
 /// Whether several trees solve a task for which the paper shows one tree.
 ReproduceRow solved_row(const char* figure, const std::string& what, std::ptrdiff_t solved,
                         std::size_t seeds, const ReproduceOptions& options) {
-  return unjudged_if_quick(noted(row_at_least(0, figure, what, "%", 100, share_of(solved, seeds)),
+  return unjudged_if_quick(noted(row_at_least(0, figure, what, "%", 100, percentage(solved, seeds)),
                                  fmt::format("{} of {} trees; the paper shows one", solved, seeds)),
                            options);
 }
@@ -73,8 +73,8 @@ constexpr std::array<std::span<const Vec2>, 2> goal_sets{scenes::global_goals,
                                                          scenes::global_other_goals};
 constexpr std::array<const char*, 2> goal_figures{"fig9", "fig10"};
 
-TreeAnswers answers_of(const Map& map, const TreeSetting& setting, std::size_t seeds,
-                       const Stop& stop) {
+TreeAnswers measure_answers(const Map& map, const TreeSetting& setting, std::size_t seeds,
+                            const Stop& stop) {
   TreeAnswers answers(seeds);
   GlobalRrtParams params = parameters(setting, published_nodes);
   params.stop_at_first = false;
@@ -114,10 +114,10 @@ void add_costs(const LoadedMap& map, const ReproduceOptions& options, const Stop
   ask(loaded, scenes::global_other_goals, 20);
   const double asking = 1e3 * seconds_since(began);
   const auto nodes = static_cast<double>(tree.size());
-  rows.push_back(row_of("fig9", "nodes per second", "1/s", {}, nodes / growing));
-  rows.push_back(row_of("fig10", "bytes a node of the tree's file", "B", {}, bytes / nodes));
-  rows.push_back(row_of("fig10", "loading the tree, every input played", "s", {}, loading));
-  rows.push_back(row_of("fig10", "asking the tree for other goals", "ms", {}, asking));
+  rows.push_back(make_row("fig9", "nodes per second", "1/s", {}, nodes / growing));
+  rows.push_back(make_row("fig10", "bytes a node of the tree's file", "B", {}, bytes / nodes));
+  rows.push_back(make_row("fig10", "loading the tree, every input played", "s", {}, loading));
+  rows.push_back(make_row("fig10", "asking the tree for other goals", "ms", {}, asking));
 }
 
 /// The network shipped with the published program, by trees and by the search.
@@ -141,7 +141,7 @@ void add_leaf(const scenes::GlobalTask& leaf, int search_seeds, const ReproduceO
     rows.push_back(noted(row_without_aim("the paper gives no nodes", "fig1",
                                          fmt::format("{}, 3 robots, {}, {} nodes: solved",
                                                      leaf.name, setting.name, nodes),
-                                         "%", 100, share_of(solved, seeds)),
+                                         "%", 100, percentage(solved, seeds)),
                          fmt::format("{} of {} trees", solved, seeds)));
     const auto best =
         std::ranges::min_element(answers, {}, [](const TreeAnswer& a) { return a.answer.worst; });
@@ -181,7 +181,7 @@ std::vector<ReproduceRow> global_reuse(const ReproduceOptions& options, const St
   std::array<const char*, 2> best_setting{};
   for (TreeAnswer& a : best) a.answer.worst = std::numeric_limits<double>::infinity();
   for (const TreeSetting& setting : tree_settings) {
-    const TreeAnswers answers = answers_of(*map.map, setting, seeds, stop);
+    const TreeAnswers answers = measure_answers(*map.map, setting, seeds, stop);
     if (stop()) return rows;
     for (std::size_t k = 0; k < goal_sets.size(); ++k) {
       std::vector<double> worst;
@@ -249,12 +249,12 @@ std::vector<ReproduceRow> global_magnets(const ReproduceOptions& options, const 
   const std::string what = fmt::format("two magnets, tree of {} nodes: ", nodes);
   std::vector<ReproduceRow> rows{
       noted(row_without_aim(map_of_ours, "fig12", what + "solved", "%", 100,
-                            share_of(solved, needed.size())),
+                            percentage(solved, needed.size())),
             fmt::format("{} of {} trees", solved, needed.size())),
       row_without_aim(map_of_ours, "fig12", what + "nodes until solved or all, median", "1", nodes,
                       median(needed)),
-      row_of("fig12", what + "least distance between the magnets", "µm", {},
-             solved > 0 ? std::optional(apart) : std::nullopt)};
+      make_row("fig12", what + "least distance between the magnets", "µm", {},
+               solved > 0 ? std::optional(apart) : std::nullopt)};
   GlobalSearchParams keeps_apart;
   keeps_apart.directions = 4;
   keeps_apart.separation = 40;

@@ -14,12 +14,12 @@
 namespace microswarm::reproduce {
 namespace {
 
-/// Time of the frame with the minimum distance_of(frame).
+/// Time of the frame with the minimum frame_distance(frame).
 template <class Distance>
-double nearest(const Record& record, Distance&& distance_of) {
+double nearest(const Record& record, Distance&& frame_distance) {
   return std::min_element(
              record.frames.begin(), record.frames.end(),
-             [&](const Frame& a, const Frame& b) { return distance_of(a) < distance_of(b); })
+             [&](const Frame& a, const Frame& b) { return frame_distance(a) < frame_distance(b); })
       ->t;
 }
 
@@ -107,7 +107,7 @@ std::vector<ReproduceRow> radar_micromaze(const ReproduceOptions& options, const
     rows.push_back(noted(noted(row_without_aim(outline, figure, name("total time, median"), "s",
                                                408.2, median_if_any(times)),
                                of),
-                         spread_of(times)));
+                         spread_text(times)));
     add("turning, median", "°", median_if_any(turning));
     rows.push_back(noted(version_row(version, 0, figure, "time spent waiting", "s", {},
                                      run.record.result.metrics.hold_time),

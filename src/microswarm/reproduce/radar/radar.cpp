@@ -24,7 +24,7 @@ ReproduceRow version_row(const RadarVersion& version, double share, const std::s
   return row_without_aim("not the paper's navigator", figure, named, unit, paper, ours);
 }
 
-std::string spread_of(const std::vector<double>& values) {
+std::string spread_text(const std::vector<double>& values) {
   if (values.size() < 4) return "";
   return fmt::format("quartiles {:.4g} – {:.4g}", quantile(values, 0.25), quantile(values, 0.75));
 }

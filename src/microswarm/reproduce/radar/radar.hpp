@@ -36,7 +36,7 @@ ReproduceRow version_row(const RadarVersion& version, double share, const std::s
                          std::optional<double> paper, std::optional<double> ours);
 
 /// Text such as "quartiles 0.12 – 0.31"; empty for fewer than four values.
-std::string spread_of(const std::vector<double>& values);
+std::string spread_text(const std::vector<double>& values);
 
 /// A scenario of [radar], ready to run.
 struct RadarSetting {

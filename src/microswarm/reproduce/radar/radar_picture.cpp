@@ -34,7 +34,7 @@ void mark_moments(Picture& picture, const Record& record, std::span<const double
                  fmt::format("P{}, {:.1f} s", k, moments[k]), moment_mark);
 }
 
-std::string title_of(const RadarRun& run, const std::string& title, const Frame& frame) {
+std::string frame_title(const RadarRun& run, const std::string& title, const Frame& frame) {
   std::string out =
       fmt::format("{}: t = {:.1f} s, δ = {:.2f}", title, frame.t, frame.avoidance_cost);
   if (run.collided()) out += fmt::format(", collided at {:.1f} s", run.record.result.metrics.time);
@@ -128,7 +128,7 @@ void draw_radar_moments(const RadarRun& run, const World& world, std::span<const
   for (std::size_t k = 0; k < moments.size(); ++k) {
     const std::size_t number = frame_at(record, moments[k]);
     const Frame& frame = record.frames[number];
-    pictures.push_back(std::make_unique<Picture>(view, title_of(run, title, frame), pixels));
+    pictures.push_back(std::make_unique<Picture>(view, frame_title(run, title, frame), pixels));
     Picture& picture = *pictures.back();
     draw_radar_view(picture, record, world, number, run.looks[number]);
     mark_moments(picture, record, moments, k);

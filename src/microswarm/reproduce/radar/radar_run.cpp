@@ -10,9 +10,9 @@ namespace microswarm::reproduce {
 
 RadarRun run_radar(const Scene& scene, const World& world, const Stop& stop, std::uint32_t trial) {
   const Scenario& scenario = scene.scenario;
-  const auto navigator =
-      std::make_shared<RadarNavigator>(std::get<RadarParams>(scenario.navigator), task_of(scenario),
-                                       Rng(scenario.seed, Purpose::planner, trial));
+  const auto navigator = std::make_shared<RadarNavigator>(
+      std::get<RadarParams>(scenario.navigator), navigation_task(scenario),
+      Rng(scenario.seed, Purpose::planner, trial));
   Session session({scene, world, {}}, {.trial = trial, .navigator = navigator});
   RadarRun run;
   while (session.step(stop)) run.looks.push_back(navigator->last_look());
@@ -29,7 +29,7 @@ std::size_t frame_at(const Record& record, double t) {
 }
 
 std::vector<Period> periods_detected(const Record& record) {
-  const double range = detection_range_of(record.scene.scenario.navigator);
+  const double range = required_detection_range(record.scene.scenario.navigator);
   std::vector<Period> out;
   bool before = false;
   for (const Frame& f : record.frames) {

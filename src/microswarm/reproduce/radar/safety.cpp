@@ -90,14 +90,14 @@ CourseResult crossed(const Race& race, const ReproduceOptions& options, const St
 void add_rows(const std::string& figure, const CourseResult& result,
               const ReproduceOptions& options, std::vector<ReproduceRow>& rows) {
   for (std::size_t k = 0; k < result.who.size(); ++k) {
-    const Tally tally = tally_of(result.crossings[k]);
+    const Tally tally = count_tally(result.crossings[k]);
     if (tally.runs == 0) continue;  // interrupted
     const std::string note = tally.runs == 1 ? "1 world" : fmt::format("{} worlds", tally.runs);
     const auto row = [&](const char* what, const char* unit, std::optional<double> ours,
                          std::optional<double> aim = {}, std::optional<int> share = {}) {
       ReproduceRow out = noted(
-          row_of(figure, fmt::format("{}, {}: {}", result.course.name, result.who[k].name, what),
-                 unit, {}, ours, aim),
+          make_row(figure, fmt::format("{}, {}: {}", result.course.name, result.who[k].name, what),
+                   unit, {}, ours, aim),
           note);
       if (share)
         out = noted(std::move(out),
@@ -134,9 +134,9 @@ std::optional<double> contact_ratio(const CourseResult& result, std::string_view
     mine.push_back((*a)[seed]);
     theirs.push_back((*b)[seed]);
   }
-  const double of_theirs = tally_of(theirs).contacts;
+  const double of_theirs = count_tally(theirs).contacts;
   if (of_theirs <= 0) return std::nullopt;
-  return tally_of(mine).contacts / of_theirs;
+  return count_tally(mine).contacts / of_theirs;
 }
 
 void add_ratios(const std::string& figure, const CourseResult& result,
@@ -145,7 +145,7 @@ void add_ratios(const std::string& figure, const CourseResult& result,
     const auto ratio = contact_ratio(result, "predictive", other);
     if (!ratio) continue;
     const bool is_aim = other == std::string_view("radar");
-    ReproduceRow row = row_of(
+    ReproduceRow row = make_row(
         figure, fmt::format("{}: contacts of predictive ÷ those of {}", result.course.name, other),
         "1", {}, *ratio, is_aim ? std::optional(aimed_share) : std::nullopt);
     rows.push_back(is_aim ? unjudged_if_quick(noted(std::move(row), "the aim is ours"), options)

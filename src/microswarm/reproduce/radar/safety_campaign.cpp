@@ -23,7 +23,7 @@ namespace {
 
 /// Sets what a navigator must know of the swarm, and of a world with walls.
 NavigatorParams suited(NavigatorParams params, const Scenario& scenario, bool walls) {
-  const SwarmLimits swarm = limits_of(scenario.swarm);
+  const SwarmLimits swarm = swarm_limits(scenario.swarm);
   const double margin = swarm.radius + 0.8 * scenes::avoidance_passage_gap;
   std::visit(Overloaded{[&](HierarchicalParams& p) {
                           p.speed = swarm.max_speed;
@@ -107,7 +107,7 @@ Crossing crossed(const Scenario& scenario, const World& world, const Stop& stop)
   out.obstacles = scenario.obstacles.size();
   out.time = metrics.time;
   out.straight = (distance(scenario.start->position, *scenario.goal) - scenario.goal_tolerance) /
-                 limits_of(scenario.swarm).max_speed;
+                 swarm_limits(scenario.swarm).max_speed;
   out.delta = metrics.avoidance.mean_cost;
   out.turning = metrics.turning;
   out.min_gap = metrics.avoidance.min_gap;
@@ -128,7 +128,8 @@ int Crossing::avoidable() const {
 
 std::vector<Contestant> contestants(const Scenario& example) {
   std::vector<Contestant> out;
-  add_all(task_of(example), out, std::make_index_sequence<std::variant_size_v<NavigatorParams>>{});
+  add_all(navigation_task(example), out,
+          std::make_index_sequence<std::variant_size_v<NavigatorParams>>{});
   return out;
 }
 
@@ -165,7 +166,7 @@ void write_scenario(Scenario scenario, const std::filesystem::path& folder,
   const std::string file = stem + "-tracks.csv";
   std::vector<SampleRow> tracks;
   for (std::size_t i = 0; i < scenario.obstacles.size(); ++i) {
-    Track* track = track_of(scenario.obstacles[i].motion);
+    Track* track = find_track(scenario.obstacles[i].motion);
     if (!track || !track->samples) continue;
     track->file = file;
     track->id = std::to_string(i + 1);

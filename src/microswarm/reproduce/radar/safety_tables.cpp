@@ -27,7 +27,7 @@ constexpr int enough_worlds = 10;     // per bin; bins with fewer are not joined
 constexpr double min_percent = 0.01;  // of extra time; the logarithmic axis has no zero
 
 /// One colour per method in all figures.
-std::size_t colour_of(std::string_view navigator) {
+std::size_t navigator_colour(std::string_view navigator) {
   using namespace method_colours;  // NOLINT(google-build-using-namespace)
   constexpr std::array<std::pair<std::string_view, std::size_t>, 8> colours{
       {{"hierarchical_drrt_star", drrt_star},
@@ -176,7 +176,7 @@ std::string summary_csv(const std::vector<CourseResult>& results) {
   std::vector<SummaryRow> rows;
   for (const CourseResult& result : results)
     for (std::size_t k = 0; k < result.who.size(); ++k) {
-      const Tally t = tally_of(result.crossings[k]);
+      const Tally t = count_tally(result.crossings[k]);
       if (t.runs == 0) continue;
       SummaryRow& row = rows.emplace_back(SummaryRow{.course = result.course.name,
                                                      .navigator = result.who[k].name,
@@ -261,7 +261,7 @@ Plot contacts_plot(const CourseResult& result) {
                            .x = {},
                            .y = {},
                            .style = PlotStyle::marked,
-                           .colour = colour_of(result.who[k].name)});
+                           .colour = navigator_colour(result.who[k].name)});
     few.push_back({.label = "", .x = {}, .y = {}, .style = PlotStyle::rings});
     for (std::size_t bin = 0; bin < runs.size(); ++bin) {
       if (runs[bin] == 0) continue;
@@ -301,7 +301,7 @@ Plot times_plot(const CourseResult& result) {
                   .x = {},
                   .y = {},
                   .style = PlotStyle::box,
-                  .colour = colour_of(result.who[k].name)};
+                  .colour = navigator_colour(result.who[k].name)};
     for (const Crossing& c : result.crossings[k])
       if (c.ran && c.arrived) series.y.push_back(std::max(min_percent, 100 * (slowness(c) - 1)));
     series.x.assign(series.y.size(), static_cast<double>(k + 1));
@@ -316,7 +316,7 @@ Plot avoidable_plot(const CourseResult& result) {
   name_columns(result, plot);
   double least = 1, most = 1;
   for (const auto& crossings : result.crossings) {
-    const double avoidable = tally_of(crossings).avoidable;
+    const double avoidable = count_tally(crossings).avoidable;
     if (avoidable > 0) least = std::min(least, avoidable);
     most = std::max(most, avoidable);
   }
@@ -331,14 +331,14 @@ Plot avoidable_plot(const CourseResult& result) {
   plot.y_min = 0.5 * none;
   plot.y_max = 2 * maths::power(10, last);
   for (std::size_t k = 0; k < result.who.size(); ++k) {
-    const Tally tally = tally_of(result.crossings[k]);
+    const Tally tally = count_tally(result.crossings[k]);
     if (tally.runs == 0) continue;
     const bool some = tally.avoidable > 0;
     plot.series.push_back({.label = "",
                            .x = {static_cast<double>(k + 1)},
                            .y = {some ? tally.avoidable : none},
                            .style = some ? PlotStyle::points : PlotStyle::rings,
-                           .colour = colour_of(result.who[k].name)});
+                           .colour = navigator_colour(result.who[k].name)});
   }
   return plot;
 }
@@ -349,13 +349,13 @@ std::string percent(int some, int all) {
   return fmt::format("{:.3g} ({})", 100.0 * some / std::max(1, all), percent_between(interval));
 }
 
-std::vector<std::vector<std::string>> table_of(const CourseResult& result) {
+std::vector<std::vector<std::string>> to_table(const CourseResult& result) {
   std::vector<std::vector<std::string>> lines{
       {"navigator", "worlds", "contacts a run", "avoidable a run", "worlds with one, % (95 %)",
        "runs with contact, %", "arrived, % (95 %)", "time ÷ straight, median", "mean δ",
        "turning °, median"}};
   for (std::size_t k = 0; k < result.who.size(); ++k) {
-    const Tally t = tally_of(result.crossings[k]);
+    const Tally t = count_tally(result.crossings[k]);
     lines.push_back({result.who[k].name, std::to_string(t.runs), fmt::format("{:.4f}", t.contacts),
                      fmt::format("{:.4f}", t.avoidable), percent(t.runs_avoidable, t.runs),
                      fmt::format("{:.2f}", 100 * t.touched), percent(t.runs_arrived, t.runs),
@@ -372,7 +372,7 @@ std::string percent_between(const ShareInterval& interval) {
   return fmt::format("{:.3g} … {:.3g}", 100 * interval.low, 100 * interval.high);
 }
 
-Tally tally_of(std::span<const Crossing> crossings) {
+Tally count_tally(std::span<const Crossing> crossings) {
   Tally out;
   std::vector<double> times, turning;
   for (const Crossing& c : crossings) {
@@ -421,7 +421,7 @@ void write_safety(const std::vector<CourseResult>& results, const fs::path& fold
     sections.push_back(
         {result.course.name,
          result.extent == "full" ? "" : fmt::format("Not the whole campaign: {}.", result.extent),
-         table_of(result),
+         to_table(result),
          {}});
   }
   write_file_atomically(folder / (stem + ".csv"), summary_csv(results));

@@ -35,7 +35,7 @@ struct Tally {
   double delta = 0;               ///< mean avoidance cost
   std::optional<double> turning;  ///< median [°]
 };
-Tally tally_of(std::span<const Crossing> crossings);
+Tally count_tally(std::span<const Crossing> crossings);
 
 /// Text such as "98.4 … 98.9".
 std::string percent_between(const ShareInterval& interval);

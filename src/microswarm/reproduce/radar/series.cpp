@@ -135,7 +135,7 @@ void add_rows(const RadarSweep& sweep, const RadarVersion& version, const Series
     const double fall = curve.cost.front() - y.front();
     rows.push_back(
         version.as_published
-            ? noted(row_of("fig7", name(what), "1", {}, fall, min_fall, false),
+            ? noted(make_row("fig7", name(what), "1", {}, fall, min_fall, false),
                     "the paper says that it falls, not by how much")
             : row_without_aim("not the paper's navigator", "fig7", name(what), "1", {}, fall));
   }
@@ -144,7 +144,7 @@ void add_rows(const RadarSweep& sweep, const RadarVersion& version, const Series
       100.0 * static_cast<double>(same) / static_cast<double>(curve.side.size()));
 }
 
-Plot plot_of(const RadarSweep& sweep, const std::vector<SeriesCurve>& curves) {
+Plot draw_plot(const RadarSweep& sweep, const std::vector<SeriesCurve>& curves) {
   Series paper{.label = "paper: cases of Fig 5", .style = PlotStyle::published};
   if (sweep.cost_first) paper.x.push_back(sweep.first), paper.y.push_back(*sweep.cost_first);
   if (sweep.cost_last) paper.x.push_back(sweep.last), paper.y.push_back(*sweep.cost_last);
@@ -177,7 +177,7 @@ std::vector<ReproduceRow> radar_series(const ReproduceOptions& options, const St
       if (stop()) return rows;
       add_rows(sweep, version, curves.back(), rows);
     }
-    plots.push_back(plot_of(sweep, curves));
+    plots.push_back(draw_plot(sweep, curves));
   }
   if (!options.out.empty()) write_plots_everywhere(plots, fs::path(options.out) / "fig7");
   return rows;

@@ -63,8 +63,8 @@ constexpr CaseFigure experiments{"fig10",
                                    {"Case II", 25, 250, {}, {}, {}, {}, 0.24},
                                    {"Case III", 205, 250, {}, {}, {}, {}, 0.29}}}};
 
-RadarSetting setting_of(const CaseFigure& figure, const Case& c, const RadarVersion& version,
-                        const ReproduceOptions& options) {
+RadarSetting case_setting(const CaseFigure& figure, const Case& c, const RadarVersion& version,
+                          const ReproduceOptions& options) {
   RadarSetting s = load_radar(options, figure.scenario, version);
   s.params().safety_distance = c.safety_distance * figure.um_per_px;
   s.params().detection_range = c.detection_range * figure.um_per_px;
@@ -116,9 +116,9 @@ class CaseRows {
     const std::string of =
         fmt::format("{} runs", runs) + (figure_.has_noise ? "" : ", places seen 1 µm uncertain");
     add(near_cost, "mean avoidance cost, median over seeds", "1", case_.cost, median(costs), of,
-        spread_of(costs));
+        spread_text(costs));
     add(near_time, "total time, median over seeds", "s", case_.total, median(times), of,
-        spread_of(times));
+        spread_text(times));
     const auto share =
         static_cast<double>(std::count(same.begin(), same.end(), 1)) / static_cast<double>(runs);
     add(0, "passes on the same side as the run that is drawn", "%", {}, 100 * share, of);
@@ -174,7 +174,7 @@ std::vector<ReproduceRow> cases(const CaseFigure& figure, const ReproduceOptions
     std::vector<RadarSetting> settings;
     int contacts = 0;
     for (const Case& c : figure.cases) {
-      settings.push_back(setting_of(figure, c, version, options));
+      settings.push_back(case_setting(figure, c, version, options));
       runs.push_back(run_radar(settings.back().scene, settings.back().world, stop));
       if (stop()) return rows;
       CaseRows out(figure, c, version, rows);

@@ -48,7 +48,7 @@ void scatter(Scenario& scenario, double top_speed, std::uint32_t trial) {
   const double length = map.hi.x - map.lo.x, height = map.hi.y - map.lo.y;
   for (Obstacle& obstacle : scenario.obstacles) {
     const double keep_off =
-        std::get<DiscShape>(obstacle.shape).radius + 2 * limits_of(scenario.swarm).radius;
+        std::get<DiscShape>(obstacle.shape).radius + 2 * swarm_limits(scenario.swarm).radius;
     HarmonicLine line;
     for (int draw = 0; draw < max_draws; ++draw) {
       const double x = map.lo.x + length * rng.uniform(0.15, 0.9);
@@ -146,7 +146,7 @@ void add_totals(const Twelve& f, const RadarVersion& version, const Totals& tota
                        std::optional<double> paper, const std::vector<double>& values) {
     judged(noted(
         noted(version_row(version, within, f.figure, what, unit, paper, median_if_any(values)), of),
-        spread_of(values)));
+        spread_text(values)));
   };
   add(near_cost, "mean avoidance cost, random scenes", "1", f.cost, totals.costs);
   add(near_time, "total time, random scenes", "s", f.total, totals.times);
@@ -154,7 +154,7 @@ void add_totals(const Twelve& f, const RadarVersion& version, const Totals& tota
   rows.push_back(noted(noted(version_row(version, 0, f.figure, "turning, random scenes", "°", {},
                                          median_if_any(totals.turning)),
                              fmt::format("median of {}", all)),
-                       spread_of(totals.turning)));
+                       spread_text(totals.turning)));
 }
 
 void add_drawn(const Twelve& f, const RadarVersion& version, const RadarRun& run,
@@ -192,8 +192,8 @@ void add_guard_rows(const Twelve& f, const ReproduceOptions& options, int trials
   if (stop()) return;
   const auto add = [&](const char* what, const std::array<double, 2>& turning) {
     rows.push_back(unjudged_if_quick(
-        noted(row_of(f.figure, fmt::format("turning with the guard ÷ without, {}", what), "1", {},
-                     turning[1] / std::max(turning[0], 1e-9), max_turning),
+        noted(make_row(f.figure, fmt::format("turning with the guard ÷ without, {}", what), "1", {},
+                       turning[1] / std::max(turning[0], 1e-9), max_turning),
               "the aim is ours"),
         options));
   };

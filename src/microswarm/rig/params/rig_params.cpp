@@ -77,7 +77,7 @@ Issues validate(const RigParams& rig, const CoilSystem& system) {
   issues.add_within("perception.scene.swarm.look", validate(rig.perception.scene.swarm.look));
   issues.add_within("perception.scene.obstacles", validate(rig.perception.scene.obstacles));
   issues.add(validate_driver(rig));
-  const int channels = channels_of(rig, system);
+  const int channels = channel_count(rig, system);
   if (static_cast<int>(system.size()) > channels)
     issues.add(
         {"driver.channels", "driver"},
@@ -95,15 +95,15 @@ Rig read_rig(const std::filesystem::path& file, const Settings& settings) {
   const bool limits_current = std::ranges::all_of(
       system.amplifiers(),
       [](const AmplifierParams& amplifier) { return amplifier.max_current.has_value(); });
-  system.limit_current(full_scale_of(params));
+  system.limit_current(driver_full_scale(params));
   return {std::move(params), std::move(system), file.parent_path(), keys, limits_current};
 }
 
-double full_scale_of(const RigParams& rig) {
+double driver_full_scale(const RigParams& rig) {
   return std::visit([](const auto& driver) { return driver.full_scale; }, rig.driver);
 }
 
-int channels_of(const RigParams& rig, const CoilSystem& system) {
+int channel_count(const RigParams& rig, const CoilSystem& system) {
   return std::visit(Overloaded{[](const SimulatedCoils& coils) { return coils.channels; },
                                [](const SerialCoilParams&) { return coil_link_channels; },
                                [&](const OneOf<ProgramDriverParams, SocketDriverParams> auto& own) {
@@ -116,9 +116,9 @@ CoilInput coil_input(const RigParams& rig) {
   return std::visit(Overloaded{[](const SimulatedCoils& coils) {
                                  return coils.waveforms ? CoilInput::waveform : CoilInput::currents;
                                },
-                               [](const SerialCoilParams& serial) { return input_of(serial); },
+                               [](const SerialCoilParams& serial) { return driver_input(serial); },
                                [](const OneOf<ProgramDriverParams, SocketDriverParams> auto& own) {
-                                 return input_of(own.send);
+                                 return driver_input(own.send);
                                }},
                     rig.driver);
 }
@@ -152,7 +152,7 @@ NewestFrameParams camera_watch(const RigParams& rig) {
   return std::visit([](const auto& params) { return params.watch; }, *camera);
 }
 
-std::string name_of(const Rig& rig) {
+std::string rig_name(const Rig& rig) {
   return rig.params.name.empty() ? "unnamed rig" : rig.params.name;
 }
 
@@ -176,7 +176,7 @@ Issues validate(const Rig& rig, const Scenario& scenario) {
   const FieldGeneratorParams& field = rig.params.field;
   const double reach = field.max_speed();
   const double wanted =
-      scenario.robots ? scenario.robots->max_speed : limits_of(scenario.swarm).max_speed;
+      scenario.robots ? scenario.robots->max_speed : swarm_limits(scenario.swarm).max_speed;
   if (wanted > reach * (1 + 1e-9))
     issues.add({"robots.max_speed_um_per_s", "swarm.max_speed_um_per_s"},
                fmt::format("the swarm is meant to go {:.6g} µm/s, this rig's field drives it at "

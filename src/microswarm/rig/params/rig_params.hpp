@@ -139,10 +139,10 @@ struct Rig {
 };
 
 /// Current of a channel at full output [A].
-double full_scale_of(const RigParams& rig);
+double driver_full_scale(const RigParams& rig);
 
 /// Channels of the rig's driver, as many as the system has coils unless it says otherwise.
-int channels_of(const RigParams& rig, const CoilSystem& system);
+int channel_count(const RigParams& rig, const CoilSystem& system);
 
 /// Input of the rig's driver.
 CoilInput coil_input(const RigParams& rig);
@@ -159,7 +159,7 @@ bool shows_drawn_swarm(const RigParams& rig);
 NewestFrameParams camera_watch(const RigParams& rig);
 
 /// Name of the rig in records.
-std::string name_of(const Rig& rig);
+std::string rig_name(const Rig& rig);
 
 /// Reads a rig file and its coil system, whose currents are limited by the driver's full scale.
 /// `settings` are `key=value` texts, as from --set. Throws a one-line InputError, also if the drive

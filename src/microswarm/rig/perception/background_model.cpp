@@ -63,7 +63,7 @@ BackgroundModel::BackgroundModel(const Mask& walls, int reach) : reach_(reach) {
 void BackgroundModel::compare_with_light(const Image& picture) {
   const cv::Mat grey(picture.height, picture.width, CV_8U,
                      const_cast<std::uint8_t*>(picture.pixels.data()));
-  const cv::Mat light = ground_of(grey, free_);
+  const cv::Mat light = estimate_background(grey, free_);
   share_.resize(picture.pixels.size());
   divide(picture.pixels, light.ptr<float>(), share_.data());
 }

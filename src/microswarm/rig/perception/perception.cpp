@@ -25,7 +25,7 @@ bool shows_channel(const std::vector<Obstacle>& obstacles) {
 
 }  // namespace
 
-Observation observation_of(const Detections& sight, std::shared_ptr<const Snapshot> world,
+Observation to_observation(const Detections& sight, std::shared_ptr<const Snapshot> world,
                            double now, double seen) {
   Observation observation{.now = now,
                           .seen = seen,
@@ -44,8 +44,8 @@ std::unique_ptr<Perception> make_perception(const PerceptionParams& params,
     return std::make_unique<RobotPerception>(params, *scenario.robots, map, starts, view);
   PerceptionParams shown = params;
   shown.moving_walls = params.moving_walls || shows_channel(scenario.obstacles);
-  return std::make_unique<SwarmPerception>(shown, limits_of(scenario.swarm), map, *scenario.start,
-                                           view, scenario.obstacles);
+  return std::make_unique<SwarmPerception>(shown, swarm_limits(scenario.swarm), map,
+                                           *scenario.start, view, scenario.obstacles);
 }
 
 }  // namespace microswarm

@@ -72,7 +72,7 @@ class Perception {
 };
 
 /// Navigator observation of the detections. `sight` and `world` must outlive it.
-Observation observation_of(const Detections& sight, std::shared_ptr<const Snapshot> world,
+Observation to_observation(const Detections& sight, std::shared_ptr<const Snapshot> world,
                            double now, double seen);
 
 /// Creates the perception of a scenario: for one swarm among obstacles, or for robots. The

@@ -18,7 +18,7 @@ constexpr double speed_margin = 3;     // of the speed of a robot between two pi
 constexpr double longest_blink = 0.5;  // [s] unseen, after which a robot does not join a pile
 constexpr double usual_time = 1.0;     // [s] typical time between pictures, for the stepper's grid
 
-std::size_t nearest_of(std::span<const Vec2> positions, Vec2 to) {
+std::size_t nearest_index(std::span<const Vec2> positions, Vec2 to) {
   std::size_t best = 0;
   for (std::size_t i = 1; i < positions.size(); ++i)
     if (squared_norm(positions[i] - to) < squared_norm(positions[best] - to)) best = i;
@@ -69,7 +69,7 @@ const Detections& RobotPerception::process(const Image& picture, double t) {
   detections_.not_found = NotFound::robots;
   if (share < min_seen_) return detections_;
   detections_.not_found.reset();
-  detections_.swarm = body_of(detections_.robots, command_.heading);
+  detections_.swarm = enclosing_pose(detections_.robots, command_.heading);
   return detections_;
 }
 
@@ -96,12 +96,12 @@ void RobotPerception::pair(double reach) {
   // Sort by x, so that only spots of similar x are compared.
   std::vector<int> by_x(spots_.size());
   std::iota(by_x.begin(), by_x.end(), 0);
-  const auto x_of = [&](int spot) { return spots_[static_cast<std::size_t>(spot)].x; };
-  std::sort(by_x.begin(), by_x.end(), [&](int a, int b) { return x_of(a) < x_of(b); });
+  const auto x_at = [&](int spot) { return spots_[static_cast<std::size_t>(spot)].x; };
+  std::sort(by_x.begin(), by_x.end(), [&](int a, int b) { return x_at(a) < x_at(b); });
   for (std::size_t r = 0; r < robots.size(); ++r) {
     auto at = std::partition_point(by_x.begin(), by_x.end(),
-                                   [&](int s) { return x_of(s) < robots[r].x - reach; });
-    for (; at != by_x.end() && x_of(*at) <= robots[r].x + reach; ++at) {
+                                   [&](int s) { return x_at(s) < robots[r].x - reach; });
+    for (; at != by_x.end() && x_at(*at) <= robots[r].x + reach; ++at) {
       const double d = squared_norm(spots_[static_cast<std::size_t>(*at)] - robots[r]);
       if (d <= reach * reach) edges_.push_back({static_cast<int>(r), *at, d});
     }
@@ -111,7 +111,7 @@ void RobotPerception::pair(double reach) {
 }
 
 /// Maximum distance from its expected position of a robot that was not seen for some time [µm].
-double RobotPerception::reach_of(std::size_t robot, double t) const {
+double RobotPerception::robot_reach(std::size_t robot, double t) const {
   return diameter_ + speed_margin * max_speed_ * (t - seen_at_[robot]);
 }
 
@@ -135,14 +135,14 @@ void RobotPerception::place_the_unpaired(double t, double reach) {
         std::min_element(left.begin(), left.end(), [&](std::size_t a, std::size_t b) {
           return squared_norm(robots[a] - spots_[s]) < squared_norm(robots[b] - spots_[s]);
         });
-    if (distance(robots[*nearest], spots_[s]) > reach_of(*nearest, t)) continue;
+    if (distance(robots[*nearest], spots_[s]) > robot_reach(*nearest, t)) continue;
     robots[*nearest] = spots_[s];
     seen_at_[*nearest] = t;
     left.erase(nearest);
   }
   detections_.unseen = 0;
   for (const std::size_t r : left) {
-    const Vec2 spot = spots_[nearest_of(spots_, robots[r])];
+    const Vec2 spot = spots_[nearest_index(spots_, robots[r])];
     const bool is_dark = background_->is_dark(scale_.to_picture(robots[r]));
     const bool joins = is_dark || distance(robots[r], spot) <= reach;
     if (!joins || t - seen_at_[r] > longest_blink) {

@@ -40,7 +40,7 @@ class RobotPerception : public Perception {
   void expect(double passed);
   void pair(double reach);
   void place_the_unpaired(double t, double reach);
-  double reach_of(std::size_t robot, double t) const;
+  double robot_reach(std::size_t robot, double t) const;
   void measure_following();
   void learn_ground();
 

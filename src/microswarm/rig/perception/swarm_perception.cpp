@@ -246,7 +246,7 @@ void SwarmPerception::measure_following(Vec2 position, double t) {
 
 void SwarmPerception::tell_heading(Vec2 position) {
   if (distance(from_, position) < params_.heading_distance) return;
-  heading_ = heading_of(position - from_);
+  heading_ = heading_along(position - from_);
   from_ = position;
 }
 

@@ -78,7 +78,7 @@ void ValveLeaves::join(const Standing& valve, std::uint32_t number,
   }
   std::vector<Body> leaves;
   if (both.size() == 1 && left.empty() && right.empty()) {
-    const auto* ring = outline_of(bodies[both[0]]);
+    const auto* ring = find_outline(bodies[both[0]]);
     if (!ring) return;
     leaves = {{.shape = Polygon{left_part(*ring, valve.at, valve.along), {}}, .obstacle = number},
               {.shape = Polygon{left_part(*ring, valve.at, -valve.along), {}}, .obstacle = number}};

@@ -155,7 +155,7 @@ std::string CoilLoop::send(CoilMoment& moment, const Eigen::Vector3d& position, 
     moment.output = controller_.advance(dt);
     moment.driven = steady_seconds();
     moment.round_trip = moment.driven - began;
-    if (trouble_of(moment.output.status).empty() && heard_) heard_(moment);
+    if (trouble_text(moment.output.status).empty() && heard_) heard_(moment);
     return {};
   } catch (const std::exception& e) {
     return e.what();

@@ -60,11 +60,12 @@ double rounded(double value, double per_one) { return std::round(value * per_one
 
 template <class Row>
 const std::vector<Column>& columns() {
-  static const std::vector<Column> all = columns_of<Row>(ColumnUnits::shown);
+  static const std::vector<Column> all = to_columns<Row>(ColumnUnits::shown);
   return all;
 }
 
-std::string line_of(const Commanded& before, const Eigen::VectorXd& currents, const Driven& after) {
+std::string log_line(const Commanded& before, const Eigen::VectorXd& currents,
+                     const Driven& after) {
   std::string line = csv_line(columns<Commanded>(), &before);
   for (const double i : currents) line += "," + number_text(rounded(i, 1e5));
   return line + "," + csv_line(columns<Driven>(), &after) + "\n";
@@ -107,29 +108,29 @@ void CommandLog::add(const CoilMoment& m, double start) {
   const Eigen::Vector3d& b = m.output.wanted;
   std::optional<double> acknowledged;
   if (is_acknowledged(m.output.status)) acknowledged = rounded(m.output.device_scale, 1e4);
-  write(line_of({.t = rounded(m.t - start, 1e4),
-                 .heading = m.command.heading,
-                 .speed = rounded(m.command.speed, 1e3),
-                 .bx = rounded(b.x(), 1e5),
-                 .by = rounded(b.y(), 1e5),
-                 .bz = rounded(b.z(), 1e5)},
-                m.output.currents,
-                {.scale = rounded(m.output.scale, 1e4),
-                 .device_scale = acknowledged,
-                 .status = std::string(dry_ ? "dry" : to_string(m.output.status)),
-                 .late = rounded(m.late, 1e6),
-                 .round_trip = rounded(m.round_trip, 1e6),
-                 .seen = rounded(m.seen - start, 1e4)}));
+  write(log_line({.t = rounded(m.t - start, 1e4),
+                  .heading = m.command.heading,
+                  .speed = rounded(m.command.speed, 1e3),
+                  .bx = rounded(b.x(), 1e5),
+                  .by = rounded(b.y(), 1e5),
+                  .bz = rounded(b.z(), 1e5)},
+                 m.output.currents,
+                 {.scale = rounded(m.output.scale, 1e4),
+                  .device_scale = acknowledged,
+                  .status = std::string(dry_ ? "dry" : to_string(m.output.status)),
+                  .late = rounded(m.late, 1e6),
+                  .round_trip = rounded(m.round_trip, 1e6),
+                  .seen = rounded(m.seen - start, 1e4)}));
 }
 
 std::string CommandLog::finish(const StopReport& zero) noexcept {
   if (file_.empty()) return {};
   try {
     if (start_)
-      write(line_of({.t = rounded(zero.at - *start_, 1e4)}, Eigen::VectorXd::Zero(coils_),
-                    {.status = dry_             ? "dry"
-                               : zero.confirmed ? "zero"
-                                                : "zero_not_confirmed"}));
+      write(log_line({.t = rounded(zero.at - *start_, 1e4)}, Eigen::VectorXd::Zero(coils_),
+                     {.status = dry_             ? "dry"
+                                : zero.confirmed ? "zero"
+                                                 : "zero_not_confirmed"}));
     if (std::fclose(out_.release()) == 0) {
       std::filesystem::rename(part_, file_);
       return {};

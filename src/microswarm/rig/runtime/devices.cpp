@@ -74,7 +74,7 @@ std::unique_ptr<CoilDriver> open_coils(const Rig& rig) {
       rig.params.driver);
 }
 
-std::unique_ptr<FrameSource> open_camera_of(const Rig& rig) {
+std::unique_ptr<FrameSource> open_rig_camera(const Rig& rig) {
   return std::visit(
       Overloaded{[](const SimulatedCamera&) { return std::unique_ptr<FrameSource>(); },
                  [](const OneOf<CameraParams, GenicamParams> auto& c) { return open_camera(c); },
@@ -97,7 +97,7 @@ Devices open_devices(const RigExperiment& on, bool dry, bool idle) {
     throw on.rig.keys.error("scale",
                             "`scale` is missing: it says where the camera sees the world, see "
                             "`microswarm rig scale`");
-  devices.camera = open_camera_of(on.rig);
+  devices.camera = open_rig_camera(on.rig);
   devices.camera_rate = devices.camera->rate();
   devices.scale = *rig.scale;
   return devices;

@@ -28,6 +28,6 @@ Devices open_devices(const RigExperiment& on, bool dry, bool idle = false);
 std::unique_ptr<CoilDriver> open_coils(const Rig& rig);
 
 /// Opens the camera or video of a rig; nothing if its camera is simulated. Errors as above.
-std::unique_ptr<FrameSource> open_camera_of(const Rig& rig);
+std::unique_ptr<FrameSource> open_rig_camera(const Rig& rig);
 
 }  // namespace microswarm

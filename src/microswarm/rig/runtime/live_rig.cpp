@@ -59,7 +59,7 @@ std::string why_not_found(const Detections& seen) {
 
 void check_picture(const Rig& rig, const Scenario& scenario, const CameraScale& scale,
                    const Image& picture) {
-  for (const Vec2 position : places_of(scenario)) {
+  for (const Vec2 position : robot_positions(scenario)) {
     const Vec2 at = scale.to_picture(position);
     if (at.x < -0.5 || at.y < -0.5 || at.x > picture.width - 0.5 || at.y > picture.height - 0.5)
       throw rig.keys.error(
@@ -114,7 +114,7 @@ Observation LiveRig::observe() {
     reported_ = seen_;
     listeners_.detections(*detections_, seen_);
   }
-  return observation_of(*detections_, std::make_shared<const Snapshot>(world_then()), now, seen_);
+  return to_observation(*detections_, std::make_shared<const Snapshot>(world_then()), now, seen_);
 }
 
 /// World at the newest picture: virtual obstacles, then the bodies that the picture shows.

@@ -22,7 +22,7 @@ double share_at(double t, double end, double ramp) {
 }
 
 /// Heading at the start.
-double heading_of(const Setpoint& setpoint) {
+double heading_along(const Setpoint& setpoint) {
   const auto* const command = std::get_if<Command>(&setpoint);
   return command ? command->heading : 0;
 }
@@ -50,7 +50,7 @@ ManualResult drive_by_hand(const Rig& rig, CoilDriver& driver, const ManualComma
                            const Eigen::VectorXd& temperatures,
                            const std::function<void(const ManualMoment&)>& heard,
                            const Stop& stop) {
-  CoilController controller(rig.system, rig.params.field, driver, heading_of(command.wanted));
+  CoilController controller(rig.system, rig.params.field, driver, heading_along(command.wanted));
   controller.warm(temperatures);
   controller.command(command.wanted);
   ManualResult result{.most = controller.output().acknowledged};

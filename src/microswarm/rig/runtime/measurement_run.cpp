@@ -23,7 +23,7 @@ class StepMeasurement {
         driver_(driver),
         step_(step),
         counts_from_(timing.ramp + timing.settle),
-        tolerance_(resolution * full_scale_of(rig.params)),
+        tolerance_(resolution * driver_full_scale(rig.params)),
         reader_(reader),
         currents_(Eigen::VectorXd::Zero(step.currents.size())) {}
 
@@ -82,7 +82,7 @@ SettledCurrents StepMeasurement::settled() const {
     if (std::abs(step_.currents[k]) - std::abs(currents_[k]) > tolerance_) out.limited.push_back(k);
   if (rig_.system.in_workspace(step_.position))
     out.expected =
-        rig_.system.at(step_.position).field_of(is_reached() ? step_.currents : currents_);
+        rig_.system.at(step_.position).total_field(is_reached() ? step_.currents : currents_);
   return out;
 }
 
@@ -94,7 +94,7 @@ Measurement StepMeasurement::result(const ManualResult& drive) const {
                   .why = drive.why};
   // A measurement counts even if something fails while the currents ramp down.
   if (answer_ && answer_->outcome == measured) {
-    out.reading = reading_of(answer_->readings);
+    out.reading = mean_reading(answer_->readings);
     out.expected = settled().expected;
   }
   if (!drive.why.empty() || !drive.zero.good())

@@ -34,10 +34,10 @@ struct Weakening {
   bool reached = true;
 };
 
-Weakening weakening_of(const Rig& rig) {
+Weakening field_weakening(const Rig& rig) {
   constexpr double settled = 0.5;  // [s]
   constexpr double lasts = 2;      // [s]
-  SimulatedCoilDriver driver(static_cast<int>(rig.system.size()), full_scale_of(rig.params),
+  SimulatedCoilDriver driver(static_cast<int>(rig.system.size()), driver_full_scale(rig.params),
                              coil_input(rig.params));
   CoilController controller(rig.system, rig.params.field, driver, 0);
   Weakening most;
@@ -77,7 +77,7 @@ Watched watch(NewestFrame& camera, double seconds, const Stop& stop) {
 
 RigCheck check_field(const Rig& rig) {
   const double amplitude = rig.params.field.amplitude;
-  const Weakening most = weakening_of(rig);
+  const Weakening most = field_weakening(rig);
   if (!most.reached) return {"limits", false, "these coils cannot make every field that is needed"};
   if (most.scale < 1)
     return {"limits", false,
@@ -149,7 +149,7 @@ std::vector<RigCheck> check_driver(CoilDriver& driver, const Rig& rig, double se
     resumed += status == DriveStatus::resumed;
     times.add(steady_seconds() - began);
     const bool unanswered = failures >= max_missed_answers;
-    if (!trouble_of(status).empty() || unanswered) trouble = trouble_of(driver, status);
+    if (!trouble_text(status).empty() || unanswered) trouble = trouble_text(driver, status);
     if (status == DriveStatus::gone || unanswered) break;
   }
   const StopReport zero = driver.stop();

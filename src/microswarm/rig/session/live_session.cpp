@@ -34,8 +34,8 @@ std::unique_ptr<VideoRecorder> video_recorder(const std::filesystem::path& file,
   return std::make_unique<VideoRecorder>(file, rate.value_or(usual_rate));
 }
 
-SessionParts parts_of(const Rig& rig, std::shared_ptr<Plant> plant, const LiveOptions& options) {
-  return {.plant = std::move(plant), .rig = name_of(rig) + (options.dry ? ", dry run" : "")};
+SessionParts to_parts(const Rig& rig, std::shared_ptr<Plant> plant, const LiveOptions& options) {
+  return {.plant = std::move(plant), .rig = rig_name(rig) + (options.dry ? ", dry run" : "")};
 }
 
 /// Date and local time, ISO 8601.
@@ -49,7 +49,7 @@ std::string date_now() {
 }
 
 /// Log of a rig at the start of an experiment.
-RigLog log_of(const Rig& rig, const std::string& note) {
+RigLog make_log(const Rig& rig, const std::string& note) {
   RigLog log;
   log.began = date_now();
   log.note = note;
@@ -59,7 +59,7 @@ RigLog log_of(const Rig& rig, const std::string& note) {
   return log;
 }
 
-RigLatency latency_of(const RigTiming& timing) {
+RigLatency rig_latency(const RigTiming& timing) {
   const Durations& times = timing.camera_to_current;
   return {.median = times.quantile(0.5),
           .p99 = times.quantile(0.99),
@@ -78,7 +78,7 @@ constexpr double device_check = 0.3;            // [s]
 LiveSession::LiveSession(RigExperiment on, const LiveOptions& options)
     : on_(checked(std::move(on), options)),
       devices_(open_devices(on_, options.dry, options.idle)),
-      kept_(log_of(on_.rig, options.note)),
+      kept_(make_log(on_.rig, options.note)),
       log_(options.folder, on_.rig.system, options.dry),
       video_(video_recorder(options.video, devices_.camera_rate)),
       plant_(std::make_shared<LiveRig>(
@@ -88,7 +88,7 @@ LiveSession::LiveSession(RigExperiment on, const LiveOptions& options)
               .coils = [this](const CoilMoment& moment) { keep(moment); },
               .pictures = video_ ? video_->input() : FrameListener(),
               .detections = [this](const Detections& seen, double t) { keep(seen, t); }})),
-      session_(on_.experiment, parts_of(on_.rig, plant_, options)) {
+      session_(on_.experiment, to_parts(on_.rig, plant_, options)) {
   if (video_) video_->begin(plant_->start());
   if (device_camera(on_.rig.params))
     require(check_camera(plant_->camera(), on_.rig, devices_.camera_rate, device_check));
@@ -117,7 +117,7 @@ void LiveSession::keep(const Detections& seen, double t) {
   if (kept_.seen_at.size() >= max_logged) return;
   if (seen.swarm) kept_.see(t, -1, seen.swarm->pose.position, seen.swarm->radius);
   for (const Body& body : seen.moving) {
-    const Disc extent = extent_of(body);
+    const Disc extent = enclosing_disc(body);
     kept_.see(t, body.obstacle, extent.centre, extent.radius);
   }
 }
@@ -139,7 +139,7 @@ void LiveSession::keep(const CoilMoment& moment) {
 std::string LiveSession::close() {
   const StopReport zero = stop("the run has ended");
   if (!kept_.empty()) {
-    kept_.latency = latency_of(plant_->timing());
+    kept_.latency = rig_latency(plant_->timing());
     session_.rig_log() = std::exchange(kept_, {});
   }
   if (video_) video_->finish();

@@ -7,7 +7,7 @@
 namespace microswarm {
 
 std::unique_ptr<Session> open_on_rig(const RigExperiment& on, std::uint32_t trial) {
-  SessionParts parts{.trial = trial, .rig = name_of(on.rig)};
+  SessionParts parts{.trial = trial, .rig = rig_name(on.rig)};
   parts.plant = std::make_shared<SimulatedRig>(on.scenario(), on.experiment.world, on.rig, trial);
   return std::make_unique<Session>(on.experiment, std::move(parts));
 }

@@ -57,7 +57,7 @@ Command FieldResponse::oscillating(const Eigen::Vector3d& field, double dt) {
   const Vec2 flat{axis_.x(), axis_.y()};
   const double pitch = maths::asin(std::clamp(axis_.z(), -1.0, 1.0));
   const double sign = pitch < 0 ? -1 : 1;  // the forward direction is where the axis rises
-  if (std::abs(pitch) > flat_pitch) heading_ = heading_of(sign * flat);
+  if (std::abs(pitch) > flat_pitch) heading_ = heading_along(sign * flat);
   return {heading_, params_.speed_per_pitch * std::abs(pitch)};
 }
 
@@ -65,7 +65,7 @@ Command FieldResponse::oscillating(const Eigen::Vector3d& field, double dt) {
 Command FieldResponse::pitched(const Eigen::Vector3d& raised) {
   const Vec2 flat{raised.x(), raised.y()};
   const double pitch = maths::atan2(norm(flat), std::abs(raised.z()));
-  if (pitch > flat_pitch) heading_ = heading_of(flat);
+  if (pitch > flat_pitch) heading_ = heading_along(flat);
   return {heading_, params_.speed_per_pitch * pitch};
 }
 

@@ -27,7 +27,7 @@ Scenario true_scenario(Scenario scenario, const Rig& rig) {
   return scenario;
 }
 
-FieldResponseParams response_of(const RigParams& rig) {
+FieldResponseParams field_response(const RigParams& rig) {
   const auto* camera = std::get_if<SimulatedCamera>(&rig.camera);
   const double faster = 1 + (camera ? camera->speed_error : 0);
   return {.kind = rig.field.kind,
@@ -43,7 +43,7 @@ RigSimulator::RigSimulator(const Scenario& scenario, const World& world, const R
     : rig_(rig),
       robots_(scenario.robots.has_value()),
       tick_(scenario.tick),
-      response_(response_of(rig.params)),
+      response_(field_response(rig.params)),
       physics_(make_kinematic_plant(true_scenario(scenario, rig), world, trial)),
       map_(world.map),
       microscope_(std::get<SimulatedCamera>(rig.params.camera).microscope, *map_, scenario.seed,
@@ -58,7 +58,7 @@ void RigSimulator::pass(std::span<const double> currents, double dt) {
     at_ = now;
     actuation_ = rig_.system.at(now);
   }
-  const Command driven = response_.step(actuation_.field_of(carried), dt);
+  const Command driven = response_.step(actuation_.total_field(carried), dt);
   if (robots_) {  // robots step once per tick, as their random motion requires
     step_ += displacement(driven, dt);
     waiting_ += dt;
@@ -100,7 +100,7 @@ Eigen::Vector3d place_among_coils(const CoilSystem& system, const Map& map, Vec2
   return system.centre() + Eigen::Vector3d(off.x, off.y, 0);
 }
 
-std::vector<Vec2> places_of(const Scenario& scenario) {
+std::vector<Vec2> robot_positions(const Scenario& scenario) {
   std::vector<Vec2> positions;
   if (scenario.start) positions.push_back(scenario.start->position);
   if (scenario.goal) positions.push_back(*scenario.goal);
@@ -113,7 +113,7 @@ std::vector<Vec2> places_of(const Scenario& scenario) {
 }
 
 void check_workspace(const Rig& rig, const Scenario& scenario, const Map& map) {
-  for (const Vec2 position : places_of(scenario)) {
+  for (const Vec2 position : robot_positions(scenario)) {
     const Eigen::Vector3d among = place_among_coils(rig.system, map, position);
     if (!rig.system.in_workspace(among))
       throw rig.keys.error(

@@ -72,7 +72,7 @@ class RigSimulator {
 /// Coil coordinates of a map position: the centre of the map is above the centre of the coils.
 Eigen::Vector3d place_among_coils(const CoilSystem& system, const Map& map, Vec2 position);
 /// The scenario's starts and goals.
-std::vector<Vec2> places_of(const Scenario& scenario);
+std::vector<Vec2> robot_positions(const Scenario& scenario);
 /// Throws InputError if a start or goal of the scenario is outside the workspace of the coils.
 void check_workspace(const Rig& rig, const Scenario& scenario, const Map& map);
 

@@ -22,7 +22,7 @@ Observation SimulatedRig::observe() {
   const RigSimulator::Shot shot = simulator_.capture();
   picture_ = &simulator_.render(shot);
   detections_ = &perception_->process(*picture_, shot.seen);
-  return observation_of(*detections_,
+  return to_observation(*detections_,
                         std::make_shared<const Snapshot>(map_, shot.seen, detections_->moving),
                         shot.now, shot.seen);
 }
@@ -41,8 +41,8 @@ void SimulatedRig::apply(const Command& command, double dt) {
 }
 
 std::unique_ptr<CoilDriver> simulated_coils(const Rig& rig) {
-  return std::make_unique<SimulatedCoilDriver>(channels_of(rig.params, rig.system),
-                                               full_scale_of(rig.params), coil_input(rig.params));
+  return std::make_unique<SimulatedCoilDriver>(
+      channel_count(rig.params, rig.system), driver_full_scale(rig.params), coil_input(rig.params));
 }
 
 }  // namespace microswarm

@@ -27,7 +27,7 @@ std::variant<Ribbon, Vortex> made(const VortexParams& p, Pose2 start) { return V
 
 }  // namespace
 
-SwarmLimits limits_of(const SwarmParams& params) {
+SwarmLimits swarm_limits(const SwarmParams& params) {
   return std::visit([](const auto& p) { return limits(p); }, params);
 }
 

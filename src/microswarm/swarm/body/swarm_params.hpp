@@ -13,6 +13,6 @@ namespace microswarm {
 using SwarmParams = std::variant<RibbonParams, VortexParams>;
 
 /// Properties of such a swarm that navigators know.
-SwarmLimits limits_of(const SwarmParams& params);
+SwarmLimits swarm_limits(const SwarmParams& params);
 
 }  // namespace microswarm

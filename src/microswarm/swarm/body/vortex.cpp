@@ -27,7 +27,7 @@ double min_radius(const VortexParams& p) {
   return std::max(min_share * least, least - max_ripples * p.radius_ripple);
 }
 
-double pitch_of(const VortexParams& params, const Command& command) {
+double helix_pitch(const VortexParams& params, const Command& command) {
   return params.max_pitch * std::clamp(command.speed / params.max_speed, 0.0, 1.0);
 }
 
@@ -38,7 +38,8 @@ void Vortex::step(const Command& command, double dt, Rng& rng) {
   trajectory_.assign(1, {0, pose_, radius_});
   double passed = 0;
   commands_.pass(command, dt, substep, [&](const Command& active, double piece) {
-    active_ = {active.heading, pitch_of(params_, active) / params_.max_pitch * params_.max_speed};
+    active_ = {active.heading,
+               helix_pitch(params_, active) / params_.max_pitch * params_.max_speed};
     advance(piece, rng);
     breathe(piece, rng);
     passed += piece;

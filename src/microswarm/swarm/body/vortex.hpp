@@ -19,7 +19,7 @@ double max_radius(const VortexParams& params);
 double min_radius(const VortexParams& params);
 
 /// Pitch φ [rad] of a command, at most max_pitch: Eq 2 [radar].
-double pitch_of(const VortexParams& params, const Command& command);
+double helix_pitch(const VortexParams& params, const Command& command);
 
 /// The moving part of the model. Before the first command takes effect it holds.
 class Vortex {

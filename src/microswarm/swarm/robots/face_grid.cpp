@@ -96,7 +96,7 @@ class FaceGridBuilder {
       if (!always_leaves(faces_[id], moves)) add_face(static_cast<std::uint32_t>(id), moves);
   }
 
-  std::uint32_t* lists_of(std::size_t cell) {
+  std::uint32_t* cell_lists(std::size_t cell) {
     return grid_.lists_.data() + FaceGrid::lists_a_cell * cell;
   }
 
@@ -110,7 +110,7 @@ class FaceGridBuilder {
     is_crowded_.assign(columns_ * rows_, 0);
     for (std::size_t cell = 0; cell < is_crowded_.size(); ++cell) {
       std::size_t count = 0;
-      for (std::uint32_t at = lists_of(cell)[FaceGrid::any_direction]; at != 0;
+      for (std::uint32_t at = cell_lists(cell)[FaceGrid::any_direction]; at != 0;
            at = chains_[at].next)
         ++count;
       is_crowded_[cell] = count > FacePack::size;
@@ -121,11 +121,11 @@ class FaceGridBuilder {
   /// faces of all of them.
   void pack_cell(std::size_t cell) {
     constexpr std::array<std::size_t, 8> anticlockwise{0, 4, 5, 1, 3, 7, 6, 2};
-    std::uint32_t* lists = lists_of(cell);
+    std::uint32_t* lists = cell_lists(cell);
     if (lists[FaceGrid::any_direction] == 0) return;
     Faces one, both, shared;
     follow(lists[FaceGrid::any_direction], shared);
-    lists[FaceGrid::any_direction] = packs_of(shared);
+    lists[FaceGrid::any_direction] = pack_count(shared);
     if (!is_crowded_[cell]) {
       std::fill_n(lists, 8, lists[FaceGrid::any_direction]);
       return;
@@ -139,7 +139,7 @@ class FaceGridBuilder {
         std::ranges::set_union(one, shared, std::back_inserter(both));
       }
       if (k == 8 || (k > first && both.size() > FacePack::size)) {
-        const std::uint32_t pack = packs_of(shared);
+        const std::uint32_t pack = pack_count(shared);
         for (; first < k; ++first) lists[anticlockwise[first]] = pack;
         both = one;
       }
@@ -187,7 +187,7 @@ class FaceGridBuilder {
     for (std::size_t column = columns.first; column < columns.second; ++column) {
       const std::size_t cell = row * columns_ + column;
       if (direction != FaceGrid::any_direction && !is_crowded_[cell]) continue;
-      std::uint32_t& chain = lists_of(cell)[direction];
+      std::uint32_t& chain = cell_lists(cell)[direction];
       chains_.push_back({id, chain});
       chain = static_cast<std::uint32_t>(chains_.size() - 1);
     }
@@ -202,7 +202,7 @@ class FaceGridBuilder {
   }
 
   /// First pack of these faces, the same for equal lists.
-  std::uint32_t packs_of(const Faces& list) {
+  std::uint32_t pack_count(const Faces& list) {
     if (list.empty()) return 0;
     Hash hash;
     hash.bytes(std::as_bytes(std::span(list)));

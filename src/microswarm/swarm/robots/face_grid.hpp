@@ -61,7 +61,7 @@ class FaceGrid {
   }
   /// Eighth of the directions that a move belongs to. Moves shorter than `short_move` belong to
   /// any_direction: robots nearer than the guard do not even leave a wall by such moves.
-  std::size_t direction_of(PointF move) const {
+  std::size_t move_direction(PointF move) const {
     const float x = std::abs(move.x), y = std::abs(move.y);
     if (x < short_move && y < short_move) return any_direction;
     return (move.x < 0 ? 1u : 0u) + (move.y < 0 ? 2u : 0u) + (y > x ? 4u : 0u);
@@ -74,7 +74,7 @@ class FaceGrid {
   const std::uint32_t* lists() const { return lists_.data(); }
   const FacePack* packs() const { return packs_.data(); }
 
-  // For cell_at and direction_of by vectors.
+  // For cell_at and move_direction by vectors.
   PointF low;          ///< corner of the first cell [µm]
   float per_cell = 0;  ///< [1/µm]
   float last_column = 0;

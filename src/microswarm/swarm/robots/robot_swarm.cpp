@@ -8,7 +8,7 @@
 
 namespace microswarm {
 
-SwarmPose body_of(std::span<const Vec2> robots, double heading) {
+SwarmPose enclosing_pose(std::span<const Vec2> robots, double heading) {
   Vec2 sum{};
   for (const Vec2 p : robots) sum += p;
   const Vec2 middle = sum / static_cast<double>(robots.size());

@@ -14,7 +14,7 @@
 namespace microswarm {
 
 /// Robots as one body: centroid and root-mean-square distance from it. There must be at least one.
-SwarmPose body_of(std::span<const Vec2> robots, double heading);
+SwarmPose enclosing_pose(std::span<const Vec2> robots, double heading);
 
 /// Simulated swarm of individually tracked robots.
 class RobotSwarm {

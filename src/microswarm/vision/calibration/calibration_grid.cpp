@@ -95,7 +95,7 @@ using Lattice = std::map<Node, std::size_t>;  ///< the point at each node
 
 /// Vector from a point to a typical neighbour, within 45° of the x axis; empty for fewer than two
 /// points.
-std::optional<Vec2> step_of(const std::vector<Vec2>& points) {
+std::optional<Vec2> grid_step(const std::vector<Vec2>& points) {
   std::vector<double> nearest;
   nearest.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -111,8 +111,8 @@ std::optional<Vec2> step_of(const std::vector<Vec2>& points) {
   for (const Vec2 a : points)
     for (const Vec2 b : points)
       if (a != b && std::abs(distance(a, b) - pitch) < neighbour_slack * pitch)
-        sum += unit_vector(4 * heading_of(b - a));
-  return pitch * unit_vector(heading_of(sum) / 4);
+        sum += unit_vector(4 * heading_along(b - a));
+  return pitch * unit_vector(heading_along(sum) / 4);
 }
 
 /// The points connected to `first` by steps along x and y, with their nodes.
@@ -143,7 +143,7 @@ Lattice lattice_from(const std::vector<Vec2>& points, std::size_t first, Vec2 st
 
 Lattice largest_lattice(const std::vector<Vec2>& points) {
   Lattice largest;
-  const auto step = step_of(points);
+  const auto step = grid_step(points);
   if (!step) return largest;
   for (std::size_t i = 0; i < points.size() && 2 * largest.size() < points.size(); ++i) {
     Lattice lattice = lattice_from(points, i, *step);

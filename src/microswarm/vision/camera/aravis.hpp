@@ -55,7 +55,7 @@ class Complaint {
 };
 
 /// A text of Aravis as one line; empty for null.
-inline std::string text_of(const char* text) { return text ? one_line(text) : ""; }
+inline std::string to_text(const char* text) { return text ? one_line(text) : ""; }
 
 /// An open camera and the calls of Aravis on it.
 class Features {
@@ -93,7 +93,7 @@ class Features {
 };
 
 /// Our format of an Aravis format; nothing if it is not supported.
-std::optional<PixelFormat> data_of(ArvPixelFormat code);
+std::optional<PixelFormat> to_pixel_format(ArvPixelFormat code);
 /// Codes of the formats that the camera supports.
 std::vector<ArvPixelFormat> offered_codes(const Features& camera);
 /// Names of these formats, in the same order.
@@ -110,14 +110,14 @@ struct Region {
   bool operator==(const Region&) const = default;
 };
 /// The region as text: "320x240 at 0,0".
-std::string text_of(const Region& region);
+std::string to_text(const Region& region);
 /// The camera's current region.
-Region region_of(const Features& camera);
+Region read_region(const Features& camera);
 
 /// Applies the given settings and selects free-running acquisition. Throws HardwareError for a
 /// setting that the camera refuses.
 void apply(const GenicamParams& params, const Features& camera);
 /// Frame rate [Hz], if the camera reports it.
-std::optional<double> rate_of(const Features& camera, bool was_set);
+std::optional<double> read_rate(const Features& camera, bool was_set);
 
 }  // namespace microswarm

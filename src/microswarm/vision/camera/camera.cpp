@@ -30,7 +30,7 @@ std::unique_ptr<CameraDevice> open_device(const CameraParams& p) {
 std::unique_ptr<CameraDevice> open_device(const GenicamParams& p) { return open_genicam(p); }
 
 /// Time without a picture after which the camera has failed [s].
-double pause_of(double exposure_ms, double rate) {
+double frame_pause(double exposure_ms, double rate) {
   return std::ceil(longest_pause + 1e-3 * exposure_ms + (rate < 1 ? 2 / rate : 0));
 }
 
@@ -90,7 +90,7 @@ std::unique_ptr<FrameSource> open_camera(const AnyCameraParams& params) {
         std::unique_ptr<CameraDevice> device = open_device(p);
         const std::optional<double> rate = device->rate();
         return std::make_unique<Camera>(std::move(device),
-                                        pause_of(p.exposure.value_or(0), rate.value_or(1)));
+                                        frame_pause(p.exposure.value_or(0), rate.value_or(1)));
       },
       params);
 }

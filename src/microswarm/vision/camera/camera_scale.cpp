@@ -34,7 +34,7 @@ FittedScale fit_scale(std::span<const ScalePoint> points, bool y_up) {
   if (!(square > 0 && um_per_px > 0 && std::isfinite(um_per_px)))
     throw InputError("scale: two different points are needed");
   FittedScale fit{
-      .scale = {.um_per_px = um_per_px, .rotation = heading_of({along, across}), .y_up = y_up}};
+      .scale = {.um_per_px = um_per_px, .rotation = heading_along({along, across}), .y_up = y_up}};
   // The origin follows from to_picture(middle) = middle_px.
   fit.scale.origin_px = middle_px - fit.scale.to_picture(middle);
   double squares = 0;

@@ -99,7 +99,7 @@ bool is_tiff(const fs::path& file) {
 void take_page(TiffPages& pages, std::optional<int>& depth, Image& picture) {
   DecodedImage page = pages.next();
   const auto* deep = std::get_if<DeepImage>(&page);
-  if (!depth && deep) depth = depth_of(deep->samples);
+  if (!depth && deep) depth = used_depth(deep->samples);
   take_pixels(std::move(page), depth.value_or(16), picture);
 }
 

@@ -25,15 +25,15 @@ std::vector<FoundDevice> found_devices() {
   arv_update_device_list();
   std::vector<FoundDevice> found;
   for (unsigned i = 0; i < arv_get_n_devices(); ++i) {
-    if (text_of(arv_get_device_protocol(i)) == "Fake") continue;
+    if (to_text(arv_get_device_protocol(i)) == "Fake") continue;
     found.push_back(
-        {.id = text_of(arv_get_device_id(i)),
-         .model = text_of(arv_get_device_vendor(i)) + " " + text_of(arv_get_device_model(i))});
+        {.id = to_text(arv_get_device_id(i)),
+         .model = to_text(arv_get_device_vendor(i)) + " " + to_text(arv_get_device_model(i))});
   }
   return found;
 }
 
-std::string list_of(const std::vector<FoundDevice>& devices) {
+std::string to_list(const std::vector<FoundDevice>& devices) {
   std::string list;
   for (const FoundDevice& device : devices) list += (list.empty() ? "" : ", ") + device.id;
   return list.empty() ? "none" : list;
@@ -54,11 +54,11 @@ Features open_features(const std::string& id, bool fake) {
   if (fake) arv_disable_interface("Fake");
   if (!camera)
     throw HardwareError(name + ": cannot open: " + complaint.text() +
-                        "; found: " + list_of(found_devices()));
+                        "; found: " + to_list(found_devices()));
   return {name, std::move(camera)};
 }
 
-const char* damage_of(ArvBufferStatus status) {
+const char* damage_text(ArvBufferStatus status) {
   switch (status) {
     case ARV_BUFFER_STATUS_SUCCESS:
       return "";
@@ -79,7 +79,7 @@ class GenicamDevice : public CameraDevice {
       : CameraDevice("genicam:" + id), device_(open_features(id, is_fake(p))) {
     watch_control();
     apply(p, device_);
-    rate_ = rate_of(device_, p.rate.has_value());
+    rate_ = read_rate(device_, p.rate.has_value());
     start();
   }
   ~GenicamDevice() override {
@@ -127,22 +127,22 @@ class GenicamDevice : public CameraDevice {
     if (size == 0 || size > max_payload) fail("tells no size of its pictures");
     for (int i = 0; i < buffers; ++i)
       arv_stream_push_buffer(stream_.get(), arv_buffer_new(size, nullptr));
-    form_ = region_of(device_);
+    form_ = read_region(device_);
     if (form_.width <= 0 || form_.height <= 0 || form_.width > max_image_side ||
         form_.height > max_image_side)
-      fail("gives pictures of " + text_of(form_) + " pixels");
+      fail("gives pictures of " + to_text(form_) + " pixels");
     code_ = device_.ask("pixel_format", arv_camera_get_pixel_format);
     device_.ask("start", arv_camera_start_acquisition);
   }
 
   /// The data of the current buffer.
   RawPicture picture() const {
-    RawPicture raw{.format = *data_of(code_),
+    RawPicture raw{.format = *to_pixel_format(code_),
                    .width = form_.width,
                    .height = form_.height,
                    .bytes_per_line = 0,
                    .bytes = {},
-                   .damage = damage_of(arv_buffer_get_status(taken_))};
+                   .damage = damage_text(arv_buffer_get_status(taken_))};
     if (!raw.damage.empty()) return raw;
     const ArvBufferPayloadType type = arv_buffer_get_payload_type(taken_);
     const bool is_picture =
@@ -193,7 +193,7 @@ ListedCamera listed(const FoundDevice& found) {
     const std::vector<ArvPixelFormat> codes = offered_codes(device);
     const std::vector<std::string> names = offered_names(device);
     for (std::size_t i = 0; i < std::min(codes.size(), names.size()); ++i)
-      camera.formats.push_back({names[i], data_of(codes[i]).has_value(), sizes});
+      camera.formats.push_back({names[i], to_pixel_format(codes[i]).has_value(), sizes});
   } catch (const HardwareError& error) {
     camera.trouble = error.what();
   }

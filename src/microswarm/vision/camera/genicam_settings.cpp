@@ -61,7 +61,7 @@ void set_format(const Features& device, std::optional<GenicamFormat> wanted) {
   if (!known(has))
     device.fail(
         "gives pictures in the format " +
-        text_of(device.ask(key, arv_camera_get_pixel_format_as_string)) +
+        to_text(device.ask(key, arv_camera_get_pixel_format_as_string)) +
         ", which is not read, see pixel_format; its formats are: " + offered_formats(device));
 }
 
@@ -96,7 +96,7 @@ void set_region(const Features& device, const GenicamParams& p) {
   const bool moves = device.ask("region", arv_camera_is_region_offset_available) != 0;
   if (!moves && (p.x.value_or(0) != 0 || p.y.value_or(0) != 0))
     device.fail("x_px, y_px: its region cannot be moved");
-  const Region before = region_of(device);
+  const Region before = read_region(device);
   const Region wanted{p.x.value_or(before.x), p.y.value_or(before.y),
                       p.width.value_or(before.width), p.height.value_or(before.height)};
   // The maximum size depends on the offset, and vice versa.
@@ -111,8 +111,8 @@ void set_region(const Features& device, const GenicamParams& p) {
     check(device, top_limits, wanted.y);
     device.ask("region", arv_camera_set_region, wanted.x, wanted.y, wanted.width, wanted.height);
   }
-  if (const Region has = region_of(device); has != wanted)
-    device.fail("reads the region " + text_of(has) + ", asked for was " + text_of(wanted));
+  if (const Region has = read_region(device); has != wanted)
+    device.fail("reads the region " + to_text(has) + ", asked for was " + to_text(wanted));
 }
 
 /// A numerical setting that can be given or automatic.
@@ -196,7 +196,7 @@ void set_packet_size(const Features& device, std::optional<int> wanted) {
 }
 }  // namespace
 
-std::optional<PixelFormat> data_of(ArvPixelFormat code) {
+std::optional<PixelFormat> to_pixel_format(ArvPixelFormat code) {
   const KnownFormat* const format = known(code);
   if (!format) return std::nullopt;
   return format->data;
@@ -220,7 +220,7 @@ std::vector<std::string> offered_names(const Features& device) {
   const char** const names =
       arv_camera_dup_available_pixel_formats_as_strings(device.camera(), &count, complaint.out());
   std::vector<std::string> offered;
-  for (guint i = 0; names && i < count; ++i) offered.push_back(text_of(names[i]));
+  for (guint i = 0; names && i < count; ++i) offered.push_back(to_text(names[i]));
   g_free(names);
   return offered;
 }
@@ -231,16 +231,16 @@ std::string offered_sizes(const Features& device) {
   device.ask("height_px", height_limits.bounds, &least[1], &most[1]);
   return size_text(least[0], least[1]) + ".." + size_text(most[0], most[1]);
 }
-std::string text_of(const Region& r) {
+std::string to_text(const Region& r) {
   return size_text(r.width, r.height) + " at " + std::to_string(r.x) + "," + std::to_string(r.y);
 }
 
-Region region_of(const Features& device) {
+Region read_region(const Features& device) {
   Region r;
   device.ask("region", arv_camera_get_region, &r.x, &r.y, &r.width, &r.height);
   return r;
 }
-std::optional<double> rate_of(const Features& device, bool was_set) {
+std::optional<double> read_rate(const Features& device, bool was_set) {
   if (was_set) return device.ask("rate", arv_camera_get_frame_rate);
   for (const char* feature : {"ResultingFrameRate", "AcquisitionResultingFrameRate"})
     if (device.has(feature)) return device.ask("rate", arv_camera_get_float, feature);

@@ -45,7 +45,7 @@ std::size_t bytes_of_pixel(PixelFormat format) {
 }
 
 /// OpenCV's code of the conversion to red, green, blue; -1 for a copy.
-int conversion_of(PixelFormat format) {
+int colour_conversion(PixelFormat format) {
   switch (format) {
     case PixelFormat::yuyv:
       return cv::COLOR_YUV2RGB_YUYV;
@@ -74,7 +74,7 @@ int conversion_of(PixelFormat format) {
   return -1;
 }
 
-int bits_of(PixelFormat format) {
+int bit_depth(PixelFormat format) {
   return format == PixelFormat::y10 ? 10 : format == PixelFormat::y12 ? 12 : 16;
 }
 
@@ -97,7 +97,7 @@ void convert(const RawPicture& raw, std::size_t step, Image& image) {
     case PixelFormat::y10:
     case PixelFormat::y12:
     case PixelFormat::y16:
-      return take_deep(rows(CV_8UC2), bits_of(raw.format), out);
+      return take_deep(rows(CV_8UC2), bit_depth(raw.format), out);
     case PixelFormat::nv12: {
       const cv::Mat colours(raw.height / 2, raw.width / 2, CV_8UC2,
                             data + step * static_cast<std::size_t>(raw.height), step);
@@ -105,7 +105,7 @@ void convert(const RawPicture& raw, std::size_t step, Image& image) {
     }
     default: {
       const cv::Mat in = rows(CV_8UC(static_cast<int>(bytes_of_pixel(raw.format))));
-      const int how = conversion_of(raw.format);
+      const int how = colour_conversion(raw.format);
       if (how < 0)
         in.copyTo(out);
       else
@@ -116,7 +116,7 @@ void convert(const RawPicture& raw, std::size_t step, Image& image) {
 
 }  // namespace
 
-std::uint32_t fourcc_of(PixelFormat format) {
+std::uint32_t to_fourcc(PixelFormat format) {
   std::uint32_t code = 0;
   const std::string_view name = enum_name(format);
   for (std::size_t i = 4; i-- > 0;)
@@ -124,9 +124,9 @@ std::uint32_t fourcc_of(PixelFormat format) {
   return code;
 }
 
-std::optional<PixelFormat> format_of(std::uint32_t fourcc) {
+std::optional<PixelFormat> find_format(std::uint32_t fourcc) {
   for (const auto& [format, name] : enum_names(PixelFormat{}))
-    if (fourcc_of(format) == fourcc) return format;
+    if (to_fourcc(format) == fourcc) return format;
   return std::nullopt;
 }
 

@@ -51,9 +51,9 @@ constexpr auto enum_names(PixelFormat) {
 }
 
 /// V4L2 code of a format: four letters in a number, padded with spaces.
-std::uint32_t fourcc_of(PixelFormat format);
+std::uint32_t to_fourcc(PixelFormat format);
 /// Format of a V4L2 code, if supported.
-std::optional<PixelFormat> format_of(std::uint32_t fourcc);
+std::optional<PixelFormat> find_format(std::uint32_t fourcc);
 /// Letters of a V4L2 code without trailing spaces; unprintable ones become "?".
 std::string fourcc_text(std::uint32_t fourcc);
 

@@ -87,7 +87,7 @@ void adjust(const V4l2Device& device, const Adjustable& what, std::optional<doub
     device.fail(key + ": it takes " + text(control.value) + " in place of " + text(value));
 }
 
-std::optional<double> number_of(std::optional<int> value) {
+std::optional<double> to_number(std::optional<int> value) {
   if (value) return *value;
   return std::nullopt;
 }
@@ -96,9 +96,9 @@ std::optional<double> number_of(std::optional<int> value) {
 
 void set_controls(const V4l2Device& device, const CameraParams& params) {
   adjust(device, exposure, params.exposure);
-  adjust(device, gain, number_of(params.gain));
-  adjust(device, white_balance, number_of(params.white_balance));
-  adjust(device, focus, number_of(params.focus));
+  adjust(device, gain, to_number(params.gain));
+  adjust(device, white_balance, to_number(params.white_balance));
+  adjust(device, focus, to_number(params.focus));
 }
 
 }  // namespace microswarm

@@ -100,7 +100,7 @@ void V4l2Device::fail_format(std::uint32_t wanted) const {
 }
 
 PixelFormat V4l2Device::readable(std::uint32_t fourcc) const {
-  if (const auto format = format_of(fourcc)) return *format;
+  if (const auto format = find_format(fourcc)) return *format;
   fail("gives pictures in the format " + fourcc_text(fourcc) +
        ", which is not read, see pixel_format; its formats are: " + offered_formats());
 }
@@ -111,7 +111,7 @@ void V4l2Device::set_format(std::optional<PixelFormat> format, int width, int he
   if (const int error = ask(VIDIOC_G_FMT, &form); error != 0)
     fail("tells no format of its pictures: " + reason(error));
   v4l2_pix_format& pix = form.fmt.pix;
-  const std::uint32_t wanted = format ? fourcc_of(*format) : pix.pixelformat;
+  const std::uint32_t wanted = format ? to_fourcc(*format) : pix.pixelformat;
   readable(wanted);
   pix = {};
   pix.width = static_cast<std::uint32_t>(width);

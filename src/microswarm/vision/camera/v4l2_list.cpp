@@ -31,7 +31,7 @@ std::string range_text(std::uint32_t width, std::uint32_t height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
-std::string sizes_of(const V4l2Device& device, std::uint32_t format) {
+std::string list_sizes(const V4l2Device& device, std::uint32_t format) {
   std::string text;
   v4l2_frmsizeenum size{};
   size.pixel_format = format;
@@ -45,18 +45,18 @@ std::string sizes_of(const V4l2Device& device, std::uint32_t format) {
   return text;
 }
 
-std::vector<ListedFormat> formats_of(const V4l2Device& device) {
+std::vector<ListedFormat> list_formats(const V4l2Device& device) {
   std::vector<ListedFormat> formats;
   v4l2_fmtdesc offer{};
   offer.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   for (; offer.index < max_entries && device.ask(VIDIOC_ENUM_FMT, &offer) == 0; ++offer.index)
     formats.push_back({.name = fourcc_text(offer.pixelformat),
-                       .readable = format_of(offer.pixelformat).has_value(),
-                       .sizes = sizes_of(device, offer.pixelformat)});
+                       .readable = find_format(offer.pixelformat).has_value(),
+                       .sizes = list_sizes(device, offer.pixelformat)});
   return formats;
 }
 
-std::string model_of(const V4l2Device& device) {
+std::string device_model(const V4l2Device& device) {
   v4l2_capability can{};
   if (device.ask(VIDIOC_QUERYCAP, &can) != 0) return {};
   const auto* card = reinterpret_cast<const char*>(can.card);
@@ -77,8 +77,8 @@ std::vector<ListedCamera> list_v4l2_cameras() {
     } else {
       try {
         const V4l2Device device(name);
-        camera.model = model_of(device);
-        camera.formats = formats_of(device);
+        camera.model = device_model(device);
+        camera.formats = list_formats(device);
       } catch (const HardwareError&) {
         continue;  // a node without pictures, such as metadata
       }

@@ -30,7 +30,7 @@ constexpr std::size_t max_queued_frames = 64;
 constexpr std::size_t max_queued_bytes = std::size_t{256} << 20;
 constexpr int lower_priority = 10;  // of the writing thread
 
-fs::path part_of(const fs::path& file) {
+fs::path part_file(const fs::path& file) {
   fs::path part = file;
   return part.replace_extension(".part" + file.extension().string());
 }
@@ -124,13 +124,13 @@ class VideoRecorder::Writer {
   Writer(std::shared_ptr<Shared> shared, const fs::path& file, double rate)
       : shared_(std::move(shared)),
         rate_(std::isfinite(rate) && rate > 0 ? rate : 1),
-        part_(part_of(file)),
-        times_file_(times_of(file)),
+        part_(part_file(file)),
+        times_file_(times_file(file)),
         result_{.file = file} {
     std::fclose(create_new(part_, file));
     if (!open_video(part_, rate_, {64, 64}, true))
       throw InputError(file.string() + ": cannot write: no encoder for it");
-    times_.reset(create_new(part_of(times_file_), times_file_));
+    times_.reset(create_new(part_file(times_file_), times_file_));
     std::fputs("frame,camera_frame,t_s\n", times_.get());
     thread_ = std::thread([this] { run(); });
   }
@@ -141,7 +141,7 @@ class VideoRecorder::Writer {
     join();
     if (!unfinished || result_.frames > 0) return;
     std::error_code none;
-    for (const fs::path& empty : {part_, part_of(times_file_)}) fs::remove(empty, none);
+    for (const fs::path& empty : {part_, part_file(times_file_)}) fs::remove(empty, none);
   }
 
   const RecordedVideo& finish() {
@@ -173,7 +173,7 @@ class VideoRecorder::Writer {
 
   void give_names() {
     std::error_code error;
-    fs::rename(part_of(times_file_), times_file_, error);
+    fs::rename(part_file(times_file_), times_file_, error);
     if (!error) fs::rename(part_, result_.file, error);
     if (error) result_.trouble = error.message();
   }
@@ -223,7 +223,7 @@ VideoRecorder::VideoRecorder(const fs::path& file, double rate)
 
 VideoRecorder::~VideoRecorder() = default;
 
-fs::path VideoRecorder::times_of(const fs::path& video) {
+fs::path VideoRecorder::times_file(const fs::path& video) {
   fs::path times = video;
   return times.replace_extension(".csv");
 }

@@ -32,7 +32,7 @@ class VideoRecorder {
   VideoRecorder& operator=(const VideoRecorder&) = delete;
 
   /// Path of the file with a video's times.
-  static std::filesystem::path times_of(const std::filesystem::path& video);
+  static std::filesystem::path times_file(const std::filesystem::path& video);
   /// Listener that queues a frame with its time of arrival. It never waits for the disk, can be
   /// called from any thread, and does nothing after the recorder's destruction.
   FrameListener input() const;

@@ -8,7 +8,7 @@
 
 namespace microswarm {
 
-cv::Mat logs_of(const cv::Mat& grey, double by) {
+cv::Mat log_image(const cv::Mat& grey, double by) {
   assert(grey.type() == CV_8U);
   cv::Mat table(1, 256, CV_32F);
   for (int v = 0; v < table.cols; ++v)

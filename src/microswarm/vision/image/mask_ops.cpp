@@ -13,7 +13,7 @@ struct Pieces {
   std::vector<int> areas;
 };
 
-Pieces pieces_of(const cv::Mat& set, int connectivity) {
+Pieces label_pieces(const cv::Mat& set, int connectivity) {
   cv::Mat labels, stats, centres;
   const int count =
       cv::connectedComponentsWithStats(set, labels, stats, centres, connectivity, CV_32S);
@@ -39,7 +39,7 @@ cv::Mat distance_to_zero(const cv::Mat& set) {
 }  // namespace
 
 cv::Mat largest_piece(const cv::Mat& set) {
-  const Pieces pieces = pieces_of(set, 8);
+  const Pieces pieces = label_pieces(set, 8);
   if (pieces.areas.size() < 2) return set.clone();
   const auto largest = std::max_element(pieces.areas.begin() + 1, pieces.areas.end());
   return pieces.labels == static_cast<int>(largest - pieces.areas.begin());
@@ -66,14 +66,14 @@ cv::Mat highest_around(const cv::Mat& values, int side) {
 }
 
 cv::Mat without_small_pieces(const cv::Mat& set, double min_area) {
-  const Pieces pieces = pieces_of(set, 8);
+  const Pieces pieces = label_pieces(set, 8);
   std::vector<char> kept(pieces.areas.size(), 0);
   for (std::size_t i = 1; i < kept.size(); ++i) kept[i] = pieces.areas[i] >= min_area;
   return labelled(pieces.labels, kept);
 }
 
 cv::Mat pieces_with(const cv::Mat& set, const cv::Mat& seeds) {
-  const Pieces pieces = pieces_of(set, 8);
+  const Pieces pieces = label_pieces(set, 8);
   std::vector<char> kept(pieces.areas.size(), 0);
   for (int y = 0; y < set.rows; ++y)
     for (int x = 0; x < set.cols; ++x)
@@ -83,7 +83,7 @@ cv::Mat pieces_with(const cv::Mat& set, const cv::Mat& seeds) {
 }
 
 void fill_holes(cv::Mat& set, double max_area) {
-  const Pieces gaps = pieces_of(~set, 4);
+  const Pieces gaps = label_pieces(~set, 4);
   std::vector<char> filled(gaps.areas.size(), 0);
   for (std::size_t i = 1; i < filled.size(); ++i) filled[i] = gaps.areas[i] <= max_area;
   const auto open = [&](int x, int y) { filled[gaps.labels.at<int>(y, x)] = 0; };

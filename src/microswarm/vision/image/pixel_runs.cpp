@@ -20,7 +20,7 @@ int next_set(const std::uint8_t* row, int x, int width) {
   return x;
 }
 
-std::vector<PixelRun> runs_of(const cv::Mat& set) {
+std::vector<PixelRun> list_runs(const cv::Mat& set) {
   std::vector<PixelRun> runs;
   for (int y = 0; y < set.rows; ++y) {
     const auto* row = set.ptr<std::uint8_t>(y);
@@ -35,13 +35,13 @@ std::vector<PixelRun> runs_of(const cv::Mat& set) {
 }
 
 /// The first run of each run's piece, found by following `parent`.
-std::size_t root_of(std::vector<std::size_t>& parent, std::size_t i) {
+std::size_t find_root(std::vector<std::size_t>& parent, std::size_t i) {
   while (parent[i] != i) i = parent[i] = parent[parent[i]];
   return i;
 }
 
 /// Joins runs that share an edge; the earlier one is the root.
-std::vector<std::size_t> roots_of(const std::vector<PixelRun>& runs) {
+std::vector<std::size_t> find_roots(const std::vector<PixelRun>& runs) {
   std::vector<std::size_t> parent(runs.size());
   std::iota(parent.begin(), parent.end(), std::size_t{0});
   std::size_t above = 0;  // the first run of the row before that may touch
@@ -50,29 +50,29 @@ std::vector<std::size_t> roots_of(const std::vector<PixelRun>& runs) {
     while (runs[above].row == runs[i].row - 1 && runs[above].end <= runs[i].begin) ++above;
     for (std::size_t k = above; runs[k].row == runs[i].row - 1 && runs[k].begin < runs[i].end;
          ++k) {
-      const std::size_t a = root_of(parent, k);
-      const std::size_t b = root_of(parent, i);
+      const std::size_t a = find_root(parent, k);
+      const std::size_t b = find_root(parent, i);
       parent[std::max(a, b)] = std::min(a, b);
     }
   }
-  for (std::size_t i = 0; i < parent.size(); ++i) parent[i] = root_of(parent, i);
+  for (std::size_t i = 0; i < parent.size(); ++i) parent[i] = find_root(parent, i);
   return parent;
 }
 
 }  // namespace
 
 std::vector<RunPiece> connected_runs(const cv::Mat& set) {
-  const std::vector<PixelRun> runs = runs_of(set);
-  const std::vector<std::size_t> root = roots_of(runs);
-  std::vector<std::size_t> piece_of(runs.size());
+  const std::vector<PixelRun> runs = list_runs(set);
+  const std::vector<std::size_t> root = find_roots(runs);
+  std::vector<std::size_t> run_pieces(runs.size());
   std::vector<RunPiece> pieces;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const PixelRun& run = runs[i];
     if (root[i] == i) {
-      piece_of[i] = pieces.size();
+      run_pieces[i] = pieces.size();
       pieces.push_back({{}, {run.begin, run.row, 0, 0}, 0});
     }
-    RunPiece& piece = pieces[piece_of[root[i]]];
+    RunPiece& piece = pieces[run_pieces[root[i]]];
     const int left = std::min(piece.box.x, run.begin);
     piece.box.width = std::max(piece.box.br().x, run.end) - left;
     piece.box.x = left;

@@ -66,7 +66,7 @@ int count_greys(const cv::Mat& grey, const cv::Mat& seen, int step, Histogram& c
 }
 
 /// Interpolated within the middle grey, as if its pixels were spread uniformly over it.
-double median_of(const Histogram& count, int some) {
+double median(const Histogram& count, int some) {
   constexpr int group = 16;  // greys that are passed at once
   int sum = 0;
   int value = 0;
@@ -81,24 +81,24 @@ double median_of(const Histogram& count, int some) {
 
 /// Median of the tile's seen pixels, using every other row and in large tiles every other column;
 /// empty if less than a quarter is seen.
-std::optional<double> median_of(const cv::Mat& grey, const cv::Mat& seen) {
+std::optional<double> median(const cv::Mat& grey, const cv::Mat& seen) {
   const int step = grey.cols < 24 ? 1 : 2;
   const int all = ((grey.rows + 1) / 2) * ((grey.cols + step - 1) / step);
   Histogram count{};
   const int some =
       seen.empty() ? count_greys(grey, step, count) : count_greys(grey, seen, step, count);
   if (4 * some < all || some == 0) return std::nullopt;
-  return median_of(count, some);
+  return median(count, some);
 }
 
-std::vector<Tile> tiles_of(const cv::Mat& grey, const cv::Mat& seen, double half) {
+std::vector<Tile> list_tiles(const cv::Mat& grey, const cv::Mat& seen, double half) {
   const int side = std::max(2, std::max(grey.cols, grey.rows) / tiles_across);
   const cv::Rect all(0, 0, grey.cols, grey.rows);
   std::vector<Tile> tiles;
   for (int y = 0; y < grey.rows; y += side)
     for (int x = 0; x < grey.cols; x += side) {
       const cv::Rect box = cv::Rect(x, y, side, side) & all;
-      const auto value = median_of(grey(box), seen.empty() ? seen : seen(box));
+      const auto value = median(grey(box), seen.empty() ? seen : seen(box));
       if (!value) continue;
       const double cx = box.x + 0.5 * (box.width - 1);
       const double cy = box.y + 0.5 * (box.height - 1);
@@ -111,7 +111,7 @@ std::vector<Tile> tiles_of(const cv::Mat& grey, const cv::Mat& seen, double half
 /// The terms at a tile, to be added up in whole vectors.
 using PaddedTerms = std::array<double, 8>;
 
-std::vector<PaddedTerms> terms_of(const std::vector<Tile>& tiles) {
+std::vector<PaddedTerms> padded_terms(const std::vector<Tile>& tiles) {
   std::vector<PaddedTerms> all(tiles.size());
   for (std::size_t k = 0; k < tiles.size(); ++k) {
     const Terms t = Surface::at(tiles[k].x, tiles[k].y);
@@ -175,7 +175,7 @@ MICROSWARM_EACH_CPU void measure(std::span<const PaddedTerms> terms, const Terms
 /// Robust fit: least absolute residuals, which tolerate nearly half of the tiles as outliers, then
 /// Tukey's biweight.
 Surface fitted(const std::vector<Tile>& tiles) {
-  const std::vector<PaddedTerms> terms = terms_of(tiles);
+  const std::vector<PaddedTerms> terms = padded_terms(tiles);
   std::vector<double> weight(tiles.size(), 1);
   std::vector<double> off(tiles.size());
   Surface surface;
@@ -205,7 +205,7 @@ GroundSurface::GroundSurface(const cv::Mat& grey, const cv::Mat& seen)
     : half_(0.5 * std::max(grey.cols, grey.rows)),
       middle_x_(0.5 * (grey.cols - 1)),
       middle_y_(0.5 * (grey.rows - 1)) {
-  const std::vector<Tile> tiles = tiles_of(grey, seen, half_);
+  const std::vector<Tile> tiles = list_tiles(grey, seen, half_);
   has_tiles_ = !tiles.empty();
   if (has_tiles_) factor_ = fitted(tiles).factor;
 }
@@ -226,7 +226,7 @@ cv::Mat GroundSurface::over(const Grid& grid) const {
   return ground;
 }
 
-cv::Mat ground_of(const cv::Mat& grey, const cv::Mat& seen) {
+cv::Mat estimate_background(const cv::Mat& grey, const cv::Mat& seen) {
   return GroundSurface(grey, seen).over({.size = grey.size()});
 }
 

@@ -10,12 +10,12 @@ namespace microswarm {
 /// medians of tiles. Valid if the background covers more than half of the seen pixels. `grey` is
 /// 8-bit with one channel; pixels where `seen` (8-bit, same size, or empty) is 0 are ignored. The
 /// result is a float matrix.
-cv::Mat ground_of(const cv::Mat& grey, const cv::Mat& seen);
+cv::Mat estimate_background(const cv::Mat& grey, const cv::Mat& seen);
 
 /// That surface, to be evaluated at other pixels than it was fitted to.
 class GroundSurface {
  public:
-  /// As in `ground_of`.
+  /// As in `estimate_background`.
   GroundSurface(const cv::Mat& grey, const cv::Mat& seen);
 
   /// Pixels of another picture: the first one is at (x, y) in the fitted picture, and the others

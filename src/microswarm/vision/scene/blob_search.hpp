@@ -23,10 +23,11 @@ cv::Mat downsampled(const cv::Mat& mat, int side);
 cv::Mat walls_over(const Image& picture, const Mask* walls);
 
 /// Mask of the working pixels to search (255), or an empty matrix if all are searched.
-cv::Mat seen_of(const cv::Mat& walls, int side);
+cv::Mat visible_pixels(const cv::Mat& walls, int side);
 
 /// Smoothed difference of each working pixel from the `ground`; 0 where nothing is seen.
-cv::Mat rise_of(const cv::Mat& grey, const cv::Mat& seen, cv::Mat ground, bool dark, double spread);
+cv::Mat subtract_background(const cv::Mat& grey, const cv::Mat& seen, cv::Mat ground, bool dark,
+                            double spread);
 
 /// Spread of the background around its surface, from the median of about ten thousand pixels.
 double ground_spread(const cv::Mat& foreground, const cv::Mat& seen);

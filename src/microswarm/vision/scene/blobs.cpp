@@ -91,7 +91,7 @@ cv::Mat any_of_blocks(const cv::Mat& set, int side) {
 
 }  // namespace
 
-cv::Mat seen_of(const cv::Mat& walls, int side) {
+cv::Mat visible_pixels(const cv::Mat& walls, int side) {
   if (walls.empty()) return {};
   cv::Mat hidden;
   cv::dilate(any_of_blocks(walls, side), hidden, cv::Mat::ones(3, 3, CV_8U));
@@ -137,8 +137,8 @@ cv::Mat blurred_share(const cv::Mat& seen, double spread, int reach) {
 
 }  // namespace
 
-cv::Mat rise_of(const cv::Mat& grey, const cv::Mat& seen, cv::Mat foreground, bool dark,
-                double spread) {
+cv::Mat subtract_background(const cv::Mat& grey, const cv::Mat& seen, cv::Mat foreground, bool dark,
+                            double spread) {
   for (int y = 0; y < grey.rows; ++y)
     take_ground({grey.ptr<std::uint8_t>(y), static_cast<std::size_t>(grey.cols)},
                 seen.empty() ? nullptr : seen.ptr<std::uint8_t>(y), dark ? -1 : 1,
@@ -180,7 +180,7 @@ struct Piece {
 
 /// Connected pieces of at least `min_area` pixels; `corner` is the position of the set's first
 /// pixel.
-std::vector<Piece> pieces_of(const cv::Mat& set, cv::Point corner, double min_area) {
+std::vector<Piece> find_pieces(const cv::Mat& set, cv::Point corner, double min_area) {
   std::vector<Piece> pieces;
   for (const RunPiece& found : connected_runs(set)) {
     if (found.area < min_area) continue;
@@ -271,8 +271,8 @@ cv::Mat smooth_parts(const BlobContext& field, const Piece& piece, double least)
 }
 
 /// Blob of a piece with its outline at `level`; `noise` is the roughness of the background.
-std::optional<Blob> blob_of(const BlobContext& field, const Piece& piece, float level,
-                            double noise) {
+std::optional<Blob> measure_blob(const BlobContext& field, const Piece& piece, float level,
+                                 double noise) {
   Blob blob;
   blob.outline_px = level_line(field.foreground, level, piece.first());
   for (Vec2& q : blob.outline_px) q = field.side * q + 0.5 * (field.side - 1) * Vec2{1, 1};
@@ -307,11 +307,11 @@ std::optional<Blob> main_blob(const BlobContext& field, const Piece& piece, floa
                               double noise, double smallest) {
   const float level = std::max(least, median_within(field.foreground, piece) / 2);
   const cv::Mat half_up = piece.in & (field.foreground(piece.box) > level);
-  const std::vector<Piece> parts = pieces_of(half_up, piece.box.tl(), smallest);
+  const std::vector<Piece> parts = find_pieces(half_up, piece.box.tl(), smallest);
   const auto largest = std::max_element(parts.begin(), parts.end(), [](auto& a, auto& b) {
     return cv::countNonZero(a.in) < cv::countNonZero(b.in);
   });
-  return largest == parts.end() ? std::nullopt : blob_of(field, *largest, level, noise);
+  return largest == parts.end() ? std::nullopt : measure_blob(field, *largest, level, noise);
 }
 
 }  // namespace
@@ -324,7 +324,7 @@ void add_blobs(const BlobContext& field, const BlobParams& p, float least, doubl
   const auto refuse = [&](std::optional<Blob> blob) {
     if (blob && refused) refused->push_back(std::move(*blob));
   };
-  for (Piece& piece : pieces_of(field.foreground > least, {}, smallest)) {
+  for (Piece& piece : find_pieces(field.foreground > least, {}, smallest)) {
     std::optional<Blob> whole;  // with its smooth part, which is then all that is refused
     std::optional<Blob> smooth_blob;
     if (p.min_texture > 0) {
@@ -343,8 +343,8 @@ void add_blobs(const BlobContext& field, const BlobParams& p, float least, doubl
     const std::size_t before = blobs.size();
     const float level = std::max(least, median_within(field.foreground, piece) / 2);
     const cv::Mat half_up = piece.in & (field.foreground(piece.box) > level);
-    for (const Piece& part : pieces_of(half_up, piece.box.tl(), smallest)) {
-      std::optional<Blob> blob = blob_of(field, part, level, noise);
+    for (const Piece& part : find_pieces(half_up, piece.box.tl(), smallest)) {
+      std::optional<Blob> blob = measure_blob(field, part, level, noise);
       if (blob && cv::countNonZero(part.in) >= min_area && blob->radius_px >= p.min_radius &&
           blob->radius_px <= p.max_radius && blob->texture >= p.min_texture)
         blobs.push_back(std::move(*blob));
@@ -363,13 +363,14 @@ void sort_by_size(std::vector<Blob>& blobs) {
 namespace {
 
 /// `grey` has one channel and must outlive the result.
-BlobContext context_of(const Image& grey, const BlobParams& p, const Mask* walls) {
+BlobContext make_context(const Image& grey, const BlobParams& p, const Mask* walls) {
   BlobContext field{.side = coarseness(p)};
-  field.seen = seen_of(walls_over(grey, walls), field.side);
+  field.seen = visible_pixels(walls_over(grey, walls), field.side);
   field.fine = as_mat(grey);
   const cv::Mat coarse = downsampled(field.fine, field.side);
-  field.foreground = rise_of(coarse, field.seen, ground_of(coarse, field.seen),
-                             p.tone == ParticleTone::dark, p.gap / 2 / field.side);
+  field.foreground =
+      subtract_background(coarse, field.seen, estimate_background(coarse, field.seen),
+                          p.tone == ParticleTone::dark, p.gap / 2 / field.side);
   return field;
 }
 
@@ -382,7 +383,7 @@ float min_foreground(const BlobContext& field, const BlobParams& p) {
 double contrast_limit(const Image& picture, const BlobParams& params, const Mask* walls) {
   if (picture.pixels.empty()) return params.min_contrast;
   const Image one = picture.channels == 1 ? Image{} : to_grey(picture);
-  return min_foreground(context_of(picture.channels == 1 ? picture : one, params, walls), params);
+  return min_foreground(make_context(picture.channels == 1 ? picture : one, params, walls), params);
 }
 
 std::vector<Blob> find_blobs(const Image& picture, const BlobParams& p, const Mask* walls,
@@ -390,7 +391,7 @@ std::vector<Blob> find_blobs(const Image& picture, const BlobParams& p, const Ma
   walls_over(picture, walls);  // for its check
   if (picture.pixels.empty()) return {};
   const Image one = picture.channels == 1 ? Image{} : to_grey(picture);
-  const BlobContext field = context_of(picture.channels == 1 ? picture : one, p, walls);
+  const BlobContext field = make_context(picture.channels == 1 ? picture : one, p, walls);
   const float least = min_foreground(field, p);
   const cv::Mat high = field.foreground > least;
   const cv::Mat ground = field.seen.empty() ? cv::Mat(~high) : cv::Mat(~high & field.seen);

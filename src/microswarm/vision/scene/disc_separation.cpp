@@ -16,7 +16,7 @@ constexpr double size_weight = 0.25;   // of the expected radius, in circumferen
 constexpr double max_change = 0.25;    // of the radius
 constexpr double place_weight = 1e-3;  // keeps the fit regular
 
-double off_of(const Ring& ring, Vec2 p) { return distance(p, ring.centre_px) - ring.radius_px; }
+double signed_gap(const Ring& ring, Vec2 p) { return distance(p, ring.centre_px) - ring.radius_px; }
 
 /// One step of Gauss and Newton towards the circle through the points.
 Ring step(const Ring& ring, double usual_radius, const std::vector<Vec2>& points) {
@@ -40,7 +40,7 @@ Ring step(const Ring& ring, double usual_radius, const std::vector<Vec2>& points
 std::size_t nearest(const std::vector<Ring>& rings, Vec2 p, double limit) {
   std::size_t best = rings.size();
   for (std::size_t k = 0; k < rings.size(); ++k)
-    if (const double off = std::abs(off_of(rings[k], p)); off < limit) {
+    if (const double off = std::abs(signed_gap(rings[k], p)); off < limit) {
       limit = off;
       best = k;
     }
@@ -51,7 +51,7 @@ std::size_t nearest(const std::vector<Ring>& rings, Vec2 p, double limit) {
 bool is_bridge(const std::vector<Ring>& rings, Vec2 p, double limit) {
   int near = 0;
   for (const Ring& ring : rings) {
-    const double off = off_of(ring, p);
+    const double off = signed_gap(ring, p);
     if (off < 0) return false;
     near += off <= limit;
   }

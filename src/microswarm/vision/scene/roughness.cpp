@@ -18,7 +18,8 @@ void widen(const std::uint8_t* in, int count, std::uint8_t* out) {
 
 /// Squared differences of neighbours in a row, of those of `count` <= 32,768 pixels that are
 /// chosen.
-MICROSWARM_EACH_CPU int squares_of(const std::uint8_t* row, const std::uint8_t* chosen, int count) {
+MICROSWARM_EACH_CPU int sum_squares(const std::uint8_t* row, const std::uint8_t* chosen,
+                                    int count) {
   int sum = 0;
   for (int x = 0; x < count; ++x) {
     const auto step = static_cast<std::int16_t>(row[x + 1] - row[x]);
@@ -46,7 +47,7 @@ double roughness(const BlobContext& field, const cv::Rect& box, const cv::Mat& c
     const auto* in = chosen.ptr<std::uint8_t>(y);
     widen_row(in, box.width, wide.data());
     for (int x = 0; x < count; x += piece)
-      sum += squares_of(row + first + x, wide.data() + x, std::min(piece, count - x));
+      sum += sum_squares(row + first + x, wide.data() + x, std::min(piece, count - x));
     const auto set = std::count_if(in, in + whole, [](std::uint8_t v) { return v != 0; });
     all += static_cast<double>(side * set);
     if (count > side * whole && in[whole] != 0) all += count - side * whole;

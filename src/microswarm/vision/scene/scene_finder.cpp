@@ -17,12 +17,12 @@ constexpr double hull_tolerance = 0.5;  // [px]
 constexpr double min_gap = 8;           // [px] larger gaps between outline points are hidden parts
 constexpr double join_tolerance = 1.5;  // [px] of the outline of discs that have joined
 
-cv::Point2f point_of(Vec2 p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
+cv::Point2f to_point(Vec2 p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
 
-std::vector<cv::Point2f> points_of(const std::vector<Vec2>& ring) {
+std::vector<cv::Point2f> to_points(const std::vector<Vec2>& ring) {
   std::vector<cv::Point2f> points;
   points.reserve(ring.size());
-  for (const Vec2 p : ring) points.push_back(point_of(p));
+  for (const Vec2 p : ring) points.push_back(to_point(p));
   return points;
 }
 
@@ -59,7 +59,7 @@ std::vector<Vec2> own_outline(const Blob& blob, const cv::Size& size, const Mask
 }
 
 /// Circle fitted to the visible outline, at least a third of which must be visible.
-std::optional<Ring> disc_of(const Blob& blob, const std::vector<Vec2>& own, double roundness) {
+std::optional<Ring> fit_disc(const Blob& blob, const std::vector<Vec2>& own, double roundness) {
   const auto ring = blob.is_cut ? circle_through(own) : Ring{blob.centre_px, blob.radius_px};
   if (!ring) return std::nullopt;
   double arc = 0;  // of the circle, as the fraction of the outline that is seen
@@ -85,7 +85,7 @@ std::vector<Ring> discs_within(const Blob& blob, std::span<const Ring> expected)
 SeenObstacle with_hull(Blob blob, std::optional<Ring> disc) {
   SeenObstacle obstacle{.disc = disc};
   std::vector<cv::Point2f> hull;
-  cv::convexHull(points_of(blob.outline_px), hull);
+  cv::convexHull(to_points(blob.outline_px), hull);
   std::vector<cv::Point2f> thin;
   cv::approxPolyDP(hull, thin, hull_tolerance, true);
   obstacle.hull_px.reserve(thin.size());
@@ -98,7 +98,7 @@ SeenObstacle with_hull(Blob blob, std::optional<Ring> disc) {
 void add_obstacles(Blob blob, const cv::Size& size, const Mask* hidden, const SceneParams& params,
                    std::span<const Ring> expected, std::vector<SeenObstacle>& obstacles) {
   const std::vector<Vec2> own = blob.is_cut ? own_outline(blob, size, hidden) : blob.outline_px;
-  std::optional<Ring> disc = disc_of(blob, own, params.roundness);
+  std::optional<Ring> disc = fit_disc(blob, own, params.roundness);
   if (!disc) {
     const std::vector<Ring> within = discs_within(blob, expected);
     const DiscSeparation limits{.tolerance = join_tolerance,
@@ -135,7 +135,7 @@ SeenScene find_scene(const Image& picture, const SceneParams& params, const Swar
     hidden = hidden_by(*scene.swarm.swarm, picture, walls, params.swarm.look.gap);
     walls = &hidden;
   }
-  scene.obstacles = obstacles_of(find_blobs(picture, params.obstacles, walls),
+  scene.obstacles = to_obstacles(find_blobs(picture, params.obstacles, walls),
                                  {picture.width, picture.height}, walls, params, expected);
   return scene;
 }
@@ -157,7 +157,7 @@ SwarmSighting choose_smooth(std::vector<Blob> blobs, const SceneParams& params,
   return {.sight = SwarmSight::found, .swarm = blobs[0], .candidates = {blobs[0]}, .others = {}};
 }
 
-std::vector<SeenObstacle> obstacles_of(std::vector<Blob> blobs, const cv::Size& size,
+std::vector<SeenObstacle> to_obstacles(std::vector<Blob> blobs, const cv::Size& size,
                                        const Mask* hidden, const SceneParams& params,
                                        std::span<const Ring> expected) {
   std::vector<SeenObstacle> obstacles;

@@ -25,7 +25,7 @@ void draw_ring(cv::Mat& picture, const std::vector<Vec2>& ring, const cv::Scalar
     cv::line(picture, fine(ring[j]), fine(ring[i]), colour, thickness, cv::LINE_AA, fraction_bits);
 }
 
-std::vector<Vec2> ellipse_of(const Blob& blob) {
+std::vector<Vec2> blob_ellipse(const Blob& blob) {
   constexpr int corners = 90;
   std::vector<Vec2> ring;
   ring.reserve(corners);
@@ -39,7 +39,7 @@ std::vector<Vec2> ellipse_of(const Blob& blob) {
 
 void draw_blob(cv::Mat& picture, const Blob& blob, const cv::Scalar& colour) {
   draw_ring(picture, blob.outline_px, colour, 2);
-  draw_ring(picture, ellipse_of(blob), white, 1);
+  draw_ring(picture, blob_ellipse(blob), white, 1);
   for (const Vec2 axis : {Vec2{blob.semi_major_px, 0}, Vec2{0, blob.semi_minor_px}}) {
     const Vec2 half = rotated(axis, blob.angle);
     cv::line(picture, fine(blob.centre_px - half), fine(blob.centre_px + half), white, 1,

@@ -22,7 +22,7 @@ SwarmSighting choose_smooth(std::vector<Blob> blobs, const SceneParams& params,
                             const SwarmPrior& prior);
 
 /// The obstacles that the blobs show in a picture of this size.
-std::vector<SeenObstacle> obstacles_of(std::vector<Blob> blobs, const cv::Size& size,
+std::vector<SeenObstacle> to_obstacles(std::vector<Blob> blobs, const cv::Size& size,
                                        const Mask* hidden, const SceneParams& params,
                                        std::span<const Ring> expected);
 

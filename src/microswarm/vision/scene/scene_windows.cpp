@@ -19,10 +19,10 @@ constexpr int coarse = 4;             // [px] side of a coarse pixel
 constexpr int strips = 8;             // rows in which the background is measured
 constexpr double coarse_share = 0.5;  // of the least difference, which makes a window
 constexpr int max_windows = 200;      // more are one: the picture
-constexpr double blur_reach = 2.5;    // standard deviations of the blur of `rise_of`
+constexpr double blur_reach = 2.5;    // standard deviations of the blur of `subtract_background`
 
 /// Distance at which a window's edge has no influence on what is in it [px].
-int margin_of(const BlobParams& p) {
+int window_margin(const BlobParams& p) {
   return static_cast<int>(std::ceil((0.5 * blur_reach + 1) * p.gap)) + 2 * coarse;
 }
 
@@ -109,7 +109,7 @@ void WindowSearch::look_coarsely(const SceneParams& params) {
 
 /// Boxes around what differs, with the margin that the searches need.
 void WindowSearch::place_windows(const SceneParams& params) {
-  const int margin = std::max(margin_of(params.swarm.look), margin_of(params.obstacles));
+  const int margin = std::max(window_margin(params.swarm.look), window_margin(params.obstacles));
   const int wide = 2 * (margin / coarse + 1) + 1;
   cv::Mat grown;
   cv::dilate(differs_, grown, cv::Mat::ones(wide, wide, CV_8U));
@@ -150,10 +150,10 @@ std::optional<std::vector<Blob>> WindowSearch::search_within(
   for (const auto& [window, piece] : windows) {
     BlobContext field{.side = side};
     field.fine = fine_(window);
-    field.seen = walls.empty() ? cv::Mat() : seen_of(walls(window), side);
+    field.seen = walls.empty() ? cv::Mat() : visible_pixels(walls(window), side);
     const cv::Mat grey = downsampled(field.fine, side);
-    field.foreground = rise_of(grey, field.seen, ground(window, side),
-                               look.tone == ParticleTone::dark, look.gap / 2 / side);
+    field.foreground = subtract_background(grey, field.seen, ground(window, side),
+                                           look.tone == ParticleTone::dark, look.gap / 2 / side);
     std::vector<Blob> blobs;
     add_blobs(field, look, behind.least, behind.noise, blobs);
     for (Blob& blob : blobs) {
@@ -179,9 +179,10 @@ Backdrop WindowSearch::backdrop(const BlobParams& look) const {
   for (int k = 0; k < strips; ++k) {
     const int top = (fine_.rows - high) * (2 * k + 1) / (2 * strips) / coarse * coarse;
     const cv::Rect box(0, top, fine_.cols, high);
-    const cv::Mat shown = cells.empty() ? cv::Mat() : seen_of(cells(box), side);
-    const cv::Mat rise = rise_of(downsampled(fine_(box), side), shown, ground(box, side),
-                                 look.tone == ParticleTone::dark, spread);
+    const cv::Mat shown = cells.empty() ? cv::Mat() : visible_pixels(cells(box), side);
+    const cv::Mat rise =
+        subtract_background(downsampled(fine_(box), side), shown, ground(box, side),
+                            look.tone == ParticleTone::dark, spread);
     const int middle = rise.rows / 2;
     rises.push_back(rise.row(middle));
     seens.push_back(shown.empty() ? cv::Mat(1, rise.cols, CV_8U, cv::Scalar(255))
@@ -211,7 +212,7 @@ cv::Mat WindowSearch::ground(const cv::Rect& box, int side) const {
 SceneWindows::SceneWindows(Mask walls) : walls_(std::move(walls)) {
   if (walls_.cells.empty()) return;
   const cv::Mat cells(walls_.height, walls_.width, CV_8U, walls_.cells.data());
-  coarse_walls_ = to_mask(~seen_of(cells, coarse));
+  coarse_walls_ = to_mask(~visible_pixels(cells, coarse));
 }
 
 SeenScene SceneWindows::find(const Image& picture, const SceneParams& params,
@@ -236,7 +237,7 @@ SeenScene SceneWindows::find(const Image& picture, const SceneParams& params,
     hidden = hidden_by(*scene.swarm.swarm, picture, walls, params.swarm.look.gap);
     walls = &hidden;
   }
-  scene.obstacles = obstacles_of(in.search(params.obstacles, walls, in.windows()),
+  scene.obstacles = to_obstacles(in.search(params.obstacles, walls, in.windows()),
                                  {picture.width, picture.height}, walls, params, expected);
   return scene;
 }

@@ -32,7 +32,7 @@ struct Slope {
 };
 
 /// Gradients of the planes fitted to the tiles of the logarithms.
-std::vector<Slope> slopes_of(const cv::Mat& logs) {
+std::vector<Slope> measure_slopes(const cv::Mat& logs) {
   const Vec2 middle{0.5 * (logs.cols - 1), 0.5 * (logs.rows - 1)};
   constexpr double spread = (tile * tile - 1) * tile * tile / 12.0;  // sum of squares of an offset
   std::vector<Slope> slopes;
@@ -88,8 +88,8 @@ struct Light {
 
 /// The picture corrected for uneven light, with its mean at the middle grey.
 cv::Mat in_even_light(const cv::Mat& grey) {
-  cv::Mat even = logs_of(grey, 0);
-  const Light light(slopes_of(even));
+  cv::Mat even = log_image(grey, 0);
+  const Light light(measure_slopes(even));
   for (int y = 0; y < even.rows; ++y)
     for (int x = 0; x < even.cols; ++x)
       even.at<float>(y, x) -=
@@ -107,7 +107,7 @@ struct Sorts {
   cv::Mat much_darker;  ///< than the darker of the two
 };
 
-Sorts sorts_of(const cv::Mat& picture, const WallParams& p) {
+Sorts classify_pixels(const cv::Mat& picture, const WallParams& p) {
   cv::Mat grey = picture;
   if (p.smooth > 0) {
     cv::Mat smooth;
@@ -162,7 +162,7 @@ Image still_background(std::span<const Image> pictures) {
 Mask find_walls(const Image& background, const WallParams& p) {
   if (background.pixels.empty()) return {};
   const Image one = to_grey(background);
-  const Sorts sorts = sorts_of(as_mat(one), p);
+  const Sorts sorts = classify_pixels(as_mat(one), p);
   if (sorts.walls.empty()) return {background.width, background.height};
   const cv::Mat walls = without_small_pieces(sorts.walls, p.min_area);
   return to_mask(~without_small_pieces(~walls, p.min_area));
@@ -178,7 +178,7 @@ WallsBesideSwarm find_walls_beside(const Image& picture, const WallParams& p, co
   WallParams small = p;
   small.smooth /= wall_pixel;
   small.min_area /= wall_pixel * wall_pixel;
-  const Sorts sorts = sorts_of(grey, small);
+  const Sorts sorts = classify_pixels(grey, small);
   cv::Mat walls = sorts.walls.empty() ? cv::Mat::zeros(grey.size(), CV_8U) : sorts.walls;
   if (!sorts.walls.empty()) {
     cv::Mat dark;

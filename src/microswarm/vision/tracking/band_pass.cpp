@@ -29,7 +29,7 @@ std::vector<float> gaussian(double spread) {
   return taps;
 }
 
-const std::uint8_t* row_of(const Image& grey, int row) {
+const std::uint8_t* pixel_row(const Image& grey, int row) {
   return grey.pixels.data() + grey.index(0, std::clamp(row, 0, grey.height - 1));
 }
 
@@ -114,7 +114,7 @@ void BandPass::begin(const Image& grey) {
   ground_.resize(width);
   result_.resize(grey.pixels.size());
   for (int row = -half - 1; row < half; ++row) {  // the box before the first row
-    const std::uint8_t* in = row_of(grey, row);
+    const std::uint8_t* in = pixel_row(grey, row);
     for (int x = 0; x < grey.width; ++x) column_sums_[x] += in[x];
   }
 }
@@ -125,7 +125,7 @@ void BandPass::take_row(const Image& grey, int row) {
   const auto width = static_cast<std::size_t>(grey.width);
   const int rows = 2 * static_cast<int>(taps_.size()) - 1;
   float* position = rows_.data() + static_cast<std::size_t>((row + rows) % rows) * width;
-  convert(row_of(grey, row), grey.width, position);
+  convert(pixel_row(grey, row), grey.width, position);
   std::copy_n(position, width, position + static_cast<std::size_t>(rows) * width);
 }
 
@@ -141,7 +141,7 @@ void BandPass::smooth_down(const Image& grey, int row) {
 
 void BandPass::find_ground(const Image& grey, int row) {
   const int half = params_.box_px / 2;
-  move_down(row_of(grey, row + half), row_of(grey, row - half - 1), grey.width,
+  move_down(pixel_row(grey, row + half), pixel_row(grey, row - half - 1), grey.width,
             column_sums_.data());
   divide(column_sums_.data(), grey.width, params_.dark_rises ? -1 : 1,
          params_.dark_rises ? 255 * params_.box_px : 0, params_.box_px,

@@ -93,7 +93,7 @@ MassKinds mass_kinds(std::span<const double> masses, std::span<const double> oth
   std::sort(sorted.begin(), sorted.end());
   std::sort(sorted_other.begin(), sorted_other.end());
   const auto [first, density] = mass_density(masses);
-  const auto mass_of = [first = first](std::size_t bin) {
+  const auto bin_mass = [first = first](std::size_t bin) {
     return maths::pow(10.0, first + static_cast<double>(bin) * MassDensity::step);
   };
   const double enough = std::max(min_count, 0.5 * pictures);
@@ -102,7 +102,7 @@ MassKinds mass_kinds(std::span<const double> masses, std::span<const double> oth
     const auto gap = gap_at(density, at);
     if (!gap) continue;
     at = gap->to;
-    const MassGap found{mass_of(gap->from), mass_of(gap->to)};
+    const MassGap found{bin_mass(gap->from), bin_mass(gap->to)};
     const double from = gaps.empty() ? 0 : gaps.back().robots_from;
     if (count_between(sorted, from, found.noise_to) >= enough &&
         count_between(sorted, found.robots_from, infinity) >= enough)

@@ -23,7 +23,7 @@ struct Features {
   std::vector<std::pair<std::size_t, Particle>> particles;  // with their picture
 };
 
-Features features_of(std::span<const Image> pictures, ParticleParams params) {
+Features find_features(std::span<const Image> pictures, ParticleParams params) {
   params.min_mass = 0;
   params.shape = ParticleShape::spot;
   ParticleFinder finder(params);
@@ -46,8 +46,8 @@ struct Profile {
   std::vector<double> error;
 };
 
-Profile profile_of(std::span<const Image> pictures, const Features& features, double min_mass,
-                   int reach) {
+Profile make_profile(std::span<const Image> pictures, const Features& features, double min_mass,
+                     int reach) {
   const auto rings = static_cast<std::size_t>(reach) + 1;
   std::vector<double> sum(rings), squares(rings), count(rings);
   std::size_t robots = 0;
@@ -80,7 +80,7 @@ Profile profile_of(std::span<const Image> pictures, const Features& features, do
 }
 
 /// Diameter of a robot: from where on the mean grey remains that of the background.
-std::optional<int> diameter_of(const Profile& profile) {
+std::optional<int> best_diameter(const Profile& profile) {
   const std::size_t rings = profile.grey.size();
   if (rings < 6) return std::nullopt;
   const std::size_t far = 2 * rings / 3;
@@ -127,8 +127,8 @@ ParticleSuggestion suggest_particles(std::span<const Image> pictures,
   for (int round = 0; round < max_rounds; ++round) {
     ParticleParams reverse = best.params;
     reverse.tone = other(reverse.tone);
-    Features features = features_of(pictures, best.params);
-    Features opposite = features_of(pictures, reverse);
+    Features features = find_features(pictures, best.params);
+    Features opposite = find_features(pictures, reverse);
     best.kinds = mass_kinds(features.masses, opposite.masses, best.pictures);
     const MassKinds there = mass_kinds(opposite.masses, features.masses, best.pictures);
     if (robot_mass(opposite.masses, there) > heavier * robot_mass(features.masses, best.kinds)) {
@@ -141,7 +141,8 @@ ParticleSuggestion suggest_particles(std::span<const Image> pictures,
     best.other_masses = opposite.masses;
     const int now = best.params.diameter | 1;
     if (!best.kinds.gap && best.kinds.has_noise) break;  // the mean picture is that of noise
-    const auto seen = diameter_of(profile_of(pictures, features, best.params.min_mass, 2 * now));
+    const auto seen =
+        best_diameter(make_profile(pictures, features, best.params.min_mass, 2 * now));
     best.knows_diameter = seen.has_value();
     const int next = seen.value_or(2 * now - 1);
     if (seen && std::abs(next - now) <= 2) return best;
@@ -152,11 +153,11 @@ ParticleSuggestion suggest_particles(std::span<const Image> pictures,
   best.knows_diameter = false;
   if (best.params.diameter == params.diameter) return best;
   best.params.diameter = params.diameter;
-  const Features features = features_of(pictures, best.params);
+  const Features features = find_features(pictures, best.params);
   ParticleParams reverse = best.params;
   reverse.tone = other(reverse.tone);
   best.masses = features.masses;
-  best.other_masses = features_of(pictures, reverse).masses;
+  best.other_masses = find_features(pictures, reverse).masses;
   best.kinds = mass_kinds(best.masses, best.other_masses, best.pictures);
   best.params.min_mass = best.kinds.gap ? best.kinds.gap->min_mass() : params.min_mass;
   return best;

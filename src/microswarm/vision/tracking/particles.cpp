@@ -25,7 +25,7 @@ constexpr double move_from = 0.6;    // [px] a mask farther from its centroid mo
 
 int odd(int diameter) { return diameter | 1; }
 
-BandPassParams band_of(const ParticleParams& p) {
+BandPassParams band_params(const ParticleParams& p) {
   if (p.noise >= odd(p.diameter))
     throw InputError("noise_px: is " + number_text(p.noise) + ", must be below the diameter, " +
                      std::to_string(odd(p.diameter)));
@@ -37,7 +37,7 @@ int square_in(int separation) {
   return std::max(1, static_cast<int>(2 * separation / std::numbers::sqrt2));
 }
 
-MICROSWARM_EACH_CPU float highest_of(std::span<const float> values) {
+MICROSWARM_EACH_CPU float max_value(std::span<const float> values) {
   std::array<float, 16> lanes{};  // 16 independent lanes, for parallel execution
   std::size_t i = 0;
   for (; i + lanes.size() <= values.size(); i += lanes.size())
@@ -85,7 +85,7 @@ ParticleFinder::ParticleFinder(const ParticleParams& params)
     : params_(params),
       radius_(odd(params.diameter) / 2),
       separation_(params.separation > 0 ? params.separation : odd(params.diameter) + 1),
-      band_pass_(band_of(params)),
+      band_pass_(band_params(params)),
       window_(radius_) {
   for (int dy = -radius_; dy <= radius_; ++dy)
     for (int dx = -radius_; dx <= radius_; ++dx) {
@@ -110,7 +110,7 @@ const std::vector<Particle>& ParticleFinder::find(const Image& grey) {
 }
 
 void ParticleFinder::scale_to_bytes(const std::vector<float>& rise) {
-  const float highest = highest_of(rise);
+  const float highest = max_value(rise);
   const float scale = highest > 0 ? 255.0F / highest : 0.0F;
   greys_per_byte_ = highest / 255.0;
   bytes_.resize(rise.size() + RoundWindow::read_beyond);

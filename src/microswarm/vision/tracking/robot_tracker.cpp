@@ -66,18 +66,18 @@ void RobotTracker::find_candidates(std::span<const Vec2> seen) {
 }
 
 void RobotTracker::match(int frame, std::span<const Vec2> seen) {
-  const auto& column_of = assignment_.solve(static_cast<int>(robots_.size()),
+  const auto& column_at = assignment_.solve(static_cast<int>(robots_.size()),
                                             static_cast<int>(seen.size()), edges_, gate_ * gate_);
   sightings_.assign(seen.size(), {});
   robot_at_.assign(seen.size(), std::nullopt);
   for (int row = 0; row < std::ssize(robots_); ++row) {
     Robot& robot = robots_[row];
-    if (!column_of[row]) {
+    if (!column_at[row]) {
       ++robot.missed;
       continue;
     }
-    robot_at_[*column_of[row]] = row;
-    robot.filter.correct(seen[*column_of[row]], noise_);
+    robot_at_[*column_at[row]] = row;
+    robot.filter.correct(seen[*column_at[row]], noise_);
   }
   for (Robot& robot : robots_)
     if (robot.missed > 0) miss(robot, frame, seen);

@@ -16,8 +16,8 @@ struct PieceSums {
 };
 
 /// From the last row upwards: a value is once more in the sum down its column for each row above.
-MICROSWARM_EACH_CPU PieceSums sums_of(const std::uint8_t* last_row, std::ptrdiff_t stride,
-                                      const std::uint8_t* mask, int rows) {
+MICROSWARM_EACH_CPU PieceSums sum_piece(const std::uint8_t* last_row, std::ptrdiff_t stride,
+                                        const std::uint8_t* mask, int rows) {
   std::uint32_t sum[lanes] = {};
   std::uint32_t sums[lanes] = {};
   for (int row = rows - 1; row >= 0; --row) {
@@ -50,8 +50,8 @@ RoundWindow::Moments RoundWindow::moments(const std::uint8_t* middle, std::ptrdi
   for (int p = 0; p < pieces_; ++p) {
     const int first = p * lanes - radius_;
     const PieceSums piece =
-        sums_of(middle + radius_ * stride + first, stride,
-                mask_.data() + static_cast<std::ptrdiff_t>(p) * rows * lanes, rows);
+        sum_piece(middle + radius_ * stride + first, stride,
+                  mask_.data() + static_cast<std::ptrdiff_t>(p) * rows * lanes, rows);
     out.mass += piece.mass;
     out.along_x += piece.along_x + static_cast<std::int64_t>(first) * piece.mass;
     out.along_y += piece.along_y;

@@ -20,7 +20,7 @@ constexpr int forgotten_after = 20;       // frames unseen
 constexpr int max_numbered = 100;         // robots; beyond this, numbers are omitted
 
 /// One of six colours safe for colour-blind readers (Okabe & Ito), by id.
-cv::Scalar colour_of(int id) {
+cv::Scalar track_colour(int id) {
   static const std::array<cv::Scalar, 6> colours{
       {{230, 159, 0}, {86, 180, 233}, {0, 158, 115}, {240, 228, 66}, {0, 114, 178}, {213, 94, 0}}};
   return colours[static_cast<std::size_t>(id) % colours.size()];
@@ -87,7 +87,7 @@ const Image& TrackOverlay::draw(const VideoFrame& frame, const std::vector<Track
   cv::Mat picture = as_mat(shown_);
   for (const TrackRow& row : rows) {
     const Trail& trail = *trails_[row.id];
-    const cv::Scalar colour = colour_of(row.id);
+    const cv::Scalar colour = track_colour(row.id);
     for (std::size_t i = 1; i < trail.places_px.size(); ++i)
       cv::line(picture, fine(trail.places_px[i - 1]), fine(trail.places_px[i]), colour, 1,
                cv::LINE_AA, fraction_bits);

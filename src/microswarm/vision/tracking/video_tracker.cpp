@@ -9,7 +9,7 @@
 namespace microswarm {
 namespace {
 
-double scale_of(const TrackSettings& settings) {
+double picture_scale(const TrackSettings& settings) {
   if (!settings.um_per_px) throw InputError("um_per_px: is missing");
   return *settings.um_per_px;
 }
@@ -18,7 +18,7 @@ double scale_of(const TrackSettings& settings) {
 
 VideoTracker::VideoTracker(const TrackSettings& settings, double frame_time)
     : channel_(settings.channel),
-      um_per_px_(scale_of(settings)),
+      um_per_px_(picture_scale(settings)),
       finder_(settings.find),
       tracker_(settings.track, settings.find.diameter * um_per_px_, frame_time) {}
 

@@ -124,7 +124,7 @@ void set_disc(cv::Mat& set, cv::Point centre, double radius) {
     }
 }
 
-int root_of(std::vector<int>& parents, int i) {
+int find_root(std::vector<int>& parents, int i) {
   while (parents[i] != i) i = parents[i] = parents[parents[i]];
   return i;
 }
@@ -138,8 +138,8 @@ int bridge_gaps(cv::Mat& set, const cv::Mat& cost, double most) {
   std::iota(joined.begin(), joined.end(), 0);
   int bridges = 0;
   for (const Meeting& m : meetings(reach, cost, most)) {
-    const int a = root_of(joined, reach.label.at<int>(m.a));
-    const int b = root_of(joined, reach.label.at<int>(m.b));
+    const int a = find_root(joined, reach.label.at<int>(m.a));
+    const int b = find_root(joined, reach.label.at<int>(m.b));
     if (a == b) continue;
     joined[a] = b;
     ++bridges;

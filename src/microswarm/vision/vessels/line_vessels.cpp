@@ -49,7 +49,7 @@ bool is_whole(const cv::Mat& view) {
   return cv::countNonZero(view) == static_cast<int>(view.total());
 }
 
-double diameter_of(const cv::Mat& view) {
+double view_diameter(const cv::Mat& view) {
   return 2 * std::sqrt(cv::countNonZero(view) / std::numbers::pi);
 }
 
@@ -96,10 +96,10 @@ Working at_scale(const cv::Mat& grey, const cv::Mat& view, double scale, double 
     cv::resize(view, w.view, size, 0, 0, cv::INTER_AREA);
     w.view = w.view > 250;
   }
-  w.absorbance = logs_of(w.absorbance, dark_noise);
+  w.absorbance = log_image(w.absorbance, dark_noise);
   if (!bright) w.absorbance = -w.absorbance;
   if (!is_whole(w.view))
-    continue_outside(w.absorbance, depth_in(w.view) > soft_rim * diameter_of(w.view));
+    continue_outside(w.absorbance, depth_in(w.view) > soft_rim * view_diameter(w.view));
   w.absorbance = standing_out(w.absorbance, wide_radius);
   return w;
 }
@@ -132,7 +132,7 @@ Lines find_lines(const Working& w, double wide_radius, const VesselParams& param
 /// resolution.
 double measured_radius(const cv::Mat& grey, const cv::Mat& view, bool bright,
                        const VesselParams& params) {
-  const double scale = std::min(1.0, first_diameter / diameter_of(view));
+  const double scale = std::min(1.0, first_diameter / view_diameter(view));
   const Working w = at_scale(grey, view, scale, working_radius, bright);
   const cv::Mat vessels = find_lines(w, working_radius, params).fitted;
   const double seen = quantile(depth_in(vessels), vessels, wide_line_quantile);
@@ -148,7 +148,7 @@ FoundVessels line_vessels(const cv::Mat& grey, const cv::Mat& view, bool bright,
       params.wide_width > 0 ? params.wide_width / 2 : measured_radius(grey, view, bright, params);
   FoundVessels found{.vessels = cv::Mat::zeros(view.size(), CV_8U)};
   found.wide_width_px = 2 * radius;
-  found.scale = std::min({1.0, max_diameter / diameter_of(view), working_radius / radius});
+  found.scale = std::min({1.0, max_diameter / view_diameter(view), working_radius / radius});
   const double wide_radius = radius * found.scale;
   const double wide_area = 4 * wide_radius * wide_radius;
 

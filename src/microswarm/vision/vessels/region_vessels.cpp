@@ -28,7 +28,7 @@ double largest_share(const cv::Mat& set) {
          std::max(1, cv::countNonZero(set));
 }
 
-double wide_width_of(const cv::Mat& set) {
+double find_wide_width(const cv::Mat& set) {
   std::vector<float> depths = values_in(depth_in(set), set);
   if (depths.empty()) return 0;
   const double last = static_cast<double>(depths.size() - 1);
@@ -74,7 +74,7 @@ FoundVessels region_vessels(const TwoGreys& greys, const cv::Mat& view, bool bri
   FoundVessels found;
   found.vessels = bright ? greys.bright.clone() : cv::Mat(view & ~greys.bright);
   cv::medianBlur(found.vessels, found.vessels, bad_pixels);
-  found.wide_width_px = params.wide_width > 0 ? params.wide_width : wide_width_of(found.vessels);
+  found.wide_width_px = params.wide_width > 0 ? params.wide_width : find_wide_width(found.vessels);
   const double wide_area = found.wide_width_px * found.wide_width_px;
   fill_holes(found.vessels, speck * wide_area);
   found.vessels = without_small_pieces(found.vessels, speck * params.min_piece * wide_area);

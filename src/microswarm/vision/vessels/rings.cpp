@@ -104,7 +104,7 @@ class Chains {
   std::vector<std::vector<int>> buckets_;
 };
 
-Box box_of(Segment s) {
+Box segment_box(Segment s) {
   const std::array<Vec2, 2> ends{s.a, s.b};
   return bounding_box(ends);
 }
@@ -115,7 +115,7 @@ std::vector<char> touching(const Rings& rings, double cell) {
   std::vector<char> found(static_cast<std::size_t>(chains.size()), 0);
   for (int i = 0; i < chains.size(); ++i) {
     const int j = chains.next(i);
-    const bool clear = chains.each_near(box_of(chains.edge(i)),
+    const bool clear = chains.each_near(segment_box(chains.edge(i)),
                                         [&](int other) { return !chains.conflict(i, j, other); });
     if (!clear) found[i] = found[j] = 1;
   }
@@ -222,7 +222,7 @@ class Thinner {
     const Vec2 p = chains_.point(a);
     const Vec2 q = chains_.point(i);
     const Vec2 r = chains_.point(b);
-    Box box = box_of({p, r});
+    Box box = segment_box({p, r});
     box.include(q);
     return chains_.each_near(box, [&](int e) {
       if (e == a || e == i) return true;

@@ -24,7 +24,7 @@ void require_picture(const Image& image) {
 }
 
 /// The channel with the highest contrast of blood.
-cv::Mat green_of(const Image& image) {
+cv::Mat green_channel(const Image& image) {
   cv::Mat picture = as_mat(image);
   if (image.channels == 1) return picture;
   cv::Mat green;
@@ -53,7 +53,7 @@ VesselSegmentation segment_vessels(const Image& image, const VesselParams& param
   VesselSegmentation result;
   result.field_of_view = field_of_view(image);
   const cv::Mat view = to_mat(result.field_of_view);
-  FoundVessels found = found_in(green_of(image), view, params, result.method, stop);
+  FoundVessels found = found_in(green_channel(image), view, params, result.method, stop);
   result.wide_width_px = found.wide_width_px;
   result.scale = found.scale;
   result.bridges = found.bridges;

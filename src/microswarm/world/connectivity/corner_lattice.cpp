@@ -29,7 +29,7 @@ void find_anchor(Axis& axis) {
   }
 }
 
-std::array<Axis, 2> axes_of(const Map& map) {
+std::array<Axis, 2> lattice_axes(const Map& map) {
   std::array<Axis, 2> axes;
   for (const Body& body : map.walls().bodies()) {
     std::visit(Overloaded{[](const Disc&) {},
@@ -88,7 +88,7 @@ bool is_on(const Axis& axis, double pitch, double error) {
 }  // namespace
 
 std::optional<CornerLattice> corner_lattice(const Map& map, double min_pitch) {
-  const std::array<Axis, 2> axes = axes_of(map);
+  const std::array<Axis, 2> axes = lattice_axes(map);
   const double error = 1e-3 * min_pitch;
   const double pitch = common_divisor(distances(axes), min_pitch, error);
   if (pitch == 0 || !is_on(axes[0], pitch, error) || !is_on(axes[1], pitch, error))

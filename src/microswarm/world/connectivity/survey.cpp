@@ -44,7 +44,7 @@ void find_met(const BodySet& set, Disc circle, MetBodies& met) {
   const Box box = bounding_box(circle);
   discs.for_each_in(box, [&](std::size_t i) {
     const double d = distance(circle.centre, discs.disc(i));
-    if (d <= circle.radius) met.push_back({discs.body_of(i), d});
+    if (d <= circle.radius) met.push_back({discs.enclosing_pose(i), d});
   });
   const PolygonSet& polygons = set.polygons();
   if (polygons.empty()) return;

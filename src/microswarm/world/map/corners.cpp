@@ -44,7 +44,7 @@ void add_ring(std::span<const Vec2> ring, const Box& bounds, std::vector<Corner>
     const Vec2 in = at - before, out = after - at;
     // The solid is on the left, so normals point to the right.
     Corner corner{.centre = at,
-                  .from = heading_of(-perpendicular(in)),
+                  .from = heading_along(-perpendicular(in)),
                   .width = maths::atan2(cross(in, out), dot(in, out))};
     corner.first = unit_vector(corner.from);
     corner.last = unit_vector(corner.from + corner.width);

@@ -78,9 +78,9 @@ class Corners {
   }
   template <class Visit>
   auto cell_visitor(Visit& visit) const {
-    return [this, &visit](std::uint32_t cell, auto&& sides_of) {
+    return [this, &visit](std::uint32_t cell, auto&& find_sides) {
       const auto see = [&](std::uint32_t i) {
-        visit(i, [&] { return sides_of(Disc{corners_[i].centre, corners_[i].radius}); });
+        visit(i, [&] { return find_sides(Disc{corners_[i].centre, corners_[i].radius}); });
       };
       const Trapezoids::Cell& here = cells_.cells()[cell];
       for (const std::uint32_t segment : {here.bottom, here.top})

@@ -52,7 +52,7 @@ Vec2 FieldPainter::point(double column, double row) const {
   return {bounds_.lo.x + column * field_.cell_, bounds_.lo.y + row * field_.cell_};
 }
 
-Vec2 FieldPainter::centre_of(const Block& block) const {
+Vec2 FieldPainter::block_centre(const Block& block) const {
   return point(0.5 * (block.left + block.right), 0.5 * (block.bottom + block.top));
 }
 
@@ -73,7 +73,7 @@ void FieldPainter::cut(Start start) {
 }
 
 FieldPainter::Look FieldPainter::look(const Block& block, Start start, Solid solid) {
-  const Vec2 centre = centre_of(block);
+  const Vec2 centre = block_centre(block);
   const double edge = edges_.measure(centre, start.edges);
   if (solid == Solid::unknown && edge > half_diagonal(block))
     solid = bodies_.polygons().holds(centre) ? Solid::yes : Solid::no;

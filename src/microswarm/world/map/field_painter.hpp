@@ -44,7 +44,7 @@ class FieldPainter {
   };
 
   Vec2 point(double column, double row) const;
-  Vec2 centre_of(const Block& block) const;
+  Vec2 block_centre(const Block& block) const;
   double half_diagonal(const Block& block) const;
   Start top() const { return {edges_.size(), discs_.size()}; }
   std::size_t count_from(Start start) const;

@@ -60,7 +60,7 @@ std::vector<Body> connected_pieces(std::vector<Polygon> polygons, const std::vec
   constexpr std::uint32_t unnamed = ~0u;
   std::vector<std::uint32_t> number(solids, unnamed);
   std::uint32_t pieces = 0;
-  auto number_of = [&](std::size_t i) {
+  auto piece_number = [&](std::size_t i) {
     std::uint32_t& n = number[touching.name(i)];
     if (n == unnamed) n = pieces++;
     return n;
@@ -70,10 +70,10 @@ std::vector<Body> connected_pieces(std::vector<Polygon> polygons, const std::vec
     if (groups[i].empty()) continue;
     if (must_clip[i]) groups[i] = united(groups[i]);
     for (Polygon& p : groups[i])
-      bodies.push_back({.shape = std::move(p), .obstacle = number_of(i)});
+      bodies.push_back({.shape = std::move(p), .obstacle = piece_number(i)});
   }
   for (std::size_t i = 0; i < discs.size(); ++i) {
-    bodies.push_back({.shape = discs[i], .obstacle = number_of(groups.size() + i)});
+    bodies.push_back({.shape = discs[i], .obstacle = piece_number(groups.size() + i)});
   }
   return bodies;
 }

@@ -22,14 +22,14 @@ bool is_disc(const Body& body) {
       body.shape);
 }
 
-const std::vector<Vec2>* outline_of(const Body& body) {
+const std::vector<Vec2>* find_outline(const Body& body) {
   using Outline = const std::vector<Vec2>*;
   return std::visit(Overloaded{[](const Disc&) -> Outline { return nullptr; },
                                [](const Polygon& polygon) -> Outline { return &polygon.outer; }},
                     body.shape);
 }
 
-Disc extent_of(const Body& body) {
+Disc enclosing_disc(const Body& body) {
   return std::visit(Overloaded{[](const Disc& disc) { return disc; },
                                [](const Polygon& polygon) {
                                  Disc extent{centroid(polygon.outer), 0};

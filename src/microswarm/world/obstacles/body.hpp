@@ -20,14 +20,14 @@ struct Body {
 /// Returns whether the body is a disc.
 bool is_disc(const Body& body);
 /// The outer ring of a polygon; null for a disc.
-const std::vector<Vec2>* outline_of(const Body& body);
+const std::vector<Vec2>* find_outline(const Body& body);
 
 /// Distances [µm] between closed sets; 0 when they share a point.
 double distance(Vec2 p, const Body& body);
 double distance(Segment s, const Body& body);
 
 /// Centre of a body, the disc's or the centroid of the outline, and its radius around it [µm].
-Disc extent_of(const Body& body);
+Disc enclosing_disc(const Body& body);
 
 /// Moves the body by `by` [µm].
 void shift(Body& body, Vec2 by);

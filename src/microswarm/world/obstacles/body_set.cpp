@@ -59,7 +59,7 @@ std::size_t BodySet::nearest(Vec2 p, double limit) const {
   const std::uint32_t edge = polygons_.nearest(p, limit);
   const bool some_disc = disc < discs_.size();
   const bool some_edge = edge != PolygonSet::none;
-  if (some_disc && distance(p, discs_.disc(disc)) == 0) return discs_.body_of(disc);
+  if (some_disc && distance(p, discs_.disc(disc)) == 0) return discs_.enclosing_pose(disc);
   if (!polygons_.empty() && polygons_.holds(p)) {
     if (some_edge && depth_in(bodies_[edge], p) >= 0) return edge;
     for (std::size_t i = 0; i < bodies_.size(); ++i)
@@ -67,10 +67,10 @@ std::size_t BodySet::nearest(Vec2 p, double limit) const {
   }
   if (some_disc && some_edge) {
     return distance(p, discs_.disc(disc)) <= polygons_.edge_distance(p, limit)
-               ? discs_.body_of(disc)
+               ? discs_.enclosing_pose(disc)
                : edge;
   }
-  if (some_disc) return discs_.body_of(disc);
+  if (some_disc) return discs_.enclosing_pose(disc);
   return some_edge ? edge : bodies_.size();
 }
 

@@ -126,7 +126,7 @@ std::vector<Vec2> outline(const std::vector<Station>& line, Width&& width) {
   return ring;
 }
 
-Box block_of(const DeformingChannel& channel) {
+Box bounding_block(const DeformingChannel& channel) {
   const Vec2 half{0.5 * channel.block_width, 0.5 * channel.block_height};
   return {channel.block_centre - half, channel.block_centre + half};
 }
@@ -175,7 +175,7 @@ std::vector<Vec2> channel_outline(const DeformingChannel& channel, double t) {
 }
 
 Polygon channel_block(const DeformingChannel& channel, double t) {
-  const Box block = block_of(channel);
+  const Box block = bounding_block(channel);
   std::vector<Vec2> hole = channel_outline(channel, t);
   std::reverse(hole.begin(), hole.end());
   return {{block.lo, {block.hi.x, block.lo.y}, block.hi, {block.lo.x, block.hi.y}},
@@ -208,7 +208,7 @@ Issues validate(const DeformingChannel& channel) {
   }
   const std::vector<Vec2> ring = outline(line, widest);
   if (crosses_itself(ring)) return is_wrong("centre_line_um", "the channel runs into itself");
-  const Box block = block_of(channel);
+  const Box block = bounding_block(channel);
   for (const Vec2 v : ring) {
     if (v.x > block.lo.x && v.x < block.hi.x && v.y > block.lo.y && v.y < block.hi.y) continue;
     return is_wrong("centre_line_um", "the channel leaves its block at " + rounded_text(v));

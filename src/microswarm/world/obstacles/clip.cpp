@@ -86,7 +86,7 @@ class Lattice {
   std::vector<Known> known_;
 };
 
-Box extent_of(std::span<const Polygon> polygons) {
+Box enclosing_disc(std::span<const Polygon> polygons) {
   Box box;
   for (const Polygon& polygon : polygons) {
     for (const Vec2 v : polygon.outer) box.include(v);
@@ -97,7 +97,7 @@ Box extent_of(std::span<const Polygon> polygons) {
 }  // namespace
 
 std::vector<Polygon> united(std::span<const Polygon> polygons) {
-  Lattice lattice(extent_of(polygons));
+  Lattice lattice(enclosing_disc(polygons));
   ClipperLib::Clipper clipper;
   clipper.AddPaths(lattice.to_paths(polygons), ClipperLib::ptSubject, true);
   ClipperLib::PolyTree tree;
@@ -106,7 +106,7 @@ std::vector<Polygon> united(std::span<const Polygon> polygons) {
 }
 
 std::vector<Polygon> difference(const Box& box, std::span<const Polygon> polygons) {
-  Box extent = extent_of(polygons);
+  Box extent = enclosing_disc(polygons);
   extent.include(box.lo);
   extent.include(box.hi);
   Lattice lattice(extent);

@@ -219,7 +219,7 @@ std::vector<Contact> find_contacts(std::span<const Polygon> polygons, std::span<
     const std::size_t self = polygons.size() + i;
     rings.grid().for_each_in(Box{d.centre, d.centre}.grown(d.radius), [&](std::size_t edge) {
       if (distance(d.centre, rings.grid().edge(edge)) <= d.radius) {
-        contacts.push_back({rings.grid().body_of(edge), self, false});
+        contacts.push_back({rings.grid().enclosing_pose(edge), self, false});
       }
     });
     rings.holding(d.centre, holders);

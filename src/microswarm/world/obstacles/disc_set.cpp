@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t few_discs = 16;
 
-Box box_of(Segment s) {
+Box segment_box(Segment s) {
   Box box;
   box.include(s.a);
   box.include(s.b);
@@ -59,7 +59,8 @@ void DiscSet::fill_buckets() {
                      longest / (4 * count), std::numeric_limits<double>::min()})};
   first_.assign(grid_.size() + 1, 0);
   auto for_each_cell = [&](const Disc& d, auto&& visit) {
-    const Run columns = grid_.columns_of(bounding_box(d)), rows = grid_.rows_of(bounding_box(d));
+    const Run columns = grid_.column_range(bounding_box(d)),
+              rows = grid_.row_range(bounding_box(d));
     for (int row = rows.first; row <= rows.last; ++row)
       for (int column = columns.first; column <= columns.last; ++column)
         visit(first_[grid_.number(column, row)]);
@@ -78,7 +79,7 @@ template <class Visit>
 bool DiscSet::all_near(const Box& box, Visit&& is_clear_of) const {
   if (!bucketed()) return std::all_of(discs_.begin(), discs_.end(), is_clear_of);
   if (!box.overlaps(grid_.box())) return true;
-  const Run columns = grid_.columns_of(box), rows = grid_.rows_of(box);
+  const Run columns = grid_.column_range(box), rows = grid_.row_range(box);
   for (int row = rows.first; row <= rows.last; ++row)
     for (const std::uint32_t id : discs_in(row, columns))
       if (!is_clear_of(discs_[id])) return false;
@@ -128,7 +129,7 @@ std::size_t DiscSet::nearest(Vec2 p, double limit) const {
     for (std::size_t i = 0; i < size(); ++i) ask(i);
     return found;
   }
-  const int column = grid_.column_of(p.x), row = grid_.row_of(p.y);
+  const int column = grid_.find_column(p.x), row = grid_.find_row(p.y);
   auto scan = [&](int r, int left, int right) {
     for (const std::uint32_t id : discs_in(r, {left, right})) ask(id);
   };
@@ -158,7 +159,7 @@ double DiscSet::clearance(Segment s, double limit) const {
   if (empty()) return limit;
   double best = limit;
   if (bucketed()) best = std::min(clearance(s.a, limit), clearance(s.b, limit));
-  for_each_in(box_of(s).grown(best),
+  for_each_in(segment_box(s).grown(best),
               [&](std::size_t i) { best = std::min(best, distance(s, discs_[i])); });
   return best;
 }

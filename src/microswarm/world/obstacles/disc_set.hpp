@@ -21,7 +21,7 @@ class DiscSet {
   bool empty() const { return discs_.empty(); }
   Disc disc(std::size_t i) const { return discs_[i]; }
   /// Index of disc i among the bodies.
-  std::uint32_t body_of(std::size_t i) const { return bodies_[i]; }
+  std::uint32_t enclosing_pose(std::size_t i) const { return bodies_[i]; }
 
   /// Distance [µm] to the nearest disc, 0 in one, at most `limit`.
   double clearance(Vec2 p, double limit) const;
@@ -62,15 +62,15 @@ void DiscSet::for_each_in(const Box& box, Visit&& visit) const {
     return;
   }
   if (!box.overlaps(grid_.box())) return;
-  const Run columns = grid_.columns_of(box);
-  const Run rows = grid_.rows_of(box);
+  const Run columns = grid_.column_range(box);
+  const Run rows = grid_.row_range(box);
   for (int row = rows.first; row <= rows.last; ++row) {
     for (int column = columns.first; column <= columns.last; ++column) {
       for (const std::uint32_t id : discs_in(row, {column, column})) {
         const Disc& d = discs_[id];
         const bool first_seen =
-            column == std::max(columns.first, grid_.column_of(d.centre.x - d.radius)) &&
-            row == std::max(rows.first, grid_.row_of(d.centre.y - d.radius));
+            column == std::max(columns.first, grid_.find_column(d.centre.x - d.radius)) &&
+            row == std::max(rows.first, grid_.find_row(d.centre.y - d.radius));
         if (first_seen) visit(std::size_t{id});
       }
     }

@@ -21,14 +21,14 @@ double wave_angle(double t, double period, double phase) {
 Placement placed(const Still& m, double) { return {true, {m.position, m.heading}, {}}; }
 
 Placement placed(const Straight& m, double t) {
-  return {true, {m.start + t * m.velocity, heading_of(m.velocity)}, m.velocity};
+  return {true, {m.start + t * m.velocity, heading_along(m.velocity)}, m.velocity};
 }
 
 Placement placed(const HarmonicLine& m, double t) {
   const double angle = wave_angle(t, m.period, m.phase);
   const auto [sine, cosine] = maths::sincos(angle);
   return {true,
-          {m.centre + sine * m.amplitude, heading_of(m.amplitude)},
+          {m.centre + sine * m.amplitude, heading_along(m.amplitude)},
           (2 * pi / m.period * cosine) * m.amplitude};
 }
 
@@ -43,7 +43,7 @@ Placement placed(const HarmonicArc& m, double t) {
           (m.radius * turning) * perpendicular(spoke)};
 }
 
-double length_of(const std::vector<Vec2>& points) {
+double total_length(const std::vector<Vec2>& points) {
   double length = 0;
   for (std::size_t i = 1; i < points.size(); ++i) length += distance(points[i - 1], points[i]);
   return length;
@@ -69,7 +69,7 @@ Along along(const Waypoints& m, double travelled, double length, double closed_l
 
 double heading_of_first_leg(const std::vector<Vec2>& points) {
   for (const Vec2 p : points) {
-    if (!(p == points.front())) return heading_of(p - points.front());
+    if (!(p == points.front())) return heading_along(p - points.front());
   }
   return 0;
 }
@@ -77,7 +77,7 @@ double heading_of_first_leg(const std::vector<Vec2>& points) {
 Placement placed(const Waypoints& m, double t) {
   if (m.points.empty()) return {false, {}, {}};
   const std::size_t n = m.points.size();
-  const double length = length_of(m.points);
+  const double length = total_length(m.points);
   const double closed = length + distance(m.points.back(), m.points.front());
   Placement out{true, {m.points.front(), heading_of_first_leg(m.points)}, {}};
   if (!(length > 0) || !(m.speed > 0) || t < 0) return out;
@@ -114,7 +114,7 @@ double top(const Still&) { return 0; }
 double top(const Straight& m) { return norm(m.velocity); }
 double top(const HarmonicLine& m) { return norm(m.amplitude) * 2 * pi / m.period; }
 double top(const HarmonicArc& m) { return m.radius * m.half_angle * 2 * pi / m.period; }
-double top(const Waypoints& m) { return length_of(m.points) > 0 ? m.speed : 0; }
+double top(const Waypoints& m) { return total_length(m.points) > 0 ? m.speed : 0; }
 double top(const Track& m) {
   double speed = 0;
   if (!m.samples) return speed;
@@ -146,7 +146,7 @@ double top_turning(const Motion& motion) {
       motion);
 }
 
-Track* track_of(Motion& motion) {
+Track* find_track(Motion& motion) {
   return std::visit(
       Overloaded{[](Track& track) { return &track; },
                  [](OneOf<Still, Straight, HarmonicLine, HarmonicArc, Waypoints> auto&) -> Track* {
@@ -155,6 +155,6 @@ Track* track_of(Motion& motion) {
       motion);
 }
 
-const Track* track_of(const Motion& motion) { return track_of(const_cast<Motion&>(motion)); }
+const Track* find_track(const Motion& motion) { return find_track(const_cast<Motion&>(motion)); }
 
 }  // namespace microswarm

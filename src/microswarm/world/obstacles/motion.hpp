@@ -141,7 +141,7 @@ double top_speed(const Motion& motion);
 double top_turning(const Motion& motion);
 
 /// The track of a motion that is read from a file; null for others.
-Track* track_of(Motion& motion);
-const Track* track_of(const Motion& motion);
+Track* find_track(Motion& motion);
+const Track* find_track(const Motion& motion);
 
 }  // namespace microswarm

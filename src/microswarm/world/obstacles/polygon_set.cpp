@@ -60,7 +60,7 @@ bool PolygonSet::holds(Vec2 p) const {
   if (!grid_.empty()) return grid_.in_solid(p);
   for (std::size_t k = 0; k < rounds_.size(); ++k) {
     if (beyond(rounds_[k].circle, p, 0)) continue;
-    const auto edges = edges_of(k);
+    const auto edges = edges_at(k);
     if (std::any_of(edges.begin(), edges.end(), [&](const Segment& e) { return contains(e, p); }) ||
         winding_around(edges, p) != 0) {
       return true;
@@ -79,7 +79,7 @@ double PolygonSet::edge_distance(Vec2 p, double limit) const {
   double reach = limit;
   for (std::size_t k = 0; k < rounds_.size(); ++k) {
     if (beyond(rounds_[k].circle, p, reach)) continue;
-    for (const Segment& e : edges_of(k)) best = std::min(best, squared_distance(p, e));
+    for (const Segment& e : edges_at(k)) best = std::min(best, squared_distance(p, e));
     reach = std::min(limit, std::sqrt(best));
   }
   return reach;
@@ -93,7 +93,7 @@ double PolygonSet::edge_distance(Segment s, double limit) const {
   double reach = limit;
   for (std::size_t k = 0; k < rounds_.size(); ++k) {
     if (beyond(rounds_[k].circle, middle, half + reach)) continue;
-    for (const Segment& e : edges_of(k)) best = std::min(best, squared_distance(s, e));
+    for (const Segment& e : edges_at(k)) best = std::min(best, squared_distance(s, e));
     reach = std::min(limit, std::sqrt(best));
   }
   return reach;
@@ -105,7 +105,7 @@ bool PolygonSet::edges_free(Segment s, double r) const {
   const double half = 0.5 * distance(s.a, s.b) * (1 + 1e-12);
   for (std::size_t k = 0; k < rounds_.size(); ++k) {
     if (beyond(rounds_[k].circle, middle, half + r)) continue;
-    for (const Segment& e : edges_of(k)) {
+    for (const Segment& e : edges_at(k)) {
       if (r > 0 ? squared_distance(s, e) < r * r : intersects(s, e)) return false;
     }
   }
@@ -115,7 +115,7 @@ bool PolygonSet::edges_free(Segment s, double r) const {
 std::uint32_t PolygonSet::nearest(Vec2 p, double limit) const {
   if (!grid_.empty()) {
     const std::size_t edge = grid_.nearest(p, limit);
-    return edge == grid_.size() ? none : grid_.body_of(edge);
+    return edge == grid_.size() ? none : grid_.enclosing_pose(edge);
   }
   double best = limit * limit;
   std::uint32_t found = none;

@@ -43,7 +43,7 @@ class PolygonSet {
     std::uint32_t first_edge;
     std::uint32_t body;
   };
-  std::span<const Segment> edges_of(std::size_t round) const {
+  std::span<const Segment> edges_at(std::size_t round) const {
     const std::size_t first = rounds_[round].first_edge;
     const std::size_t last =
         round + 1 < rounds_.size() ? rounds_[round + 1].first_edge : edges_.size();
@@ -59,13 +59,13 @@ class PolygonSet {
 template <class Visit>
 void PolygonSet::for_each_edge_in(const Box& box, Visit&& visit) const {
   if (!grid_.empty()) {
-    grid_.for_each_in(box, [&](std::size_t i) { visit(grid_.body_of(i), grid_.edge(i)); });
+    grid_.for_each_in(box, [&](std::size_t i) { visit(grid_.enclosing_pose(i), grid_.edge(i)); });
     return;
   }
   for (std::size_t k = 0; k < rounds_.size(); ++k) {
     const Disc& c = rounds_[k].circle;
     if (!Box{c.centre, c.centre}.grown(c.radius).overlaps(box)) continue;
-    for (const Segment& e : edges_of(k)) visit(rounds_[k].body, e);
+    for (const Segment& e : edges_at(k)) visit(rounds_[k].body, e);
   }
 }
 

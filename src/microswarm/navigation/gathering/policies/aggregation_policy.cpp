@@ -7,7 +7,7 @@ namespace microswarm {
 namespace {
 
 /// Steps without progress that are allowed: those of so many longest paths.
-double patience_of(const AggregationMap& map, const AggregationParams& params) {
+double allowed_steps(const AggregationMap& map, const AggregationParams& params) {
   return params.patience * std::max(map.longest / params.step, 1.0);
 }
 
@@ -17,10 +17,10 @@ AggregationPolicy::AggregationPolicy(const AggregationMap& map, const Aggregatio
     : params_(params),
       distances_(map),
       dca_(map, params),
-      guard_(patience_of(map, params), params.sigma),
+      guard_(allowed_steps(map, params), params.sigma),
       follower_(map, params.step) {
   if (params.method == Aggregation::dynamic_shortest_path)
-    chase_.emplace(map, params.step, patience_of(map, params));
+    chase_.emplace(map, params.step, allowed_steps(map, params));
 }
 
 std::optional<Vec2> AggregationPolicy::next(const Robots& robots,

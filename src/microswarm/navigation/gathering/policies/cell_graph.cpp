@@ -14,7 +14,7 @@ constexpr double max_cells = 100'000;  // the lattice allows 40 times as many
 
 }  // namespace
 
-std::size_t CellGraph::direction_of(Vec2 offset) {
+std::size_t CellGraph::nearest_direction(Vec2 offset) {
   const int x = (offset.x > 0) - (offset.x < 0);
   const int y = (offset.y > 0) - (offset.y < 0);
   constexpr std::array<std::array<std::size_t, 3>, 3> by_row{{{5, 6, 7}, {4, 0, 0}, {3, 2, 1}}};
@@ -38,7 +38,7 @@ CellGraph::CellGraph(const Map& map, double cell, CellSteps steps)
       if (at_[other] == unreached) return;
       const Segment edge{centres_[node], lattice_[other]};
       if (steps_ == CellSteps::hops || map.is_free(edge, 0))
-        neighbours_[node][direction_of(edge.b - edge.a)] = at_[other];
+        neighbours_[node][nearest_direction(edge.b - edge.a)] = at_[other];
     });
   }
 }

@@ -29,7 +29,7 @@ class CellGraph {
   CellGraph(const Map& map, double cell, CellSteps steps);
 
   /// Direction of an offset by its signs; 0 for none.
-  static std::size_t direction_of(Vec2 offset);
+  static std::size_t nearest_direction(Vec2 offset);
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(centres_.size()); }
   Vec2 operator[](std::uint32_t node) const { return centres_[node]; }

@@ -6,7 +6,7 @@ namespace microswarm {
 void CommonInput::step(Robots& robots, Vec2 move) const {
   if (stepper_) return stepper_->step(robots, move, ContactRule::stop);
   if (move == Vec2{}) return;
-  const std::size_t direction = CellGraph::direction_of(move);
+  const std::size_t direction = CellGraph::nearest_direction(move);
   for (std::size_t i = 0; i < robots.size(); ++i) {
     const std::uint32_t node = cells_->at(robots.position(i));
     const Vec2 to = (*cells_)[cells_->neighbour(node, direction)] - robots.origin;

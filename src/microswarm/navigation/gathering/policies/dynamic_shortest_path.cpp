@@ -22,7 +22,7 @@ DynamicShortestPath::DynamicShortestPath(const AggregationMap& map, double step,
       patience_(patience),
       step_to_(step) {}
 
-std::uint32_t DynamicShortestPath::cell_of(const Robots& robots, std::size_t i) const {
+std::uint32_t DynamicShortestPath::robot_cell(const Robots& robots, std::size_t i) const {
   return map_->cells ? cells_->at(robots.position(i))
                      : cells_->nearest(map_->map, robots.position(i));
 }
@@ -38,14 +38,14 @@ bool DynamicShortestPath::chases(const Robots& robots, const RobotsOnMap& on_map
 
 // At the same cell by the cell rule, else nearer than two steps.
 bool DynamicShortestPath::met(const Robots& robots) const {
-  if (map_->cells) return cell_of(robots, follower_) == cell_of(robots, other_);
+  if (map_->cells) return robot_cell(robots, follower_) == robot_cell(robots, other_);
   const Segment between{robots.position(follower_), robots.position(other_)};
   return distance(between.a, between.b) < 2 * step_ && map_->map.is_free(between, 0);
 }
 
 void DynamicShortestPath::choose(const Robots& robots, const RobotsOnMap& on_map) {
   std::vector<std::uint32_t> cells(robots.size());
-  for (std::size_t i = 0; i < cells.size(); ++i) cells[i] = cell_of(robots, i);
+  for (std::size_t i = 0; i < cells.size(); ++i) cells[i] = robot_cell(robots, i);
   const NodePair pair = farthest_pair(*cells_, cells);
   follower_ = pair.first;
   other_ = pair.second;
@@ -68,8 +68,8 @@ Vec2 DynamicShortestPath::move(const Robots& robots) {
   constexpr int max_cells_ahead = 16;
   const Vec2 p = robots.position(follower_);
   step_to_.observe(follower_, p);
-  std::uint32_t cell = cell_of(robots, follower_);
-  const std::uint32_t goal = cell_of(robots, other_);
+  std::uint32_t cell = robot_cell(robots, follower_);
+  const std::uint32_t goal = robot_cell(robots, other_);
   const std::vector<std::uint32_t> distances = cells_->distances(goal, cell);
   if (map_->cells) return (*cells_)[cells_->towards(distances, cell)] - p;
   const auto sees = [&](Vec2 q) { return map_->map.is_free(Segment{p, q}, 0); };

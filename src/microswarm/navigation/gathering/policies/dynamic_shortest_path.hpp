@@ -40,7 +40,7 @@ class DynamicShortestPath {
   void remap(std::span<const std::uint32_t> new_positions);
 
  private:
-  std::uint32_t cell_of(const Robots& robots, std::size_t i) const;
+  std::uint32_t robot_cell(const Robots& robots, std::size_t i) const;
   bool met(const Robots& robots) const;
   void choose(const Robots& robots, const RobotsOnMap& on_map);
   void note_progress(std::size_t cells, std::uint32_t distance);

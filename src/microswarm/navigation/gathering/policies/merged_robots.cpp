@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint32_t nobody = ~0u;
 
 /// Position or its grid cell, as one number.
-std::uint64_t key_of(float x, float y, double cell) {
+std::uint64_t cell_key(float x, float y, double cell) {
   const auto part = [cell](float v) {
     return cell > 0 ? static_cast<std::uint32_t>(static_cast<std::int64_t>(std::floor(v / cell)))
                     : std::bit_cast<std::uint32_t>(v);
@@ -39,10 +39,10 @@ std::span<const std::uint32_t> MergedRobots::merge_coincident(double cell) {
   std::size_t kept = 0;
   // Kept positions move to the front, so a slot refers to an index below the current one.
   for (std::size_t i = 0; i < count; ++i) {
-    const std::uint64_t key = key_of(places_.x[i], places_.y[i], cell);
+    const std::uint64_t key = cell_key(places_.x[i], places_.y[i], cell);
     std::size_t slot = mixed(key) & mask;
     while (slots_[slot] != nobody &&
-           key_of(places_.x[slots_[slot]], places_.y[slots_[slot]], cell) != key)
+           cell_key(places_.x[slots_[slot]], places_.y[slots_[slot]], cell) != key)
       slot = (slot + 1) & mask;
     if (slots_[slot] == nobody) {
       slots_[slot] = static_cast<std::uint32_t>(kept);

@@ -19,7 +19,7 @@ class MergedRobots {
   /// Number of robots.
   std::size_t size() const { return place_of_.size(); }
   /// Position of robot i, in the coordinates of `positions`.
-  PointF place_of(std::size_t i) const {
+  PointF position(std::size_t i) const {
     return {places_.x[place_of_[i]], places_.y[place_of_[i]]};
   }
   const Robots& places() const { return places_; }

@@ -5,12 +5,12 @@
 
 namespace microswarm {
 
-double scale_of(const AggregationParams& params, const Map& map, Rng& rng) {
+double published_scale(const AggregationParams& params, const Map& map, Rng& rng) {
   return params.scale > 0 ? params.scale : channel_width(map, rng) / published_channel_width;
 }
 
 AggregationParams fitted(AggregationParams params, const Map& map, Rng& rng) {
-  const double factor = scale_of(params, map, rng);
+  const double factor = published_scale(params, map, rng);
   params.tree = scaled(params.tree, factor);
   for (double* length : {&params.step, &params.sigma, &params.discount_length, &params.team_depth})
     *length *= factor;

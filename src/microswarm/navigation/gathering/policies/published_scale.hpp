@@ -10,7 +10,7 @@ namespace microswarm {
 inline constexpr double published_channel_width = 10;
 
 /// Scale of the parameters; measured on the map if it is 0.
-double scale_of(const AggregationParams& params, const Map& map, Rng& rng);
+double published_scale(const AggregationParams& params, const Map& map, Rng& rng);
 
 /// Parameters with all lengths multiplied by their scale, which is then set to 1.
 AggregationParams fitted(AggregationParams params, const Map& map, Rng& rng);

@@ -13,7 +13,7 @@ Vec2 WaypointFollower::move(std::size_t robot, std::size_t count, Vec2 p) {
   node_of_.resize(count, nowhere);
   if (robot != step_to_.robot()) node_of_[robot] = nowhere;
   step_to_.observe(robot, p);
-  return step_to_.to(waypoint_of(robot, p));
+  return step_to_.to(next_waypoint(robot, p));
 }
 
 void WaypointFollower::remap(std::span<const std::uint32_t> new_positions) {
@@ -32,7 +32,7 @@ void WaypointFollower::remap(std::span<const std::uint32_t> new_positions) {
 
 // Via the nearest node, then from node to node as far as they are visible, until a whole step is
 // ahead. A robot keeps to the node it was led to, else it would waver between branches of the tree.
-Vec2 WaypointFollower::waypoint_of(std::size_t robot, Vec2 p) {
+Vec2 WaypointFollower::next_waypoint(std::size_t robot, Vec2 p) {
   constexpr int max_nodes = 16;
   const ObstacleWeightedRrt& tree = map_->tree;
   const Routes& routes = map_->routes();

@@ -28,7 +28,7 @@ class WaypointFollower {
   Vec2 waypoint() const { return step_to_.waypoint(); }
 
  private:
-  Vec2 waypoint_of(std::size_t robot, Vec2 p);
+  Vec2 next_waypoint(std::size_t robot, Vec2 p);
 
   const AggregationMap* map_;
   double step_;

@@ -34,7 +34,7 @@ bool RolloutExecution::shorten(PartialPlan&& partial) {
 double RolloutExecution::deviation(const Robots& robots) const {
   double sum = 0;
   for (std::size_t i = 0; i < robots.size(); ++i) {
-    const PointF p = expected_.place_of(i);
+    const PointF p = expected_.position_at(i);
     sum += distance(Vec2{robots.x[i], robots.y[i]}, Vec2{p.x, p.y});
   }
   return sum;

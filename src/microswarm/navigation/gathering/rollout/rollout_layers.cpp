@@ -53,7 +53,7 @@ std::optional<LayerPath> RolloutLayers::expand(RolloutSimulator& simulator, std:
   const std::size_t candidates = passes_ > 0
                                      ? static_cast<std::size_t>(std::max(1, params.candidates))
                                      : affordable_trials(states, most, work, params);
-  std::vector<Trial> trials = trials_of(states, candidates, layer, most, simulator, rng);
+  std::vector<Trial> trials = list_trials(states, candidates, layer, most, simulator, rng);
   std::optional<LayerPath> best;
   for (std::size_t i = 0; i < trials.size(); ++i) {
     auto path = take(states[i / candidates], layer, std::move(trials[i]), simulator);
@@ -80,10 +80,11 @@ std::size_t RolloutLayers::affordable_trials(std::span<const std::uint32_t> stat
 }
 
 // Continuations of these states of a layer, equally many of each.
-std::vector<RolloutLayers::Trial> RolloutLayers::trials_of(std::span<const std::uint32_t> states,
-                                                           std::size_t candidates,
-                                                           std::size_t layer, std::size_t most,
-                                                           RolloutSimulator& simulator, Rng& rng) {
+std::vector<RolloutLayers::Trial> RolloutLayers::list_trials(std::span<const std::uint32_t> states,
+                                                             std::size_t candidates,
+                                                             std::size_t layer, std::size_t most,
+                                                             RolloutSimulator& simulator,
+                                                             Rng& rng) {
   std::vector<Trial> trials;
   std::vector<Rng> streams;
   for (const std::uint32_t state : states) {
@@ -148,11 +149,11 @@ void RolloutLayers::file(std::uint32_t state, std::size_t layer, MergedRobots&& 
                          double work_left) {
   if (layers_.size() <= layer) layers_.resize(layer + 1);
   std::vector<std::uint32_t>& kept = layers_[layer];
-  const auto work_left_of = [&](std::uint32_t i) { return states_[i].work_left; };
-  if (std::ranges::find(kept, work_left, work_left_of) != kept.end()) return;
+  const auto remaining_work = [&](std::uint32_t i) { return states_[i].work_left; };
+  if (std::ranges::find(kept, work_left, remaining_work) != kept.end()) return;
   if (kept.size() >= width_) {
-    const auto worst = std::ranges::max_element(kept, {}, work_left_of);
-    if (work_left >= work_left_of(*worst)) return;
+    const auto worst = std::ranges::max_element(kept, {}, remaining_work);
+    if (work_left >= remaining_work(*worst)) return;
     states_[*worst].robots.reset();
     *worst = state;
   } else {

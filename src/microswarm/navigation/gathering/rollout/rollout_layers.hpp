@@ -78,9 +78,9 @@ class RolloutLayers {
 
   std::size_t affordable_trials(std::span<const std::uint32_t> states, std::size_t most,
                                 double work, const RolloutParams& params) const;
-  std::vector<Trial> trials_of(std::span<const std::uint32_t> states, std::size_t candidates,
-                               std::size_t layer, std::size_t most, RolloutSimulator& simulator,
-                               Rng& rng);
+  std::vector<Trial> list_trials(std::span<const std::uint32_t> states, std::size_t candidates,
+                                 std::size_t layer, std::size_t most, RolloutSimulator& simulator,
+                                 Rng& rng);
   std::uint32_t add(std::uint32_t parent, std::size_t layer, std::vector<Vec2> moves,
                     MergedRobots&& robots, double work_left);
   void file(std::uint32_t state, std::size_t layer, MergedRobots&& robots, double work_left);

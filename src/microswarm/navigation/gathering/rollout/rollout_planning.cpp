@@ -9,7 +9,7 @@
 namespace microswarm {
 namespace {
 
-RolloutPlan plan_of(PartialPlan&& partial) {
+RolloutPlan to_plan(PartialPlan&& partial) {
   return {std::move(partial.moves), std::move(partial.checkpoints)};
 }
 
@@ -69,7 +69,7 @@ std::optional<BasePlan> shortest_base_plan(RolloutSimulator& simulator, const Ro
   std::optional<BasePlan> best;
   for (std::size_t i = 0; i < runs.size(); ++i)
     if (runs[i].pursuit == Pursuit::gathered && runs[i].partial.steps() <= most && !best)
-      best = {plan_of(std::move(runs[i].partial)), methods[i]};
+      best = {to_plan(std::move(runs[i].partial)), methods[i]};
   return best;
 }
 
@@ -81,7 +81,7 @@ std::optional<RolloutPlan> corrected_plan(RolloutSimulator& simulator, const Rob
   simulator.follow(partial, best, best.size());
   const auto most = static_cast<std::size_t>(simulator.params().rollout.max_steps);
   if (!simulator.finish(partial, Aggregation::heuristic, most)) return std::nullopt;
-  return plan_of(std::move(partial));
+  return to_plan(std::move(partial));
 }
 
 }  // namespace microswarm

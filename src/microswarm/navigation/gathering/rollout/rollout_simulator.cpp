@@ -16,7 +16,7 @@ AggregationParams with(AggregationParams params, Aggregation method) {
   return params;
 }
 
-Robots one_of(const Robots& robots, std::size_t i) {
+Robots single_robot(const Robots& robots, std::size_t i) {
   return {robots.origin, {robots.x[i]}, {robots.y[i]}};
 }
 
@@ -96,7 +96,7 @@ void RolloutSimulator::lead(PartialPlan& partial, std::size_t position, std::siz
   alone.sigma = 2 * params_.step;
   AggregationPolicy policy(*map_, alone);
   Work work(*this);
-  Robots leader = one_of(partial.merged.places(), position);
+  Robots leader = single_robot(partial.merged.places(), position);
   for (std::size_t i = 0; i < steps && partial.steps() < most; ++i) {
     const std::optional<Vec2> next = policy.next(leader);
     if (!next) return;
