@@ -11,12 +11,13 @@ int main() {
   const auto map = std::make_shared<const Map>(Box{{0, 0}, {2000, 1000}}, std::vector{wall});
   const Snapshot world(map);
 
-  DrrtStarParams params;
+  planning::DrrtStarParams params;
   params.clearance = 60;  // µm, from the swarm's centre
   const auto is_given = [](std::string_view key) { return key == "clearance_um"; };
-  const PlannerParams fitted = fit_to_map(params, *map, is_given);  // steps, radii and limits
+  const planning::PlannerParams fitted =
+      planning::fit_to_map(params, *map, is_given);  // steps, radii and limits
   Rng rng(42, Purpose::planner);
-  const Plan found = plan(world, {{200, 300}, 0}, {1800, 300}, fitted, rng);
+  const Plan found = planning::plan(world, {{200, 300}, 0}, {1800, 300}, fitted, rng);
 
   std::printf("%s: %.0f µm in %zu points, %zu nodes\n", to_string(found.status).data(),
               path_length(found.path), found.path.size(), found.tree.size());

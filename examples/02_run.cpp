@@ -11,9 +11,9 @@ int main(int argc, char** argv) {
   const char* scenarios = std::getenv("MICROSWARM_SCENARIOS");
   const std::filesystem::path folder = scenarios ? scenarios : "scenarios";
   try {
-    const auto session = open_session(argc > 1 ? argv[1] : folder / "first_flight.yaml",
-                                      {.settings = {"navigator.speed_um_per_s=50"}});
-    const RunResult& result = session->finish();
+    const auto session = experiment::open_session(argc > 1 ? argv[1] : folder / "first_flight.yaml",
+                                                  {.settings = {"navigator.speed_um_per_s=50"}});
+    const experiment::RunResult& result = session->finish();
     std::printf("%s after %.1f s, %.0f µm; nearest wall %.1f µm\n", to_string(result.status).data(),
                 result.metrics.time, result.metrics.length, result.metrics.walls.clearance);
     session->record_to("02_run.h5");  // MATLAB: h5read("02_run.h5", "/frames/x_um")

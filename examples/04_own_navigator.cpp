@@ -41,14 +41,14 @@ class Repelled : public Navigator {
 };
 
 int main() {
-  Scenario scenario;
-  scenario.map = PolygonsMap{.hi = {2000, 1000}};
+  experiment::Scenario scenario;
+  scenario.map = formats::PolygonsMap{.hi = {2000, 1000}};
   scenario.start = Pose2{{200, 500}, 0};
   scenario.goal = Vec2{1800, 500};
   scenario.obstacles = {{DiscShape{80}, HarmonicLine{.centre = {900, 560}, .amplitude = {0, 200}}}};
-  Session session(open_experiment(scenario, {}),
-                  {.navigator = std::make_shared<Repelled>(*scenario.goal)});
-  const RunResult& result = session.finish();
+  experiment::Session session(experiment::open_experiment(scenario, {}),
+                              {.navigator = std::make_shared<Repelled>(*scenario.goal)});
+  const experiment::RunResult& result = session.finish();
   std::printf("%s after %.1f s, nearest obstacle %.1f µm from the centre, %d contacts\n",
               to_string(result.status).data(), result.metrics.time,
               result.metrics.obstacles.clearance, result.metrics.contacts);

@@ -81,12 +81,12 @@ table = ms.sweep(
 print(time.perf_counter() - began, table.rows)
 )";
 /// A run of the scenario as a camera would see it.
-std::vector<ExternalObservation> observations(const fs::path& scenario) {
-  const std::unique_ptr<Session> session = open_session(scenario);
-  std::vector<ExternalObservation> all;
+std::vector<experiment::ExternalObservation> observations(const fs::path& scenario) {
+  const std::unique_ptr<experiment::Session> session = experiment::open_session(scenario);
+  std::vector<experiment::ExternalObservation> all;
   while (session->step()) {
-    const SessionView view = session->view();
-    ExternalObservation seen{.now = view.frame.t, .seen = view.frame.t};
+    const experiment::SessionView view = session->view();
+    experiment::ExternalObservation seen{.now = view.frame.t, .seen = view.frame.t};
     seen.swarm = {view.frame.pose, view.frame.radius};
     for (const Body& body : view.bodies) seen.obstacles.push_back({.shape = enclosing_disc(body)});
     all.push_back(std::move(seen));
@@ -94,9 +94,9 @@ std::vector<ExternalObservation> observations(const fs::path& scenario) {
   return all;
 }
 
-void write(const fs::path& file, const std::vector<ExternalObservation>& all) {
+void write(const fs::path& file, const std::vector<experiment::ExternalObservation>& all) {
   std::ofstream out(file);
-  for (const ExternalObservation& seen : all) {
+  for (const experiment::ExternalObservation& seen : all) {
     const Pose2& pose = seen.swarm->pose;
     out << fmt::format("{} {} {} {} {}", seen.now, pose.position.x, pose.position.y, pose.heading,
                        seen.swarm->radius);
@@ -110,12 +110,12 @@ void write(const fs::path& file, const std::vector<ExternalObservation>& all) {
 
 double us_since(Clock::time_point began) { return 1e6 * seconds_since(began); }
 
-void step_in_cpp(const fs::path& scenario, const std::vector<ExternalObservation>& all,
+void step_in_cpp(const fs::path& scenario, const std::vector<experiment::ExternalObservation>& all,
                  Cycles& cycles) {
   for (int cycle = 0; cycle < cycles_a_turn; ++cycle) {
-    StandaloneNavigator navigator(open_experiment(scenario));
+    experiment::StandaloneNavigator navigator(experiment::open_experiment(scenario));
     std::vector<double>& times = cycles.emplace_back();
-    for (const ExternalObservation& seen : all) {
+    for (const experiment::ExternalObservation& seen : all) {
       const auto began = Clock::now();
       navigator.step(seen);
       times.push_back(us_since(began));
@@ -123,7 +123,8 @@ void step_in_cpp(const fs::path& scenario, const std::vector<ExternalObservation
   }
 }
 
-ms_observation plain(const ExternalObservation& seen, std::vector<ms_obstacle>& obstacles) {
+ms_observation plain(const experiment::ExternalObservation& seen,
+                     std::vector<ms_obstacle>& obstacles) {
   obstacles.clear();
   for (const Body& body : seen.obstacles) {
     const Disc disc = enclosing_disc(body);
@@ -141,7 +142,7 @@ ms_observation plain(const ExternalObservation& seen, std::vector<ms_obstacle>& 
           .obstacle_count = obstacles.size()};
 }
 
-void step_in_c(const fs::path& scenario, const std::vector<ExternalObservation>& all,
+void step_in_c(const fs::path& scenario, const std::vector<experiment::ExternalObservation>& all,
                Cycles& cycles) {
   std::vector<ms_obstacle> obstacles;
   for (int cycle = 0; cycle < cycles_a_turn; ++cycle) {
@@ -149,7 +150,7 @@ void step_in_c(const fs::path& scenario, const std::vector<ExternalObservation>&
     if (ms_navigator_open(scenario.c_str(), nullptr, 0, &navigator) != MS_OK)
       throw std::runtime_error(std::string("bench: ") + ms_error_text());
     std::vector<double>& times = cycles.emplace_back();
-    for (const ExternalObservation& given : all) {
+    for (const experiment::ExternalObservation& given : all) {
       const ms_observation seen = plain(given, obstacles);
       ms_command command;
       const auto began = Clock::now();
@@ -215,9 +216,9 @@ struct Language {
   Cycles cycles;
 };
 
-std::vector<BenchRow> steps(const fs::path& scenario, const fs::path& folder,
-                            const fs::path& program, bool quick, const Stop& stop) {
-  const std::vector<ExternalObservation> seen = observations(scenario);
+std::vector<report::BenchRow> steps(const fs::path& scenario, const fs::path& folder,
+                                    const fs::path& program, bool quick, const Stop& stop) {
+  const std::vector<experiment::ExternalObservation> seen = observations(scenario);
   const fs::path file = folder / "observations.txt";
   write(file, seen);
   const fs::path build = program.parent_path().parent_path();
@@ -240,7 +241,7 @@ std::vector<BenchRow> steps(const fs::path& scenario, const fs::path& folder,
     append(all[2].cycles, printed_by(python));
     append(all[3].cycles, printed_by(octave));
   }
-  std::vector<BenchRow> rows;
+  std::vector<report::BenchRow> rows;
   const auto add = [&](const Language& language, const std::string& quantity, double us,
                        std::optional<double> aim = {}) {
     rows.push_back(
@@ -263,8 +264,8 @@ std::vector<BenchRow> steps(const fs::path& scenario, const fs::path& folder,
 }
 
 /// Seconds of the same sweep on two threads from Python and by the program, by turns.
-std::vector<BenchRow> sweeps(const fs::path& scenario, const fs::path& folder,
-                             const fs::path& program, bool quick, const Stop& stop) {
+std::vector<report::BenchRow> sweeps(const fs::path& scenario, const fs::path& folder,
+                                     const fs::path& program, bool quick, const Stop& stop) {
   const int trials = quick ? 5 : 100;
   const fs::path file = folder / "sweep.yaml";
   std::ofstream(file) << fmt::format(
@@ -300,12 +301,12 @@ std::vector<BenchRow> sweeps(const fs::path& scenario, const fs::path& folder,
 
 }  // namespace
 
-std::vector<BenchRow> bindings(const fs::path& scenarios, const fs::path& program, bool quick,
-                               const Stop& stop) {
+std::vector<report::BenchRow> bindings(const fs::path& scenarios, const fs::path& program,
+                                       bool quick, const Stop& stop) {
   const TemporaryFolder folder;
   const fs::path scenario = fs::absolute(scenarios / "first_flight.yaml");
-  std::vector<BenchRow> rows = steps(scenario, folder.path(), program, quick, stop);
-  for (BenchRow& row : sweeps(scenario, folder.path(), program, quick, stop))
+  std::vector<report::BenchRow> rows = steps(scenario, folder.path(), program, quick, stop);
+  for (report::BenchRow& row : sweeps(scenario, folder.path(), program, quick, stop))
     rows.push_back(std::move(row));
   return rows;
 }

@@ -12,7 +12,8 @@ namespace microswarm::bench {
 /// Steps of a navigator in C++, and what a call from C, Python and Octave adds; a sweep from Python
 /// beside the one of `program`, microswarm. `scenarios` is the folder of the shipped scenarios.
 /// What was not built has no rows.
-std::vector<BenchRow> bindings(const std::filesystem::path& scenarios,
-                               const std::filesystem::path& program, bool quick, const Stop& stop);
+std::vector<report::BenchRow> bindings(const std::filesystem::path& scenarios,
+                                       const std::filesystem::path& program, bool quick,
+                                       const Stop& stop);
 
 }  // namespace microswarm::bench

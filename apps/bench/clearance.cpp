@@ -46,7 +46,7 @@ double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_P
 
 }  // namespace
 
-std::vector<BenchRow> clearance_queries(bool quick) {
+std::vector<report::BenchRow> clearance_queries(bool quick) {
   Rng rng(1, Purpose::scene);
   const scenes::RawWorld raw = scenes::cluttered(rng);
   const Snapshot world = raw.snapshot();
@@ -97,7 +97,7 @@ std::vector<BenchRow> clearance_queries(bool quick) {
        .at_most = false}};
 }
 
-std::vector<BenchRow> map_loading(bool quick, const Stop& stop) {
+std::vector<report::BenchRow> map_loading(bool quick, const Stop& stop) {
   const char* data = std::getenv("MICROSWARM_DATA");
   if (!data) return {};
   const auto file = std::filesystem::path(data) / "grid_maps" / "random512-10-0.map";
@@ -106,8 +106,8 @@ std::vector<BenchRow> map_loading(bool quick, const Stop& stop) {
   std::vector<double> seconds;
   for (int k = 0; k < (quick ? 3 : 11) && !stop(); ++k) {
     const double began = processor_seconds();
-    const Mask blocked = read_moving_ai(file);
-    const Map map(cell_bounds(blocked, cell), mask_walls(blocked, cell));
+    const formats::Mask blocked = formats::read_moving_ai(file);
+    const Map map(formats::cell_bounds(blocked, cell), formats::mask_walls(blocked, cell));
     seconds.push_back(processor_seconds() - began);
     if (map.walls().empty()) throw std::runtime_error("bench: a map without walls");
   }

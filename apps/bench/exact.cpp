@@ -39,8 +39,8 @@ std::vector<double> anew_times(const Map& map, double clearance,
   for (const PathQuery& q : queries) {
     if (stop()) break;
     const auto began = Clock::now();
-    ShortestPaths paths(map, clearance);
-    const ShortestPath found = paths.find(q.start.position, q.goal);
+    planning::ShortestPaths paths(map, clearance);
+    const planning::ShortestPath found = paths.find(q.start.position, q.goal);
     ms.push_back(spent_ms(began));
     require_solved(found.status == Status::solved);
   }
@@ -49,13 +49,13 @@ std::vector<double> anew_times(const Map& map, double clearance,
 
 /// Times [ms] of a planner.
 std::vector<double> plan_times(const Snapshot& world, const std::vector<PathQuery>& queries,
-                               const PlannerParams& params, const Stop& stop) {
+                               const planning::PlannerParams& params, const Stop& stop) {
   std::vector<double> ms;
   Rng rng(1, Purpose::planner);
   for (const PathQuery& q : queries) {
     if (stop()) break;
     const auto began = Clock::now();
-    const Plan made = plan(world, q.start, q.goal, params, rng);
+    const Plan made = planning::plan(world, q.start, q.goal, params, rng);
     ms.push_back(spent_ms(began));
     require_solved(made.status == Status::solved);
   }
@@ -63,14 +63,14 @@ std::vector<double> plan_times(const Snapshot& world, const std::vector<PathQuer
 }
 
 /// Times [ms] of exact queries that find the tangents of those before.
-std::vector<double> kept_times(ShortestPaths& paths, const std::vector<PathQuery>& queries,
-                               const Stop& stop) {
+std::vector<double> kept_times(planning::ShortestPaths& paths,
+                               const std::vector<PathQuery>& queries, const Stop& stop) {
   std::vector<double> ms;
   for (const bool counts : {false, true})
     for (const PathQuery& q : queries) {
       if (stop()) break;
       const auto began = Clock::now();
-      const ShortestPath found = paths.find(q.start.position, q.goal);
+      const planning::ShortestPath found = paths.find(q.start.position, q.goal);
       if (counts) ms.push_back(spent_ms(began));
       require_solved(found.status == Status::solved);
     }
@@ -94,7 +94,7 @@ std::vector<Vec2> points_along(const std::vector<Vec2>& path, double step) {
 }
 
 /// Times [ms] of a tree's length queries from these positions, if there is a path.
-std::vector<double> tree_times(ShortestPathTree& tree, std::span<const Vec2> positions,
+std::vector<double> tree_times(planning::ShortestPathTree& tree, std::span<const Vec2> positions,
                                const Stop& stop) {
   std::vector<double> ms;
   for (const Vec2 position : positions) {
@@ -111,7 +111,7 @@ std::vector<double> tree_times(ShortestPathTree& tree, std::span<const Vec2> pos
 /// where fields of distances are exact, from the starts of all.
 void add_tree_rows(const std::string& where, const Map& map, double clearance,
                    const std::vector<PathQuery>& queries, double aim, const Stop& stop,
-                   std::vector<BenchRow>& rows) {
+                   std::vector<report::BenchRow>& rows) {
   const auto add = [&](const char* what, const char* quantity, double ms,
                        std::optional<double> aimed) {
     rows.push_back({.name = "exact, " + where + ", one goal, " + what,
@@ -122,17 +122,18 @@ void add_tree_rows(const std::string& where, const Map& map, double clearance,
   };
   const PathQuery& last = queries.back();
   const std::vector<Vec2> path =
-      ShortestPaths(map, clearance).find(last.start.position, last.goal).points;
-  ShortestPathTree on_the_way(map, last.goal, clearance);
+      planning::ShortestPaths(map, clearance).find(last.start.position, last.goal).points;
+  planning::ShortestPathTree on_the_way(map, last.goal, clearance);
   const auto times = tree_times(on_the_way, points_along(path, 0.001 * path_length(path)), stop);
   add("on the way there", "time, median", quantile(times, 0.5), aim);
   add("on the way there", "time, p99", quantile(times, 0.99), {});
   add("on the way there", "time, longest", quantile(times, 1), {});
-  if (map.corners().all().size() > DistanceField::max_exact_corners) return;
+  if (map.corners().all().size() > planning::DistanceField::max_exact_corners) return;
   std::vector<Vec2> starts;
   starts.reserve(queries.size());
   for (const PathQuery& q : queries) starts.push_back(q.start.position);
-  ShortestPathTree all_over(map, last.goal, clearance, ShortestPathTree::Growth::evenly);
+  planning::ShortestPathTree all_over(map, last.goal, clearance,
+                                      planning::ShortestPathTree::Growth::evenly);
   const auto first = tree_times(all_over, starts, stop);
   add("all over, tree kept", "time, median", quantile(tree_times(all_over, starts, stop), 0.5),
       aim);
@@ -149,7 +150,7 @@ double corners_ms(const Map& map, int repeats) {
   return quantile(ms, 0.5);
 }
 
-std::vector<BenchRow> among_discs_and_polygons(bool quick, const Stop& stop) {
+std::vector<report::BenchRow> among_discs_and_polygons(bool quick, const Stop& stop) {
   constexpr double clearance = 10;
   Rng rng(1, Purpose::scene);
   const Snapshot world = scenes::cluttered(rng).snapshot();
@@ -165,16 +166,17 @@ std::vector<BenchRow> among_discs_and_polygons(bool quick, const Stop& stop) {
                                                                .range = 80})
                                .seconds);
   }
-  std::vector<BenchRow> rows;
+  std::vector<report::BenchRow> rows;
   using Aim = std::optional<double>;
   const auto add = [&](const char* name, const std::vector<double>& ours, Aim median, Aim p99) {
-    for (BenchRow& row : time_rows(name, ours, theirs, "OMPL RRTConnect, first path", median, p99))
+    for (report::BenchRow& row :
+         time_rows(name, ours, theirs, "OMPL RRTConnect, first path", median, p99))
       rows.push_back(std::move(row));
   };
   world.map().corners();
   add("exact, 140 discs and 70 polygons, each query anew",
       anew_times(world.map(), clearance, queries, stop), {}, {});
-  ShortestPaths paths(world.map(), clearance);
+  planning::ShortestPaths paths(world.map(), clearance);
   add("exact, 140 discs and 70 polygons, tangents kept", kept_times(paths, queries, stop), 0.05,
       0.2);
   rows.push_back({.name = "exact, corners of 140 discs and 70 polygons",
@@ -193,19 +195,20 @@ Params on_grid(double clearance) {
 }
 
 /// Time and length of a planner whose other values follow from the map.
-std::vector<BenchRow> fitted_to(const std::string& map, const Snapshot& world,
-                                const std::vector<PathQuery>& queries, PlannerParams planner,
-                                ShortestPaths& paths, const Stop& stop) {
-  planner =
-      fit_to_map(planner, world.map(), [](std::string_view key) { return key == "clearance_um"; });
+std::vector<report::BenchRow> fitted_to(const std::string& map, const Snapshot& world,
+                                        const std::vector<PathQuery>& queries,
+                                        planning::PlannerParams planner,
+                                        planning::ShortestPaths& paths, const Stop& stop) {
+  planner = planning::fit_to_map(planner, world.map(),
+                                 [](std::string_view key) { return key == "clearance_um"; });
   std::vector<double> ms, excess;
   for (const PathQuery& q : queries) {
     if (stop()) break;
     Rng rng(1, Purpose::planner);
     const auto began = Clock::now();
-    const Plan made = plan(world, q.start, q.goal, planner, rng, stop);
+    const Plan made = planning::plan(world, q.start, q.goal, planner, rng, stop);
     ms.push_back(spent_ms(began));
-    const ShortestPath best = paths.find(q.start.position, q.goal, stop);
+    const planning::ShortestPath best = paths.find(q.start.position, q.goal, stop);
     require_solved(made.status == Status::solved);
     const double left = distance(made.path.back(), q.goal);  // within the tolerance
     excess.push_back((path_length(made) + left) / best.length);
@@ -225,60 +228,63 @@ std::vector<BenchRow> fitted_to(const std::string& map, const Snapshot& world,
 }
 
 /// Cells of 100 µm, a swarm that keeps 40 µm from walls.
-std::vector<BenchRow> in_grid_map(const std::filesystem::path& file, bool quick, const Stop& stop) {
+std::vector<report::BenchRow> in_grid_map(const std::filesystem::path& file, bool quick,
+                                          const Stop& stop) {
   constexpr double cell = 100, clearance = 40;
   const std::string name = file.stem().string();
-  const Mask blocked = read_moving_ai(file);
-  const auto map =
-      std::make_shared<const Map>(cell_bounds(blocked, cell), mask_walls(blocked, cell));
+  const formats::Mask blocked = formats::read_moving_ai(file);
+  const auto map = std::make_shared<const Map>(formats::cell_bounds(blocked, cell),
+                                               formats::mask_walls(blocked, cell));
   const Snapshot world(map);
   std::vector<PathQuery> queries;
-  const auto all = read_scenarios(file.string() + ".scen");
+  const auto all = formats::read_scenarios(file.string() + ".scen");
   const std::size_t count = std::min<std::size_t>(all.size(), quick ? 20 : 200);
   for (std::size_t i = 0; i < count; ++i) {
-    const GridQuery& q = all[i * all.size() / count];
-    queries.push_back({{cell_centre(blocked, q.start.column, q.start.row, cell), 0},
-                       cell_centre(blocked, q.goal.column, q.goal.row, cell)});
+    const formats::GridQuery& q = all[i * all.size() / count];
+    queries.push_back({{formats::cell_centre(blocked, q.start.column, q.start.row, cell), 0},
+                       formats::cell_centre(blocked, q.goal.column, q.goal.row, cell)});
   }
   std::vector<PathQuery> few;
   for (std::size_t i = 0; i < queries.size(); i += quick ? 5 : 20) few.push_back(queries[i]);
-  const AStarParams a_star{{.clearance = clearance, .goal_tolerance = 25, .cell = cell}};
-  ShortestPaths paths(*map, clearance);
-  std::vector<BenchRow> rows{{.name = "exact, " + name + ", tangents kept",
-                              .quantity = "time, median",
-                              .unit = "ms",
-                              .ours = quantile(kept_times(paths, queries, stop), 0.5),
-                              .peer = quantile(plan_times(world, few, a_star, stop), 0.5),
-                              .peer_name = "our A*, cells of the map",
-                              .aim = 1},
-                             {.name = "exact, " + name + ", each query anew",
-                              .quantity = "time, median",
-                              .unit = "ms",
-                              .ours = quantile(anew_times(*map, clearance, few, stop), 0.5)},
-                             {.name = "exact, corners of " + name,
-                              .quantity = "time, median",
-                              .unit = "ms",
-                              .ours = corners_ms(*map, 3),
-                              .aim = 300}};
+  const planning::AStarParams a_star{{.clearance = clearance, .goal_tolerance = 25, .cell = cell}};
+  planning::ShortestPaths paths(*map, clearance);
+  std::vector<report::BenchRow> rows{
+      {.name = "exact, " + name + ", tangents kept",
+       .quantity = "time, median",
+       .unit = "ms",
+       .ours = quantile(kept_times(paths, queries, stop), 0.5),
+       .peer = quantile(plan_times(world, few, a_star, stop), 0.5),
+       .peer_name = "our A*, cells of the map",
+       .aim = 1},
+      {.name = "exact, " + name + ", each query anew",
+       .quantity = "time, median",
+       .unit = "ms",
+       .ours = quantile(anew_times(*map, clearance, few, stop), 0.5)},
+      {.name = "exact, corners of " + name,
+       .quantity = "time, median",
+       .unit = "ms",
+       .ours = corners_ms(*map, 3),
+       .aim = 300}};
   add_tree_rows(name, *map, clearance, few, 1, stop, rows);
-  for (const PlannerParams& planner : {PlannerParams(on_grid<AStarParams>(clearance)),
-                                       PlannerParams(on_grid<ThetaStarParams>(clearance))})
-    for (BenchRow& row : fitted_to(name, world, few, planner, paths, stop))
+  for (const planning::PlannerParams& planner :
+       {planning::PlannerParams(on_grid<planning::AStarParams>(clearance)),
+        planning::PlannerParams(on_grid<planning::ThetaStarParams>(clearance))})
+    for (report::BenchRow& row : fitted_to(name, world, few, planner, paths, stop))
       rows.push_back(std::move(row));
   return rows;
 }
 
 }  // namespace
 
-std::vector<BenchRow> exact_paths(bool quick, const Stop& stop) {
-  std::vector<BenchRow> rows = among_discs_and_polygons(quick, stop);
+std::vector<report::BenchRow> exact_paths(bool quick, const Stop& stop) {
+  std::vector<report::BenchRow> rows = among_discs_and_polygons(quick, stop);
   const char* data = std::getenv("MICROSWARM_DATA");
   if (!data) return rows;
   for (const char* name :
        {"arena", "den312d", "Berlin_0_256", "32room_000", "random512-10-0", "maze512-32-0"}) {
     const auto file = std::filesystem::path(data) / "grid_maps" / (std::string(name) + ".map");
     if (!std::filesystem::exists(file) || stop()) continue;
-    for (BenchRow& row : in_grid_map(file, quick, stop)) rows.push_back(std::move(row));
+    for (report::BenchRow& row : in_grid_map(file, quick, stop)) rows.push_back(std::move(row));
   }
   return rows;
 }

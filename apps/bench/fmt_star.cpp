@@ -11,19 +11,20 @@
 
 namespace microswarm::bench {
 
-std::vector<BenchRow> fmt_star(const std::filesystem::path& scenarios, bool quick,
-                               const Stop& stop) {
+std::vector<report::BenchRow> fmt_star(const std::filesystem::path& scenarios, bool quick,
+                                       const Stop& stop) {
   const auto file = scenarios / "papers" / "drrt" / "s_channel.yaml";
-  const Scene scene = load_scene(read_scenario(file), file.parent_path());
-  const Snapshot world = build_world(scene).at(0);
-  const Scenario& s = scene.scenario;
-  const FmtStarParams ours;
+  const experiment::Scene scene =
+      experiment::load_scene(experiment::read_scenario(file), file.parent_path());
+  const Snapshot world = experiment::build_world(scene).at(0);
+  const experiment::Scenario& s = scene.scenario;
+  const planning::FmtStarParams ours;
   std::vector<double> ms, lengths, their_ms, their_lengths;
   double free_share = 0;
   for (int seed = 0; seed < (quick ? 100 : 1000) && !stop(); ++seed) {
     Rng rng(1, Purpose::planner, static_cast<std::uint32_t>(seed));
     const auto began = std::chrono::steady_clock::now();
-    const Plan made = plan(world, *s.start, *s.goal, ours, rng);
+    const Plan made = planning::plan(world, *s.start, *s.goal, ours, rng);
     ms.push_back(1e3 *
                  std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
     if (made.status != Status::solved) throw std::runtime_error("bench: a query was not solved");
@@ -44,7 +45,7 @@ std::vector<BenchRow> fmt_star(const std::filesystem::path& scenarios, bool quic
     their_ms.push_back(1e3 * made.seconds);
     if (made.solved) their_lengths.push_back(made.length);
   }
-  std::vector<BenchRow> rows;
+  std::vector<report::BenchRow> rows;
   const auto row = [&](const char* quantity, const char* unit, double mine, double theirs,
                        std::optional<double> aim) {
     rows.push_back({.name = "FMT*, S-channel, first path",
@@ -59,8 +60,9 @@ std::vector<BenchRow> fmt_star(const std::filesystem::path& scenarios, bool quic
   row("time, p99", "ms", quantile(ms, 0.99), quantile(their_ms, 0.99), std::nullopt);
   row("length, median", "µm", median(lengths), median(their_lengths), std::nullopt);
   Rng rng(1, Purpose::planner);
-  const ExactParams exact{.clearance = ours.clearance, .goal_tolerance = ours.goal_tolerance};
-  const double shortest = path_length(plan(world, *s.start, *s.goal, exact, rng));
+  const planning::ExactParams exact{.clearance = ours.clearance,
+                                    .goal_tolerance = ours.goal_tolerance};
+  const double shortest = path_length(planning::plan(world, *s.start, *s.goal, exact, rng));
   rows.push_back({.name = "FMT*, S-channel, first path",
                   .quantity = "length beside the shortest to the goal, median",
                   .unit = "",

@@ -28,8 +28,8 @@ struct GatheringCase {
   std::string name;
   Map map;
   Vec2 goal;
-  AggregationParams params;
-  MoveRule rule;
+  navigation::AggregationParams params;
+  navigation::MoveRule rule;
   std::size_t robots;
 };
 
@@ -42,24 +42,26 @@ struct Maze {
 constexpr std::array<Maze, 4> mazes{
     {{"corridor", 82, 80}, {"capillary", 61, 130}, {"brain", 96, 204}, {"vessel", 85, 66}}};
 
-GatheringCase maze_task(const std::filesystem::path& folder, const Maze& maze, MoveRule rule) {
+GatheringCase maze_task(const std::filesystem::path& folder, const Maze& maze,
+                        navigation::MoveRule rule) {
   constexpr std::size_t particles = 256;
   const auto file = folder / (std::string(maze.name) + ".pgm");
-  GatheringCase task{maze.name, *load_map(guess_map_spec(file, 1)).map, {}, {}, rule, particles};
+  GatheringCase task{
+      maze.name, *formats::load_map(formats::guess_map_spec(file, 1)).map, {}, {}, rule, particles};
   const Box& box = task.map.bounds();
   task.goal = {box.lo.x + maze.column + 0.5, box.hi.y - maze.row - 0.5};
   Rng rng(1, Purpose::planner);
   task.params.scale = 0;
-  const double scale = published_scale(task.params, task.map, rng);
-  if (rule == MoveRule::any_direction) {
+  const double scale = navigation::published_scale(task.params, task.map, rng);
+  if (rule == navigation::MoveRule::any_direction) {
     task.params.scale = scale;
-    task.params = fitted(task.params, task.map, rng);
+    task.params = navigation::fitted(task.params, task.map, rng);
     task.name += ", any direction, mean way of a channel's width";
   } else {
     task.params.scale = 1;
-    task.params.tree = scaled(task.params.tree, scale);
+    task.params.tree = planning::scaled(task.params.tree, scale);
     task.params.sigma = 10.5;  // whole steps: all within 10
-    task.params.gathered = Gathered::all;
+    task.params.gathered = navigation::Gathered::all;
     task.name += ", the set's rules";
   }
   return task;
@@ -99,13 +101,14 @@ scenes::Vascular drawn_network() {
 GatheringCase scene_task(const std::string& name, const scenes::Vascular& scene) {
   constexpr std::size_t robots = 1024;
   constexpr double work = 40e6;
-  GatheringCase task{name, scene.map(), scene.goal, {}, MoveRule::any_direction, robots};
+  GatheringCase task{name,  scene.map(), scene.goal, {}, navigation::MoveRule::any_direction,
+                     robots};
   task.params.tree.nodes = scene.nodes;
   task.params.rollout.max_work = work;
   return task;
 }
 
-Robots random_robots(const GatheringCase& task, const AggregationMap& map,
+Robots random_robots(const GatheringCase& task, const navigation::AggregationMap& map,
                      const RobotStepper& stepper, Rng& rng) {
   if (map.cells) {
     std::vector<std::uint32_t> nodes(map.cells->size());
@@ -113,7 +116,7 @@ Robots random_robots(const GatheringCase& task, const AggregationMap& map,
     for (std::size_t i = 0; i < task.robots; ++i)
       std::swap(nodes[i], nodes[i + rng.below(nodes.size() - i)]);
     nodes.resize(task.robots);
-    return robots_at(*map.cells, nodes);
+    return navigation::robots_at(*map.cells, nodes);
   }
   std::vector<Vec2> positions;
   while (positions.size() < task.robots) {
@@ -129,24 +132,25 @@ struct Gatherings {
   double seconds = 0;
 };
 
-Gatherings gather_all(const GatheringCase& task, AggregationParams params, Aggregation method,
-                      int seeds, const Stop& stop) {
+Gatherings gather_all(const GatheringCase& task, navigation::AggregationParams params,
+                      navigation::Aggregation method, int seeds, const Stop& stop) {
   params.method = method;
   Rng tree(1, Purpose::planner);
-  const AggregationMap map(task.map, task.goal, params, tree, task.rule);
+  const navigation::AggregationMap map(task.map, task.goal, params, tree, task.rule);
   const RobotStepper stepper(task.map, params.step);
-  const CommonInput input = map.cells ? CommonInput(*map.cells) : CommonInput(stepper);
+  const navigation::CommonInput input =
+      map.cells ? navigation::CommonInput(*map.cells) : navigation::CommonInput(stepper);
   Gatherings all;
   for (int seed = 1; seed <= seeds && !stop(); ++seed) {
     Rng rng(static_cast<std::uint64_t>(seed), Purpose::scene);
     Robots robots = random_robots(task, map, stepper, rng);
     const auto began = Stop::Clock::now();
-    if (method == Aggregation::rollout) {
-      RolloutPolicy policy(map, input, params,
-                           Rng(static_cast<std::uint64_t>(seed), Purpose::planner));
+    if (method == navigation::Aggregation::rollout) {
+      navigation::RolloutPolicy policy(map, input, params,
+                                       Rng(static_cast<std::uint64_t>(seed), Purpose::planner));
       all.steps.push_back(gather(input, policy, robots, gather_steps, stop).steps);
     } else {
-      AggregationPolicy policy(map, params);
+      navigation::AggregationPolicy policy(map, params);
       all.steps.push_back(gather(input, policy, robots, gather_steps, stop).steps);
     }
     all.seconds += seconds_since(began);
@@ -156,39 +160,40 @@ Gatherings gather_all(const GatheringCase& task, AggregationParams params, Aggre
 
 /// A row for each method, beside dynamic shortest path; without `aim` rollout's is 30 % fewer
 /// steps.
-void add_rows(std::vector<BenchRow>& rows, const GatheringCase& task, std::optional<double> aim,
-              int seeds, const Stop& stop) {
+void add_rows(std::vector<report::BenchRow>& rows, const GatheringCase& task,
+              std::optional<double> aim, int seeds, const Stop& stop) {
   const Gatherings peer =
-      gather_all(task, task.params, Aggregation::dynamic_shortest_path, seeds, stop);
+      gather_all(task, task.params, navigation::Aggregation::dynamic_shortest_path, seeds, stop);
   if (stop()) return;
   const double peer_steps = mean(peer.steps);
   rows.push_back({.name = task.name + ", dynamic shortest path",
                   .quantity = fmt::format("steps, ± {:.0f}", standard_deviation(peer.steps)),
                   .unit = "1",
                   .ours = peer_steps});
-  for (const Aggregation method :
-       {Aggregation::rollout, Aggregation::divide_and_conquer, Aggregation::heuristic}) {
+  for (const navigation::Aggregation method :
+       {navigation::Aggregation::rollout, navigation::Aggregation::divide_and_conquer,
+        navigation::Aggregation::heuristic}) {
     const Gatherings ours = gather_all(task, task.params, method, seeds, stop);
     if (stop()) return;
-    BenchRow row{.name = fmt::format("{}, {}", task.name, enum_name(method)),
-                 .quantity = fmt::format("steps, ± {:.0f}", standard_deviation(ours.steps)),
-                 .unit = "1",
-                 .ours = mean(ours.steps),
-                 .peer = peer_steps,
-                 .peer_name = "dynamic shortest path"};
-    if (method == Aggregation::rollout) row.aim = aim.value_or(0.7 * peer_steps);
+    report::BenchRow row{.name = fmt::format("{}, {}", task.name, enum_name(method)),
+                         .quantity = fmt::format("steps, ± {:.0f}", standard_deviation(ours.steps)),
+                         .unit = "1",
+                         .ours = mean(ours.steps),
+                         .peer = peer_steps,
+                         .peer_name = "dynamic shortest path"};
+    if (method == navigation::Aggregation::rollout) row.aim = aim.value_or(0.7 * peer_steps);
     rows.push_back(std::move(row));
   }
 }
 
 /// Times of the same search on one thread and on two.
-void add_thread_row(std::vector<BenchRow>& rows, const GatheringCase& task, int seeds,
+void add_thread_row(std::vector<report::BenchRow>& rows, const GatheringCase& task, int seeds,
                     const Stop& stop) {
-  AggregationParams params = task.params;
+  navigation::AggregationParams params = task.params;
   params.rollout.tuning.changes_work = 0;
-  const Gatherings one = gather_all(task, params, Aggregation::rollout, seeds, stop);
+  const Gatherings one = gather_all(task, params, navigation::Aggregation::rollout, seeds, stop);
   params.rollout.threads = 2;
-  const Gatherings two = gather_all(task, params, Aggregation::rollout, seeds, stop);
+  const Gatherings two = gather_all(task, params, navigation::Aggregation::rollout, seeds, stop);
   if (stop()) return;
   rows.push_back({.name = task.name + ", search by layers",
                   .quantity = "speed on two threads over one",
@@ -200,8 +205,8 @@ void add_thread_row(std::vector<BenchRow>& rows, const GatheringCase& task, int 
 
 }  // namespace
 
-std::vector<BenchRow> gather(bool quick, const Stop& stop) {
-  std::vector<BenchRow> rows;
+std::vector<report::BenchRow> gather(bool quick, const Stop& stop) {
+  std::vector<report::BenchRow> rows;
   const int seeds = quick ? 2 : 5;
   add_rows(rows, scene_task("T-junction, n = 1024", scenes::t_junction()), 170, seeds, stop);
   add_rows(rows, scene_task("drawn map, 100 × 90, n = 1024", drawn_network()), 340, seeds, stop);
@@ -213,7 +218,8 @@ std::vector<BenchRow> gather(bool quick, const Stop& stop) {
   if (!data) return rows;
   const std::filesystem::path folder = std::filesystem::path(data) / "gym_gathering";
   if (!std::filesystem::exists(folder)) return rows;
-  for (const MoveRule rule : {MoveRule::cells, MoveRule::any_direction})
+  for (const navigation::MoveRule rule :
+       {navigation::MoveRule::cells, navigation::MoveRule::any_direction})
     for (const Maze& maze : mazes) {
       if (stop()) return rows;
       GatheringCase task = maze_task(folder, maze, rule);

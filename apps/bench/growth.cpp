@@ -38,7 +38,7 @@ struct Growth {
   CountedTimes ours = {};
   CountedTimes theirs = {};  ///< not always of the same numbers
 
-  void add_to(std::vector<BenchRow>& rows) const;
+  void add_to(std::vector<report::BenchRow>& rows) const;
 };
 
 /// Slope of the line through the logarithms, by least squares: times grow as the number to this
@@ -56,19 +56,19 @@ std::optional<double> exponent(const CountedTimes& times) {
   return above / below;
 }
 
-void Growth::add_to(std::vector<BenchRow>& rows) const {
+void Growth::add_to(std::vector<report::BenchRow>& rows) const {
   for (const auto& [n, t] : ours) {
-    BenchRow row{.name = fmt::format("{}, {} {}", name, n, of),
-                 .quantity = "time, median",
-                 .unit = unit,
-                 .ours = t};
+    report::BenchRow row{.name = fmt::format("{}, {} {}", name, n, of),
+                         .quantity = "time, median",
+                         .unit = unit,
+                         .ours = t};
     for (const auto& [theirs_n, theirs_t] : theirs)
       if (theirs_n == n) row.peer = theirs_t, row.peer_name = peer;
     rows.push_back(std::move(row));
   }
   const std::optional<double> fitted = exponent(ours);
   if (!fitted) return;
-  BenchRow row{
+  report::BenchRow row{
       .name = fmt::format("{}, {} to {} {}", name, ours.front().first, ours.back().first, of),
       .quantity = "exponent of its growth",
       .ours = *fitted,
@@ -144,7 +144,7 @@ Growth of_vertices(bool quick, const Stop& stop) {
       .name = "RRT* grown", .of = "vertices", .unit = "ms", .peer = "OMPL RRT*", .aim = 1.2};
   Rng rng(1, Purpose::scene);
   const Snapshot world = scenes::cluttered(rng).snapshot();
-  RrtStarParams params;
+  planning::RrtStarParams params;
   params.clearance = 10;
   params.stop_at_first = false;
   params.max_iterations = 10'000'000;
@@ -154,7 +154,7 @@ Growth of_vertices(bool quick, const Stop& stop) {
     params.max_nodes = n;
     const double ours = mean_time(quick ? 1 : 5, millisecond, [&](int k) {
       Rng stream(1, Purpose::planner, static_cast<std::uint32_t>(k));
-      plan(world, q.start, q.goal, params, stream);
+      planning::plan(world, q.start, q.goal, params, stream);
     });
     growth.ours.emplace_back(n, ours);
   }
@@ -210,16 +210,16 @@ std::vector<Growth> of_shapes(bool quick, const Stop& stop) {
     });
     positions.theirs.emplace_back(count, naive + 0 * static_cast<double>(sum));
     const std::vector<PathQuery> pairs = far_pairs(world, clearance, quick ? 5 : 20, rng);
-    const auto ask = [&](const PlannerParams& params) {
+    const auto ask = [&](const planning::PlannerParams& params) {
       return mean_time(static_cast<int>(pairs.size()), millisecond, [&](int k) {
         const PathQuery& q = pairs[static_cast<std::size_t>(k)];
-        plan(world, q.start, q.goal, params, rng);
+        planning::plan(world, q.start, q.goal, params, rng);
       });
     };
-    const ExactParams params{.clearance = clearance};
+    const planning::ExactParams params{.clearance = clearance};
     for (int round = 0; round < 10; ++round) ask(params);  // until its tangents are kept
     exact.ours.emplace_back(count, ask(params));
-    AStarParams grid;
+    planning::AStarParams grid;
     grid.clearance = clearance;
     grid.cell = 10;
     exact.theirs.emplace_back(count, ask(grid));
@@ -229,8 +229,8 @@ std::vector<Growth> of_shapes(bool quick, const Stop& stop) {
 
 }  // namespace
 
-std::vector<BenchRow> growth(bool quick, const Stop& stop) {
-  std::vector<BenchRow> rows;
+std::vector<report::BenchRow> growth(bool quick, const Stop& stop) {
+  std::vector<report::BenchRow> rows;
   of_robots(quick, stop).add_to(rows);
   of_obstacles(quick, stop).add_to(rows);
   of_vertices(quick, stop).add_to(rows);

@@ -10,6 +10,6 @@ namespace microswarm::bench {
 
 /// Benchmarks how times grow with the number of robots, obstacles, vertices of a tree and shapes of
 /// a map: a row for each number, and one with the exponent fitted to them. `quick` measures less.
-std::vector<BenchRow> growth(bool quick, const Stop& stop);
+std::vector<report::BenchRow> growth(bool quick, const Stop& stop);
 
 }  // namespace microswarm::bench

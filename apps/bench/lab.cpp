@@ -58,7 +58,7 @@ std::uint64_t frame_number(const std::string& frame) {
 /// CPU time of the simulation alone from one frame to another [s].
 double simulation_time(const fs::path& file, const std::vector<std::string>& settings,
                        std::uint64_t from, std::uint64_t to) {
-  const auto session = open_session(file, settings);
+  const auto session = experiment::open_session(file, settings);
   double began = 0;
   for (std::uint64_t k = 0; k <= to && session->step(); ++k)
     if (k == from) began = cpu_time(RUSAGE_THREAD);
@@ -74,7 +74,7 @@ Watched watch(const fs::path& scenarios, int watchers, double duration) {
   LabClient first(lab.url(), number);
   first.ask({{"do", "step"}});  // plans
   first.next("answer");
-  const double tick = open_session(file, settings)->scenario().tick;
+  const double tick = experiment::open_session(file, settings)->scenario().tick;
   first.ask({{"do", "speed"}, {"number", tick * ticks_a_second}});
   first.ask({{"do", "play"}});
   const std::uint64_t begin = frame_number(first.next("frame"));
@@ -145,14 +145,14 @@ double change_time(const fs::path& scenarios, int changes, const Stop& stop) {
 
 }  // namespace
 
-std::vector<BenchRow> lab(const fs::path& scenarios, bool quick, const Stop& stop) {
+std::vector<report::BenchRow> lab(const fs::path& scenarios, bool quick, const Stop& stop) {
   const double duration = quick ? 3 : 15;
   const Watched one = watch(scenarios, 1, duration);
   if (stop()) return {};
   const Watched many = watch(scenarios, clients, duration);
   const std::string crowd = std::to_string(crowd_size) + " robots, 30 frames/s";
   const std::string at_once = crowd + ", " + std::to_string(clients) + " clients";
-  std::vector<BenchRow> rows{
+  std::vector<report::BenchRow> rows{
       {.name = crowd, .quantity = "bytes a frame", .unit = "B", .ours = one.bytes_a_frame},
       {.name = crowd,
        .quantity = "share of a core beside the simulation",
@@ -180,7 +180,7 @@ std::vector<BenchRow> lab(const fs::path& scenarios, bool quick, const Stop& sto
        .ours = 1000 * change_time(scenarios, quick ? 50 : 300, stop),
        .aim = 100}};
   if (stop()) return rows;
-  for (BenchRow& row : lab_in_browser(scenarios.parent_path(), quick))
+  for (report::BenchRow& row : lab_in_browser(scenarios.parent_path(), quick))
     rows.push_back(std::move(row));
   return rows;
 }

@@ -25,7 +25,7 @@ std::string run_command(const std::string& command) {
 
 }  // namespace
 
-std::vector<BenchRow> lab_in_browser(const fs::path& checkout, bool quick) {
+std::vector<report::BenchRow> lab_in_browser(const fs::path& checkout, bool quick) {
   const fs::path script = checkout / "web/bench.mjs";
   const fs::path bin = fs::read_symlink("/proc/self/exe").parent_path();
   const std::string text =
@@ -38,9 +38,9 @@ std::vector<BenchRow> lab_in_browser(const fs::path& checkout, bool quick) {
                stderr);
     return {};
   }
-  std::vector<BenchRow> rows;
+  std::vector<report::BenchRow> rows;
   for (const auto& one : nlohmann::json::parse(text)) {
-    BenchRow row{.name = one["name"], .quantity = one["quantity"], .unit = one["unit"]};
+    report::BenchRow row{.name = one["name"], .quantity = one["quantity"], .unit = one["unit"]};
     row.ours = one["ours"];
     if (one.contains("aim")) row.aim = one["aim"].get<double>();
     row.at_most = one.value("at_most", true);

@@ -24,7 +24,7 @@
 namespace microswarm::cli {
 namespace {
 
-using Rows = std::vector<BenchRow>;
+using Rows = std::vector<report::BenchRow>;
 
 struct BenchOptions {
   std::string csv;
@@ -47,11 +47,12 @@ int measure(const Group& group, const BenchOptions& o, const Context& context) {
   if (!o.csv.empty()) const StagedFile can_be_written(o.csv);
   const Rows rows = group.measure(o.quick, context.stop);
   if (!o.csv.empty() && !context.stop.requested())
-    write_file_atomically(o.csv, "# " + bench::machine_line() + "\n" + rows_csv(rows));
+    write_file_atomically(o.csv, "# " + bench::machine_line() + "\n" + report::rows_csv(rows));
   if (o.quick) note("quick: fewer repetitions\n");
-  put(o.json ? rows_json(rows) : bench::machine_line() + "\n" + rows_table(rows) + aims_met(rows));
+  put(o.json ? report::rows_json(rows)
+             : bench::machine_line() + "\n" + report::rows_table(rows) + aims_met(rows));
   if (context.stop.requested()) return not_reached;
-  return all_ok(rows) ? ok : not_reached;
+  return report::all_ok(rows) ? ok : not_reached;
 }
 
 void add_group(Command app, const Group& group, Action& action) {

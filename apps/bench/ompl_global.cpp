@@ -37,11 +37,11 @@ PointF place(const double* v, std::size_t robot) {
 class LocalPlanner : public oc::DirectedControlSampler {
  public:
   LocalPlanner(const oc::SpaceInformation* si, const RobotStepper& stepper,
-               const GlobalRrtParams& params, std::size_t robots, std::size_t& nodes)
+               const planning::GlobalRrtParams& params, std::size_t robots, std::size_t& nodes)
       : oc::DirectedControlSampler(si),
         stepper_(stepper),
         rule_(params.contact),
-        moves_(input_moves(params.directions, params.robostep)),
+        moves_(planning::input_moves(params.directions, params.robostep)),
         n_(robots),
         reached_(robots * moves_.size()),
         nodes_(nodes) {}
@@ -114,11 +114,12 @@ std::shared_ptr<ob::RealVectorStateSpace> make_space(const Map& map, std::size_t
 
 }  // namespace
 
-OmplGrowth grow_ompl(const Map& map, std::span<const Vec2> starts, const GlobalRrtParams& params,
-                     std::size_t nodes, double max_seconds) {
+OmplGrowth grow_ompl(const Map& map, std::span<const Vec2> starts,
+                     const planning::GlobalRrtParams& params, std::size_t nodes,
+                     double max_seconds) {
   ompl::msg::noOutputHandler();
   const std::size_t n = starts.size();
-  const RobotStepper stepper = input_stepper(map, params.robostep);
+  const RobotStepper stepper = planning::input_stepper(map, params.robostep);
   std::size_t grown = 1;
   const auto space = make_space(map, n);
   const auto controls = std::make_shared<oc::DiscreteControlSpace>(space, 0, params.directions - 1);

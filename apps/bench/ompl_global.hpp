@@ -17,7 +17,8 @@ struct OmplGrowth {
 /// Grows OMPL's RRT to `nodes` or for `max_seconds` in the space of several robots' positions, with
 /// its own nearest neighbours and our local planner, Alg 2 [global], as its directed control
 /// sampler. Each input is one step of its propagator.
-OmplGrowth grow_ompl(const Map& map, std::span<const Vec2> starts, const GlobalRrtParams& params,
-                     std::size_t nodes, double max_seconds);
+OmplGrowth grow_ompl(const Map& map, std::span<const Vec2> starts,
+                     const planning::GlobalRrtParams& params, std::size_t nodes,
+                     double max_seconds);
 
 }  // namespace microswarm::bench

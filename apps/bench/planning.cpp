@@ -22,12 +22,12 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 std::vector<double> our_times(const Snapshot& world, const Pose2& start, Vec2 goal,
-                              const PlannerParams& params, int seeds, const Stop& stop) {
+                              const planning::PlannerParams& params, int seeds, const Stop& stop) {
   std::vector<double> ms;
   for (int seed = 0; seed < seeds && !stop(); ++seed) {
     Rng rng(1, Purpose::planner, static_cast<std::uint32_t>(seed));
     const auto began = Clock::now();
-    const Plan made = plan(world, start, goal, params, rng);
+    const Plan made = planning::plan(world, start, goal, params, rng);
     if (made.status != Status::solved) throw std::runtime_error("bench: a query was not solved");
     ms.push_back(1e3 * seconds_since(began));
   }
@@ -43,22 +43,25 @@ std::vector<double> peer_times(OmplPlanner planner, const OmplQuery& query, int 
 }
 
 /// Length of the best path of RRT* after 20 ms, beside the shortest there is.
-BenchRow after_20_ms(const std::string& world_name, const Snapshot& world, const Pose2& start,
-                     Vec2 goal, double clearance, int seeds, const Stop& stop) {
+report::BenchRow after_20_ms(const std::string& world_name, const Snapshot& world,
+                             const Pose2& start, Vec2 goal, double clearance, int seeds,
+                             const Stop& stop) {
   using namespace std::chrono_literals;
-  RrtStarParams params;
+  planning::RrtStarParams params;
   params.clearance = clearance;
   params.stop_at_first = false;
   params.max_nodes = 10'000'000;
   params.max_iterations = 100'000'000;
   Rng rng(1, Purpose::planner);
-  const ExactParams exact{.clearance = clearance, .goal_tolerance = params.goal_tolerance};
+  const planning::ExactParams exact{.clearance = clearance,
+                                    .goal_tolerance = params.goal_tolerance};
   // Ours may end anywhere within the tolerance.
-  const double shortest = path_length(plan(world, start, goal, exact, rng)) - params.goal_tolerance;
+  const double shortest =
+      path_length(planning::plan(world, start, goal, exact, rng)) - params.goal_tolerance;
   std::vector<double> excess;
   for (int seed = 0; seed < seeds && !stop(); ++seed) {
     Rng stream(1, Purpose::planner, static_cast<std::uint32_t>(seed));
-    const Plan made = plan(world, start, goal, params, stream, Stop(20ms));
+    const Plan made = planning::plan(world, start, goal, params, stream, Stop(20ms));
     excess.push_back(path_length(made) / shortest);
   }
   return {.name = "RRT*, " + world_name + ", after 20 ms",
@@ -69,16 +72,17 @@ BenchRow after_20_ms(const std::string& world_name, const Snapshot& world, const
 }
 
 /// The S-channel of Fig 3 [drrt]: time to the first path.
-std::vector<BenchRow> s_channel(const std::filesystem::path& scenarios, bool quick,
-                                const Stop& stop) {
+std::vector<report::BenchRow> s_channel(const std::filesystem::path& scenarios, bool quick,
+                                        const Stop& stop) {
   const auto file = scenarios / "papers" / "drrt" / "s_channel.yaml";
-  const Scene scene = load_scene(read_scenario(file), file.parent_path());
-  const Snapshot world = build_world(scene).at(0);
-  const Scenario& s = scene.scenario;
+  const experiment::Scene scene =
+      experiment::load_scene(experiment::read_scenario(file), file.parent_path());
+  const Snapshot world = experiment::build_world(scene).at(0);
+  const experiment::Scenario& s = scene.scenario;
   const int seeds = quick ? 100 : 1000;
-  const DrrtStarParams usual;
-  std::vector<BenchRow> rows;
-  const auto add = [&](const char* name, const PlannerParams& ours,
+  const planning::DrrtStarParams usual;
+  std::vector<report::BenchRow> rows;
+  const auto add = [&](const char* name, const planning::PlannerParams& ours,
                        std::initializer_list<OmplPlanner> peers, std::optional<double> median,
                        std::optional<double> p99) {
     const auto ms = our_times(world, *s.start, *s.goal, ours, seeds, stop);
@@ -91,16 +95,16 @@ std::vector<BenchRow> s_channel(const std::filesystem::path& scenarios, bool qui
                                       .goal_tolerance = usual.goal_tolerance,
                                       .range = usual.step},
                                      quick ? 20 : 100, stop);
-      for (BenchRow& row : time_rows(fmt::format("{}, S-channel", name), ms, theirs,
-                                     std::string(to_text(peer)), median, p99))
+      for (report::BenchRow& row : time_rows(fmt::format("{}, S-channel", name), ms, theirs,
+                                             std::string(to_text(peer)), median, p99))
         rows.push_back(std::move(row));
     }
   };
   using enum OmplPlanner;
   add("D-RRT*, first path", usual, {rrt_star, informed_rrt_star, bit_star, rrt_connect}, 0.15, 0.4);
-  add("RRT*, first path", RrtStarParams{}, {rrt_star}, {}, {});
-  add("RRT-Connect, first path", RrtConnectParams{}, {rrt_connect}, {}, {});
-  add("exact, tangents kept", ExactParams{}, {bit_star, rrt_connect}, {}, {});
+  add("RRT*, first path", planning::RrtStarParams{}, {rrt_star}, {}, {});
+  add("RRT-Connect, first path", planning::RrtConnectParams{}, {rrt_connect}, {}, {});
+  add("exact, tangents kept", planning::ExactParams{}, {bit_star, rrt_connect}, {}, {});
   rows.push_back(
       after_20_ms("S-channel", world, *s.start, *s.goal, usual.clearance, quick ? 9 : 50, stop));
   return rows;
@@ -108,14 +112,14 @@ std::vector<BenchRow> s_channel(const std::filesystem::path& scenarios, bool qui
 
 /// Time to the first path between distant points on a 2000 × 1000 µm map with 140 discs and 70
 /// polygons.
-std::vector<BenchRow> clutter(bool quick, const Stop& stop) {
+std::vector<report::BenchRow> clutter(bool quick, const Stop& stop) {
   Rng rng(1, Purpose::scene);
   const Snapshot world = scenes::cluttered(rng).snapshot();
   constexpr double clearance = 10;
   const std::vector<PathQuery> pairs = far_pairs(world, clearance, 40, rng);
-  RrtParams rrt;
+  planning::RrtParams rrt;
   rrt.clearance = clearance;
-  DrrtStarParams drrt;
+  planning::DrrtStarParams drrt;
   drrt.clearance = clearance;
   std::vector<double> theirs;
   for (const PathQuery& q : pairs) {
@@ -129,18 +133,18 @@ std::vector<BenchRow> clutter(bool quick, const Stop& stop) {
                                  quick ? 2 : 10, stop);
     theirs.insert(theirs.end(), more.begin(), more.end());
   }
-  std::vector<BenchRow> rows;
-  const auto row = [&](const char* name, const PlannerParams& params, std::optional<double> median,
-                       std::optional<double> p99) {
+  std::vector<report::BenchRow> rows;
+  const auto row = [&](const char* name, const planning::PlannerParams& params,
+                       std::optional<double> median, std::optional<double> p99) {
     std::vector<double> ours;
     for (const PathQuery& q : pairs) {
       const auto more = our_times(world, q.start, q.goal, params, quick ? 3 : 25, stop);
       ours.insert(ours.end(), more.begin(), more.end());
     }
-    for (BenchRow& one : time_rows(name, ours, theirs, "OMPL RRTConnect", median, p99))
+    for (report::BenchRow& one : time_rows(name, ours, theirs, "OMPL RRTConnect", median, p99))
       rows.push_back(std::move(one));
   };
-  RrtConnectParams connect;
+  planning::RrtConnectParams connect;
   connect.clearance = clearance;
   row("RRT-Connect, 140 discs and 70 polygons, first path", connect, {}, {});
   row("RRT, 140 discs and 70 polygons, first path", rrt, 0.5, {});
@@ -149,13 +153,13 @@ std::vector<BenchRow> clutter(bool quick, const Stop& stop) {
 }
 
 /// Growth rate of a tree that continues after its first path, on the same map.
-std::vector<BenchRow> tree_growth(bool quick, const Stop& stop) {
+std::vector<report::BenchRow> tree_growth(bool quick, const Stop& stop) {
   Rng rng(1, Purpose::scene);
   const Snapshot world = scenes::cluttered(rng).snapshot();
   constexpr double clearance = 10;
   const PathQuery q = far_pairs(world, clearance, 1, rng).at(0);
-  std::vector<BenchRow> rows;
-  RrtStarParams grow;
+  std::vector<report::BenchRow> rows;
+  planning::RrtStarParams grow;
   grow.clearance = clearance;
   grow.stop_at_first = false;
   grow.max_nodes = 20'000;
@@ -164,7 +168,7 @@ std::vector<BenchRow> tree_growth(bool quick, const Stop& stop) {
   for (int k = 0; k < (quick ? 3 : 9) && !stop(); ++k) {
     Rng stream(1, Purpose::planner, static_cast<std::uint32_t>(k));
     const auto began = Clock::now();
-    const Plan made = plan(world, q.start, q.goal, grow, stream);
+    const Plan made = planning::plan(world, q.start, q.goal, grow, stream);
     rate.push_back(static_cast<double>(made.tree.size()) / seconds_since(began));
   }
   const OmplQuery long_query{.world = world,
@@ -190,10 +194,11 @@ std::vector<BenchRow> tree_growth(bool quick, const Stop& stop) {
 
 }  // namespace
 
-std::vector<BenchRow> time_rows(const std::string& name, const std::vector<double>& ours,
-                                const std::vector<double>& theirs, const std::string& peer,
-                                std::optional<double> median_aim, std::optional<double> p99_aim) {
-  std::vector<BenchRow> rows;
+std::vector<report::BenchRow> time_rows(const std::string& name, const std::vector<double>& ours,
+                                        const std::vector<double>& theirs, const std::string& peer,
+                                        std::optional<double> median_aim,
+                                        std::optional<double> p99_aim) {
+  std::vector<report::BenchRow> rows;
   for (const auto& [what, share, aim] :
        {std::tuple{"time, median", 0.5, median_aim}, std::tuple{"time, p99", 0.99, p99_aim}})
     rows.push_back({.name = name,
@@ -219,9 +224,9 @@ std::vector<PathQuery> far_pairs(const Snapshot& world, double clearance, int co
   return pairs;
 }
 
-std::vector<BenchRow> planning(const std::filesystem::path& scenarios, bool quick,
-                               const Stop& stop) {
-  std::vector<BenchRow> rows = clearance_queries(quick);
+std::vector<report::BenchRow> planning(const std::filesystem::path& scenarios, bool quick,
+                                       const Stop& stop) {
+  std::vector<report::BenchRow> rows = clearance_queries(quick);
   for (auto&& more : {map_loading(quick, stop), exact_paths(quick, stop), clutter(quick, stop),
                       tree_growth(quick, stop), s_channel(scenarios, quick, stop),
                       fmt_star(scenarios, quick, stop), replanning(scenarios, quick, stop)})

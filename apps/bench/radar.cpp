@@ -41,7 +41,7 @@ Body obstacle(Vec2 at, bool is_disc, std::uint32_t number, Rng& rng) {
 std::vector<Place> places(int obstacles, bool discs, int count, Rng& rng) {
   const double side = room_an_obstacle * std::sqrt(obstacles);
   const auto map = std::make_shared<const Map>(Box{{0, 0}, {side, side}}, std::vector<Polygon>{});
-  const RadarCircles circles = make_circles({}, swarm_radius);
+  const RadarCircles circles = navigation::make_circles({}, swarm_radius);
   std::vector<Place> all;
   for (int draw = 0; draw < 1000 * count && std::ssize(all) < count; ++draw) {
     std::vector<Body> bodies;
@@ -95,7 +95,7 @@ World moving_world(int obstacles, bool discs, Rng& rng) {
   return world;
 }
 
-Task task(Vec2 goal) {
+navigation::Task task(Vec2 goal) {
   return {.swarm = {.radius = swarm_radius,
                     .max_speed = 85.8,
                     .max_turn_rate = std::numeric_limits<double>::infinity()},
@@ -111,8 +111,9 @@ Observation observed(const Snapshot& world, Vec2 swarm, double now) {
           .world = borrowed(world)};
 }
 
-std::vector<BenchRow> bench_rows(const std::string& name, const DecisionTimes& times, Aims aims) {
-  std::vector<BenchRow> rows;
+std::vector<report::BenchRow> bench_rows(const std::string& name, const DecisionTimes& times,
+                                         Aims aims) {
+  std::vector<report::BenchRow> rows;
   for (const double q : {0.5, 0.99})
     rows.push_back({.name = name,
                     .quantity = q < 0.6 ? "time of a decision, p50" : "time of a decision, p99",
@@ -125,13 +126,13 @@ std::vector<BenchRow> bench_rows(const std::string& name, const DecisionTimes& t
 }
 
 /// Rows of a radar decision, as published or with the safety filter.
-void add_rows(std::vector<BenchRow>& rows, const std::string& name, int obstacles, bool discs,
-              bool guarded, Aims aims, bool quick, const Stop& stop) {
+void add_rows(std::vector<report::BenchRow>& rows, const std::string& name, int obstacles,
+              bool discs, bool guarded, Aims aims, bool quick, const Stop& stop) {
   Rng rng(1, Purpose::scene);
   const std::vector<Place> all = places(obstacles, discs, quick ? 100 : 400, rng);
-  RadarParams params;
+  navigation::RadarParams params;
   params.safety_filter.active = guarded;
-  RadarNavigator navigator(params, task({0, 0}), Rng(1, Purpose::planner));
+  navigation::RadarNavigator navigator(params, task({0, 0}), Rng(1, Purpose::planner));
   double now = 0;
   double sum = 0;  // prevents the results from being optimised away
   DecisionTimes measured;
@@ -142,7 +143,7 @@ void add_rows(std::vector<BenchRow>& rows, const std::string& name, int obstacle
   measured.naive = times(all, quick ? 1 : 3, stop, [&](const Place& position) {
     navigator.step(observed(*position.world, position.swarm, now), {});
     if (navigator.last_look())
-      sum += scan(*navigator.last_look(), *position.world, 360).weights.target;
+      sum += navigation::scan(*navigator.last_look(), *position.world, 360).weights.target;
   });
   std::ranges::move(bench_rows(name, measured, aims), std::back_inserter(rows));
   rows.back().ours += 0 * sum;
@@ -163,14 +164,16 @@ DecisionTimes drive(int obstacles, bool discs, int drives, const Stop& stop) {
   for (int k = 0; k < drives && !stop(); ++k) {
     const World world = moving_world(obstacles, discs, rng);
     const double side = world.map->bounds().width();
-    RadarNavigator navigator({}, task({0.9 * side, 0.9 * side}), Rng(1, Purpose::planner));
+    navigation::RadarNavigator navigator({}, task({0.9 * side, 0.9 * side}),
+                                         Rng(1, Purpose::planner));
     Vec2 swarm{0.1 * side, 0.1 * side};
     for (int i = 0; i < ticks; ++i) {
       const Snapshot seen = world.at(i * tick);
       const auto began = Clock::now();
       const Command command = navigator.step(observed(seen, swarm, i * tick), {});
       const auto decided = Clock::now();
-      if (navigator.last_look()) sum += scan(*navigator.last_look(), seen, 360).weights.target;
+      if (navigator.last_look())
+        sum += navigation::scan(*navigator.last_look(), seen, 360).weights.target;
       const auto scanned = Clock::now();
       swarm += tick * command.speed * unit_vector(command.heading);
       if (i < warm_up) continue;
@@ -181,8 +184,8 @@ DecisionTimes drive(int obstacles, bool discs, int drives, const Stop& stop) {
   return times;
 }
 
-std::vector<BenchRow> radar(bool quick, const Stop& stop) {
-  std::vector<BenchRow> rows;
+std::vector<report::BenchRow> radar(bool quick, const Stop& stop) {
+  std::vector<report::BenchRow> rows;
   add_rows(rows, "360 directions, 12 discs", 12, true, false, {5, 5}, quick, stop);
   add_rows(rows, "360 directions, 1000 discs", 1000, true, false, {100, 100}, quick, stop);
   add_rows(rows, "360 directions, 12 boxes", 12, false, false, {}, quick, stop);

@@ -19,6 +19,6 @@ DecisionTimes drive(int obstacles, bool discs, int drives, const Stop& stop);
 
 /// Benchmarks decisions of the radar among few and many obstacles, at random places and on drives,
 /// against a naive implementation at the same places; `quick` makes fewer.
-std::vector<BenchRow> radar(bool quick, const Stop& stop);
+std::vector<report::BenchRow> radar(bool quick, const Stop& stop);
 
 }  // namespace microswarm::bench

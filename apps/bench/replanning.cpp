@@ -11,11 +11,11 @@ namespace {
 
 /// Queries the peer for a path to the goal at every position and time at which our navigator
 /// planned.
-class PeerListener : public RunListener {
+class PeerListener : public experiment::RunListener {
  public:
   PeerListener(Vec2 goal, double clearance) : goal_(goal), clearance_(clearance) {}
-  void on_tick(const Tick& tick) override {
-    const Frame& frame = tick.frame;
+  void on_tick(const experiment::Tick& tick) override {
+    const experiment::Frame& frame = tick.frame;
     const Snapshot& world = *tick.world;
     if (!frame.planned || !world.is_free(frame.pose.position, clearance_)) return;
     const OmplResult r = run_ompl(OmplPlanner::rrt_connect, {.world = world,
@@ -34,22 +34,24 @@ class PeerListener : public RunListener {
   std::vector<double> times_;
 };
 
-std::vector<BenchRow> one_world(const char* name, const std::filesystem::path& file, int trials,
-                                const Stop& stop) {
-  const Scene scene = load_scene(read_scenario(file), file.parent_path());
-  const World world = build_world(scene);
+std::vector<report::BenchRow> one_world(const char* name, const std::filesystem::path& file,
+                                        int trials, const Stop& stop) {
+  const experiment::Scene scene =
+      experiment::load_scene(experiment::read_scenario(file), file.parent_path());
+  const World world = experiment::build_world(scene);
   std::vector<double> ours;
   PeerListener peer(*scene.scenario.goal, 90);
   for (int trial = 0; trial < trials && !stop(); ++trial) {
     const auto number = static_cast<std::uint32_t>(trial);
-    const RunResult r = simulate(scene.scenario, world, {.trial = number}, {}, stop);
+    const experiment::RunResult r =
+        experiment::simulate(scene.scenario, world, {.trial = number}, {}, stop);
     ours.insert(ours.end(), r.timing.planning.begin(), r.timing.planning.end());
     if (trial >= 5) continue;
-    RunListener* const listeners[] = {&peer};
-    simulate(scene.scenario, world, {.trial = number}, listeners, stop);
+    experiment::RunListener* const listeners[] = {&peer};
+    experiment::simulate(scene.scenario, world, {.trial = number}, listeners, stop);
   }
-  const TimeSummary mine = summarise(ours);
-  const TimeSummary theirs = summarise(peer.times());
+  const experiment::TimeSummary mine = experiment::summarise(ours);
+  const experiment::TimeSummary theirs = experiment::summarise(peer.times());
   const std::string title = std::string("replanning, ") + name;
   const std::string whom = "OMPL RRTConnect, same places, to the goal";
   return {{.name = title,
@@ -76,13 +78,13 @@ std::vector<BenchRow> one_world(const char* name, const std::filesystem::path& f
 
 }  // namespace
 
-std::vector<BenchRow> replanning(const std::filesystem::path& scenarios, bool quick,
-                                 const Stop& stop) {
+std::vector<report::BenchRow> replanning(const std::filesystem::path& scenarios, bool quick,
+                                         const Stop& stop) {
   const auto folder = scenarios / "papers" / "drrt";
   const int trials = quick ? 10 : 100;
-  std::vector<BenchRow> rows =
+  std::vector<report::BenchRow> rows =
       one_world("deforming channel", folder / "deforming_channel.yaml", trials, stop);
-  for (BenchRow& row :
+  for (report::BenchRow& row :
        one_world("moving obstacles", folder / "moving_obstacles.yaml", trials, stop))
     rows.push_back(std::move(row));
   return rows;

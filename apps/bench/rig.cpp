@@ -15,7 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Latency of a run of `seconds`, from its record.
-RigLatency latency_of_run(const fs::path& scenarios, const fs::path& program, int seconds) {
+experiment::RigLatency latency_of_run(const fs::path& scenarios, const fs::path& program,
+                                      int seconds) {
   const TemporaryFolder folder;
   const std::string command = fmt::format(
       "'{}' rig run '{}' --rig '{}' --set tick_s=0.01 --set 'map.hi_um=[2432, 1792]' --set-rig "
@@ -26,15 +27,15 @@ RigLatency latency_of_run(const fs::path& scenarios, const fs::path& program, in
   const int status = std::system(command.c_str());  // NOLINT(concurrency-mt-unsafe): one thread
   const fs::path record = folder.path() / "run.h5";
   if (status >= 0 && fs::exists(record))
-    if (const auto latency = read_record(record).rig_log.latency) return *latency;
+    if (const auto latency = experiment::read_record(record).rig_log.latency) return *latency;
   throw std::runtime_error(fmt::format("bench: this command drove nothing: {}", command));
 }
 
 }  // namespace
 
-std::vector<BenchRow> rig(const fs::path& scenarios, const fs::path& program, bool quick,
-                          const Stop& stop) {
-  const RigLatency latency = latency_of_run(scenarios, program, quick ? 10 : 30);
+std::vector<report::BenchRow> rig(const fs::path& scenarios, const fs::path& program, bool quick,
+                                  const Stop& stop) {
+  const experiment::RigLatency latency = latency_of_run(scenarios, program, quick ? 10 : 30);
   if (stop()) return {};
   const std::string name = "camera to current, 640 × 480 at 100 Hz";
   return {{.name = name,

@@ -13,7 +13,8 @@ namespace microswarm::bench {
 /// of 640 × 480 pixels and simulated coils, which take their share of the same cores: times from a
 /// picture to the currents that answer it, and missed deadlines. `quick` runs for a shorter time.
 /// Throws if the program cannot drive.
-std::vector<BenchRow> rig(const std::filesystem::path& scenarios,
-                          const std::filesystem::path& program, bool quick, const Stop& stop);
+std::vector<report::BenchRow> rig(const std::filesystem::path& scenarios,
+                                  const std::filesystem::path& program, bool quick,
+                                  const Stop& stop);
 
 }  // namespace microswarm::bench

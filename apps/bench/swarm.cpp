@@ -62,8 +62,8 @@ double rate(const std::vector<Vec2>& all, int repeats, const Stop& stop, Start&&
   return rates.empty() ? 0 : quantile(rates, 0.5);
 }
 
-void add_rows(std::vector<BenchRow>& rows, const std::string& name, const Map& map, double step,
-              double aim, bool quick, const Stop& stop) {
+void add_rows(std::vector<report::BenchRow>& rows, const std::string& name, const Map& map,
+              double step, double aim, bool quick, const Stop& stop) {
   const RobotStepper stepper(map, step);
   Rng rng(1, Purpose::scene);
   const std::vector<Vec2> positions = free_places(map, 4 * stepper.guard(), rng);
@@ -95,12 +95,13 @@ void add_rows(std::vector<BenchRow>& rows, const std::string& name, const Map& m
 
 /// A map as given by a camera: square pixels, with steps along slanted walls.
 Map of_pixels(const Map& map, double pixel) {
-  return {map.bounds(), mask_walls(rasterise(map, pixel), pixel, map.bounds().lo)};
+  return {map.bounds(),
+          formats::mask_walls(formats::rasterise(map, pixel), pixel, map.bounds().lo)};
 }
 
 /// Vessel masks of retinas, with steps of a tenth of their widest channel, if MICROSWARM_DATA names
 /// the folder of real input.
-void add_retinas(std::vector<BenchRow>& rows, bool quick, const Stop& stop) {
+void add_retinas(std::vector<report::BenchRow>& rows, bool quick, const Stop& stop) {
   constexpr double um_per_px = 6;
   const char* data = std::getenv("MICROSWARM_DATA");
   if (!data) return;
@@ -108,7 +109,7 @@ void add_retinas(std::vector<BenchRow>& rows, bool quick, const Stop& stop) {
     const auto file =
         std::filesystem::path(data) / "vessels" / (std::string(name) + "_mask_obs1.png");
     if (!std::filesystem::exists(file) || stop()) continue;
-    const LoadedMap map = load_map(guess_map_spec(file, um_per_px));
+    const formats::LoadedMap map = formats::load_map(formats::guess_map_spec(file, um_per_px));
     add_rows(rows, std::string("retina ") + name, *map.map, check_map(*map.map).widest / 10, 65e6,
              quick, stop);
   }
@@ -116,8 +117,8 @@ void add_retinas(std::vector<BenchRow>& rows, bool quick, const Stop& stop) {
 
 }  // namespace
 
-std::vector<BenchRow> swarm(bool quick, const Stop& stop) {
-  std::vector<BenchRow> rows;
+std::vector<report::BenchRow> swarm(bool quick, const Stop& stop) {
+  std::vector<report::BenchRow> rows;
   add_rows(rows, "T-junction", scenes::t_junction().map(), 1, 200e6, quick, stop);
   add_rows(rows, "vascular map, 100 × 100", scenes::vascular_network().map(), 1, 65e6, quick, stop);
   add_rows(rows, "vascular map, 400 × 314", scenes::larger_vascular_network().map(), 1, 65e6, quick,

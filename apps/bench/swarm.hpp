@@ -10,6 +10,6 @@ namespace microswarm::bench {
 
 /// Benchmarks stepping of robots under one input against a naive implementation, with the same maps
 /// and moves; `quick` makes fewer.
-std::vector<BenchRow> swarm(bool quick, const Stop& stop);
+std::vector<report::BenchRow> swarm(bool quick, const Stop& stop);
 
 }  // namespace microswarm::bench

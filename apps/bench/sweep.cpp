@@ -37,14 +37,15 @@ fs::path write_sweep(const fs::path& folder, const fs::path& scenarios, int tria
 }
 
 /// Seconds of a sweep of `trials` trials a cell, in this process.
-double run_seconds(const fs::path& folder, const SweepPlan& plan, int jobs, const Stop& stop) {
+double run_seconds(const fs::path& folder, const sweep::SweepPlan& plan, int jobs,
+                   const Stop& stop) {
   const fs::path file = folder / fmt::format("run{}.db", jobs);
   fs::remove(file);
-  SweepDatabase database(file, plan, {"here", "now"});
-  const Ranks alone;
-  RemoteWorkers workers(alone);
+  sweep::SweepDatabase database(file, plan, {"here", "now"});
+  const sweep::Ranks alone;
+  sweep::RemoteWorkers workers(alone);
   const auto began = Clock::now();
-  run_sweep(plan, database, workers, {.jobs = jobs, .progress = {}}, stop);
+  sweep::run_sweep(plan, database, workers, {.jobs = jobs, .progress = {}}, stop);
   return seconds_since(began);
 }
 
@@ -78,10 +79,10 @@ double mpirun_seconds(const fs::path& folder, const fs::path& sweep, const fs::p
   return status == 0 ? seconds_since(began) : 0;
 }
 
-std::vector<BenchRow> efficiency(const fs::path& folder, const fs::path& scenarios,
-                                 const fs::path& program, bool quick, const Stop& stop) {
+std::vector<report::BenchRow> efficiency(const fs::path& folder, const fs::path& scenarios,
+                                         const fs::path& program, bool quick, const Stop& stop) {
   const fs::path file = write_sweep(folder, scenarios, quick ? 1 : 10);
-  const SweepPlan plan = load_sweep(file);
+  const sweep::SweepPlan plan = sweep::load_sweep(file);
   std::vector<double> threads, ranks, apart;
   for (int k = 0; k < (quick ? 3 : 5) && !stop(); ++k) {
     threads.push_back(run_seconds(folder, plan, 1, stop) /
@@ -93,7 +94,7 @@ std::vector<BenchRow> efficiency(const fs::path& folder, const fs::path& scenari
     if (one > 0 && two > 0) ranks.push_back(one / (2 * two));
   }
   const std::string name = fmt::format("sweep of {} trials", 100 * plan.sweep.trials);
-  std::vector<BenchRow> rows;
+  std::vector<report::BenchRow> rows;
   const auto add = [&](const char* of, const std::vector<double>& ours) {
     rows.push_back({.name = name,
                     .quantity = fmt::format("efficiency of {}, median", of),
@@ -110,8 +111,9 @@ std::vector<BenchRow> efficiency(const fs::path& folder, const fs::path& scenari
 }
 
 /// Rows of all trials of a cell but the last one, as a trial gave them.
-std::vector<SweepRow> sweep_rows(const SweepPlan& plan, std::uint32_t cell, const SweepRow& like) {
-  std::vector<SweepRow> rows(static_cast<std::size_t>(plan.sweep.trials), like);
+std::vector<sweep::SweepRow> sweep_rows(const sweep::SweepPlan& plan, std::uint32_t cell,
+                                        const sweep::SweepRow& like) {
+  std::vector<sweep::SweepRow> rows(static_cast<std::size_t>(plan.sweep.trials), like);
   for (std::size_t i = 0; i < rows.size(); ++i)
     rows[i].task = {cell, static_cast<std::uint32_t>(i)};
   rows.pop_back();
@@ -119,12 +121,12 @@ std::vector<SweepRow> sweep_rows(const SweepPlan& plan, std::uint32_t cell, cons
 }
 
 /// Rows a second of SQLite alone: the same values by one prepared statement, as many a transaction.
-double plain_rate(const fs::path& file, const SweepPlan& plan, const SweepRow& like) {
-  const std::vector<SweepColumn> columns = sweep_columns(plan);
+double plain_rate(const fs::path& file, const sweep::SweepPlan& plan, const sweep::SweepRow& like) {
+  const std::vector<sweep::SweepColumn> columns = sweep::sweep_columns(plan);
   SQLite::Database database(file.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
   std::string names, places;
-  for (const SweepColumn& column : columns) {
-    names += fmt::format("{} {}, ", sql_name(column.name), enum_name(column.kind));
+  for (const sweep::SweepColumn& column : columns) {
+    names += fmt::format("{} {}, ", sweep::sql_name(column.name), enum_name(column.kind));
     places += places.empty() ? "?" : ", ?";
   }
   database.exec("CREATE TABLE trials(" + names + "PRIMARY KEY(cell, trial)) WITHOUT ROWID");
@@ -133,8 +135,8 @@ double plain_rate(const fs::path& file, const SweepPlan& plan, const SweepRow& l
   for (std::uint32_t cell = 0; cell < plan.cells.size(); ++cell) {
     SQLite::Transaction whole(database);
     SQLite::Statement insert(database, "INSERT INTO trials VALUES(" + places + ")");
-    for (const SweepRow& row : sweep_rows(plan, cell, like)) {
-      std::vector<SqlValue> values = task_values(plan, columns, row.task);
+    for (const sweep::SweepRow& row : sweep_rows(plan, cell, like)) {
+      std::vector<sweep::SqlValue> values = sweep::task_values(plan, columns, row.task);
       values.insert(values.end(), row.values.begin(), row.values.end());
       for (std::size_t i = 0; i < values.size(); ++i)
         std::visit(Overloaded{[&](std::monostate) { insert.bind(static_cast<int>(i + 1)); },
@@ -152,34 +154,38 @@ double plain_rate(const fs::path& file, const SweepPlan& plan, const SweepRow& l
 }
 
 /// Seconds to decode a message of one row.
-double seconds_one_by_one(const SweepRow& row) {
+double seconds_one_by_one(const sweep::SweepRow& row) {
   constexpr int messages = 10'000;
-  const std::string bytes = to_bytes(
-      {.kind = SweepMessage::Kind::rows, .text = {}, .want = 1, .tasks = {}, .rows = {row}});
+  const std::string bytes = sweep::to_bytes(
+      {.kind = sweep::SweepMessage::Kind::rows, .text = {}, .want = 1, .tasks = {}, .rows = {row}});
   std::size_t rows = 0;
   const auto began = Clock::now();
-  for (int i = 0; i < messages; ++i) rows += parse_message(bytes).rows.size();
+  for (int i = 0; i < messages; ++i) rows += sweep::parse_message(bytes).rows.size();
   if (rows != messages) throw std::runtime_error("bench: a message lost its row");
   return seconds_since(began) / messages;
 }
 
-std::vector<BenchRow> many_rows(const fs::path& folder, const fs::path& scenarios, bool quick,
-                                const Stop& stop) {
-  const SweepPlan plan = load_sweep(write_sweep(folder, scenarios, quick ? 1000 : 10'000));
-  const SweepRow like{{0, 0}, result_values(run_task(plan, {0, 0}, stop))};
+std::vector<report::BenchRow> many_rows(const fs::path& folder, const fs::path& scenarios,
+                                        bool quick, const Stop& stop) {
+  const sweep::SweepPlan plan =
+      sweep::load_sweep(write_sweep(folder, scenarios, quick ? 1000 : 10'000));
+  const sweep::SweepRow like{{0, 0}, sweep::result_values(sweep::run_task(plan, {0, 0}, stop))};
   const fs::path file = folder / "many.db";
-  SweepDatabase database(file, plan, {"here", "now"});
+  sweep::SweepDatabase database(file, plan, {"here", "now"});
   double adding = 0, coding = 0;
   std::size_t count = 0;
   for (std::uint32_t cell = 0; cell < plan.cells.size() && !stop(); ++cell) {
-    const std::vector<SweepRow> rows = sweep_rows(plan, cell, like);
+    const std::vector<sweep::SweepRow> rows = sweep_rows(plan, cell, like);
     auto began = Clock::now();
     database.add(rows);
     adding += seconds_since(began);
-    const std::string bytes = to_bytes(
-        {.kind = SweepMessage::Kind::rows, .text = {}, .want = 1, .tasks = {}, .rows = rows});
+    const std::string bytes = sweep::to_bytes({.kind = sweep::SweepMessage::Kind::rows,
+                                               .text = {},
+                                               .want = 1,
+                                               .tasks = {},
+                                               .rows = rows});
     began = Clock::now();
-    if (parse_message(bytes).rows.size() != rows.size())
+    if (sweep::parse_message(bytes).rows.size() != rows.size())
       throw std::runtime_error("bench: a message lost rows");
     coding += seconds_since(began);
     count += rows.size();
@@ -190,12 +196,12 @@ std::vector<BenchRow> many_rows(const fs::path& folder, const fs::path& scenario
   const double resuming = seconds_since(began);
   if (!stop() && missing != plan.cells.size())
     throw std::runtime_error("bench: rows are missing that were added");
-  const SweepReader reader(file);
+  const sweep::SweepReader reader(file);
   began = Clock::now();
-  const std::size_t csv = sweep_csv(reader).size();
+  const std::size_t csv = sweep::sweep_csv(reader).size();
   const double to_csv = seconds_since(began);
   began = Clock::now();
-  const std::size_t hdf5 = sweep_hdf5(reader).size();
+  const std::size_t hdf5 = sweep::sweep_hdf5(reader).size();
   const double to_hdf5 = seconds_since(began);
   if (csv == 0 || hdf5 == 0) throw std::runtime_error("bench: nothing was exported");
 
@@ -230,11 +236,11 @@ std::vector<BenchRow> many_rows(const fs::path& folder, const fs::path& scenario
 
 }  // namespace
 
-std::vector<BenchRow> sweep(const fs::path& scenarios, const fs::path& program, bool quick,
-                            const Stop& stop) {
+std::vector<report::BenchRow> sweep(const fs::path& scenarios, const fs::path& program, bool quick,
+                                    const Stop& stop) {
   const TemporaryFolder folder;
-  std::vector<BenchRow> rows = many_rows(folder.path(), scenarios, quick, stop);
-  for (BenchRow& row : efficiency(folder.path(), scenarios, program, quick, stop))
+  std::vector<report::BenchRow> rows = many_rows(folder.path(), scenarios, quick, stop);
+  for (report::BenchRow& row : efficiency(folder.path(), scenarios, program, quick, stop))
     rows.push_back(std::move(row));
   return rows;
 }

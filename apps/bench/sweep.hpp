@@ -11,7 +11,8 @@ namespace microswarm::bench {
 
 /// Sweeps: efficiency with two threads and two processes, the database of many rows. `scenarios` is
 /// the folder of the shipped scenarios, `program` is microswarm.
-std::vector<BenchRow> sweep(const std::filesystem::path& scenarios,
-                            const std::filesystem::path& program, bool quick, const Stop& stop);
+std::vector<report::BenchRow> sweep(const std::filesystem::path& scenarios,
+                                    const std::filesystem::path& program, bool quick,
+                                    const Stop& stop);
 
 }  // namespace microswarm::bench

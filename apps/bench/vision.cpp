@@ -47,7 +47,7 @@ std::vector<Vec2> first_places(Rng& rng) {
   return positions;
 }
 
-Image draw(const std::vector<Vec2>& at_px, Rng& rng) {
+formats::Image draw(const std::vector<Vec2>& at_px, Rng& rng) {
   std::vector<double> grey(static_cast<std::size_t>(width) * height);
   for (double& g : grey) g = 130 + grain * rng.normal();
   for (const Vec2 p : at_px)
@@ -57,17 +57,17 @@ Image draw(const std::vector<Vec2>& at_px, Rng& rng) {
            x < std::min(width, static_cast<int>(p.x) + 10); ++x)
         grey[static_cast<std::size_t>(y) * width + x] -=
             depth * maths::exp(-0.5 * squared_norm(Vec2{1.0 * x, 1.0 * y} - p) / (spread * spread));
-  Image image{width, height, 1, {}};
+  formats::Image image{width, height, 1, {}};
   for (const double g : grey)
     image.pixels.push_back(static_cast<std::uint8_t>(std::clamp(std::lround(g), 0L, 255L)));
   return image;
 }
 
 /// Synthetic video of robots on random walks with a common drift.
-std::vector<VideoFrame> video(int frames) {
+std::vector<vision::VideoFrame> video(int frames) {
   Rng rng(1, Purpose::scene);
   std::vector<Vec2> at = first_places(rng);
-  std::vector<VideoFrame> all;
+  std::vector<vision::VideoFrame> all;
   for (int k = 0; k < frames; ++k) {
     all.push_back({k, k / 24.0, draw(at, rng)});
     for (Vec2& p : at) {
@@ -81,15 +81,15 @@ std::vector<VideoFrame> video(int frames) {
 
 /// Plain OpenCV detection: smooth, subtract the background, threshold, centroids of connected
 /// components.
-std::size_t find_with_opencv(const Image& image) {
+std::size_t find_with_opencv(const formats::Image& image) {
   cv::Mat smooth;
   cv::Mat ground;
   cv::Mat rise;
   cv::Mat labels;
   cv::Mat stats;
   cv::Mat centres;
-  cv::GaussianBlur(as_mat(image), smooth, {9, 9}, 1);
-  cv::blur(as_mat(image), ground, {diameter, diameter});
+  cv::GaussianBlur(vision::as_mat(image), smooth, {9, 9}, 1);
+  cv::blur(vision::as_mat(image), ground, {diameter, diameter});
   cv::subtract(ground, smooth, rise);
   cv::threshold(rise, rise, 6, 255, cv::THRESH_BINARY);
   return static_cast<std::size_t>(cv::connectedComponentsWithStats(rise, labels, stats, centres)) -
@@ -102,12 +102,13 @@ struct Times {
   std::vector<double> opencv;  ///< [ms]
 };
 
-Times measure(const std::vector<VideoFrame>& frames, const Stop& stop) {
-  const TrackSettings settings{.um_per_px = 0.35, .find = {.diameter = diameter, .min_mass = 100}};
-  ParticleFinder finder(settings.find);
-  VideoTracker tracker(settings, 1 / 24.0);
+Times measure(const std::vector<vision::VideoFrame>& frames, const Stop& stop) {
+  const vision::TrackSettings settings{.um_per_px = 0.35,
+                                       .find = {.diameter = diameter, .min_mass = 100}};
+  vision::ParticleFinder finder(settings.find);
+  vision::VideoTracker tracker(settings, 1 / 24.0);
   Times times;
-  for (const VideoFrame& frame : frames) {
+  for (const vision::VideoFrame& frame : frames) {
     if (stop()) break;
     auto began = Clock::now();
     finder.find(frame.picture);
@@ -123,12 +124,12 @@ Times measure(const std::vector<VideoFrame>& frames, const Stop& stop) {
 }
 
 /// Synthetic pictures of a moving swarm of clumps under uneven light with noise.
-std::vector<Image> swarm_pictures(int frames) {
+std::vector<formats::Image> swarm_pictures(int frames) {
   constexpr int clumps = 600;
   constexpr double radius = 50;  // [px]
   constexpr double noise = 5;    // [grey]
   Rng rng(2, Purpose::scene);
-  std::vector<Image> all;
+  std::vector<formats::Image> all;
   all.reserve(static_cast<std::size_t>(frames));
   for (int k = 0; k < frames; ++k) {
     std::vector<double> light(static_cast<std::size_t>(swarm_width) * swarm_height);
@@ -144,7 +145,7 @@ std::vector<Image> swarm_pictures(int frames) {
           if (distance({1.0 * x, 1.0 * y}, p) < 2.5)
             light[static_cast<std::size_t>(y) * swarm_width + x] *= 0.5;
     }
-    Image image{swarm_width, swarm_height, 1, {}};
+    formats::Image image{swarm_width, swarm_height, 1, {}};
     image.pixels.reserve(light.size());
     for (const double g : light)
       image.pixels.push_back(
@@ -156,10 +157,10 @@ std::vector<Image> swarm_pictures(int frames) {
 
 /// Plain OpenCV detection of one swarm: smooth, adaptive threshold, closing, moments of the largest
 /// contour.
-double swarm_with_opencv(const Image& image) {
+double swarm_with_opencv(const formats::Image& image) {
   cv::Mat smooth;
   cv::Mat set;
-  cv::GaussianBlur(as_mat(image), smooth, {13, 13}, 3);
+  cv::GaussianBlur(vision::as_mat(image), smooth, {13, 13}, 3);
   cv::adaptiveThreshold(smooth, set, 255, cv::ADAPTIVE_THRESH_MEAN_C, cv::THRESH_BINARY_INV, 201,
                         15);
   cv::morphologyEx(set, set, cv::MORPH_CLOSE, cv::Mat::ones(7, 7, CV_8U));
@@ -171,22 +172,22 @@ double swarm_with_opencv(const Image& image) {
 }
 
 /// Rows for one swarm in pictures of 640 × 480 pixels.
-void add_swarm(std::vector<BenchRow>& rows, bool quick, const Stop& stop) {
+void add_swarm(std::vector<report::BenchRow>& rows, bool quick, const Stop& stop) {
   std::vector<double> ours;
   std::vector<double> peer;
   std::vector<double> scene;
   std::vector<double> quick_scene;
-  SceneWindows windows{Mask{}};
-  for (const Image& picture : swarm_pictures(quick ? 100 : 500)) {
+  vision::SceneWindows windows{formats::Mask{}};
+  for (const formats::Image& picture : swarm_pictures(quick ? 100 : 500)) {
     if (stop()) break;
     auto began = Clock::now();
-    find_swarm(picture);
+    vision::find_swarm(picture);
     ours.push_back(ms_since(began));
     began = Clock::now();
     swarm_with_opencv(picture);
     peer.push_back(ms_since(began));
     began = Clock::now();
-    find_scene(picture);
+    vision::find_scene(picture);
     scene.push_back(ms_since(began));
     began = Clock::now();
     windows.find(picture, {}, {}, {});
@@ -217,11 +218,11 @@ void add_swarm(std::vector<BenchRow>& rows, bool quick, const Stop& stop) {
 
 }  // namespace
 
-std::vector<BenchRow> vision(bool quick, const Stop& stop) {
+std::vector<report::BenchRow> vision(bool quick, const Stop& stop) {
   const int threads = cv::getNumThreads();
   cv::setNumThreads(1);
   const Times times = measure(video(quick ? 100 : 500), stop);
-  std::vector<BenchRow> rows;
+  std::vector<report::BenchRow> rows;
   const auto add = [&](const char* name, const std::vector<double>& ours, double q,
                        std::optional<double> aim) {
     rows.push_back({.name = name,

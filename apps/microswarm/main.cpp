@@ -16,7 +16,7 @@ constexpr const char* footer =
 
 int main(int argc, char** argv) {
   using namespace microswarm;
-  silence_picture_messages();
+  vision::silence_picture_messages();
   cli::CommandLine line("microswarm", "Plan, steer, gather and measure magnetic microrobot swarms.",
                         std::string(version), footer);
   const cli::Command app = line.root();

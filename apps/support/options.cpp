@@ -13,7 +13,7 @@
 namespace microswarm::cli {
 
 void add_map_file(Command command, std::string& file) {
-  command.add_option("map", file, fmt::format("Map: {}", map_formats()).c_str())
+  command.add_option("map", file, fmt::format("Map: {}", formats::map_formats()).c_str())
       .required()
       .type_name("FILE");
 }
@@ -57,11 +57,11 @@ void add_photo(Command command, PhotoOptions& options) {
   command.option("--um-per-px").needs("--photo");
 }
 
-ReportOptions report_options(const PhotoOptions& options) {
+report::ReportOptions report_options(const PhotoOptions& options) {
   if (options.file.empty()) return {};
   if (!options.um_per_px)
     throw InputError(options.file + ": µm per px is missing: give --um-per-px");
-  return {read_photograph(options.file), *options.um_per_px};
+  return {formats::read_photograph(options.file), *options.um_per_px};
 }
 
 std::vector<double> numbers(std::string_view text) {

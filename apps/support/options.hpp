@@ -31,7 +31,7 @@ struct PhotoOptions {
 };
 void add_photo(Command command, PhotoOptions& options);
 /// Reads the photograph if one is given. Throws InputError.
-ReportOptions report_options(const PhotoOptions& options);
+report::ReportOptions report_options(const PhotoOptions& options);
 
 /// Summary of reproduction or benchmark rows: "11 of 14 aims are met, 3 have no verdict".
 template <class Row>

@@ -12,14 +12,14 @@ namespace {
 
 /// The columns of a frame, and the same for C.
 struct FrameColumns {
-  std::vector<Column> columns = to_columns<Frame>();
+  std::vector<io::Column> columns = io::to_columns<experiment::Frame>();
   std::vector<std::vector<const char*>> words{};
   std::vector<ms_column> shown{};
 
   FrameColumns() {
     words.reserve(columns.size());
-    for (const Column& column : columns) {
-      const bool is_word = column.kind == ColumnKind::word;
+    for (const io::Column& column : columns) {
+      const bool is_word = column.kind == io::ColumnKind::word;
       std::vector<const char*>& list = words.emplace_back();
       if (is_word)
         for (const std::string_view word : column.type().words) list.push_back(word.data());
@@ -29,10 +29,10 @@ struct FrameColumns {
                        .meaning = column.doc.c_str(),
                        .words = list.empty() ? nullptr : list.data(),
                        .word_count = list.size(),
-                       .kind = is_word                              ? MS_WORD
-                               : is_boolean                         ? MS_BOOLEAN
-                               : column.kind == ColumnKind::integer ? MS_INTEGER
-                                                                    : MS_REAL,
+                       .kind = is_word                                  ? MS_WORD
+                               : is_boolean                             ? MS_BOOLEAN
+                               : column.kind == io::ColumnKind::integer ? MS_INTEGER
+                                                                        : MS_REAL,
                        .reserved = 0});
     }
   }
@@ -44,9 +44,9 @@ const FrameColumns& frame_columns() {
   return *all;
 }
 
-const Column& column_named(std::string_view name) {
+const io::Column& column_named(std::string_view name) {
   std::vector<std::string_view> names;
-  for (const Column& column : frame_columns().columns) {
+  for (const io::Column& column : frame_columns().columns) {
     if (column.key == name) return column;
     names.emplace_back(column.key);
   }
@@ -55,8 +55,8 @@ const Column& column_named(std::string_view name) {
                    (near.empty() ? "" : ", did you mean " + quote(near) + "?"));
 }
 
-double column_value(const Column& column, const Frame& frame) {
-  if (column.kind != ColumnKind::word) return column.number(&frame);
+double column_value(const io::Column& column, const experiment::Frame& frame) {
+  if (column.kind != io::ColumnKind::word) return column.number(&frame);
   const std::vector<std::string_view>& words = column.type().words;
   const auto found = std::ranges::find(words, column.word(&frame));
   return found == words.end() ? c::not_there : static_cast<double>(found - words.begin());
@@ -80,22 +80,22 @@ int32_t ms_frame_columns(const ms_column** columns, size_t* count) {
 }
 
 int32_t ms_session_column(uint64_t handle, const char* name, const double** values, size_t* count) {
-  return c::with_session(handle, [&](Session& session, c::Object& object) -> int32_t {
+  return c::with_session(handle, [&](experiment::Session& session, c::Object& object) -> int32_t {
     c::require(name, "name"), c::require(values, "values"), c::require(count, "count");
-    const Column& column = column_named(name);
+    const io::Column& column = column_named(name);
     object.numbers.clear();
-    for (const Frame& frame : session.record().frames)
+    for (const experiment::Frame& frame : session.record().frames)
       object.numbers.push_back(column_value(column, frame));
     return show_numbers(object, values, count);
   });
 }
 
 int32_t ms_session_values(uint64_t handle, const double** values, size_t* count) {
-  return c::with_session(handle, [&](Session& session, c::Object& object) -> int32_t {
+  return c::with_session(handle, [&](experiment::Session& session, c::Object& object) -> int32_t {
     c::require(values, "values"), c::require(count, "count");
-    const Frame frame = object.frame ? *object.frame : session.view().frame;
+    const experiment::Frame frame = object.frame ? *object.frame : session.view().frame;
     object.numbers.clear();
-    for (const Column& column : frame_columns().columns)
+    for (const io::Column& column : frame_columns().columns)
       object.numbers.push_back(column_value(column, frame));
     return show_numbers(object, values, count);
   });

@@ -27,8 +27,8 @@ struct OpenMap {
 /// Object behind a handle: one of the first three members. It owns the text and numbers that were
 /// returned to the caller until the next call.
 struct Object {
-  std::unique_ptr<Session> session;
-  std::unique_ptr<StandaloneNavigator> navigator;
+  std::unique_ptr<experiment::Session> session;
+  std::unique_ptr<experiment::StandaloneNavigator> navigator;
   std::unique_ptr<OpenMap> map;
 
   std::mutex in_use;
@@ -36,7 +36,7 @@ struct Object {
   std::string text;
   std::vector<double> numbers;
   std::vector<ms_frame> frames;
-  std::optional<Frame> frame;  ///< the session's newest; none before its first tick
+  std::optional<experiment::Frame> frame;  ///< the session's newest; none before its first tick
   std::string why;
 };
 

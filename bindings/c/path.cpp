@@ -20,7 +20,8 @@ int32_t ms_map_open(const char* file, double um_per_px, uint64_t* map) {
   return c::guarded([&]() -> int32_t {
     c::require(file, "file"), c::require(map, "map");
     const auto scale = um_per_px != 0 ? std::optional(um_per_px) : std::nullopt;
-    *map = c::keep(of(load_map(guess_map_spec(file, scale, "um_per_px")).map, file));
+    *map =
+        c::keep(of(formats::load_map(formats::guess_map_spec(file, scale, "um_per_px")).map, file));
     return MS_OK;
   });
 }
@@ -29,7 +30,7 @@ int32_t ms_map_from_pixels(const uint8_t* pixels, size_t width, size_t height, d
                            uint64_t* map) {
   return c::guarded([&]() -> int32_t {
     c::require(pixels, "pixels"), c::require(map, "map");
-    Map made = map_of_pixels({pixels, width * height}, width, height, um_per_px);
+    Map made = formats::map_of_pixels({pixels, width * height}, width, height, um_per_px);
     *map = c::keep(of(std::make_shared<const Map>(std::move(made)), "map"));
     return MS_OK;
   });
@@ -58,13 +59,13 @@ int32_t ms_map_clearance(uint64_t handle, double x_um, double y_um, double* clea
 int32_t ms_plan(uint64_t handle, const ms_query* query, ms_path* path) {
   return c::with_map(handle, [&](c::OpenMap& map, c::Object& object) -> int32_t {
     c::require(query, "query"), c::require(path, "path");
-    const PathAnswer made =
-        answer(map.world,
-               {.start = {{query->start_x_um, query->start_y_um}, query->start_heading_rad},
-                .goal = {query->goal_x_um, query->goal_y_um},
-                .settings = c::to_settings(query->settings, query->setting_count),
-                .seed = query->seed},
-               map.name, Stop(&object.stops));
+    const experiment::PathAnswer made = experiment::answer(
+        map.world,
+        {.start = {{query->start_x_um, query->start_y_um}, query->start_heading_rad},
+         .goal = {query->goal_x_um, query->goal_y_um},
+         .settings = c::to_settings(query->settings, query->setting_count),
+         .seed = query->seed},
+        map.name, Stop(&object.stops));
     object.why = made.why_none();
     *path = {.solved = made.plan.status == Status::solved,
              .length_um = path_length(made.plan),

@@ -11,28 +11,29 @@ using namespace microswarm;
 
 namespace {
 
-std::unique_ptr<c::Object> of(std::unique_ptr<Session> session) {
+std::unique_ptr<c::Object> of(std::unique_ptr<experiment::Session> session) {
   auto object = std::make_unique<c::Object>();
   object->session = std::move(session);
   return object;
 }
 
-std::unique_ptr<c::Object> of(std::unique_ptr<StandaloneNavigator> navigator) {
+std::unique_ptr<c::Object> of(std::unique_ptr<experiment::StandaloneNavigator> navigator) {
   auto object = std::make_unique<c::Object>();
   object->navigator = std::move(navigator);
   return object;
 }
 
-Experiment open_given(const char* text, const char* folder, const char* const* settings,
-                      std::size_t count) {
+experiment::Experiment open_given(const char* text, const char* folder, const char* const* settings,
+                                  std::size_t count) {
   c::require(text, "text");
-  return open_experiment_text(text, "scenario", folder ? folder : "",
-                              c::to_settings(settings, count));
+  return experiment::open_experiment_text(text, "scenario", folder ? folder : "",
+                                          c::to_settings(settings, count));
 }
 
-Experiment open_given(const ms_scenario& given) {
+experiment::Experiment open_given(const ms_scenario& given) {
   if (given.text) return open_given(given.text, given.folder, given.settings, given.setting_count);
-  return open_experiment(given.file, c::to_settings(given.settings, given.setting_count));
+  return experiment::open_experiment(given.file,
+                                     c::to_settings(given.settings, given.setting_count));
 }
 
 void require_one_source(const ms_scenario* given) {
@@ -41,7 +42,7 @@ void require_one_source(const ms_scenario* given) {
     throw c::BadCall{"either file or text of the scenario must be null"};
 }
 
-ms_frame frame_for_c(const Frame& frame) {
+ms_frame frame_for_c(const experiment::Frame& frame) {
   return {.t_s = frame.t,
           .x_um = frame.pose.position.x,
           .y_um = frame.pose.position.y,
@@ -71,8 +72,8 @@ std::vector<Vec2> positions(const double* xy, std::size_t count, const char* nam
   return all;
 }
 
-ExternalObservation to_observation(const ms_observation& seen) {
-  ExternalObservation given{
+experiment::ExternalObservation to_observation(const ms_observation& seen) {
+  experiment::ExternalObservation given{
       .now = seen.now_s, .seen = seen.seen_s, .are_numbered = seen.numbered != 0};
   if (seen.has_swarm) given.swarm = {{{seen.x_um, seen.y_um}, seen.heading_rad}, seen.radius_um};
   if (seen.obstacle_count > 0) c::require(seen.obstacles, "obstacles");
@@ -98,7 +99,7 @@ int32_t ms_session_open(const char* file, const char* const* settings, size_t co
                         uint64_t* session) {
   return c::guarded([&]() -> int32_t {
     c::require(file, "file"), c::require(session, "session");
-    *session = c::keep(of(open_session(file, c::to_settings(settings, count))));
+    *session = c::keep(of(experiment::open_session(file, c::to_settings(settings, count))));
     return MS_OK;
   });
 }
@@ -107,7 +108,8 @@ int32_t ms_session_open_text(const char* text, const char* folder, const char* c
                              size_t count, uint64_t* session) {
   return c::guarded([&]() -> int32_t {
     c::require(session, "session");
-    *session = c::keep(of(std::make_unique<Session>(open_given(text, folder, settings, count))));
+    *session = c::keep(
+        of(std::make_unique<experiment::Session>(open_given(text, folder, settings, count))));
     return MS_OK;
   });
 }
@@ -116,19 +118,19 @@ int32_t ms_session_open_trial(const ms_scenario* scenario, uint64_t* session) {
   return c::guarded([&]() -> int32_t {
     require_one_source(scenario), c::require(session, "session");
     if (scenario->file)
-      *session = c::keep(of(
-          open_session(scenario->file, c::to_settings(scenario->settings, scenario->setting_count),
-                       {.trial = scenario->trial})));
+      *session = c::keep(of(experiment::open_session(
+          scenario->file, c::to_settings(scenario->settings, scenario->setting_count),
+          {.trial = scenario->trial})));
     else
-      *session = c::keep(of(std::make_unique<Session>(open_given(*scenario),
-                                                      SessionParts{.trial = scenario->trial})));
+      *session = c::keep(of(std::make_unique<experiment::Session>(
+          open_given(*scenario), experiment::SessionParts{.trial = scenario->trial})));
     return MS_OK;
   });
 }
 
 int32_t ms_session_step(uint64_t handle, ms_frame* frame) {
-  return c::with_session(handle, [&](Session& session, c::Object& object) -> int32_t {
-    const Tick* tick = session.step(Stop(&object.stops));
+  return c::with_session(handle, [&](experiment::Session& session, c::Object& object) -> int32_t {
+    const experiment::Tick* tick = session.step(Stop(&object.stops));
     if (!tick) return MS_END;
     object.frame = tick->frame;
     if (frame) *frame = frame_for_c(tick->frame);
@@ -137,7 +139,7 @@ int32_t ms_session_step(uint64_t handle, ms_frame* frame) {
 }
 
 int32_t ms_session_finish(uint64_t handle) {
-  return c::with_session(handle, [&](Session& session, c::Object& object) -> int32_t {
+  return c::with_session(handle, [&](experiment::Session& session, c::Object& object) -> int32_t {
     const bool stopped = session.finish(Stop(&object.stops)).status == Status::stopped;
     if (!session.record().frames.empty()) object.frame = session.record().frames.back();
     return stopped ? c::fail(MS_STOPPED, "the run was stopped") : MS_OK;
@@ -145,7 +147,7 @@ int32_t ms_session_finish(uint64_t handle) {
 }
 
 int32_t ms_session_set(uint64_t handle, const char* key, const char* value) {
-  return c::with_session(handle, [&](Session& session, c::Object&) -> int32_t {
+  return c::with_session(handle, [&](experiment::Session& session, c::Object&) -> int32_t {
     c::require(key, "key"), c::require(value, "value");
     const Issues issues = session.set(key, value);
     return issues.empty() ? MS_OK : c::fail(MS_BAD_INPUT, issues);
@@ -153,7 +155,7 @@ int32_t ms_session_set(uint64_t handle, const char* key, const char* value) {
 }
 
 int32_t ms_session_status(uint64_t handle, const char** status) {
-  return c::with_session(handle, [&](Session& session, c::Object&) -> int32_t {
+  return c::with_session(handle, [&](experiment::Session& session, c::Object&) -> int32_t {
     c::require(status, "status");
     *status = to_string(session.result().status).data();
     return MS_OK;
@@ -161,7 +163,7 @@ int32_t ms_session_status(uint64_t handle, const char** status) {
 }
 
 int32_t ms_session_metrics(uint64_t handle, const char** json) {
-  return c::with_session(handle, [&](Session& session, c::Object& object) -> int32_t {
+  return c::with_session(handle, [&](experiment::Session& session, c::Object& object) -> int32_t {
     c::require(json, "json");
     object.text = to_json_text(session.result().metrics);
     *json = object.text.c_str();
@@ -170,7 +172,7 @@ int32_t ms_session_metrics(uint64_t handle, const char** json) {
 }
 
 int32_t ms_session_metric(uint64_t handle, const char* name, double* value) {
-  return c::with_session(handle, [&](Session& session, c::Object&) -> int32_t {
+  return c::with_session(handle, [&](experiment::Session& session, c::Object&) -> int32_t {
     c::require(name, "name"), c::require(value, "value");
     const auto all = nlohmann::json::parse(to_json_text(session.result().metrics));
     const nlohmann::json* here = &all;
@@ -189,19 +191,19 @@ int32_t ms_session_metric(uint64_t handle, const char* name, double* value) {
 }
 
 int32_t ms_session_robots(uint64_t handle, const double** xy_um, size_t* count) {
-  return c::with_session(handle, [&](Session& session, c::Object& object) {
+  return c::with_session(handle, [&](experiment::Session& session, c::Object& object) {
     return c::show(object, session.view().robots, xy_um, count);
   });
 }
 
 int32_t ms_session_path(uint64_t handle, const double** xy_um, size_t* count) {
-  return c::with_session(handle, [&](Session& session, c::Object& object) {
+  return c::with_session(handle, [&](experiment::Session& session, c::Object& object) {
     return c::show(object, session.view().path, xy_um, count);
   });
 }
 
 int32_t ms_session_obstacles(uint64_t handle, const double** xyr_um, size_t* count) {
-  return c::with_session(handle, [&](Session& session, c::Object& object) -> int32_t {
+  return c::with_session(handle, [&](experiment::Session& session, c::Object& object) -> int32_t {
     c::require(xyr_um, "xyr_um"), c::require(count, "count");
     object.numbers.clear();
     for (const Body& body : session.view().bodies) {
@@ -215,9 +217,9 @@ int32_t ms_session_obstacles(uint64_t handle, const double** xyr_um, size_t* cou
 }
 
 int32_t ms_session_frames(uint64_t handle, const ms_frame** frames, size_t* count) {
-  return c::with_session(handle, [&](Session& session, c::Object& object) -> int32_t {
+  return c::with_session(handle, [&](experiment::Session& session, c::Object& object) -> int32_t {
     c::require(frames, "frames"), c::require(count, "count");
-    const std::vector<Frame>& all = session.record().frames;
+    const std::vector<experiment::Frame>& all = session.record().frames;
     object.frames.resize(all.size());
     std::transform(all.begin(), all.end(), object.frames.begin(), frame_for_c);
     *count = object.frames.size();
@@ -227,7 +229,7 @@ int32_t ms_session_frames(uint64_t handle, const ms_frame** frames, size_t* coun
 }
 
 int32_t ms_session_hash(uint64_t handle, const char** hash) {
-  return c::with_session(handle, [&](Session& session, c::Object& object) -> int32_t {
+  return c::with_session(handle, [&](experiment::Session& session, c::Object& object) -> int32_t {
     c::require(hash, "hash");
     object.text = session.record().hash();
     *hash = object.text.c_str();
@@ -236,7 +238,7 @@ int32_t ms_session_hash(uint64_t handle, const char** hash) {
 }
 
 int32_t ms_session_record(uint64_t handle, const char* file) {
-  return c::with_session(handle, [&](Session& session, c::Object&) -> int32_t {
+  return c::with_session(handle, [&](experiment::Session& session, c::Object&) -> int32_t {
     c::require(file, "file");
     session.record_to(file);
     return MS_OK;
@@ -247,8 +249,8 @@ int32_t ms_navigator_open(const char* file, const char* const* settings, size_t 
                           uint64_t* navigator) {
   return c::guarded([&]() -> int32_t {
     c::require(file, "file"), c::require(navigator, "navigator");
-    *navigator = c::keep(of(std::make_unique<StandaloneNavigator>(
-        open_experiment(file, c::to_settings(settings, count)))));
+    *navigator = c::keep(of(std::make_unique<experiment::StandaloneNavigator>(
+        experiment::open_experiment(file, c::to_settings(settings, count)))));
     return MS_OK;
   });
 }
@@ -257,8 +259,8 @@ int32_t ms_navigator_open_text(const char* text, const char* folder, const char*
                                size_t count, uint64_t* navigator) {
   return c::guarded([&]() -> int32_t {
     c::require(navigator, "navigator");
-    *navigator = c::keep(
-        of(std::make_unique<StandaloneNavigator>(open_given(text, folder, settings, count))));
+    *navigator = c::keep(of(std::make_unique<experiment::StandaloneNavigator>(
+        open_given(text, folder, settings, count))));
     return MS_OK;
   });
 }
@@ -266,15 +268,15 @@ int32_t ms_navigator_open_text(const char* text, const char* folder, const char*
 int32_t ms_navigator_open_trial(const ms_scenario* scenario, uint64_t* navigator) {
   return c::guarded([&]() -> int32_t {
     require_one_source(scenario), c::require(navigator, "navigator");
-    *navigator =
-        c::keep(of(std::make_unique<StandaloneNavigator>(open_given(*scenario), scenario->trial)));
+    *navigator = c::keep(of(
+        std::make_unique<experiment::StandaloneNavigator>(open_given(*scenario), scenario->trial)));
     return MS_OK;
   });
 }
 
 int32_t ms_navigator_step(uint64_t handle, const ms_observation* seen, ms_command* command) {
   return c::with_navigator(
-      handle, [&](StandaloneNavigator& navigator, c::Object& object) -> int32_t {
+      handle, [&](experiment::StandaloneNavigator& navigator, c::Object& object) -> int32_t {
         c::require(seen, "seen"), c::require(command, "command");
         const Command made = navigator.step(to_observation(*seen), Stop(&object.stops));
         const NavigatorView view = navigator.view();
@@ -290,7 +292,8 @@ int32_t ms_navigator_step(uint64_t handle, const ms_observation* seen, ms_comman
 }
 
 int32_t ms_navigator_path(uint64_t handle, const double** xy_um, size_t* count) {
-  return c::with_navigator(handle, [&](StandaloneNavigator& navigator, c::Object& object) {
-    return c::show(object, navigator.view().path, xy_um, count);
-  });
+  return c::with_navigator(handle,
+                           [&](experiment::StandaloneNavigator& navigator, c::Object& object) {
+                             return c::show(object, navigator.view().path, xy_um, count);
+                           });
 }

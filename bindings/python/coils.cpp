@@ -21,8 +21,8 @@ using Out = Eigen::Map<Eigen::VectorXd>;
 
 /// Coils, and the content of their file if they were calibrated here.
 struct Coils {
-  CoilSystem system;
-  std::optional<CoilSystemParams> calibrated{};
+  actuation::CoilSystem system;
+  std::optional<actuation::CoilSystemParams> calibrated{};
 };
 
 /// Whether a file describes a rig, which names the file of its coils.
@@ -35,7 +35,7 @@ bool is_rig(const std::string& file) {
 
 Coils load_coils(const std::string& file) {
   return interruptible([&](const Stop&) {
-    return Coils{is_rig(file) ? read_rig(file).system : read_coil_system(file)};
+    return Coils{is_rig(file) ? rig::read_rig(file).system : actuation::read_coil_system(file)};
   });
 }
 
@@ -77,7 +77,7 @@ py::array_t<double> each_row(const Coils& coils, const Numbers& given, py::ssize
   const double* in = given.data();
   const double* position = at.data();
   double* out = made.mutable_data();
-  Actuation actuation;
+  actuation::Actuation actuation;
   for_rows(rows, [&](py::ssize_t i) {
     if (i == 0 || !is_one)
       actuation = coils.system.at({position[3 * i], position[3 * i + 1], position[3 * i + 2]});
@@ -92,15 +92,15 @@ py::ssize_t row_count(const Coils& coils) { return static_cast<py::ssize_t>(coil
 py::array_t<double> currents_of_fields(const Coils& coils, const Numbers& fields,
                                        const Numbers& at) {
   return each_row(coils, fields, 3, "fields_mt", at, row_count(coils),
-                  [](const Row& field, const Actuation& actuation, Out& out) {
-                    out = currents_for(actuation, field).currents;
+                  [](const Row& field, const actuation::Actuation& actuation, Out& out) {
+                    out = actuation::currents_for(actuation, field).currents;
                   });
 }
 
 py::array_t<double> fields_of_currents(const Coils& coils, const Numbers& currents,
                                        const Numbers& at) {
   return each_row(coils, currents, row_count(coils), "currents_a", at, 3,
-                  [](const Row& amperes, const Actuation& actuation, Out& out) {
+                  [](const Row& amperes, const actuation::Actuation& actuation, Out& out) {
                     out = actuation.total_field(amperes);
                   });
 }
@@ -109,9 +109,9 @@ py::array_t<double> fields_of_currents(const Coils& coils, const Numbers& curren
 py::array_t<double> gradients_of_currents(const Coils& coils, const Numbers& currents,
                                           const Numbers& at) {
   return each_row(coils, currents, row_count(coils), "currents_a", at, 9,
-                  [](const Row& amperes, const Actuation& actuation, Out& out) {
+                  [](const Row& amperes, const actuation::Actuation& actuation, Out& out) {
                     const Eigen::Matrix3d slope =
-                        actuation.total_gradient(amperes) / mt_per_um_of_t_per_m;
+                        actuation.total_gradient(amperes) / actuation::mt_per_um_of_t_per_m;
                     for (Eigen::Index i = 0; i < 9; ++i) out[i] = slope(i / 3, i % 3);
                   });
 }
@@ -121,7 +121,7 @@ py::array_t<double> allowed_shares(const Coils& coils, const Numbers& currents) 
   py::array_t<double> made(currents.shape(0));
   const double* in = currents.data();
   double* out = made.mutable_data();
-  const Amplifiers amplifiers(coils.system.amplifiers());
+  const actuation::Amplifiers amplifiers(coils.system.amplifiers());
   for_rows(currents.shape(0), [&](py::ssize_t i) {
     out[i] = amplifiers.steady(Row(in + row_count(coils) * i, row_count(coils))).scale;
   });
@@ -142,8 +142,9 @@ py::array_t<double> array_of_rows(const std::vector<Eigen::Vector3d>& rows) {
   return array;
 }
 
-FieldMeasurements to_measurements(const Numbers& currents, const Numbers& fields,
-                                  const Numbers& positions, const std::vector<std::string>& names) {
+actuation::FieldMeasurements to_measurements(const Numbers& currents, const Numbers& fields,
+                                             const Numbers& positions,
+                                             const std::vector<std::string>& names) {
   const auto coils = static_cast<py::ssize_t>(names.size());
   check_columns(currents, coils, "currents_a");
   check_columns(fields, 3, "fields_mt");
@@ -153,7 +154,7 @@ FieldMeasurements to_measurements(const Numbers& currents, const Numbers& fields
   if (fields.shape(0) != rows || positions.shape(0) != rows)
     throw InputError("measurements: currents_a has " + std::to_string(rows) +
                      " rows, fields_mt and positions_um must have as many");
-  FieldMeasurements measured{.file = "measurements", .coils = names, .rows = {}};
+  actuation::FieldMeasurements measured{.file = "measurements", .coils = names, .rows = {}};
   measured.rows.reserve(static_cast<std::size_t>(rows));
   for (py::ssize_t i = 0; i < rows; ++i) {
     const double* field = fields.data() + 3 * i;
@@ -168,13 +169,13 @@ FieldMeasurements to_measurements(const Numbers& currents, const Numbers& fields
 }
 
 /// Calibrated coils, and the quality of the fit.
-py::tuple fit(const FieldMeasurements& measured, const std::string& name, bool offset,
+py::tuple fit(const actuation::FieldMeasurements& measured, const std::string& name, bool offset,
               bool gradients, const std::optional<std::array<double, 3>>& centre) {
-  FitOptions options{.offset = offset, .gradients = gradients};
+  actuation::FitOptions options{.offset = offset, .gradients = gradients};
   if (centre) options.centre = Eigen::Vector3d((*centre)[0], (*centre)[1], (*centre)[2]);
-  const FittedMatrix made = fit_matrix(measured, options);
-  require_effects(measured, made);
-  CoilSystemParams params{.name = name, .coils = made.coils, .amplifiers = {}};
+  const actuation::FittedMatrix made = actuation::fit_matrix(measured, options);
+  actuation::require_effects(measured, made);
+  actuation::CoilSystemParams params{.name = name, .coils = made.coils, .amplifiers = {}};
   py::dict out;
   out["rms_mt"] = std::vector<double>(made.rms.begin(), made.rms.end());
   out["rms_abs_mt"] = made.total_rms;
@@ -191,7 +192,7 @@ py::tuple fit(const FieldMeasurements& measured, const std::string& name, bool o
     out["gradient_error_t_per_m_per_a"] = array_of_rows(made.gradient_errors);
     out["offset_gradient_t_per_m"] = made.coils.offset_gradient;
   }
-  CoilSystem system(params);
+  actuation::CoilSystem system(params);
   return py::make_tuple(Coils{std::move(system), std::move(params)}, out);
 }
 
@@ -217,8 +218,8 @@ void add_coils(py::module_& module) {
                   })
       .def_static("of_file",
                   [](const std::string& file, bool offset, bool gradients, const Centre& centre) {
-                    const FieldMeasurements measured =
-                        interruptible([&](const Stop&) { return read_measurements(file); });
+                    const actuation::FieldMeasurements measured = interruptible(
+                        [&](const Stop&) { return actuation::read_measurements(file); });
                     return fit(measured, std::filesystem::path(file).stem().string(), offset,
                                gradients, centre);
                   })

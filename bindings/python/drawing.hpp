@@ -12,7 +12,7 @@ namespace microswarm::python {
 template <class Draw>
 py::object drawn(const std::optional<std::string>& file, Draw&& draw) {
   const std::string png = interruptible([&](const Stop&) {
-    const std::unique_ptr<Picture> picture = draw();
+    const std::unique_ptr<report::Picture> picture = draw();
     if (!file) return picture->png();
     picture->write(*file);
     return std::string();

@@ -30,7 +30,7 @@ struct Environments {
 
   std::unique_ptr<const Task> task;
   std::vector<py::ssize_t> shape;  ///< of one observation
-  EnvironmentBatch<Episode, Number> batch;
+  environments::EnvironmentBatch<Episode, Number> batch;
   QuickCalls steps;
 
   Environments(Task given, std::vector<py::ssize_t> of_one, std::size_t count, std::uint64_t seed,
@@ -50,22 +50,25 @@ struct Environments {
     return numbers;
   }
 };
-using Gathering = Environments<GatheringTask, GatheringEpisode, std::uint8_t>;
-using Navigation = Environments<NavigationTask, NavigationEpisode, float>;
+using Gathering =
+    Environments<environments::GatheringTask, environments::GatheringEpisode, std::uint8_t>;
+using Navigation =
+    Environments<environments::NavigationTask, environments::NavigationEpisode, float>;
 
 std::unique_ptr<Guarded<Gathering>> open_gathering(
     const py::array_t<std::uint8_t, py::array::c_style>& free,
     const std::optional<std::array<int, 2>>& goal, const Given& settings, std::size_t count,
     int threads) {
   if (free.ndim() != 2) throw InputError("a maze must have 2 dimensions");
-  const auto rules = to_rules<GatheringRules>(settings);
-  std::optional<MazePlace> place;
+  const auto rules = to_rules<environments::GatheringRules>(settings);
+  std::optional<environments::MazePlace> place;
   if (goal) place = {.row = (*goal)[1], .column = (*goal)[0]};
   const auto height = static_cast<std::size_t>(free.shape(0));
   const auto width = static_cast<std::size_t>(free.shape(1));
   const std::span<const std::uint8_t> cells{free.data(), height * width};
   auto made = interruptible([&](const Stop&) {
-    GatheringTask task(GatheringMaze(cells, width, height), rules, place);
+    environments::GatheringTask task(environments::GatheringMaze(cells, width, height), rules,
+                                     place);
     const std::vector<py::ssize_t> shape{task.maze.height(), task.maze.width(), task.channels()};
     return std::make_unique<Gathering>(std::move(task), shape, count, 0, threads);
   });
@@ -75,9 +78,9 @@ std::unique_ptr<Guarded<Gathering>> open_gathering(
 std::unique_ptr<Guarded<Navigation>> open_navigation(const ScenarioText& scenario,
                                                      const Given& settings, std::size_t count,
                                                      int threads) {
-  const auto rules = to_rules<NavigationRules>(settings);
+  const auto rules = to_rules<environments::NavigationRules>(settings);
   auto made = interruptible([&](const Stop&) {
-    NavigationTask task(scenario.open(), rules);
+    environments::NavigationTask task(scenario.open(), rules);
     const std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(task.observation_size())};
     return std::make_unique<Navigation>(std::move(task), shape, count, 0, threads);
   });
@@ -85,12 +88,13 @@ std::unique_ptr<Guarded<Navigation>> open_navigation(const ScenarioText& scenari
 }
 
 std::size_t to_action(const Gathering&, std::uint8_t action) {
-  if (action >= GatheringMaze::moves.size()) throw InputError("an action must be 0 to 7");
+  if (action >= environments::GatheringMaze::moves.size())
+    throw InputError("an action must be 0 to 7");
   return action;
 }
 
 /// Action from a heading [rad] and a share of the maximum speed.
-NavigationAction to_action(const Navigation& all, double heading, double share) {
+environments::NavigationAction to_action(const Navigation& all, double heading, double share) {
   if (!std::isfinite(heading) || !(share >= 0 && share <= 1))
     throw InputError("an action must be a finite heading_rad and a share of the speed from 0 to 1");
   return {heading, share * all.task->max_speed()};
@@ -107,7 +111,7 @@ py::array_t<typename All::Number> observation(All& all, std::size_t index) {
 
 /// Result of a step in Gymnasium's form; py::make_tuple would take half of a step's time.
 template <class All>
-py::tuple step_one(All& all, const EnvironmentStep& made) {
+py::tuple step_one(All& all, const environments::EnvironmentStep& made) {
   py::tuple out(5);
   PyObject* const parts[] = {observation(all, 0).release().ptr(), PyFloat_FromDouble(made.reward),
                              PyBool_FromLong(made.terminated), PyBool_FromLong(made.truncated),
@@ -188,11 +192,11 @@ py::class_<Guarded<All>> add_kind(py::module_& module, const char* name) {
 
 /// Rows and columns of the particles.
 py::array_t<int> particles(Gathering& all, std::size_t index) {
-  const GatheringMaze& maze = all.task->maze;
-  const ParticleMotion& motion = all.batch.episode(index).motion();
+  const environments::GatheringMaze& maze = all.task->maze;
+  const environments::ParticleMotion& motion = all.batch.episode(index).motion();
   std::vector<int> numbers;
   for (std::size_t i = 0; i < motion.cells().size(); ++i) {
-    const MazePlace place = maze.place(motion.cells()[i]);
+    const environments::MazePlace place = maze.place(motion.cells()[i]);
     for (std::uint32_t k = 0; k < motion.counts()[i]; ++k)
       numbers.insert(numbers.end(), {place.row, place.column});
   }
@@ -201,14 +205,14 @@ py::array_t<int> particles(Gathering& all, std::size_t index) {
 }
 
 py::array_t<std::int64_t> costs(Gathering& all, std::size_t index) {
-  const GatheringMaze& maze = all.task->maze;
-  const MazeCosts& costs = all.batch.episode(index).costs();
+  const environments::GatheringMaze& maze = all.task->maze;
+  const environments::MazeCosts& costs = all.batch.episode(index).costs();
   py::array_t<std::int64_t> array({maze.height(), maze.width()});
   std::int64_t* out = array.mutable_data();
   for (int row = 0; row < maze.height(); ++row)
     for (int column = 0; column < maze.width(); ++column) {
       const std::uint32_t cost = costs.of[maze.number({row, column})];
-      *out++ = cost == MazeCosts::unreached ? -1 : std::int64_t{cost};
+      *out++ = cost == environments::MazeCosts::unreached ? -1 : std::int64_t{cost};
     }
   return array;
 }
@@ -245,7 +249,8 @@ void add_gathering(py::module_& module) {
              return py::array_t<double>(static_cast<py::ssize_t>(weights.size()), weights.data());
            }))
       .def("goal", of_one<Gathering>([](Gathering& all, std::size_t index) {
-             const MazePlace place = all.task->maze.place(all.batch.episode(index).goal());
+             const environments::MazePlace place =
+                 all.task->maze.place(all.batch.episode(index).goal());
              return py::make_tuple(place.column, place.row);
            }));
 }
@@ -266,7 +271,7 @@ void add_navigation(py::module_& module) {
                if (actions.ndim() != 2 || actions.shape(1) != 2 ||
                    static_cast<std::size_t>(actions.shape(0)) != count)
                  throw InputError("there must be an action of 2 numbers for each environment");
-               std::vector<NavigationAction> given;
+               std::vector<environments::NavigationAction> given;
                given.reserve(count);
                const double* numbers = actions.data();
                for (std::size_t i = 0; i < count; ++i, numbers += 2)
@@ -283,7 +288,7 @@ void add_navigation(py::module_& module) {
              return open.use([](Navigation& all) { return all.task->max_speed(); });
            })
       .def("state", of_one<Navigation>([](Navigation& all, std::size_t index) {
-             const NavigationEpisode& episode = all.batch.episode(index);
+             const environments::NavigationEpisode& episode = all.batch.episode(index);
              const Pose2& pose = episode.pose();
              return py::make_tuple(episode.time(), pose.position.x, pose.position.y, pose.heading,
                                    episode.goal().x, episode.goal().y,

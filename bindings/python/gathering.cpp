@@ -13,22 +13,23 @@ namespace {
 py::tuple gather(const NamedMap& map, const std::array<double, 2>& goal, int robots,
                  const Numbers& starts, std::optional<double> channel_width, int max_steps,
                  const Given& settings, std::uint64_t seed) {
-  const GatherQuery query{.goal = {goal[0], goal[1]},
-                          .robots = robots,
-                          .starts = places(starts, "robots_um"),
-                          .channel_width = channel_width,
-                          .max_steps = max_steps,
-                          .settings = to_settings(settings),
-                          .seed = seed};
+  const experiment::GatherQuery query{.goal = {goal[0], goal[1]},
+                                      .robots = robots,
+                                      .starts = places(starts, "robots_um"),
+                                      .channel_width = channel_width,
+                                      .max_steps = max_steps,
+                                      .settings = to_settings(settings),
+                                      .seed = seed};
   Notes notes;
   std::vector<std::string> unmet;
   double tick = 0;
   auto session = interruptible([&](const Stop&) {
-    GatherExperiment made = open_gathering(to_parts(map.map()), map.spec, query, map.name);
+    experiment::GatherExperiment made =
+        experiment::open_gathering(formats::to_parts(map.map()), map.spec, query, map.name);
     notes = made.notes;
     tick = made.experiment.scenario().tick;
-    unmet = unmet_assumptions(made.experiment.scenario(), *made.experiment.world.map);
-    return std::make_unique<Session>(std::move(made.experiment));
+    unmet = experiment::unmet_assumptions(made.experiment.scenario(), *made.experiment.world.map);
+    return std::make_unique<experiment::Session>(std::move(made.experiment));
   });
   warn(notes);
   return py::make_tuple(session_object(std::move(session)), tick, unmet);

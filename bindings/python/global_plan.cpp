@@ -10,16 +10,16 @@ namespace {
 py::dict global_plan(const NamedMap& map, const Numbers& starts, const Numbers& goals,
                      const Given& settings, std::uint64_t seed, bool shorten,
                      std::optional<double> time_limit) {
-  const GlobalQuery query{.starts = places(starts, "robots_um"),
-                          .goals = places(goals, "goals_um"),
-                          .settings = to_settings(settings),
-                          .seed = seed,
-                          .shorten = shorten};
+  const experiment::GlobalQuery query{.starts = places(starts, "robots_um"),
+                                      .goals = places(goals, "goals_um"),
+                                      .settings = to_settings(settings),
+                                      .seed = seed,
+                                      .shorten = shorten};
   std::optional<Stop::Clock::duration> budget;
   if (time_limit)
     budget = std::chrono::duration_cast<Stop::Clock::duration>(
         std::chrono::duration<double>(*time_limit));
-  const GlobalAnswer made = interruptible(
+  const experiment::GlobalAnswer made = interruptible(
       [&](const Stop& stop) { return answer(map.map(), query, map.name, stop); }, [] {}, budget);
   warn(made.notes);
   const auto& moments = made.plan.configurations;

@@ -15,14 +15,14 @@ namespace {
 
 NamedMap load(const std::string& file, std::optional<double> um_per_px) {
   return interruptible([&](const Stop&) {
-    const MapSpec spec = guess_map_spec(file, um_per_px, "um_per_px");
-    return NamedMap{Snapshot(load_map(spec).map), file, spec};
+    const formats::MapSpec spec = formats::guess_map_spec(file, um_per_px, "um_per_px");
+    return NamedMap{Snapshot(formats::load_map(spec).map), file, spec};
   });
 }
 
 NamedMap from_walls(const std::array<double, 4>& bounds, const std::vector<Numbers>& walls,
                     const Numbers& discs) {
-  PolygonsMap spec{
+  formats::PolygonsMap spec{
       .lo = {bounds[0], bounds[1]}, .hi = {bounds[2], bounds[3]}, .walls = {}, .discs = {}};
   for (const Numbers& wall : walls) spec.walls.push_back(places(wall, "an outline of walls_um"));
   if (discs.size() > 0 && (discs.ndim() != 2 || discs.shape(1) != 3))
@@ -31,7 +31,7 @@ NamedMap from_walls(const std::array<double, 4>& bounds, const std::vector<Numbe
   for (py::ssize_t i = 0; i < discs.size() / 3; ++i, row += 3)
     spec.discs.push_back({{row[0], row[1]}, row[2]});
   return interruptible([&](const Stop&) {
-    return NamedMap{Snapshot(load_map({std::move(spec)}).map), "map"};
+    return NamedMap{Snapshot(formats::load_map({std::move(spec)}).map), "map"};
   });
 }
 
@@ -42,13 +42,13 @@ NamedMap from_pixels(const py::array_t<std::uint8_t, py::array::c_style>& pixels
   const auto width = static_cast<std::size_t>(pixels.shape(1));
   const std::span<const std::uint8_t> all{pixels.data(), width * height};
   return interruptible([&](const Stop&) {
-    return map_in_memory(map_of_pixels(all, width, height, um_per_px, simplify));
+    return map_in_memory(formats::map_of_pixels(all, width, height, um_per_px, simplify));
   });
 }
 
 py::list outlines(const NamedMap& map) {
   py::list all;
-  for (const Polygon& wall : to_parts(map.map()).walls) {
+  for (const Polygon& wall : formats::to_parts(map.map()).walls) {
     py::list rings;
     rings.append(to_array(wall.outer));
     for (const auto& hole : wall.holes) rings.append(to_array(hole));
@@ -59,7 +59,7 @@ py::list outlines(const NamedMap& map) {
 
 py::array_t<double> discs(const NamedMap& map) {
   std::vector<double> numbers;
-  for (const Disc& disc : to_parts(map.map()).discs)
+  for (const Disc& disc : formats::to_parts(map.map()).discs)
     numbers.insert(numbers.end(), {disc.centre.x, disc.centre.y, disc.radius});
   py::array_t<double> array({static_cast<py::ssize_t>(numbers.size() / 3), py::ssize_t{3}});
   std::ranges::copy(numbers, array.mutable_data());
@@ -114,13 +114,14 @@ py::dict plan_path(const NamedMap& map, const std::vector<double>& start,
   if (start.size() != 2 && start.size() != 3)
     throw InputError("start must be (x_um, y_um) or (x_um, y_um, heading_rad)");
   if (goal.size() != 2) throw InputError("goal must be (x_um, y_um)");
-  const PathQuery query{.start = {{start[0], start[1]}, start.size() > 2 ? start[2] : 0},
-                        .goal = {goal[0], goal[1]},
-                        .settings = to_settings(settings),
-                        .seed = seed};
-  const auto kept = std::make_shared<const PathAnswer>(
-      interruptible([&](const Stop& stop) { return answer(map.world, query, map.name, stop); }));
-  const PathAnswer& made = *kept;
+  const experiment::PathQuery query{
+      .start = {{start[0], start[1]}, start.size() > 2 ? start[2] : 0},
+      .goal = {goal[0], goal[1]},
+      .settings = to_settings(settings),
+      .seed = seed};
+  const auto kept = std::make_shared<const experiment::PathAnswer>(interruptible(
+      [&](const Stop& stop) { return experiment::answer(map.world, query, map.name, stop); }));
+  const experiment::PathAnswer& made = *kept;
   warn(made.notes);
   std::vector<Vec2> nodes;
   py::array_t<std::uint32_t> parents(static_cast<py::ssize_t>(made.plan.tree.size()));
@@ -137,16 +138,16 @@ py::dict plan_path(const NamedMap& map, const std::vector<double>& start,
   out["turning_rad"] = path_turning(made.plan.path, query.start.heading);
   out["time_s"] = made.seconds;
   out["why_none"] = made.why_none();
-  out["planner"] = planner_json(made.planner);
+  out["planner"] = experiment::planner_json(made.planner);
   out["tree_um"] = to_array(nodes);
   out["parents"] = parents;
   out["draw"] = py::cpp_function([kept, map, from = query.start.position,
                                   to = query.goal](const std::optional<std::string>& file) {
     return drawn(file, [&] {
-      return draw_plan(map.map(), kept->plan, from,
-                       {to, swarm_limits(kept->planner).goal_tolerance},
-                       std::string(to_string(kept->plan.status)) + ", " +
-                           std::to_string(std::lround(path_length(kept->plan))) + " µm");
+      return report::draw_plan(map.map(), kept->plan, from,
+                               {to, experiment::path_limits(kept->planner).goal_tolerance},
+                               std::string(to_string(kept->plan.status)) + ", " +
+                                   std::to_string(std::lround(path_length(kept->plan))) + " µm");
     });
   });
   return out;
@@ -156,7 +157,8 @@ py::dict plan_path(const NamedMap& map, const std::vector<double>& start,
 
 void add_map(py::module_& module) {
   py::list planners;
-  for (const std::string_view name : type_of<PlannerParams>().words) planners.append(name);
+  for (const std::string_view name : type_of<planning::PlannerParams>().words)
+    planners.append(name);
   module.attr("planners") = py::tuple(planners);
   py::class_<NamedMap>(module, "Map")
       .def_static("load", load)
@@ -170,7 +172,8 @@ void add_map(py::module_& module) {
       .def("draw",
            [](const NamedMap& map, const std::optional<std::string>& file) {
              return drawn(file, [&] {
-               return draw_map(map.map(), std::filesystem::path(map.name).filename().string());
+               return report::draw_map(map.map(),
+                                       std::filesystem::path(map.name).filename().string());
              });
            })
       .def("bounds", [](const NamedMap& map) {

@@ -14,14 +14,14 @@ namespace microswarm::python {
 struct NamedMap {
   Snapshot world;
   std::string name;
-  MapSpec spec;
+  formats::MapSpec spec;
 
   const Map& map() const { return world.map(); }
 };
 
 /// A map made from a caller's data.
 inline NamedMap map_in_memory(Map map) {
-  PolygonsMap spec;
+  formats::PolygonsMap spec;
   spec.lo = map.bounds().lo;
   spec.hi = map.bounds().hi;
   return {Snapshot(std::make_shared<const Map>(std::move(map))), "map", spec};

@@ -11,9 +11,9 @@ namespace {
 
 constexpr std::size_t many_obstacles = 200;
 
-class OpenNavigator : public Guarded<StandaloneNavigator> {
+class OpenNavigator : public Guarded<experiment::StandaloneNavigator> {
  public:
-  explicit OpenNavigator(std::unique_ptr<StandaloneNavigator> navigator)
+  explicit OpenNavigator(std::unique_ptr<experiment::StandaloneNavigator> navigator)
       : Guarded(std::move(navigator), "navigator") {}
 
   QuickCalls steps;
@@ -110,7 +110,7 @@ py::tuple step_navigator(OpenNavigator& open, py::handle t, py::handle swarm, py
                          py::handle robots, py::handle seen,
                          const std::vector<std::int64_t>* numbers, py::handle unseen,
                          const StateNames& names) {
-  ExternalObservation given{.now = to_number(t)};
+  experiment::ExternalObservation given{.now = to_number(t)};
   given.seen = seen.is_none() ? given.now : to_number(seen);
   if (!swarm.is_none()) given.swarm = to_swarm(swarm);
   given.obstacles = to_bodies(obstacles);
@@ -121,7 +121,7 @@ py::tuple step_navigator(OpenNavigator& open, py::handle t, py::handle swarm, py
   if (!robots.is_none()) given.robots = places(to_doubles(robots), "robots");
   if (!PyLong_CheckExact(unseen.ptr()) || PyLong_AsLong(unseen.ptr()) != 0)
     given.unseen = unseen.cast<int>();
-  return open.use([&](StandaloneNavigator& navigator) {
+  return open.use([&](experiment::StandaloneNavigator& navigator) {
     const Command command =
         open.steps.call([&](const Stop& stop) { return navigator.step(given, stop); },
                         given.obstacles.size() > many_obstacles);
@@ -138,7 +138,7 @@ void add_navigator(py::module_& module) {
   py::class_<OpenNavigator>(module, "Navigator")
       .def(py::init([](const ScenarioText& scenario, std::uint32_t trial) {
         return std::make_unique<OpenNavigator>(interruptible([&](const Stop&) {
-          return std::make_unique<StandaloneNavigator>(scenario.open(), trial);
+          return std::make_unique<experiment::StandaloneNavigator>(scenario.open(), trial);
         }));
       }))
       .def("step",
@@ -151,7 +151,8 @@ void add_navigator(py::module_& module) {
            })
       .def("path",
            [](OpenNavigator& open) {
-             return open.use([](StandaloneNavigator& n) { return to_array(n.view().path); });
+             return open.use(
+                 [](experiment::StandaloneNavigator& n) { return to_array(n.view().path); });
            })
       .def("close", &OpenNavigator::close);
 }

@@ -14,9 +14,9 @@ namespace microswarm::python {
 /// an image. 16-bit numbers have `depth` bits; without a value it is set to what this picture
 /// needs. Throws InputError.
 void take_array(const py::array& array, std::optional<int>& depth, std::string_view name,
-                Image& image);
+                formats::Image& image);
 
 /// Array of booleans of shape (height, width) from a mask.
-py::array_t<bool> to_array(const Mask& mask);
+py::array_t<bool> to_array(const formats::Mask& mask);
 
 }  // namespace microswarm::python

@@ -12,15 +12,15 @@
 namespace microswarm::python {
 namespace {
 
-py::object to_column(const Column& column, const ListRef<const void*>& list) {
+py::object to_column(const io::Column& column, const io::ListRef<const void*>& list) {
   const auto size = static_cast<py::ssize_t>(list.size());
-  if (column.kind == ColumnKind::word) {
+  if (column.kind == io::ColumnKind::word) {
     py::list words;
     for (std::size_t i = 0; i < list.size(); ++i)
       words.append(std::string(column.word(list.row(i))));
     return py::module_::import("numpy").attr("array")(words, py::dtype("U16"));
   }
-  if (column.kind == ColumnKind::integer) {
+  if (column.kind == io::ColumnKind::integer) {
     py::array_t<std::int64_t> array(size);
     std::int64_t* out = array.mutable_data();
     for (std::size_t i = 0; i < list.size(); ++i) *out++ = column.integer(list.row(i));
@@ -34,10 +34,10 @@ py::object to_column(const Column& column, const ListRef<const void*>& list) {
 
 }  // namespace
 
-py::dict columns_of_list(const ListRef<const void*>& list, const Field* positions) {
+py::dict columns_of_list(const io::ListRef<const void*>& list, const Field* positions) {
   const Unit unit = positions ? positions->info.unit : Unit::um;
   py::dict out;
-  for (const Column& column : to_columns(list.row_type(), ColumnUnits::held, unit))
+  for (const io::Column& column : io::to_columns(list.row_type(), io::ColumnUnits::held, unit))
     out[py::str(column.key)] = to_column(column, list);
   return out;
 }
@@ -49,11 +49,11 @@ template <HasFields Value>
 py::object described(const Value& value) {
   py::dict out;
   out["type"] = std::string(Value::type_name);
-  for (const Column& column : to_columns<Value>()) {
+  for (const io::Column& column : io::to_columns<Value>()) {
     const py::str key(column.key);
-    if (column.kind == ColumnKind::word)
+    if (column.kind == io::ColumnKind::word)
       out[key] = std::string(column.word(&value));
-    else if (column.kind == ColumnKind::integer)
+    else if (column.kind == io::ColumnKind::integer)
       out[key] = column.integer(&value);
     else
       out[key] = column.number(&value);
@@ -68,10 +68,10 @@ py::object described(const Value& value) {
 struct Tables {
   py::dict out;
 
-  void table(const std::string& group, const ListRef<const void*>& list) {
+  void table(const std::string& group, const io::ListRef<const void*>& list) {
     out[py::str(group.substr(1))] = columns_of_list(list);
   }
-  void parts(const std::string& group, const ListRef<const void*>& list, const Field& field) {
+  void parts(const std::string& group, const io::ListRef<const void*>& list, const Field& field) {
     py::list parts;
     for (std::size_t i = 0; i < list.size(); ++i)
       parts.append(columns_of_list(list.part(i, field), &field));
@@ -79,21 +79,22 @@ struct Tables {
   }
 };
 
-py::dict documented(const Record&) {
+py::dict documented(const experiment::Record&) {
   py::dict out;
-  for (const Column& column : to_columns(type_of<Frame>(), ColumnUnits::held))
+  for (const io::Column& column :
+       io::to_columns(type_of<experiment::Frame>(), io::ColumnUnits::held))
     out[py::str(column.key)] = column.doc;
   return out;
 }
 
 }  // namespace
 
-py::dict to_tables(const Record& record) {
+py::dict to_tables(const experiment::Record& record) {
   Tables tables;
-  visit_tables(type_of<Record>(), static_cast<const void*>(&record), tables);
+  io::visit_tables(type_of<experiment::Record>(), static_cast<const void*>(&record), tables);
   const void* log = &record.diagnostics;
-  for (const Field& field : type_of<DiagnosticsLog>().fields)
-    if (field.type->count(field.in(log)) > 0) visit_table(field, log, tables, "/diagnostics");
+  for (const Field& field : type_of<experiment::DiagnosticsLog>().fields)
+    if (field.type->count(field.in(log)) > 0) io::visit_table(field, log, tables, "/diagnostics");
   return tables.out;
 }
 
@@ -103,7 +104,7 @@ py::object to_dict(const Diagnostics& diagnostics) {
                     diagnostics);
 }
 
-py::dict to_dict(const RunResult& result) {
+py::dict to_dict(const experiment::RunResult& result) {
   py::dict out;
   out["status"] = std::string(to_string(result.status));
   out["metrics"] = to_json_text(result.metrics);
@@ -113,35 +114,39 @@ py::dict to_dict(const RunResult& result) {
 }
 
 void add_record(py::module_& module) {
-  py::class_<Record, std::shared_ptr<Record>>(module, "Record")
+  py::class_<experiment::Record, std::shared_ptr<experiment::Record>>(module, "Record")
       .def_static("read",
                   [](const std::string& file) {
-                    return interruptible(
-                        [&](const Stop&) { return std::make_shared<Record>(read_record(file)); });
+                    return interruptible([&](const Stop&) {
+                      return std::make_shared<experiment::Record>(experiment::read_record(file));
+                    });
                   })
       .def("write",
-           [](const Record& record, const std::string& file) {
+           [](const experiment::Record& record, const std::string& file) {
              interruptible([&](const Stop&) {
-               write_record(record, file);
+               experiment::write_record(record, file);
                return true;
              });
            })
       .def("draw",
-           [](const Record& record, const std::optional<std::string>& file) {
-             return drawn(file, [&] { return draw_run(record); });
+           [](const experiment::Record& record, const std::optional<std::string>& file) {
+             return drawn(file, [&] { return report::draw_run(record); });
            })
       .def("tables", to_tables)
-      .def("summary", [](const Record& record) { return to_dict(record.result); })
-      .def("hash", &Record::hash)
+      .def("summary", [](const experiment::Record& record) { return to_dict(record.result); })
+      .def("hash", &experiment::Record::hash)
       .def("documented", documented)
-      .def("scenario", [](const Record& record) { return scenario_text(record.scene.scenario); })
-      .def_readonly("version", &Record::version)
-      .def_readonly("trial", &Record::trial)
-      .def_readonly("rig", &Record::rig)
-      .def_readonly("navigator", &Record::navigator)
-      .def("replay", [](const Record& record) {
-        const ReplayResult made =
-            interruptible([&](const Stop& stop) { return replay(record, stop); });
+      .def("scenario",
+           [](const experiment::Record& record) {
+             return experiment::scenario_text(record.scene.scenario);
+           })
+      .def_readonly("version", &experiment::Record::version)
+      .def_readonly("trial", &experiment::Record::trial)
+      .def_readonly("rig", &experiment::Record::rig)
+      .def_readonly("navigator", &experiment::Record::navigator)
+      .def("replay", [](const experiment::Record& record) {
+        const experiment::ReplayResult made =
+            interruptible([&](const Stop& stop) { return experiment::replay(record, stop); });
         return std::pair(made.identical, made.difference);
       });
 }

@@ -22,8 +22,8 @@ struct ScenarioText {
   std::string name;
   std::filesystem::path base;
   Given settings{};
-  Scenario value{};
-  Scenario unset{};  ///< without the settings
+  experiment::Scenario value{};
+  experiment::Scenario unset{};  ///< without the settings
 
   static ScenarioText load(const std::string& file) {
     const std::filesystem::path path(file);
@@ -33,7 +33,7 @@ struct ScenarioText {
     ScenarioText made{std::move(text), std::move(name), std::move(base)};
     KeyLocations keys;
     Issues issues;
-    made.value = read_yaml_text<Scenario>(made.text, made.name, {}, keys, issues);
+    made.value = read_yaml_text<experiment::Scenario>(made.text, made.name, {}, keys, issues);
     if (!issues.empty()) throw InputError(issues);
     warn(keys.notes());
     made.unset = made.value;
@@ -47,7 +47,7 @@ struct ScenarioText {
     const std::string now = to_json_text(value);
     settings = with_setting(settings, *present, [&](const Given& list) {
       try {
-        Scenario other = unset;
+        experiment::Scenario other = unset;
         set_values(other, to_settings(list));
         return to_json_text(other) == now;
       } catch (const InputError&) {
@@ -55,8 +55,8 @@ struct ScenarioText {
       }
     });
   }
-  Experiment open(std::optional<std::uint64_t> seed = {}) const {
-    return open_experiment_text(text, name, base, to_settings(settings), seed);
+  experiment::Experiment open(std::optional<std::uint64_t> seed = {}) const {
+    return experiment::open_experiment_text(text, name, base, to_settings(settings), seed);
   }
 };
 

@@ -13,10 +13,10 @@
 namespace microswarm::python {
 namespace {
 
-class OpenSession : public Guarded<Session> {
+class OpenSession : public Guarded<experiment::Session> {
  public:
   /// `navigator`: the caller's navigator, or None.
-  OpenSession(std::unique_ptr<Session> session, py::object navigator)
+  OpenSession(std::unique_ptr<experiment::Session> session, py::object navigator)
       : Guarded(std::move(session), "session"), navigator_(std::move(navigator)) {}
   /// Destroys the session before the navigator that it uses.
   ~OpenSession() { end(); }
@@ -100,19 +100,20 @@ std::unique_ptr<OpenSession> open(const ScenarioText& scenario, std::optional<st
   std::unique_ptr<Navigator> own;
   if (!navigator.is_none()) own = std::make_unique<OwnNavigator>(navigator);
   auto session = interruptible([&](const Stop&) {
-    return std::make_unique<Session>(scenario.open(seed),
-                                     SessionParts{.trial = trial, .navigator = std::move(own)});
+    return std::make_unique<experiment::Session>(
+        scenario.open(seed), experiment::SessionParts{.trial = trial, .navigator = std::move(own)});
   });
   return std::make_unique<OpenSession>(std::move(session), navigator);
 }
 
 /// The current view as a dictionary of numbers and arrays.
-py::dict to_dict(const Session& session) {
-  const SessionView view = session.view();
+py::dict view_dict(const experiment::Session& session) {
+  const experiment::SessionView view = session.view();
   py::dict out;
-  const Frame& frame = view.frame;
-  for (const Column& column : to_columns(type_of<Frame>(), ColumnUnits::held)) {
-    if (column.kind == ColumnKind::word)
+  const experiment::Frame& frame = view.frame;
+  for (const io::Column& column :
+       io::to_columns(type_of<experiment::Frame>(), io::ColumnUnits::held)) {
+    if (column.kind == io::ColumnKind::word)
       out[py::str(column.key)] = std::string(column.word(&frame));
     else
       out[py::str(column.key)] = column.number(&frame);
@@ -126,7 +127,7 @@ py::dict to_dict(const Session& session) {
 }
 
 bool step(OpenSession& open) {
-  return open.use([&](Session& session) {
+  return open.use([&](experiment::Session& session) {
     const auto made = [&](const Stop& stop) { return session.step(stop) != nullptr; };
     const auto driven = [&] { return open.drive(made, [] {}); };
     if (open.has_own_navigator()) return driven();
@@ -140,7 +141,7 @@ bool step(OpenSession& open) {
 
 /// Steps to the end; `report` gets the completed share, 10 times a second.
 py::dict finish(OpenSession& open, const py::object& report) {
-  return open.use([&](Session& session) {
+  return open.use([&](experiment::Session& session) {
     std::atomic<double> done = 0;
     const auto look = [&] {
       if (!report.is_none()) report(done.load());
@@ -148,7 +149,7 @@ py::dict finish(OpenSession& open, const py::object& report) {
     const double limit = session.scenario().time_limit;
     double start = 0;
     const auto step = [&](const Stop& stop) {
-      const Tick* tick = session.step(stop);
+      const experiment::Tick* tick = session.step(stop);
       if (!tick) return false;
       const double left = tick->frame.goal_distance;
       if (std::isfinite(left)) start = std::max(start, left);
@@ -179,7 +180,7 @@ py::dict finish(OpenSession& open, const py::object& report) {
 
 }  // namespace
 
-py::object session_object(std::unique_ptr<Session> session) {
+py::object session_object(std::unique_ptr<experiment::Session> session) {
   return py::cast(std::make_unique<OpenSession>(std::move(session), py::none()));
 }
 
@@ -192,7 +193,7 @@ void add_session(py::module_& module) {
                   })
       .def("set", &ScenarioText::set)
       .def("json", [](const ScenarioText& s) { return to_json_text(s.value); })
-      .def("yaml", [](const ScenarioText& s) { return scenario_text(s.value); })
+      .def("yaml", [](const ScenarioText& s) { return experiment::scenario_text(s.value); })
       .def("copy", [](const ScenarioText& s) { return s; })
       .def("parts",
            [](const ScenarioText& s) {
@@ -200,7 +201,7 @@ void add_session(py::module_& module) {
            })
       .def_readonly("name", &ScenarioText::name)
       .def_readonly("settings", &ScenarioText::settings);
-  module.def("schema", scenario_schema);
+  module.def("schema", experiment::scenario_schema);
 
   py::class_<OpenSession>(module, "Session", py::custom_type_setup(collect_garbage))
       .def(py::init(&open))
@@ -210,29 +211,32 @@ void add_session(py::module_& module) {
       .def("stop", &OpenSession::stop)
       .def("set",
            [](OpenSession& open, const std::string& key, const std::string& value) {
-             open.use([&](Session& session) {
+             open.use([&](experiment::Session& session) {
                if (const Issues issues = session.set(key, value); !issues.empty())
                  throw InputError(issues);
              });
            })
-      .def("view", [](OpenSession& open) { return open.use(to_dict); })
+      .def("view", [](OpenSession& open) { return open.use(view_dict); })
       .def("diagnostics",
            [](OpenSession& open) {
-             return open.use([](Session& session) { return to_dict(session.diagnostics()); });
+             return open.use(
+                 [](experiment::Session& session) { return to_dict(session.diagnostics()); });
            })
-      .def("summary",
-           [](OpenSession& open) {
-             return open.use([](Session& session) { return to_dict(session.result()); });
-           })
+      .def(
+          "summary",
+          [](OpenSession& open) {
+            return open.use([](experiment::Session& session) { return to_dict(session.result()); });
+          })
       .def("draw",
            [](OpenSession& open, const std::optional<std::string>& file) {
-             return open.use([&](Session& session) {
-               return drawn(file, [&] { return draw_run(session.record()); });
+             return open.use([&](experiment::Session& session) {
+               return drawn(file, [&] { return report::draw_run(session.record()); });
              });
            })
       .def("record", [](OpenSession& open) {
-        return open.use(
-            [](Session& session) { return std::make_shared<Record>(session.record()); });
+        return open.use([](experiment::Session& session) {
+          return std::make_shared<experiment::Record>(session.record());
+        });
       });
 }
 

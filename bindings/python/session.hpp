@@ -9,6 +9,6 @@
 namespace microswarm::python {
 
 /// An open session as an object of the class Session.
-py::object session_object(std::unique_ptr<Session> session);
+py::object session_object(std::unique_ptr<experiment::Session> session);
 
 }  // namespace microswarm::python

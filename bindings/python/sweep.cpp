@@ -14,7 +14,7 @@ namespace {
 using Grid = std::vector<std::pair<std::string, std::vector<std::string>>>;
 using Methods = std::vector<std::pair<std::string, Given>>;
 using namespace py::literals;  // NOLINT(google-build-using-namespace): _a
-using Rows = std::vector<std::span<const SqlValue>>;
+using Rows = std::vector<std::span<const sweep::SqlValue>>;
 
 /// The scenario's settings without those that the sweep varies or sets.
 Given unvaried(const Given& settings, const Grid& grid, bool has_seed) {
@@ -43,14 +43,14 @@ py::array_t<Number> numbers_in(const Rows& rows, std::size_t column) {
   return array;
 }
 
-py::object sweep_column(const Rows& rows, std::size_t column, SweepColumnKind kind) {
-  if (kind == SweepColumnKind::text) {
+py::object sweep_column(const Rows& rows, std::size_t column, sweep::SweepColumnKind kind) {
+  if (kind == sweep::SweepColumnKind::text) {
     py::list texts;
     for (const auto& row : rows) texts.append(std::get<std::string>(row[column]));
     return py::module_::import("numpy").attr("array")(texts, "dtype"_a = "str");
   }
   const bool whole =
-      kind == SweepColumnKind::whole && std::ranges::all_of(rows, [&](const auto& row) {
+      kind == sweep::SweepColumnKind::whole && std::ranges::all_of(rows, [&](const auto& row) {
         return std::holds_alternative<std::int64_t>(row[column]);
       });
   if (whole) return numbers_in<std::int64_t>(rows, column);
@@ -62,25 +62,25 @@ py::tuple sweep_scenario(const ScenarioText& scenario, const Grid& grid, const M
                          int trials, std::optional<std::uint64_t> seed, int jobs,
                          const py::object& report) {
   const Given base = unvaried(scenario.settings, grid, seed.has_value());
-  Sweep asked{.set = to_settings(base).texts(), .trials = trials, .seed = seed};
+  sweep::Sweep asked{.set = to_settings(base).texts(), .trials = trials, .seed = seed};
   for (const auto& [key, values] : grid) asked.grid.push_back({key, values});
   for (const auto& [name, set] : methods) asked.methods.push_back({name, to_settings(set).texts()});
   std::atomic<double> done = 0;
-  SweepPlan plan;
-  std::unique_ptr<SweepTable> table;
+  sweep::SweepPlan plan;
+  std::unique_ptr<sweep::SweepTable> table;
   interruptible(
       [&](const Stop& stop) {
-        plan = plan_sweep(checked_sweep(std::move(asked), "sweep"), "sweep",
-                          {scenario.text, scenario.name, scenario.base}, jobs, stop);
+        plan = sweep::plan_sweep(sweep::checked_sweep(std::move(asked), "sweep"), "sweep",
+                                 {scenario.text, scenario.name, scenario.base}, jobs, stop);
         if (stop()) return false;
         check(plan, jobs, stop);
-        table = std::make_unique<SweepTable>(plan);
-        const Ranks alone = Ranks::alone();
-        RemoteWorkers none(alone);
-        const auto note = [&](const SweepProgress& p) {
+        table = std::make_unique<sweep::SweepTable>(plan);
+        const sweep::Ranks alone = sweep::Ranks::alone();
+        sweep::RemoteWorkers none(alone);
+        const auto note = [&](const sweep::SweepProgress& p) {
           done = static_cast<double>(p.added) / static_cast<double>(p.added + p.left);
         };
-        run_sweep(plan, *table, none, {.jobs = jobs, .progress = note}, stop);
+        sweep::run_sweep(plan, *table, none, {.jobs = jobs, .progress = note}, stop);
         return true;
       },
       [&] {
@@ -90,7 +90,7 @@ py::tuple sweep_scenario(const ScenarioText& scenario, const Grid& grid, const M
   const Rows rows = table->rows();
   py::dict columns, docs;
   for (std::size_t i = 0; i < table->columns().size(); ++i) {
-    const SweepColumn& column = table->columns()[i];
+    const sweep::SweepColumn& column = table->columns()[i];
     columns[py::str(column.name)] = sweep_column(rows, i, column.kind);
     docs[py::str(column.name)] = column.description;
   }

@@ -14,9 +14,9 @@ namespace {
 
 /// Segments a photograph, an array or the name of a file.
 py::dict segment(const py::object& photo, double um_per_px, double smooth, const Given& settings) {
-  VesselParams params;
+  vision::VesselParams params;
   warn(set_values(params, to_settings(settings)));
-  Image image;
+  formats::Image image;
   std::string name = "image";
   if (py::isinstance<py::str>(photo)) {
     name = photo.cast<std::string>();
@@ -24,11 +24,11 @@ py::dict segment(const py::object& photo, double um_per_px, double smooth, const
     std::optional<int> depth;
     take_array(photo.cast<py::array>(), depth, name, image);
   }
-  VesselSegmentation found;
+  vision::VesselSegmentation found;
   Map map = interruptible([&](const Stop& stop) {
-    if (image.pixels.empty()) image = read_photograph(name);
-    found = segment_vessels(image, params, stop);
-    return vessel_map(found, um_per_px, smooth, name, stop);
+    if (image.pixels.empty()) image = formats::read_photograph(name);
+    found = vision::segment_vessels(image, params, stop);
+    return vision::vessel_map(found, um_per_px, smooth, name, stop);
   });
   py::dict out;
   out["map"] = map_in_memory(std::move(map));
@@ -43,18 +43,18 @@ py::dict segment(const py::object& photo, double um_per_px, double smooth, const
   return out;
 }
 
-TrackSettings track_settings(const Given& given) {
-  TrackSettings settings;
+vision::TrackSettings track_settings(const Given& given) {
+  vision::TrackSettings settings;
   warn(set_values(settings, to_settings(given)));
   return settings;
 }
 
-py::dict to_dict(const std::vector<TrackEvent>& events) {
+py::dict to_dict(const std::vector<vision::TrackEvent>& events) {
   const auto count = static_cast<py::ssize_t>(events.size());
   py::array_t<std::int64_t> frames(count), ids(count), others(count);
   py::list words;
   for (py::ssize_t i = 0; i < count; ++i) {
-    const TrackEvent& event = events[static_cast<std::size_t>(i)];
+    const vision::TrackEvent& event = events[static_cast<std::size_t>(i)];
     frames.mutable_at(i) = event.frame;
     ids.mutable_at(i) = event.id;
     others.mutable_at(i) = event.other.value_or(-1);
@@ -68,12 +68,12 @@ py::dict to_dict(const std::vector<TrackEvent>& events) {
   return out;
 }
 
-py::dict to_tracks(const TrackResult& result) {
+py::dict to_tracks(const vision::TrackResult& result) {
   py::dict out;
-  out["rows"] = columns_of_list({&type_of<std::vector<TrackRow>>(), &result.rows});
+  out["rows"] = columns_of_list({&type_of<std::vector<vision::TrackRow>>(), &result.rows});
   out["events"] = to_dict(result.events);
   out["frames"] = result.frames;
-  out["is_noise"] = looks_like_noise(summarise(result.rows, result.frames));
+  out["is_noise"] = vision::looks_like_noise(summarise(result.rows, result.frames));
   return out;
 }
 
@@ -87,7 +87,7 @@ class ArrayTracker {
   void step(const py::array& array) {
     const std::string name = "frame " + std::to_string(result_.frames);
     take_array(array, result_.settings.depth, name, frame_.picture);
-    const Image& picture = frame_.picture;
+    const formats::Image& picture = frame_.picture;
     if (result_.frames == 0) {
       width_ = picture.width;
       height_ = picture.height;
@@ -99,7 +99,7 @@ class ArrayTracker {
     const Free free;
     frame_.index = result_.frames;
     frame_.t = frame_.index / result_.settings.rate.value_or(1);
-    const std::vector<TrackRow>& rows = tracker_.step(frame_);
+    const std::vector<vision::TrackRow>& rows = tracker_.step(frame_);
     result_.rows.insert(result_.rows.end(), rows.begin(), rows.end());
     ++result_.frames;
   }
@@ -110,24 +110,24 @@ class ArrayTracker {
   }
 
  private:
-  TrackResult result_;
-  VideoTracker tracker_;
-  VideoFrame frame_;
+  vision::TrackResult result_;
+  vision::VideoTracker tracker_;
+  vision::VideoFrame frame_;
   int width_ = 0, height_ = 0;
 };
 
 /// Tracks the robots of a video file or a folder of pictures.
 py::dict track_file(const std::string& file, const Given& given, const py::object& report) {
-  const TrackSettings settings = track_settings(given);
+  const vision::TrackSettings settings = track_settings(given);
   std::atomic<double> done = 0;
   std::string ended;
   const auto work = [&](const Stop& stop) {
-    const auto frames = open_frames(file, settings.rate, settings.depth);
+    const auto frames = vision::open_frames(file, settings.rate, settings.depth);
     if (!frames->rate()) throw InputError(file + ": tells no times: give fps or times_s");
     const double all = frames->count().value_or(0);
-    TrackResult result = track_video(
+    vision::TrackResult result = vision::track_video(
         *frames, file, settings,
-        [&](const VideoFrame& frame, const std::vector<TrackRow>&) {
+        [&](const vision::VideoFrame& frame, const std::vector<vision::TrackRow>&) {
           if (all > 0) done = std::min(1.0, (frame.index + 1) / all);
         },
         stop);
@@ -136,7 +136,7 @@ py::dict track_file(const std::string& file, const Given& given, const py::objec
       ended = file + ": says that it has " + std::to_string(*result.promised) + " pictures";
     return result;
   };
-  const TrackResult result = interruptible(work, [&] {
+  const vision::TrackResult result = interruptible(work, [&] {
     if (!report.is_none()) report(done.load());
   });
   py::dict out = to_tracks(result);
@@ -146,7 +146,8 @@ py::dict track_file(const std::string& file, const Given& given, const py::objec
 
 std::vector<std::string> track_keys() {
   std::vector<std::string> keys;
-  for (const SettingKey& key : setting_keys(type_of<TrackSettings>())) keys.push_back(key.key);
+  for (const SettingKey& key : setting_keys(type_of<vision::TrackSettings>()))
+    keys.push_back(key.key);
   return keys;
 }
 
@@ -158,7 +159,7 @@ void add_vision(py::module_& module) {
   module.def("track_keys", track_keys);
   module.def("check_image_size",
              [](std::int64_t width, std::int64_t height, const std::string& name) {
-               check_image_size(width, height, name);
+               formats::check_image_size(width, height, name);
              });
   py::class_<ArrayTracker>(module, "ArrayTracker")
       .def(py::init<const Given&>())

@@ -10,7 +10,7 @@
 #include "microswarm/core/maths/rng.hpp"
 #include "tests/actuation/support.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 AmplifierParams limited() {
@@ -313,4 +313,4 @@ TEST(CoilDriveLaw, ATurnIsNeverColderThanAnIndependentIntegration) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -10,7 +10,7 @@
 #include "tests/files.hpp"
 #include "tests/messages.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 Eigen::Matrix<double, 3, 4> true_matrix() {
@@ -148,4 +148,4 @@ TEST(Calibration, RefusesBrokenFilesInOneLine) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -8,7 +8,7 @@
 
 #include "microswarm/core/maths/rng.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 CoilReply some_reply(Rng& rng) {
@@ -131,4 +131,4 @@ TEST(CoilLink, GarbageBeforeAReplyCostsThatReplyAtMost) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -12,7 +12,7 @@
 #include "tests/files.hpp"
 #include "tests/messages.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 CoilSystem system_of(const std::string& yaml) {
@@ -63,7 +63,7 @@ TEST(CoilSystem, CubeCoilsPushTowardsTheirAxes) {
     EXPECT_GT(b[i / 2], 0);
     EXPECT_LE((b - b[i / 2] * Eigen::Vector3d::Unit(i / 2)).norm(), 1e-12 * b.norm());
     // The field grows towards the coil that makes it.
-    EXPECT_GT(total_gradient(at.gradients.col(i))(i / 2, i / 2) * (i % 2 ? 1 : -1), 0);
+    EXPECT_GT(gradient_matrix(at.gradients.col(i))(i / 2, i / 2) * (i % 2 ? 1 : -1), 0);
   }
 }
 
@@ -183,4 +183,4 @@ TEST(Currents, SayWhatCoilsCannotMake) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::actuation

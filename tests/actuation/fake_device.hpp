@@ -30,7 +30,8 @@ namespace microswarm::test {
 /// `answer`, which may change them; false keeps them back.
 class FakeDevice {
  public:
-  explicit FakeDevice(std::function<bool(CoilReply&)> answer = {}) : answer_(std::move(answer)) {
+  explicit FakeDevice(std::function<bool(actuation::CoilReply&)> answer = {})
+      : answer_(std::move(answer)) {
     termios raw{};
     cfmakeraw(&raw);
     std::array<char, 128> name{};
@@ -54,11 +55,11 @@ class FakeDevice {
     limits_[channel] = most;
   }
   /// When a message of this kind came first [s], by steady_seconds(); 0: never.
-  double first(CoilMessage message) {
+  double first(actuation::CoilMessage message) {
     const std::lock_guard lock(mutex_);
     return first_[message];
   }
-  int count(CoilMessage message) {
+  int count(actuation::CoilMessage message) {
     const std::lock_guard lock(mutex_);
     return counts_[message];
   }
@@ -76,71 +77,72 @@ class FakeDevice {
           frame.push_back(bytes[k]);
           continue;
         }
-        if (const auto packet = decode(frame)) obey(*packet);
+        if (const auto packet = actuation::decode(frame)) obey(*packet);
         frame.clear();
       }
     }
   }
 
   void obey(const std::vector<std::uint8_t>& packet) {
-    const auto message = static_cast<CoilMessage>(packet[0]);
+    const auto message = static_cast<actuation::CoilMessage>(packet[0]);
     {
       const std::lock_guard lock(mutex_);
       if (first_[message] == 0) first_[message] = steady_seconds();
       ++counts_[message];
     }
-    if (message == CoilMessage::hello) state_ = CoilState::idle;
-    if (message == CoilMessage::arm) outputs_ = reported_ = {};
-    if (message == CoilMessage::arm) state_ = CoilState::armed;
-    if (message == CoilMessage::stop) state_ = CoilState::stopped;
-    if (state_ != CoilState::armed) {
+    if (message == actuation::CoilMessage::hello) state_ = actuation::CoilState::idle;
+    if (message == actuation::CoilMessage::arm) outputs_ = reported_ = {};
+    if (message == actuation::CoilMessage::arm) state_ = actuation::CoilState::armed;
+    if (message == actuation::CoilMessage::stop) state_ = actuation::CoilState::stopped;
+    if (state_ != actuation::CoilState::armed) {
       outputs_ = reported_ = {};
       waveform_.reset();
     }
-    if (message == CoilMessage::set) waveform_.reset();
-    if (message == CoilMessage::waveform && state_ == CoilState::armed) turn(packet);
-    if (message == CoilMessage::set && state_ == CoilState::armed)
+    if (message == actuation::CoilMessage::set) waveform_.reset();
+    if (message == actuation::CoilMessage::waveform && state_ == actuation::CoilState::armed)
+      turn(packet);
+    if (message == actuation::CoilMessage::set && state_ == actuation::CoilState::armed)
       for (std::size_t c = 0; c < outputs_.size(); ++c)
         outputs_[c] = static_cast<std::int16_t>(packet[packet.size() - 12 + 2 * c] |
                                                 packet[packet.size() - 11 + 2 * c] << 8);
-    CoilReply reply;
+    actuation::CoilReply reply;
     reply.to = message;
     reply.sequence = packet[1];
-    reply.version = coil_link_version;
+    reply.version = actuation::coil_link_version;
     reply.state = state_;
     reply.outputs = reported_;
     reply.slew = 100;
-    reply.scale = coil_link_unscaled;
+    reply.scale = actuation::coil_link_unscaled;
     reply.scale = limited_scale();
-    if (reply.scale != coil_link_unscaled) reply.result = CoilResult::limited;
-    const CoilAim aim = scaled({.constant = outputs_}, reply.scale);
-    reply.aim_sum = check_sum(aim);
+    if (reply.scale != actuation::coil_link_unscaled) reply.result = actuation::CoilResult::limited;
+    const actuation::CoilAim aim = actuation::scaled({.constant = outputs_}, reply.scale);
+    reply.aim_sum = actuation::check_sum(aim);
     reply.clock = static_cast<int>(1e3 * steady_seconds()) & 0xFFFF;
     reported_ = aim.constant;  // as if there at once
-    if (waveform_ && state_ == CoilState::armed) {
+    if (waveform_ && state_ == actuation::CoilState::armed) {
       const double turns = phase_ + 1e-3 * waveform_->frequency * (steady_seconds() - turned_at_);
       reply.phase = static_cast<int>(std::lround(65536 * (turns - std::floor(turns)))) & 0xFFFF;
-      reply.aim_sum = check_sum(*waveform_);
+      reply.aim_sum = actuation::check_sum(*waveform_);
       const double angle = 2 * 3.14159265358979 * reply.phase / 65536;
       for (std::size_t c = 0; c < outputs_.size(); ++c)
         reply.outputs[c] = static_cast<int>(std::lround(waveform_->constant[c] +
                                                         waveform_->cosine[c] * std::cos(angle) +
                                                         waveform_->sine[c] * std::sin(angle)));
     }
-    if ((message == CoilMessage::set || message == CoilMessage::waveform) &&
-        state_ != CoilState::armed)
-      reply.result = CoilResult::not_armed;
+    if ((message == actuation::CoilMessage::set || message == actuation::CoilMessage::waveform) &&
+        state_ != actuation::CoilState::armed)
+      reply.result = actuation::CoilResult::not_armed;
     if (answer_ && !answer_(reply)) return;
-    const auto bytes = encode(reply);
+    const auto bytes = actuation::encode(reply);
     EXPECT_EQ(write(line_, bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
   }
 
   int limited_scale() {
     const std::lock_guard lock(mutex_);
-    int scale = coil_link_unscaled;
+    int scale = actuation::coil_link_unscaled;
     for (const auto& [channel, most] : limits_)
       if (const int output = std::abs(outputs_[channel]); output > most)
-        scale = std::min(scale, coil_link_unscaled * most / output);
+        scale = std::min(scale, actuation::coil_link_unscaled * most / output);
     return scale;
   }
 
@@ -154,24 +156,24 @@ class FakeDevice {
     turned_at_ = now;
     waveform_.emplace();
     waveform_->frequency = static_cast<std::uint16_t>(number(6)) | number(8) * 65536;
-    for (std::size_t c = 0; c < coil_link_channels; ++c) {
+    for (std::size_t c = 0; c < actuation::coil_link_channels; ++c) {
       waveform_->constant[c] = number(10 + 2 * c);
       waveform_->cosine[c] = number(22 + 2 * c);
       waveform_->sine[c] = number(34 + 2 * c);
     }
   }
 
-  std::function<bool(CoilReply&)> answer_;
+  std::function<bool(actuation::CoilReply&)> answer_;
   int line_ = -1, other_ = -1;
   std::string port_;
   std::atomic<bool> ended_ = false;
   std::mutex mutex_;
-  std::map<CoilMessage, double> first_;
-  std::map<CoilMessage, int> counts_;
+  std::map<actuation::CoilMessage, double> first_;
+  std::map<actuation::CoilMessage, int> counts_;
   std::map<std::size_t, int> limits_;
-  CoilState state_ = CoilState::idle;
-  CoilOutputs outputs_{}, reported_{};
-  std::optional<CoilAim> waveform_;
+  actuation::CoilState state_ = actuation::CoilState::idle;
+  actuation::CoilOutputs outputs_{}, reported_{};
+  std::optional<actuation::CoilAim> waveform_;
   double phase_ = 0, turned_at_ = 0;  // [turns] at a time [s]
   std::thread thread_;
 };

@@ -19,7 +19,7 @@
 #include "tests/files.hpp"
 #include "tests/messages.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 CoilSystem helmholtz() {
@@ -250,4 +250,4 @@ TEST(GradientFitData, GradientsNearTheCentreAreThoseOfTheMultipoles) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -20,7 +20,7 @@
 #include "tests/files.hpp"
 #include "tests/messages.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 using std::chrono::milliseconds;
@@ -447,4 +447,4 @@ TEST_F(LineProgram, HasItsCoilsForItselfAlsoWhenItsHostIsGone) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -81,7 +81,7 @@ class LineServer {
     }
     if (over_) return;
     const int line = ::accept(listening_, nullptr, nullptr);
-    LineReader reader;
+    actuation::LineReader reader;
     while (!over_) {
       pollfd ready{line, POLLIN, 0};
       if (::poll(&ready, 1, 5) <= 0) continue;

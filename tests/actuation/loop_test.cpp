@@ -11,7 +11,7 @@
 #include "tests/files.hpp"
 #include "tests/messages.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 /// Biot–Savart summed over straight bits of the circle: the trapezoidal rule on a periodic
@@ -176,4 +176,4 @@ TEST(Winding, RefusesWhatIsNoWinding) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::actuation

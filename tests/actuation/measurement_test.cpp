@@ -11,7 +11,7 @@
 #include "tests/files.hpp"
 #include "tests/messages.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 CoilSystem two_coils(std::vector<AmplifierParams> amplifiers) {
@@ -162,4 +162,4 @@ TEST(ProbeFile, RefusesInOneLine) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -12,7 +12,7 @@
 #include "tests/files.hpp"
 #include "tests/messages.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 constexpr std::string_view small = R"(System_Name: pair
@@ -36,11 +36,11 @@ TEST(Mpem, ReadsSourcesAndTheirFields) {
   ASSERT_EQ(system.coils.size(), 2u);
   EXPECT_EQ(system.coils[0].name, "Left");
   // Dipoles of 2e-5 T m³/A at 0.1 m: on their axis 2 b/r³ = 40 mT, beside it −b/r³ = −20 mT.
-  const Eigen::Vector3d left = total_field(system.coils[0].sources, {0, 0, 0}).field;
+  const Eigen::Vector3d left = field_at(system.coils[0].sources, {0, 0, 0}).field;
   EXPECT_LE((left - Eigen::Vector3d(40, 0, -1)).norm(), 1e-12);
-  const Eigen::Vector3d right = total_field(system.coils[1].sources, {0, 0, 0}).field;
+  const Eigen::Vector3d right = field_at(system.coils[1].sources, {0, 0, 0}).field;
   EXPECT_LE((right - Eigen::Vector3d(0, -20, 0)).norm(), 1e-12);
-  EXPECT_LE((total_field(system.offset, {5, 6, 7}).field - Eigen::Vector3d(0, 0.05, 0)).norm(),
+  EXPECT_LE((field_at(system.offset, {5, 6, 7}).field - Eigen::Vector3d(0, 0.05, 0)).norm(),
             1e-15);
   EXPECT_TRUE(system.in_workspace({1e4, 0, 0}));
   EXPECT_FALSE(system.in_workspace({1.0001e4, 0, 0}));
@@ -242,4 +242,4 @@ TEST_F(CalibrationData, GridsOfFieldsAreRead) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -14,7 +14,7 @@
 #include "tests/actuation/fake_device.hpp"
 #include "tests/messages.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 const std::array<double, 6> some_amperes{1, -2, 3, -4, 5, -6};
@@ -164,4 +164,4 @@ TEST(SerialCoilDriverPty, RefusesWaveformsBeyondItsScale) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::actuation

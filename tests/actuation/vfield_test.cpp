@@ -8,7 +8,7 @@
 #include "tests/files.hpp"
 #include "tests/messages.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 /// Linear in each coordinate alone, so that the straight lines hit it everywhere [m] → [T].
@@ -95,4 +95,4 @@ TEST(Vfield, RefusesInOneLine) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -9,7 +9,7 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "tests/actuation/support.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 TEST(Waveform, RotatingFieldTurnsSquareToItsAxis) {
@@ -231,4 +231,4 @@ TEST(FieldGenerator, KeepsItsPhaseWhenTheFrequencyChanges) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::actuation

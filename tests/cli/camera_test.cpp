@@ -239,8 +239,8 @@ TEST_P(EachCameraRun, ItsVideoHasTheRecordsClock) {
   std::getline(rows, line);
   std::vector<double> times;
   while (std::getline(rows, line)) times.push_back(std::stod(line.substr(line.rfind(',') + 1)));
-  const auto video = open_frames(at.folder / "out/camera.mkv");
-  VideoFrame frame;
+  const auto video = vision::open_frames(at.folder / "out/camera.mkv");
+  vision::VideoFrame frame;
   std::size_t count = 0;
   while (video->next(frame)) ++count;
   EXPECT_EQ(count, times.size());
@@ -248,9 +248,9 @@ TEST_P(EachCameraRun, ItsVideoHasTheRecordsClock) {
   EXPECT_TRUE(names(outcome.out, "\"frames\": " + std::to_string(count))) << outcome.out;
   EXPECT_FALSE(exists("out/camera.part.mkv") || exists("out/camera.part.csv"));
   // Every frame that the navigator saw is in the video, with its time.
-  const Record record = read_record(at.folder / "out/run.h5");
+  const experiment::Record record = experiment::read_record(at.folder / "out/run.h5");
   EXPECT_GT(record.frames.size(), 10U);
-  for (const Frame& tick : record.frames) {
+  for (const experiment::Frame& tick : record.frames) {
     const double nearest =
         *std::ranges::min_element(times, {}, [&](double t) { return std::abs(t - tick.seen); });
     EXPECT_NEAR(nearest, tick.seen, 1e-6);

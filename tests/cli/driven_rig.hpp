@@ -44,7 +44,8 @@ class DrivenRig : public CommandLine {
   /// Lets it drive for `ms`. It arms once for its check of the driver, and again for the run;
   /// `armed`: how often earlier runs did.
   static void let_drive(FakeDevice& device, int ms, int armed = 0) {
-    for (int i = 0; i < 2000 && device.count(CoilMessage::arm) < armed + 2; ++i) sleep_ms(10);
+    for (int i = 0; i < 2000 && device.count(actuation::CoilMessage::arm) < armed + 2; ++i)
+      sleep_ms(10);
     sleep_ms(ms);
   }
 };

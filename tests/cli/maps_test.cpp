@@ -99,7 +99,8 @@ TEST_F(Maps, PlanInPictures) {
 
 TEST_F(Maps, EveryPlanner) {
   std::vector<std::string> planners;
-  for (const std::string_view word : type_of<PlannerParams>().words) planners.emplace_back(word);
+  for (const std::string_view word : type_of<planning::PlannerParams>().words)
+    planners.emplace_back(word);
   for (const std::string& planner : planners) {
     const Json plan = Json::parse(
         good({"plan", "room.pgm", "--um-per-px", "10", "--start", "100,300", "--goal", "500,300",

@@ -275,7 +275,7 @@ TEST_F(OwnDriver, WhatItsLimitsLeaveIsTold) {
   EXPECT_EQ(outcome.code, 3) << outcome.err;
   EXPECT_TRUE(names(outcome.err, "the device weakened the currents")) << outcome.err;
   const std::vector<std::string> rows = lines("out/commands.csv");
-  const RigLog log = read_record(at.folder / "out/run.h5").rig_log;
+  const experiment::RigLog log = experiment::read_record(at.folder / "out/run.h5").rig_log;
   ASSERT_EQ(rows.size(), log.driven_at.size() + 2);
   EXPECT_TRUE(names(rows[0], "i_h_a,scale,device_scale,status"));
   const auto cells = split(rows[20], ',');

@@ -139,15 +139,15 @@ TEST_F(RigCamera, AScenarioIsDrawnWhereTheCameraSeesIt) {
         "swarm: {type: vortex}\nnavigator: {type: radar}\n");
   const Arguments see{"rig", "see", "frame.pgm", "--rig", "rig.yaml", "--out", "seen.png"};
   good(see);
-  const Image without = read_image(at.folder / "seen.png");
+  const formats::Image without = formats::read_image(at.folder / "seen.png");
   Arguments with = see;
   with.insert(with.end(), {"--scenario", "flight.yaml"});
   const Outcome off = run(with);
   EXPECT_EQ(off.code, 0);
   EXPECT_TRUE(names(off.out, "px (560.9 µm) from the start")) << off.out;
   EXPECT_TRUE(is_one_line_naming(off.err, "note", {"start", "60 px", "scene.swarm.jump_px"}));
-  const Image drawn = read_image(at.folder / "seen.png");
-  const auto colour = [&](const Image& image, int x, int y) {
+  const formats::Image drawn = formats::read_image(at.folder / "seen.png");
+  const auto colour = [&](const formats::Image& image, int x, int y) {
     const std::size_t i = image.index(x, y);
     return std::array<int, 3>{image.pixels[i], image.pixels[i + 1], image.pixels[i + 2]};
   };

@@ -22,7 +22,7 @@ class RigDrive : public DrivenRig {
 TEST_F(RigDrive, ACurrentComesAndGoesByItsRamps) {
   std::vector<int> x, y;
   std::mutex mutex;
-  FakeDevice device([&](CoilReply& reply) {
+  FakeDevice device([&](actuation::CoilReply& reply) {
     const std::lock_guard lock(mutex);
     x.push_back(reply.outputs[0]);
     y.push_back(reply.outputs[1]);
@@ -44,7 +44,7 @@ TEST_F(RigDrive, ACurrentComesAndGoesByItsRamps) {
 TEST_F(RigDrive, EachCoilInTurn) {
   std::array<int, 3> most{};
   std::mutex mutex;
-  FakeDevice device([&](CoilReply& reply) {
+  FakeDevice device([&](actuation::CoilReply& reply) {
     const std::lock_guard lock(mutex);
     for (std::size_t c = 0; c < 3; ++c) most[c] = std::max(most[c], reply.outputs[c]);
     return true;
@@ -65,12 +65,12 @@ TEST_F(RigDrive, TheRigsFieldTurnsAndCtrlCEndsIt) {
   Program program({"rig", "drive", "rig.yaml", "--other-stop", "--coils-cold", "--heading", "30",
                    "--speed", "20", "--seconds", "60"},
                   at);
-  for (int i = 0; i < 1000 && device.count(CoilMessage::set) < 50; ++i) sleep_ms(10);
-  const int stops = device.count(CoilMessage::stop);
+  for (int i = 0; i < 1000 && device.count(actuation::CoilMessage::set) < 50; ++i) sleep_ms(10);
+  const int stops = device.count(actuation::CoilMessage::stop);
   program.send(SIGINT);
   const Outcome outcome = program.wait();
   EXPECT_EQ(outcome.code, 3) << outcome.err;
-  EXPECT_GT(device.count(CoilMessage::stop), stops);
+  EXPECT_GT(device.count(actuation::CoilMessage::stop), stops);
 }
 
 TEST_F(RigDrive, TheDeviceTurnsTheField) {
@@ -80,7 +80,7 @@ TEST_F(RigDrive, TheDeviceTurnsTheField) {
                                "--heading", "30", "--speed", "20", "--seconds", "1.5", "--set",
                                "driver.waveforms=true", "--set", "drive_rate_hz=50"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_GT(device.count(CoilMessage::waveform), 40);
+  EXPECT_GT(device.count(actuation::CoilMessage::waveform), 40);
 }
 
 TEST_F(RigDrive, WhatCannotBeIsRefused) {
@@ -111,12 +111,13 @@ TEST_F(RigDrive, WhatCannotBeIsRefused) {
   const Outcome outcome = drive({"--currents", "1,0,0"});
   EXPECT_EQ(outcome.code, 2);
   EXPECT_TRUE(names(outcome.err, "does not limit the temperature")) << outcome.err;
-  EXPECT_EQ(device.count(CoilMessage::set), 0);
+  EXPECT_EQ(device.count(actuation::CoilMessage::set), 0);
 }
 
 TEST_F(RigDrive, ADeviceThatFallsSilentIsAFault) {
-  FakeDevice device(
-      [sets = 0](CoilReply& reply) mutable { return reply.to != CoilMessage::set || ++sets < 30; });
+  FakeDevice device([sets = 0](actuation::CoilReply& reply) mutable {
+    return reply.to != actuation::CoilMessage::set || ++sets < 30;
+  });
   write_rig(device);
   const Outcome outcome = drive({"--currents", "1,0,0", "--seconds", "10"});
   EXPECT_EQ(outcome.code, 4) << outcome.err;

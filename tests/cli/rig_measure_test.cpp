@@ -22,17 +22,17 @@ constexpr const char* question = "Bx By Bz in mT: ";
 
 class RigMeasure : public DrivenRig {
  protected:
-  RigMeasure() : device([this](CoilReply& reply) { return hear(reply); }) {
+  RigMeasure() : device([this](actuation::CoilReply& reply) { return hear(reply); }) {
     write_coils("max_current_a: 12, max_voltage_v: 24, max_temperature_degc: 90");
     write_rig(device);
     truth_A << 1.9, 0.1, -0.02, 0.05, 1.4, 0.3, -0.2, 0, 1.1;
     truth_G << 3, -1, 0.5, 0.2, 2, -0.4, 1, 0, 0.7, -2, 0.1, 0.9, 0.3, -0.6, 4;  // [T/m/A]
   }
 
-  bool hear(const CoilReply& reply) {
+  bool hear(const actuation::CoilReply& reply) {
     const std::lock_guard lock(mutex);
     outputs = reply.outputs;
-    if (reply.to == CoilMessage::stop) outputs = {};
+    if (reply.to == actuation::CoilMessage::stop) outputs = {};
     return true;
   }
   Eigen::Vector3d currents() {
@@ -41,7 +41,8 @@ class RigMeasure : public DrivenRig {
   }
   Eigen::Vector3d truth(const Eigen::Vector3d& position = Eigen::Vector3d::Zero()) {
     const Eigen::Vector3d I = currents();
-    const Eigen::Matrix3d G = gradient_matrix(FiveGradients(truth_G * I)) * mt_per_um_of_t_per_m;
+    const Eigen::Matrix3d G = actuation::gradient_matrix(actuation::FiveGradients(truth_G * I)) *
+                              actuation::mt_per_um_of_t_per_m;
     return truth_A * I + G * position + Eigen::Vector3d(0.02, -0.03, 0.045);
   }
   static std::string typed(const Eigen::Vector3d& b) {
@@ -71,14 +72,14 @@ class RigMeasure : public DrivenRig {
     return static_cast<std::size_t>(std::ranges::count(text, '\n')) - 1;
   }
   void expect_truth(const std::string& file, double within) const {
-    const CoilSystem system = read_coil_system(at.folder / file);
-    const Actuation there = system.at(Eigen::Vector3d::Zero());
+    const actuation::CoilSystem system = actuation::read_coil_system(at.folder / file);
+    const actuation::Actuation there = system.at(Eigen::Vector3d::Zero());
     EXPECT_LE((there.field - truth_A).cwiseAbs().maxCoeff(), within) << there.field;
     EXPECT_NEAR(there.offset.field[2], 0.045, within);
   }
 
   std::mutex mutex;
-  CoilOutputs outputs{};
+  actuation::CoilOutputs outputs{};
   Eigen::Matrix3d truth_A;
   Eigen::Matrix<double, 5, 3> truth_G;
   FakeDevice device;
@@ -95,21 +96,23 @@ TEST_F(RigMeasure, AnOperatorIsGuidedToMatrixAndGradients) {
   EXPECT_EQ(terminal.wait(), 0) << terminal.said();
   EXPECT_EQ(rows(), 21u);
   expect_truth("fitted.yaml", 1e-5);
-  const CoilSystem system = read_coil_system(at.folder / "fitted.yaml");
+  const actuation::CoilSystem system = actuation::read_coil_system(at.folder / "fitted.yaml");
   EXPECT_EQ(system.name(), "bench coils");
   EXPECT_EQ(system.amplifiers().at(0).max_temperature, 90);
   EXPECT_EQ(system.amplifiers().at(0).max_current, 12);  // that of the file, not the driver's 10 A
   EXPECT_EQ(system.centre(), Eigen::Vector3d(2500, 2500, 0));
-  const Eigen::MatrixXd gradients = system.at({0, 0, 0}).gradients / mt_per_um_of_t_per_m;
+  const Eigen::MatrixXd gradients =
+      system.at({0, 0, 0}).gradients / actuation::mt_per_um_of_t_per_m;
   EXPECT_LE((gradients - truth_G).cwiseAbs().maxCoeff(), 1e-3) << gradients;
   // The file is one that is fitted without coils, and the field elsewhere has the gradients in it.
   good({"rig", "calibrate", "measured.csv", "--gradients", "--offset"});
   const Json field = Json::parse(good(
       {"rig", "field", "fitted.yaml", "--at", "1000,-2000,500", "--currents", "1,2,-1", "--json"}));
   const Eigen::Vector3d I(1, 2, -1);
-  const Eigen::Vector3d expected = truth_A * I + Eigen::Vector3d(0.02, -0.03, 0.045) +
-                                   gradient_matrix(FiveGradients(truth_G * I)) *
-                                       mt_per_um_of_t_per_m * Eigen::Vector3d(1000, -2000, 500);
+  const Eigen::Vector3d expected =
+      truth_A * I + Eigen::Vector3d(0.02, -0.03, 0.045) +
+      actuation::gradient_matrix(actuation::FiveGradients(truth_G * I)) *
+          actuation::mt_per_um_of_t_per_m * Eigen::Vector3d(1000, -2000, 500);
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(field["field_mt"][k].get<double>(), expected[k], 1e-3);
   EXPECT_TRUE(names(good({"rig", "map", "fitted.yaml", "--points", "5"}), "centre"));
 }
@@ -181,9 +184,9 @@ TEST_F(RigMeasure, WhatWasMeasuredIsKeptAndItGoesOn) {
   EXPECT_EQ(terminal.wait(), 0) << terminal.said();
   expect_truth("fitted.yaml", 1e-5);
   // All is measured: nothing is driven any more.
-  const int arms = device.count(CoilMessage::arm);
+  const int arms = device.count(actuation::CoilMessage::arm);
   EXPECT_EQ(run(arguments()).code, 0);
-  EXPECT_EQ(device.count(CoilMessage::arm), arms);
+  EXPECT_EQ(device.count(actuation::CoilMessage::arm), arms);
 }
 
 TEST_F(RigMeasure, SilenceTurnsTheCoilsOff) {
@@ -209,19 +212,20 @@ TEST_F(RigMeasure, EscStopsAtOnceAlsoAmidAnAnswer) {
   begin(terminal);
   answer(terminal, 1, {0, 0, 0});
   ASSERT_TRUE(terminal.hears(question));
-  const int sets = device.count(CoilMessage::set), stops = device.count(CoilMessage::stop);
+  const int sets = device.count(actuation::CoilMessage::set),
+            stops = device.count(actuation::CoilMessage::stop);
   terminal.press("1.5 \x1b");
   EXPECT_EQ(terminal.wait(), 4) << terminal.said();
   EXPECT_TRUE(names(terminal.said(), "emergency key")) << terminal.said();
-  EXPECT_GT(device.count(CoilMessage::stop), stops);
-  EXPECT_LT(device.count(CoilMessage::set) - sets, 40);
+  EXPECT_GT(device.count(actuation::CoilMessage::stop), stops);
+  EXPECT_LT(device.count(actuation::CoilMessage::set) - sets, 40);
   EXPECT_EQ(currents().norm(), 0);
   EXPECT_EQ(rows(), 1u);
 }
 
 TEST_F(RigMeasure, ADeviceThatFallsSilentIsAFaultAndTheRowsAreKept) {
   std::atomic<bool> silent = false;
-  FakeDevice other([&](CoilReply& reply) {
+  FakeDevice other([&](actuation::CoilReply& reply) {
     hear(reply);
     return !silent;
   });
@@ -314,9 +318,9 @@ TEST_F(RigMeasure, ALimitOfTheDeviceIsToldAndItEnds) {
   EXPECT_EQ(rows(), 7u);
   expect_truth("fitted.yaml", 1e-5);
   // All is measured: nothing is driven any more. Another current is another measurement.
-  const int arms = device.count(CoilMessage::arm);
+  const int arms = device.count(actuation::CoilMessage::arm);
   EXPECT_EQ(run(arguments()).code, 0);
-  EXPECT_EQ(device.count(CoilMessage::arm), arms);
+  EXPECT_EQ(device.count(actuation::CoilMessage::arm), arms);
   Arguments stronger = arguments();
   *std::ranges::find(stronger, "4") = "4.5";
   Terminal again(stronger, at);
@@ -415,7 +419,7 @@ TEST_F(RigMeasure, WhatCannotBeIsRefusedBeforeTheFirstCurrent) {
   Arguments over = arguments();
   *std::ranges::find(over, "fitted.yaml") = "coils.yaml";
   refused(over, naming("coils.yaml", {"input"}));
-  EXPECT_EQ(device.count(CoilMessage::set), 0);
+  EXPECT_EQ(device.count(actuation::CoilMessage::set), 0);
 }
 
 }  // namespace

@@ -15,8 +15,8 @@ constexpr const char* esc = "\x1b";
 constexpr const char* up = "\x1b[A";
 constexpr const char* left = "\x1bOD";  // of a terminal with application keys
 
-std::ptrdiff_t frames_in(const Record& record, NavigatorState state) {
-  return std::ranges::count(record.frames, state, &Frame::state);
+std::ptrdiff_t frames_in(const experiment::Record& record, NavigatorState state) {
+  return std::ranges::count(record.frames, state, &experiment::Frame::state);
 }
 
 /// What a terminal shows: the lines that are complete or renewed, without sequences.
@@ -54,11 +54,11 @@ class RigOperation : public DrivenRig {
         {"--set", "goal_um=[470, 500]", "--set", "goal_tolerance_um=40", "--hold", hold});
   }
   void let_drive(int ms, int armed = 0) { DrivenRig::let_drive(device, ms, armed); }
-  Record record() const { return read_record(at.folder / "out/run.h5"); }
+  experiment::Record record() const { return experiment::read_record(at.folder / "out/run.h5"); }
 
   std::atomic<int> strongest = 0;  // output of the last set [‰]
-  FakeDevice device{[this](CoilReply& reply) {
-    if (reply.to == CoilMessage::set || reply.to == CoilMessage::stop)
+  FakeDevice device{[this](actuation::CoilReply& reply) {
+    if (reply.to == actuation::CoilMessage::set || reply.to == actuation::CoilMessage::stop)
       strongest = std::abs(*std::ranges::max_element(reply.outputs, {},
                                                      [](int output) { return std::abs(output); }));
     return true;
@@ -78,10 +78,10 @@ TEST_F(RigOperation, PauseHoldsAndResumes) {
   sleep_ms(1000);
   terminal.press("q");
   EXPECT_EQ(terminal.wait(), 3) << terminal.said();
-  const Record run = record();
+  const experiment::Record run = record();
   EXPECT_EQ(run.result.status, Status::stopped);
   EXPECT_GE(frames_in(run, NavigatorState::paused), 12);
-  for (const Frame& frame : run.frames)
+  for (const experiment::Frame& frame : run.frames)
     if (frame.state == NavigatorState::paused) {
       EXPECT_EQ(frame.command.speed, 0);
     }
@@ -113,20 +113,22 @@ TEST_F(RigOperation, ByHandTheSwarmGoesWhereTheKeysSay) {
   sleep_ms(2000);
   terminal.press("q");
   EXPECT_EQ(terminal.wait(), 3) << terminal.said();
-  const Record run = record();
-  std::vector<Frame> hands;
-  std::ranges::copy_if(run.frames, std::back_inserter(hands),
-                       [](const Frame& f) { return f.state == NavigatorState::manual; });
+  const experiment::Record run = record();
+  std::vector<experiment::Frame> hands;
+  std::ranges::copy_if(run.frames, std::back_inserter(hands), [](const experiment::Frame& f) {
+    return f.state == NavigatorState::manual;
+  });
   ASSERT_GT(hands.size(), 20u);
   EXPECT_GT(hands[hands.size() / 2].pose.position.y, hands.front().pose.position.y + 30);
   EXPECT_LT(hands.back().pose.position.x, hands[hands.size() / 2].pose.position.x - 10);
   EXPECT_EQ(hands.back().command.speed, 0);
-  const double fastest =
-      std::ranges::max(hands, {}, [](const Frame& f) { return f.command.speed; }).command.speed;
+  const double fastest = std::ranges::max(hands, {}, [](const experiment::Frame& f) {
+                           return f.command.speed;
+                         }).command.speed;
   const double limit = swarm_limits(run.scene.scenario.swarm).max_speed;
   EXPECT_NEAR(fastest, 0.9 * limit, 1e-6);
   const auto is_steered = [&](double heading) {
-    return std::ranges::any_of(hands, [&](const Frame& f) {
+    return std::ranges::any_of(hands, [&](const experiment::Frame& f) {
       return f.command.speed > 0 && std::abs(f.command.heading - heading) < 1e-9;
     });
   };
@@ -134,7 +136,7 @@ TEST_F(RigOperation, ByHandTheSwarmGoesWhereTheKeysSay) {
   EXPECT_TRUE(is_steered(0));
   EXPECT_TRUE(is_steered(std::acos(-1)));
   EXPECT_FALSE(is_steered(-std::acos(0)));
-  const Frame& after = run.frames[run.frames.size() - 2];
+  const experiment::Frame& after = run.frames[run.frames.size() - 2];
   EXPECT_EQ(after.state, NavigatorState::direct);
   EXPECT_GT(after.command.speed, 0);
 }
@@ -145,10 +147,11 @@ TEST_F(RigOperation, ALoneEscEndsItAtOnce) {
   for (int i = 0; i < 3; ++i) terminal.press(up);  // no emergency
   sleep_ms(300);
   ASSERT_TRUE(terminal.running());
-  const int stops = device.count(CoilMessage::stop);
+  const int stops = device.count(actuation::CoilMessage::stop);
   const double pressed = steady_seconds();
   terminal.press(esc);
-  while (device.count(CoilMessage::stop) == stops && steady_seconds() < pressed + 5) sleep_ms(1);
+  while (device.count(actuation::CoilMessage::stop) == stops && steady_seconds() < pressed + 5)
+    sleep_ms(1);
   EXPECT_LT(steady_seconds() - pressed, 0.15);  // 0.05 s are meant; the computer may be busy
   RecordProperty("seconds_to_stop", std::to_string(steady_seconds() - pressed));
   EXPECT_EQ(terminal.wait(), 4) << terminal.said();
@@ -159,7 +162,7 @@ TEST_F(RigOperation, ALoneEscEndsItAtOnce) {
 TEST_F(RigOperation, EmergencyKeysActInEveryState) {
   for (const auto& [keys, emergency] :
        {std::pair{"p", " "}, {"m", esc}, {"mp", "e"}, {"", "\x1b\x1b"}, {"m", "\x1bx"}}) {
-    const int armed = device.count(CoilMessage::arm);
+    const int armed = device.count(actuation::CoilMessage::arm);
     Terminal terminal(arguments({"--overwrite"}), at);
     let_drive(0, armed);
     terminal.press(keys);
@@ -178,7 +181,7 @@ TEST_F(RigOperation, PastedTextIsNoCommand) {
   EXPECT_TRUE(terminal.running()) << terminal.said();
   terminal.send(SIGINT);
   EXPECT_EQ(terminal.wait(), 3);
-  const Record run = record();
+  const experiment::Record run = record();
   EXPECT_EQ(frames_in(run, NavigatorState::paused) + frames_in(run, NavigatorState::manual), 0);
 }
 
@@ -190,12 +193,14 @@ TEST_F(RigOperation, AtTheGoalItIsHeldUntilCtrlC) {
   const double held = steady_seconds();
   terminal.send(SIGINT);
   EXPECT_EQ(terminal.wait(), 0) << terminal.said();
-  EXPECT_GT(device.count(CoilMessage::stop), 1);
+  EXPECT_GT(device.count(actuation::CoilMessage::stop), 1);
   EXPECT_LT(steady_seconds() - held, 20);
-  const Record run = record();
+  const experiment::Record run = record();
   EXPECT_EQ(run.result.status, Status::solved);
-  ASSERT_EQ(std::ranges::count(run.events, EventKind::goal_reached, &RunEvent::kind), 1);
-  const double arrival = run.events.back().kind == EventKind::goal_reached
+  ASSERT_EQ(std::ranges::count(run.events, experiment::EventKind::goal_reached,
+                               &experiment::RunEvent::kind),
+            1);
+  const double arrival = run.events.back().kind == experiment::EventKind::goal_reached
                              ? run.events.back().t
                              : run.result.metrics.time;
   EXPECT_NEAR(run.result.metrics.time, arrival, 1e-9);
@@ -219,8 +224,8 @@ TEST_F(RigOperation, TheHoldEndsByItsTimeOrItsKey) {
 TEST_F(RigOperation, WithoutHoldTheFieldGoesOffAtTheGoal) {
   Terminal terminal(near_goal("0"), at);
   EXPECT_EQ(terminal.wait(), 0) << terminal.said();
-  const Record run = record();
-  EXPECT_EQ(run.events.back().kind, EventKind::goal_reached);
+  const experiment::Record run = record();
+  EXPECT_EQ(run.events.back().kind, experiment::EventKind::goal_reached);
   EXPECT_NEAR(run.events.back().t, run.frames.back().t, 0.2);
 }
 
@@ -252,10 +257,10 @@ TEST_F(RigOperation, TheStatusLineFitsAndGoes) {
 
 TEST_F(RigOperation, ANoteComesAboveTheStatusLine) {
   std::atomic<int> sets = 0;
-  FakeDevice trips([&, stops = 0](CoilReply& reply) mutable {
-    stops += reply.to == CoilMessage::stop;  // the first ends the check before the run
-    if (reply.to == CoilMessage::set && stops > 0 && ++sets == 150)
-      reply.result = CoilResult::not_armed;
+  FakeDevice trips([&, stops = 0](actuation::CoilReply& reply) mutable {
+    stops += reply.to == actuation::CoilMessage::stop;  // the first ends the check before the run
+    if (reply.to == actuation::CoilMessage::set && stops > 0 && ++sets == 150)
+      reply.result = actuation::CoilResult::not_armed;
     return true;
   });
   Terminal terminal(arguments({"--set-rig", "driver.port=" + trips.port()}), at);
@@ -272,7 +277,7 @@ TEST_F(RigOperation, AFaultInAPauseOrByHandOrAtTheGoalEndsItAsEver) {
   for (const auto& [keys, words] :
        {std::pair{"p", arguments()}, {"m", arguments()}, {"", near_goal("1000")}}) {
     std::atomic<bool> silent = false;
-    FakeDevice other([&](CoilReply&) { return !silent; });
+    FakeDevice other([&](actuation::CoilReply&) { return !silent; });
     Arguments all = words;
     all.insert(all.end(), {"--overwrite", "--set-rig", "driver.port=" + other.port()});
     Terminal terminal(all, at);
@@ -311,12 +316,12 @@ TEST_F(RigOperation, ASuspendedComputerIsNotDrivenOn) {
   Program program(arguments({"--other-stop", "--seconds", "60"}), at);
   let_drive(700);
   ASSERT_TRUE(program.running());
-  const int arms = device.count(CoilMessage::arm);
+  const int arms = device.count(actuation::CoilMessage::arm);
   write("asleep", "7");
   const Outcome outcome = program.wait();
   EXPECT_EQ(outcome.code, 4) << outcome.err;
   EXPECT_TRUE(names(outcome.out, "the computer was suspended for 7 s")) << outcome.out;
-  EXPECT_EQ(device.count(CoilMessage::arm), arms);
+  EXPECT_EQ(device.count(actuation::CoilMessage::arm), arms);
   EXPECT_EQ(strongest, 0);
 }
 
@@ -328,7 +333,7 @@ TEST_F(RigOperation, NorByHand) {
   Program program({"rig", "drive", "rig.yaml", "--other-stop", "--coils-cold", "--currents",
                    "2,0,0", "--seconds", "60"},
                   at);
-  for (int i = 0; i < 1000 && device.count(CoilMessage::set) < 50; ++i) sleep_ms(10);
+  for (int i = 0; i < 1000 && device.count(actuation::CoilMessage::set) < 50; ++i) sleep_ms(10);
   write("asleep", "5");
   const Outcome outcome = program.wait();
   EXPECT_EQ(outcome.code, 4) << outcome.err;
@@ -343,7 +348,7 @@ TEST_F(RigOperation, InTheBackgroundItIsRefused) {
   Terminal shell("/bin/bash", {"-c", "set -m; " + line + " & wait $!; echo code $?"}, at);
   EXPECT_TRUE(shell.hears("code 2")) << shell.said();
   EXPECT_TRUE(names(shell.said(), "no terminal"));
-  EXPECT_EQ(device.count(CoilMessage::arm), 0);
+  EXPECT_EQ(device.count(actuation::CoilMessage::arm), 0);
   EXPECT_EQ(shell.wait(), 0);
 }
 

@@ -22,11 +22,11 @@ TEST_F(RigRun, DrivesTheDeviceUntilItsTimeIsUp) {
   const Outcome outcome =
       run(arguments({"--seconds", "2", "--out", "out", "--note", "water, 3rd \x1b[2J chip"}));
   EXPECT_EQ(outcome.code, 3) << outcome.err;
-  EXPECT_GT(device.count(CoilMessage::set), 30);
+  EXPECT_GT(device.count(actuation::CoilMessage::set), 30);
   EXPECT_TRUE(exists("out/commands.csv"));
   // The record says under which circumstances, what was driven and what was seen, by one clock.
-  const Record record = read_record(at.folder / "out/run.h5");
-  const RigLog& log = record.rig_log;
+  const experiment::Record record = experiment::read_record(at.folder / "out/run.h5");
+  const experiment::RigLog& log = record.rig_log;
   EXPECT_EQ(log.note, "water, 3rd \x1b[2J chip");
   EXPECT_EQ(log.began.substr(0, 2), "20");
   EXPECT_NE(log.rig_file.find("name: bench"), std::string::npos) << log.rig_file;
@@ -51,7 +51,7 @@ TEST_F(RigRun, DrivesTheDeviceUntilItsTimeIsUp) {
   EXPECT_NE(read("out/index.html").find("camera to current"), std::string::npos);
   ASSERT_GT(log.seen_at.size(), 5u);
   EXPECT_EQ(log.bodies.front(), -1);
-  const Frame& frame = record.frames[record.frames.size() / 2];
+  const experiment::Frame& frame = record.frames[record.frames.size() / 2];
   ASSERT_TRUE(frame.observed);
   const auto seen = std::ranges::find(log.seen_at, frame.seen);
   ASSERT_NE(seen, log.seen_at.end());
@@ -60,7 +60,7 @@ TEST_F(RigRun, DrivesTheDeviceUntilItsTimeIsUp) {
   const std::string commands = read("out/commands.csv");
   const auto rows = split(commands, '\n');
   EXPECT_NEAR(std::stod(std::string(rows[1])), log.driven_at.front(), 1e-3);
-  write_record(record, at.folder / "again.h5");
+  experiment::write_record(record, at.folder / "again.h5");
   EXPECT_EQ(read("again.h5"), read("out/run.h5"));
 }
 
@@ -71,14 +71,14 @@ TEST_F(RigRun, TheDeviceTurnsAFieldOfHundredHertz) {
       run(arguments({"--seconds", "3", "--out", "out", "--set-rig", "driver.waveforms=true",
                      "--set-rig", "drive_rate_hz=50", "--set-rig", "field.frequency_hz=100"}));
   EXPECT_EQ(outcome.code, 3) << outcome.err;
-  EXPECT_GT(device.count(CoilMessage::waveform), 60);
+  EXPECT_GT(device.count(actuation::CoilMessage::waveform), 60);
   EXPECT_TRUE(exists("out/commands.csv"));
 }
 
 TEST_F(RigRun, AStopThatIsNotConfirmedIsAHardwareFault) {
-  FakeDevice device([stops = 0](CoilReply& reply) mutable {
+  FakeDevice device([stops = 0](actuation::CoilReply& reply) mutable {
     // The first stop ends the check before the run.
-    if (reply.to == CoilMessage::stop && ++stops > 1) reply.outputs[0] = 300;
+    if (reply.to == actuation::CoilMessage::stop && ++stops > 1) reply.outputs[0] = 300;
     return true;
   });
   write_rig(device);
@@ -88,20 +88,21 @@ TEST_F(RigRun, AStopThatIsNotConfirmedIsAHardwareFault) {
 }
 
 TEST_F(RigRun, ARefusedArmSaysSoBeforeTheRun) {
-  FakeDevice device([](CoilReply& reply) {
-    if (reply.to == CoilMessage::arm) reply.result = CoilResult::not_armed;
+  FakeDevice device([](actuation::CoilReply& reply) {
+    if (reply.to == actuation::CoilMessage::arm) reply.result = actuation::CoilResult::not_armed;
     return true;
   });
   write_rig(device);
   const Outcome outcome = run(arguments());
   EXPECT_EQ(outcome.code, 4) << outcome.err;
   EXPECT_TRUE(names(outcome.err, "does not let itself be armed")) << outcome.err;
-  EXPECT_EQ(device.count(CoilMessage::set), 0);
+  EXPECT_EQ(device.count(actuation::CoilMessage::set), 0);
 }
 
 TEST_F(RigRun, ADeviceThatIsOffAgainWithoutCurrentIsNotUsed) {
-  FakeDevice device([sets = 0](CoilReply& reply) mutable {
-    if (reply.to == CoilMessage::set && ++sets % 40 == 0) reply.result = CoilResult::not_armed;
+  FakeDevice device([sets = 0](actuation::CoilReply& reply) mutable {
+    if (reply.to == actuation::CoilMessage::set && ++sets % 40 == 0)
+      reply.result = actuation::CoilResult::not_armed;
     return true;
   });
   write_rig(device);
@@ -111,10 +112,10 @@ TEST_F(RigRun, ADeviceThatIsOffAgainWithoutCurrentIsNotUsed) {
 }
 
 TEST_F(RigRun, ADeviceThatLosesItsCurrentsAgainAndAgainEndsIt) {
-  FakeDevice device([stops = 0, sets = 0](CoilReply& reply) mutable {
-    stops += reply.to == CoilMessage::stop;  // the first ends the check before the run
-    if (reply.to == CoilMessage::set && stops > 0 && ++sets % 40 == 0)
-      reply.result = CoilResult::not_armed;
+  FakeDevice device([stops = 0, sets = 0](actuation::CoilReply& reply) mutable {
+    stops += reply.to == actuation::CoilMessage::stop;  // the first ends the check before the run
+    if (reply.to == actuation::CoilMessage::set && stops > 0 && ++sets % 40 == 0)
+      reply.result = actuation::CoilResult::not_armed;
     return true;
   });
   write_rig(device);
@@ -131,11 +132,11 @@ TEST_F(RigRun, AfterAStandstillItIsNotDrivenOn) {
   let_drive(device, 500);
   program.send(SIGSTOP);
   sleep_ms(800);
-  const int before = device.count(CoilMessage::arm);
+  const int before = device.count(actuation::CoilMessage::arm);
   program.send(SIGCONT);
   const Outcome outcome = program.wait();
   EXPECT_EQ(outcome.code, 4) << outcome.err;
-  EXPECT_EQ(device.count(CoilMessage::arm), before);
+  EXPECT_EQ(device.count(actuation::CoilMessage::arm), before);
   EXPECT_TRUE(names(outcome.out + outcome.err, "stood still")) << outcome.out << outcome.err;
 }
 
@@ -146,7 +147,7 @@ TEST_F(RigRun, WhatTheCheckRefusesIsRefusedBeforeTheFirstCurrent) {
     const Outcome outcome = run(arguments(more));
     EXPECT_EQ(outcome.code, 2) << outcome.err;
     EXPECT_TRUE(names(outcome.err, part)) << outcome.err;
-    EXPECT_EQ(device.count(CoilMessage::hello), 0);
+    EXPECT_EQ(device.count(actuation::CoilMessage::hello), 0);
   };
   refused_with({"--set-rig", "field.amplitude_mt=500"}, "weaken the field");
   write_coils("max_current_a: 10, max_voltage_v: 24");
@@ -171,7 +172,7 @@ TEST_F(RigRun, NobodyWatchingOrADrawnSwarmIsRefused) {
            "camera.type=genicam", "--set-rig", "camera.device=Fake_1"});
   EXPECT_EQ(drawn_by_aravis.code, 2);
   EXPECT_TRUE(names(drawn_by_aravis.err, "--drawn-swarm")) << drawn_by_aravis.err;
-  EXPECT_EQ(device.count(CoilMessage::hello), 0);
+  EXPECT_EQ(device.count(actuation::CoilMessage::hello), 0);
 }
 
 TEST_F(RigRun, AnExperimentIsNotOverwrittenAndALinkNotFollowed) {
@@ -219,7 +220,7 @@ TEST_F(RigRun, TemperaturesOutliveTheProgram) {
   EXPECT_TRUE(names(kept(), "driven: false")) << kept();
   EXPECT_GT(temperature(), 89) << kept();
   // From then on they are known, also after a program that was killed.
-  const int armed = device.count(CoilMessage::arm);
+  const int armed = device.count(actuation::CoilMessage::arm);
   Program program(arguments(), at);
   let_drive(device, 1500, armed);
   program.send(SIGKILL);

@@ -120,9 +120,9 @@ TEST(Issues, OfDocumentAndAssignmentsComeTogether) {
   Issues issues;
   read_yaml_text<Scene>("seed: -1\ntimes_s: [a]\n", "s.yaml", {"count=x", "nose=3"}, locations,
                         issues);
-  std::string locations;
-  for (const Issue& issue : issues) locations += issue.keys.at(0) + " at " + issue.location + "; ";
-  EXPECT_EQ(locations,
+  std::string found;
+  for (const Issue& issue : issues) found += issue.keys.at(0) + " at " + issue.location + "; ";
+  EXPECT_EQ(found,
             "seed at s.yaml:1:7; times_s.0 at s.yaml:2:11; count at --set count; nose at --set "
             "nose; ");
 }

@@ -10,7 +10,7 @@
 #include "microswarm/environments/gathering/gathering_episode.hpp"
 #include "microswarm/environments/navigation/navigation_episode.hpp"
 
-namespace microswarm {
+namespace microswarm::environments {
 namespace {
 
 /// A ring of cells, 2 wide, with a bar across: `#` is a wall.
@@ -146,7 +146,7 @@ const std::filesystem::path scenarios = std::filesystem::path(MICROSWARM_SOURCE_
 TEST(NavigationEpisode, ThreadsAndASecondResetChangeNothing) {
   NavigationRules rules;
   rules.random_start = rules.random_goal = true;
-  const NavigationTask task(open_experiment(scenarios / "first_flight.yaml"), rules);
+  const NavigationTask task(experiment::open_experiment(scenarios / "first_flight.yaml"), rules);
   constexpr std::size_t count = 20;
   std::vector<std::vector<float>> seen;
   for (const int threads : {1, 3}) {
@@ -169,7 +169,8 @@ TEST(NavigationEpisode, ThreadsAndASecondResetChangeNothing) {
 }
 
 TEST(NavigationEpisode, EndsInTheGoal) {
-  Experiment experiment = open_experiment(scenarios / "first_flight.yaml", {"obstacles=[]"});
+  experiment::Experiment experiment =
+      experiment::open_experiment(scenarios / "first_flight.yaml", {"obstacles=[]"});
   const NavigationTask task(std::move(experiment), {});
   std::vector<float> observation(task.observation_size());
   NavigationEpisode episode(task, 1, observation);
@@ -185,9 +186,10 @@ TEST(NavigationEpisode, EndsInTheGoal) {
 }
 
 TEST(NavigationTask, RefusesRobots) {
-  EXPECT_THROW(NavigationTask(open_experiment(scenarios / "papers/gather/t_junction.yaml"), {}),
-               InputError);
+  EXPECT_THROW(
+      NavigationTask(experiment::open_experiment(scenarios / "papers/gather/t_junction.yaml"), {}),
+      InputError);
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::environments

@@ -14,20 +14,20 @@
 
 #include "microswarm/world/connectivity/passage.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 namespace {
 
 using scenes::AvoidanceOptions;
 
 constexpr int worlds = 10;
 
-AvoidanceOptions with_walls(AvoidanceOptions options) {
+scenes::AvoidanceOptions with_walls(scenes::AvoidanceOptions options) {
   options.walls = true;
   return options;
 }
 
 template <class Check>
-void for_each_world(const AvoidanceOptions& options, Check&& check_one) {
+void for_each_world(const scenes::AvoidanceOptions& options, Check&& check_one) {
   for (std::uint64_t seed = 0; seed < worlds; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Scenario s = scenes::avoidance_scenario(seed, options);
@@ -37,12 +37,12 @@ void for_each_world(const AvoidanceOptions& options, Check&& check_one) {
 
 double radius_of(const Scenario& s) { return swarm_limits(s.swarm).radius; }
 
-class AvoidanceWorlds : public testing::TestWithParam<AvoidanceOptions> {};
+class AvoidanceWorlds : public testing::TestWithParam<scenes::AvoidanceOptions> {};
 
 TEST_P(AvoidanceWorlds, AreScenariosThatTheProgramTakes) {
   for_each_world(GetParam(), [](Scenario s, const World& world) {
     for (const Obstacle& obstacle : s.obstacles) EXPECT_TRUE(validate(obstacle).empty());
-    HierarchicalParams navigator;
+    navigation::HierarchicalParams navigator;
     navigator.clearance = radius_of(s) + 0.8 * scenes::avoidance_passage_gap;
     s.navigator = navigator;
     EXPECT_TRUE(validate(s, world).empty());
@@ -106,7 +106,7 @@ TEST_P(AvoidanceWorlds, WhatStandsLeavesAWay) {
       }
       resting.push_back({still->position, extent});
     }
-    MapParts parts = read_map_parts(s.map);
+    formats::MapParts parts = formats::read_map_parts(s.map);
     parts.discs.insert(parts.discs.end(), resting.begin(), resting.end());
     const Map map(parts.bounds, parts.walls, parts.discs);
     const WidestPath way = widest_path(map, s.start->position, *s.goal, radius_of(s));
@@ -141,4 +141,4 @@ TEST(AvoidanceWorlds, HaveAllShapesAndMotions) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::experiment

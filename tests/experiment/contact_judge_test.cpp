@@ -8,7 +8,7 @@
 #include "microswarm/scenes/avoidance_worlds.hpp"
 #include "tests/experiment/scenes.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 namespace {
 
 constexpr double radius = 40;
@@ -132,4 +132,4 @@ TEST(ContactJudge, SameRunSameVerdicts) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -5,7 +5,7 @@
 
 #include "tests/experiment/scenes.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 namespace {
 
 using Way = std::vector<PoseStamped>;
@@ -80,7 +80,8 @@ TEST(ContactMonitor, ATouchThatLastsIsOneEvent) {
 
 TEST(ContactMonitor, WallsAndBorder) {
   Scenario scenario = open_room();
-  std::get<PolygonsMap>(scenario.map).walls = {{{999, 0}, {1000, 0}, {1000, 900}, {999, 900}}};
+  std::get<formats::PolygonsMap>(scenario.map).walls = {
+      {{999, 0}, {1000, 0}, {1000, 900}, {999, 900}}};
   const World world = world_of(scenario);
   ContactMonitor watch(world);
   // One jump over a wall of 1 µm: both ends are clear.
@@ -114,4 +115,4 @@ TEST(ContactMonitor, ASwarmThatWidensTouchesWhatItDidNotReach) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -11,7 +11,7 @@
 #include "tests/files.hpp"
 #include "tests/messages.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 namespace {
 
 const std::filesystem::path all_scenarios =
@@ -212,4 +212,4 @@ TEST(DiagnosticsLog, KeepsATreeOnce) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::experiment

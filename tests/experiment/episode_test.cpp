@@ -7,12 +7,12 @@
 #include "microswarm/navigation/make.hpp"
 #include "tests/experiment/scenes.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 namespace {
 
 std::unique_ptr<Navigator> navigator_of(const Scenario& scenario) {
-  return make_navigator(scenario.navigator, navigation_task(scenario),
-                        Rng(scenario.seed, Purpose::planner, 0));
+  return navigation::make_navigator(scenario.navigator, navigation_task(scenario),
+                                    Rng(scenario.seed, Purpose::planner, 0));
 }
 
 TEST(Episode, SteppedByHandIsTheRun) {
@@ -102,4 +102,4 @@ TEST(Episode, NoStepFollowsAPreparationThatWasStopped) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -11,21 +11,21 @@
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/planning/global_input/global_rrt.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 namespace {
 
-LoadedMap room(double wall_x) {
-  RectanglesMap spec;
+formats::LoadedMap room(double wall_x) {
+  formats::RectanglesMap spec;
   spec.lo = Vec2{50, 50};
   spec.hi = Vec2{350, 350};
   spec.rectangles = {{wall_x, 150, 100, 25}, {150, 150, 25, 100}};
-  return load_map(spec);
+  return formats::load_map(spec);
 }
 
-GlobalTree grown(const LoadedMap& map, const GlobalRrtParams& params) {
+planning::GlobalTree grown(const formats::LoadedMap& map, const planning::GlobalRrtParams& params) {
   Rng rng(1, Purpose::planner);
   const std::vector<Vec2> starts{{60, 300}, {60, 250}, {60, 200}};
-  return global_rrt(*map.map, starts, {}, params, rng).tree;
+  return planning::global_rrt(*map.map, starts, {}, params, rng).tree;
 }
 
 class GlobalTreeFile : public testing::Test {
@@ -36,7 +36,7 @@ class GlobalTreeFile : public testing::Test {
   ~GlobalTreeFile() override { std::filesystem::remove(file); }
 
   /// What reading it says is wrong, without the file's name.
-  std::string fault(const LoadedMap& map) const {
+  std::string fault(const formats::LoadedMap& map) const {
     try {
       read_global_tree(file, map);
       return "";
@@ -52,15 +52,15 @@ class GlobalTreeFile : public testing::Test {
 };
 
 TEST_F(GlobalTreeFile, ComesBackToTheBits) {
-  const LoadedMap map = room(175);
-  for (const GlobalRrtParams& params :
-       {GlobalRrtParams{.max_nodes = 5000}, GlobalRrtParams{.max_nodes = 1},
-        GlobalRrtParams{
+  const formats::LoadedMap map = room(175);
+  for (const planning::GlobalRrtParams& params :
+       {planning::GlobalRrtParams{.max_nodes = 5000}, planning::GlobalRrtParams{.max_nodes = 1},
+        planning::GlobalRrtParams{
             .directions = 4, .contact = ContactRule::stop, .separation = 12, .max_nodes = 700}}) {
-    const GlobalTree tree = grown(map, params);
+    const planning::GlobalTree tree = grown(map, params);
     write_global_tree(tree, map, file);
     const std::string bytes = read_file(file);
-    const GlobalTree back = read_global_tree(file, map);
+    const planning::GlobalTree back = read_global_tree(file, map);
     EXPECT_EQ(back.robots, tree.robots);
     EXPECT_EQ(back.origin, tree.origin);
     EXPECT_EQ(back.robostep, tree.robostep);
@@ -71,41 +71,41 @@ TEST_F(GlobalTreeFile, ComesBackToTheBits) {
     EXPECT_EQ(back.parents, tree.parents);
     EXPECT_EQ(back.inputs, tree.inputs);
     const std::vector<Vec2> goals{{330, 100}, {280, 200}, {100, 250}};
-    EXPECT_EQ(ask(back, goals, 20).node, ask(tree, goals, 20).node);
+    EXPECT_EQ(planning::ask(back, goals, 20).node, planning::ask(tree, goals, 20).node);
     write_global_tree(back, map, file);
     EXPECT_EQ(read_file(file), bytes);
   }
 }
 
 TEST_F(GlobalTreeFile, RefusesWhatDoesNotFit) {
-  const LoadedMap map = room(175);
-  const GlobalTree tree = grown(map, {.max_nodes = 200});
-  const auto saved = [&](const std::function<void(GlobalTree&)>& change) {
-    GlobalTree other = tree;
+  const formats::LoadedMap map = room(175);
+  const planning::GlobalTree tree = grown(map, {.max_nodes = 200});
+  const auto saved = [&](const std::function<void(planning::GlobalTree&)>& change) {
+    planning::GlobalTree other = tree;
     change(other);
     write_global_tree(other, map, file);
     return fault(map);
   };
-  EXPECT_EQ(saved([](GlobalTree&) {}), "");
+  EXPECT_EQ(saved([](planning::GlobalTree&) {}), "");
   EXPECT_TRUE(fault(room(176)).starts_with("was grown on another map: its hash is "));
-  EXPECT_TRUE(saved([](GlobalTree& t) {
+  EXPECT_TRUE(saved([](planning::GlobalTree& t) {
                 t.configurations[100] += 1e-4f;
               }).find("is not where its input leads") != std::string::npos);
-  EXPECT_TRUE(saved([](GlobalTree& t) {
+  EXPECT_TRUE(saved([](planning::GlobalTree& t) {
                 t.contact = ContactRule::reject;
               }).find("is not where its input leads") != std::string::npos);
-  EXPECT_EQ(saved([](GlobalTree& t) { t.parents[7] = 7; }), "node 7 has the parent 7");
-  EXPECT_EQ(saved([](GlobalTree& t) { t.inputs[5] = 16; }), "node 5 has the input 16");
-  EXPECT_EQ(saved([](GlobalTree& t) { t.parents.pop_back(); }),
+  EXPECT_EQ(saved([](planning::GlobalTree& t) { t.parents[7] = 7; }), "node 7 has the parent 7");
+  EXPECT_EQ(saved([](planning::GlobalTree& t) { t.inputs[5] = 16; }), "node 5 has the input 16");
+  EXPECT_EQ(saved([](planning::GlobalTree& t) { t.parents.pop_back(); }),
             "/nodes/input is not as long as /nodes/parent");
-  EXPECT_EQ(saved([](GlobalTree& t) { t.robostep = 0; }),
+  EXPECT_EQ(saved([](planning::GlobalTree& t) { t.robostep = 0; }),
             "attribute robostep_um is 0, allowed 0.001..1e6");
-  EXPECT_EQ(saved([](GlobalTree& t) { t.configurations[0] = 1e6f; }),
+  EXPECT_EQ(saved([](planning::GlobalTree& t) { t.configurations[0] = 1e6f; }),
             "robot 1 of the first node is in a wall");
 }
 
 TEST_F(GlobalTreeFile, RefusesWhatIsNoTree) {
-  const LoadedMap map = room(175);
+  const formats::LoadedMap map = room(175);
   write_global_tree(grown(map, {.max_nodes = 200}), map, file);
   const std::string bytes = read_file(file);
   write_file_atomically(file, "no HDF5");
@@ -122,4 +122,4 @@ TEST_F(GlobalTreeFile, RefusesWhatIsNoTree) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -5,7 +5,7 @@
 #include "microswarm/experiment/monitors/hold_monitor.hpp"
 #include "tests/experiment/scenes.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 namespace {
 
 using Way = std::vector<PoseStamped>;
@@ -62,4 +62,4 @@ TEST(HoldMonitor, AHoldLimitOfZeroIsNotReachedByASwarmThatMoves) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::experiment

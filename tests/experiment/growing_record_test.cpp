@@ -11,7 +11,7 @@
 #include "tests/experiment/scenes.hpp"
 #include "tests/files.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 namespace {
 
 using namespace std::chrono_literals;
@@ -70,4 +70,4 @@ TEST(GrowingRecords, ARunNeverFailsForThem) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::experiment

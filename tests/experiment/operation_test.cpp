@@ -10,7 +10,7 @@
 #include "microswarm/experiment/session/session.hpp"
 #include "tests/experiment/scenes.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 namespace {
 
 /// A run that is recorded tick by tick.
@@ -165,10 +165,13 @@ TEST(Operation, DrivenAwayFromTheGoalByHandItComesBack) {
 }
 
 TEST(Operation, EveryNavigatorHoldsAtTheGoalAndComesBack) {
-  for (const NavigatorParams& navigator :
-       {NavigatorParams{HierarchicalParams{}}, NavigatorParams{RadarParams{}},
-        NavigatorParams{StraightParams{}}, NavigatorParams{PotentialFieldParams{}},
-        NavigatorParams{VelocityObstacleParams{}}, NavigatorParams{PredictiveParams{}}}) {
+  for (const navigation::NavigatorParams& navigator :
+       {navigation::NavigatorParams{navigation::HierarchicalParams{}},
+        navigation::NavigatorParams{navigation::RadarParams{}},
+        navigation::NavigatorParams{navigation::StraightParams{}},
+        navigation::NavigatorParams{navigation::PotentialFieldParams{}},
+        navigation::NavigatorParams{navigation::VelocityObstacleParams{}},
+        navigation::NavigatorParams{navigation::PredictiveParams{}}}) {
     Scenario scenario = open_room();
     scenario.navigator = navigator;
     scenario.goal = Vec2{500, 500};
@@ -234,4 +237,4 @@ TEST(Operation, AnotherGoalEndsTheHold) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -5,7 +5,7 @@
 
 #include "tests/experiment/scenes.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 namespace {
 
 Scenario delayed(double delay) {
@@ -119,4 +119,4 @@ TEST(KinematicPlant, TrialsDifferAndRepeat) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -10,7 +10,7 @@
 #include "microswarm/experiment/session/session.hpp"
 #include "microswarm/formats/write_map.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 namespace {
 
 constexpr Box bounds{{0, 0}, {400, 400}};
@@ -18,8 +18,8 @@ constexpr Box bounds{{0, 0}, {400, 400}};
 /// A room with a block in the middle.
 Map room() { return Map(bounds, {Polygon{{{150, 150}, {250, 150}, {250, 250}, {150, 250}}, {}}}); }
 
-PolygonsMap spec() {
-  PolygonsMap spec;
+formats::PolygonsMap spec() {
+  formats::PolygonsMap spec;
   spec.lo = bounds.lo;
   spec.hi = bounds.hi;
   return spec;
@@ -30,7 +30,7 @@ GatherQuery gather_query() {
 }
 
 TEST(GatherQuery, TheRecordOfAMapInMemoryReplays) {
-  GatherExperiment made = open_gathering(to_parts(room()), spec(), gather_query(), "room");
+  GatherExperiment made = open_gathering(formats::to_parts(room()), spec(), gather_query(), "room");
   EXPECT_EQ(made.experiment.scenario().robots->count, 8);
   EXPECT_GT(made.measured_width, 0);
   Session session(std::move(made.experiment));
@@ -42,13 +42,13 @@ TEST(GatherQuery, TheRecordOfAMapInMemoryReplays) {
 TEST(GatherQuery, StartsStandInPlaceOfANumber) {
   GatherQuery query = gather_query();
   query.starts = {{100, 100}, {300, 320}};
-  const GatherExperiment made = open_gathering(to_parts(room()), spec(), query, "room");
+  const GatherExperiment made = open_gathering(formats::to_parts(room()), spec(), query, "room");
   EXPECT_EQ(made.experiment.scenario().robots->count, 0);
   EXPECT_EQ(made.experiment.scenario().robots->starts, query.starts);
   query.starts = {{200, 200}};
-  EXPECT_THROW(open_gathering(to_parts(room()), spec(), query, "room"), InputError);
+  EXPECT_THROW(open_gathering(formats::to_parts(room()), spec(), query, "room"), InputError);
   query.goal = {200, 200};
-  EXPECT_THROW(open_gathering(to_parts(room()), spec(), query, "room"), InputError);
+  EXPECT_THROW(open_gathering(formats::to_parts(room()), spec(), query, "room"), InputError);
 }
 
 GlobalQuery global_query() {
@@ -99,4 +99,4 @@ TEST(GlobalQuery, RefusesWhatIsNoPosition) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -15,7 +15,7 @@
 #include "tests/experiment/scenes.hpp"
 #include "tests/messages.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 namespace {
 
 /// One flight for all tests here.
@@ -112,8 +112,8 @@ TEST(Record, ForeignBytesAreOneLine) {
   };
   EXPECT_EQ(message(""), "x.h5: no HDF5 file, or a damaged one");
   EXPECT_TRUE(test::is_one_line_naming(message("hello"), "x.h5", {"HDF5", "damaged"}));
-  const auto made = write_hdf5();
-  Hdf5Writer& other = *made;
+  const auto made = io::write_hdf5();
+  io::Hdf5Writer& other = *made;
   other.attribute("/", "format", "something else");
   EXPECT_TRUE(test::is_one_line_naming(message(other.finish()), "x.h5", {"microswarm", "record"}));
 
@@ -222,12 +222,12 @@ TEST(RecordLayout, TheDocsNameEveryQuantity) {
     for (const auto& column : columns)
       EXPECT_NE(docs.find(column.key + "`"), std::string::npos) << column.key;
   };
-  expect(to_columns<Frame>());
-  expect(to_columns<PathChange>());
-  expect(to_columns<PlanEvent>());
-  expect(to_columns<RunEvent>());
-  expect(to_columns<TreeNode>());
-  expect(to_columns<Detection>());
+  expect(io::to_columns<Frame>());
+  expect(io::to_columns<PathChange>());
+  expect(io::to_columns<PlanEvent>());
+  expect(io::to_columns<RunEvent>());
+  expect(io::to_columns<TreeNode>());
+  expect(io::to_columns<Detection>());
 }
 
 TEST(Record, H5pyReadsIt) {
@@ -245,4 +245,4 @@ TEST(Record, H5pyReadsIt) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -8,14 +8,14 @@
 #include "tests/experiment/scenes.hpp"
 #include "tests/messages.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 namespace {
 
 /// Robots in a T: a bar with a stem that hangs from it.
 Scenario t_junction() {
   Scenario s;
   s.name = "T";
-  s.map = PolygonsMap{
+  s.map = formats::PolygonsMap{
       .lo = {0, 50},
       .hi = {100, 100},
       .walls = {{{0, 50}, {45, 50}, {45, 90}, {0, 90}}, {{55, 50}, {100, 50}, {100, 90}, {55, 90}}},
@@ -24,7 +24,7 @@ Scenario t_junction() {
   s.robots->max_speed = 10;
   s.goal = Vec2{50, 53};
   s.goal_tolerance = 10;
-  s.navigator = AggregationParams{};
+  s.navigator = navigation::AggregationParams{};
   s.time_limit = 200;
   return s;
 }
@@ -32,16 +32,16 @@ Scenario t_junction() {
 Scenario two_robots() {
   Scenario s;
   s.name = "L";
-  s.map = PolygonsMap{.lo = {50, 50},
-                      .hi = {350, 350},
-                      .walls = {{{175, 150}, {275, 150}, {275, 175}, {175, 175}},
-                                {{150, 150}, {175, 150}, {175, 250}, {150, 250}}},
-                      .discs = {}};
+  s.map = formats::PolygonsMap{.lo = {50, 50},
+                               .hi = {350, 350},
+                               .walls = {{{175, 150}, {275, 150}, {275, 175}, {175, 175}},
+                                         {{150, 150}, {175, 150}, {175, 250}, {150, 250}}},
+                               .discs = {}};
   s.robots.emplace().starts = {{60, 300}, {60, 250}};
   s.robots->goals = {{330, 300}, {330, 200}};
   s.robots->contact = ContactRule::slide;
   s.goal_tolerance = 20;
-  s.navigator = PlanExecutorParams{};
+  s.navigator = navigation::PlanExecutorParams{};
   return s;
 }
 
@@ -76,7 +76,7 @@ TEST(RobotRun, GoalsOfTheirOwn) {
 TEST(RobotRun, LongRunsKeepSomeMoments) {
   Scenario scenario = t_junction();
   scenario.goal_tolerance = 0.01;  // never
-  std::get<AggregationParams>(scenario.navigator).sigma = 0;
+  std::get<navigation::AggregationParams>(scenario.navigator).sigma = 0;
   scenario.time_limit = 60;
   const Record record = record_of(scenario);
   EXPECT_EQ(record.result.status, Status::time_limit);
@@ -107,7 +107,7 @@ TEST(RobotCheck, WhatCannotBeMeant) {
   s.start = Pose2{};
   EXPECT_NE(check_error(s), "");
   s = t_junction();
-  s.navigator = HierarchicalParams{};
+  s.navigator = navigation::HierarchicalParams{};
   EXPECT_TRUE(test::is_one_line_naming(check_error(s), "s.yaml", {"needs", "swarm", "robots"}));
   s = t_junction();
   s.robots->contact = ContactRule::slide;
@@ -128,7 +128,7 @@ TEST(RobotCheck, WhatCannotBeMeant) {
   s.robots->goals.assign(65, {330, 300});
   EXPECT_TRUE(test::is_one_line_naming(check_error(s), "s.yaml", {"65", "robots", "64"}));
   s = two_robots();
-  std::get<PolygonsMap>(s.map).walls = {{{200, 50}, {210, 50}, {210, 350}, {200, 350}}};
+  std::get<formats::PolygonsMap>(s.map).walls = {{{200, 50}, {210, 50}, {210, 350}, {200, 350}}};
   EXPECT_EQ(check_error(s),
             "s.yaml: robot 1 is cut off from its goal by walls\n"
             "s.yaml: robot 2 is cut off from its goal by walls");
@@ -149,4 +149,4 @@ TEST(RobotPlant, ShowsTheRobotsAsTheyWere) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::experiment

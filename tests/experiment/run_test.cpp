@@ -7,7 +7,7 @@
 #include "microswarm/experiment/scenario/experiment.hpp"
 #include "tests/experiment/scenes.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 namespace {
 
 /// A run by a given navigator, with what it told.
@@ -54,14 +54,14 @@ TEST(Run, StraightToTheGoal) {
 // Whatever it faces in a narrow channel, it rather holds.
 TEST(Run, ASwarmThatTurnsSlowlyTouchesNoWall) {
   Scenario scenario = open_room();
-  std::get<PolygonsMap>(scenario.map).walls = {{{0, 0}, {2000, 0}, {2000, 430}, {0, 430}},
-                                               {{0, 570}, {2000, 570}, {2000, 1000}, {0, 1000}}};
+  std::get<formats::PolygonsMap>(scenario.map).walls = {
+      {{0, 0}, {2000, 0}, {2000, 430}, {0, 430}}, {{0, 570}, {2000, 570}, {2000, 1000}, {0, 1000}}};
   RibbonParams swarm{.radius = 40, .max_speed = 80};
   scenario.goal_tolerance = 5;
   scenario.hold_limit = 2;
-  HierarchicalParams drrt;
+  navigation::HierarchicalParams drrt;
   drrt.clearance = 40;
-  PredictiveParams predictive;
+  navigation::PredictiveParams predictive;
   Rng rng(3, Purpose::scene, 0);
   for (int trial = 0; trial < 24; ++trial) {
     swarm.max_turn_rate = radians(trial % 2 == 0 ? 20 : 60);
@@ -69,7 +69,8 @@ TEST(Run, ASwarmThatTurnsSlowlyTouchesNoWall) {
     scenario.start = Pose2{{rng.uniform(300, 1700), rng.uniform(475, 525)}, rng.uniform(-pi, pi)};
     scenario.goal = Vec2{scenario.start->position.x + rng.uniform(-150, 150),
                          rng.uniform(0, 1) < 0.5 ? 466.0 : 534.0};
-    for (const NavigatorParams& navigator : {NavigatorParams{drrt}, NavigatorParams{predictive}}) {
+    for (const navigation::NavigatorParams& navigator :
+         {navigation::NavigatorParams{drrt}, navigation::NavigatorParams{predictive}}) {
       scenario.navigator = navigator;
       const RunResult result = simulate(scenario, world_of(scenario));
       EXPECT_NE(result.status, Status::collided)
@@ -101,7 +102,8 @@ TEST(Run, AlreadyThere) {
 
 TEST(Run, EndsAtTheTouchOfAWall) {
   Scenario scenario = open_room();
-  std::get<PolygonsMap>(scenario.map).walls = {{{1000, 0}, {1001, 0}, {1001, 1000}, {1000, 1000}}};
+  std::get<formats::PolygonsMap>(scenario.map).walls = {
+      {{1000, 0}, {1001, 0}, {1001, 1000}, {1000, 1000}}};
   GoStraight navigator(*scenario.goal, 60);
   const Told told = run_with(scenario, navigator);
   EXPECT_EQ(told.result.status, Status::collided);
@@ -284,4 +286,4 @@ TEST(Run, CountsWhatItAvoidsOnlyWhileSomethingIsNear) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -11,7 +11,7 @@
 #include "tests/experiment/scenes.hpp"
 #include "tests/messages.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 namespace {
 
 Polygon bar(double x, double y, double width, double height) {
@@ -277,7 +277,7 @@ TEST(ScenarioCheck, WhatCanBeFlownPasses) {
 
 TEST(ScenarioCheck, StartInAWall) {
   Scenario scenario = open_room();
-  std::get<PolygonsMap>(scenario.map).walls = {bar(0, 0, 212, 1000).outer};
+  std::get<formats::PolygonsMap>(scenario.map).walls = {bar(0, 0, 212, 1000).outer};
   EXPECT_TRUE(
       test::is_one_line_naming(check_error(scenario), "s.yaml", {"start", "12 µm", "wall 1"}));
 }
@@ -294,7 +294,7 @@ TEST(ScenarioCheck, StartTooNearToAnObstacleOrOutside) {
 
 TEST(ScenarioCheck, GoalInAWall) {
   Scenario scenario = open_room();
-  std::get<PolygonsMap>(scenario.map).walls = {bar(1700, 400, 200, 200).outer};
+  std::get<formats::PolygonsMap>(scenario.map).walls = {bar(1700, 400, 200, 200).outer};
   EXPECT_TRUE(
       test::is_one_line_naming(check_error(scenario), "s.yaml",
                                {"goal", "100 µm", "wall 1", "0.9", "goal_tolerance_um", "45 µm"}));
@@ -302,7 +302,7 @@ TEST(ScenarioCheck, GoalInAWall) {
 
 TEST(ScenarioCheck, ListsWithoutWhichNothingCanBeChosen) {
   Scenario scenario = open_room();
-  HierarchicalParams drrt;
+  navigation::HierarchicalParams drrt;
   drrt.tuning.speed_shares.clear();
   scenario.navigator = drrt;
   EXPECT_EQ(check_error(scenario), "s.yaml: tuning.speed_shares is empty, must have a value");
@@ -310,7 +310,7 @@ TEST(ScenarioCheck, ListsWithoutWhichNothingCanBeChosen) {
   drrt.tuning.wait_times = {8, 0};
   scenario.navigator = drrt;
   EXPECT_EQ(check_error(scenario), "s.yaml: tuning.wait_times_s must ascend from 0");
-  PredictiveParams predictive;
+  navigation::PredictiveParams predictive;
   predictive.tuning.speed_shares.clear();
   scenario.navigator = predictive;
   EXPECT_EQ(check_error(scenario), "s.yaml: tuning.speed_shares is empty, must have a value");
@@ -318,7 +318,7 @@ TEST(ScenarioCheck, ListsWithoutWhichNothingCanBeChosen) {
 
 TEST(ScenarioCheck, TuningOfThePredictionMustAscend) {
   Scenario scenario = open_room();
-  PredictiveParams predictive;
+  navigation::PredictiveParams predictive;
   predictive.prediction.tuning.oscillation.medium_window = 10;
   scenario.navigator = predictive;
   EXPECT_TRUE(test::is_one_line_naming(
@@ -333,12 +333,12 @@ TEST(ScenarioCheck, TuningOfThePredictionMustAscend) {
 
 TEST(ScenarioCheck, GoalCutOff) {
   Scenario scenario = open_room();
-  std::get<PolygonsMap>(scenario.map).walls = {bar(1000, 0, 20, 1000).outer};
+  std::get<formats::PolygonsMap>(scenario.map).walls = {bar(1000, 0, 20, 1000).outer};
   EXPECT_TRUE(
       test::is_one_line_naming(check_error(scenario), "s.yaml", {"goal", "start", "walls"}));
   // For a swarm thinner than the search for ways can see, too.
   std::get<RibbonParams>(scenario.swarm).radius = 0.5;
-  std::get<HierarchicalParams>(scenario.navigator).clearance = 1;
+  std::get<navigation::HierarchicalParams>(scenario.navigator).clearance = 1;
   EXPECT_TRUE(
       test::is_one_line_naming(check_error(scenario), "s.yaml", {"goal", "start", "walls"}));
 }
@@ -353,35 +353,35 @@ TEST(ScenarioCheck, FramesThatAreAlwaysTooOld) {
 
 TEST(ScenarioCheck, SwarmWiderThanEveryPassage) {
   Scenario scenario = open_room();
-  std::get<PolygonsMap>(scenario.map).walls = {bar(1000, 0, 20, 500).outer,
-                                               bar(1000, 560, 20, 440).outer};
+  std::get<formats::PolygonsMap>(scenario.map).walls = {bar(1000, 0, 20, 500).outer,
+                                                        bar(1000, 560, 20, 440).outer};
   const std::string expected =
       "s.yaml: swarm is 80 µm wide, wider than every passage to the goal: the widest is about ";
   EXPECT_EQ(check_error(scenario).substr(0, expected.size()), expected);
   std::get<RibbonParams>(scenario.swarm).radius = 29;
-  std::get<HierarchicalParams>(scenario.navigator).clearance = 29;
+  std::get<navigation::HierarchicalParams>(scenario.navigator).clearance = 29;
   EXPECT_EQ(check_error(scenario), "");
 }
 
 TEST(ScenarioCheck, APassageDecidesToATenThousandth) {
   Scenario scenario = open_room();
-  std::get<PolygonsMap>(scenario.map).walls = {bar(1000, 0, 20, 500).outer,
-                                               bar(1000, 560, 20, 440).outer};
+  std::get<formats::PolygonsMap>(scenario.map).walls = {bar(1000, 0, 20, 500).outer,
+                                                        bar(1000, 560, 20, 440).outer};
   for (const double r : {29.997, 30.003}) {
     std::get<RibbonParams>(scenario.swarm).radius = r;
-    std::get<HierarchicalParams>(scenario.navigator).clearance = r;
+    std::get<navigation::HierarchicalParams>(scenario.navigator).clearance = r;
     EXPECT_EQ(check_error(scenario).empty(), r < 30) << r;
   }
 }
 
 TEST(ScenarioCheck, MarginWiderThanEveryPassage) {
   Scenario scenario = open_room();
-  std::get<PolygonsMap>(scenario.map).walls = {bar(1000, 0, 20, 500).outer,
-                                               bar(1000, 600, 20, 400).outer};
+  std::get<formats::PolygonsMap>(scenario.map).walls = {bar(1000, 0, 20, 500).outer,
+                                                        bar(1000, 600, 20, 400).outer};
   const std::string expected =
       "s.yaml: navigator.clearance_um is 90, wider than the passages to the goal allow: about ";
   EXPECT_EQ(check_error(scenario).substr(0, expected.size()), expected);
-  std::get<HierarchicalParams>(scenario.navigator).clearance = 49;
+  std::get<navigation::HierarchicalParams>(scenario.navigator).clearance = 49;
   EXPECT_EQ(check_error(scenario), "");
 }
 
@@ -397,4 +397,4 @@ TEST(ScenarioCheck, GoalNearerToAWallThanTheMargin) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::experiment

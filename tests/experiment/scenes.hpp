@@ -18,7 +18,7 @@
 #include "microswarm/experiment/session/session.hpp"
 #include "tests/runs.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// Drives straight at the goal, whatever is in the way.
 class GoStraight : public Navigator {
@@ -68,7 +68,7 @@ inline Obstacle disc(double radius, Motion motion) {
 inline Scenario open_room() {
   Scenario scenario;
   scenario.name = "open room";
-  scenario.map = PolygonsMap{.lo = {0, 0}, .hi = {2000, 1000}, .walls = {}, .discs = {}};
+  scenario.map = formats::PolygonsMap{.lo = {0, 0}, .hi = {2000, 1000}, .walls = {}, .discs = {}};
   scenario.start = Pose2{{200, 500}, 0};
   scenario.goal = Vec2{1800, 500};
   std::get<RibbonParams>(scenario.swarm).max_speed = 60;
@@ -80,7 +80,8 @@ inline Scenario open_room() {
 inline Scenario small_flight() {
   Scenario scenario = open_room();
   scenario.name = "small flight";
-  std::get<PolygonsMap>(scenario.map).walls = {{{950, 0}, {1050, 0}, {1050, 450}, {950, 450}}};
+  std::get<formats::PolygonsMap>(scenario.map).walls = {
+      {{950, 0}, {1050, 0}, {1050, 450}, {950, 450}}};
   scenario.obstacles = {
       disc(60, HarmonicLine{.centre = {600, 500}, .amplitude = {0, 250}, .period = 40}),
       disc(50, HarmonicLine{.centre = {1400, 500}, .amplitude = {150, 0}, .period = 40})};
@@ -122,4 +123,4 @@ inline std::string check_error(const Scenario& scenario) {
       [&] { KeyLocations("s.yaml").require_none(validate(scenario, world_of(scenario))); });
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

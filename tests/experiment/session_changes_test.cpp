@@ -5,7 +5,7 @@
 #include "microswarm/experiment/session/session.hpp"
 #include "tests/experiment/scenes.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 namespace {
 
 /// A run that is recorded tick by tick.
@@ -147,4 +147,4 @@ TEST(SessionChanges, WhatCannotBeChangedIsSaidAndNothingChanges) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::experiment

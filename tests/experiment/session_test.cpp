@@ -9,7 +9,7 @@
 #include "tests/experiment/scenes.hpp"
 #include "tests/files.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 namespace {
 
 const std::filesystem::path scenarios = std::filesystem::path(MICROSWARM_SOURCE_DIR) / "scenarios";
@@ -244,4 +244,4 @@ TEST(Session, TheSchemaNamesEveryKey) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -9,7 +9,7 @@
 #include "tests/experiment/scenes.hpp"
 #include "tests/files.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 namespace {
 
 TEST(SessionThreads, EachRunsAndRecordsItsOwn) {
@@ -53,4 +53,4 @@ TEST(SessionThreads, IsOperatedFromAnotherThread) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::experiment

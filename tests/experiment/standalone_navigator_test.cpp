@@ -12,7 +12,7 @@
 #include "microswarm/experiment/session/session.hpp"
 #include "tests/experiment/scenes.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 namespace {
 
 const std::filesystem::path shipped = std::filesystem::path(MICROSWARM_SOURCE_DIR) / "scenarios";
@@ -173,4 +173,4 @@ TEST(StandaloneNavigator, ScenariosAreReadFromText) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -5,7 +5,7 @@
 
 #include "tests/experiment/scenes.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 namespace {
 
 std::vector<std::string> hashes_of(const Scenario& scenario, const TrialOptions& options) {
@@ -52,4 +52,4 @@ TEST(Trials, ProgressComesOnceATrialAndStopIsHeard) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -6,20 +6,22 @@
 #include "tests/experiment/scenes.hpp"
 #include "tests/messages.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 namespace {
 
 /// A swarm of 40 µm in the open room, with a wall up to the middle and a valve of 400 µm beside it.
 Scenario radar_room() {
   Scenario s = open_room();
-  std::get<PolygonsMap>(s.map).walls = {{{950, 0}, {1050, 0}, {1050, 450}, {950, 450}}};
+  std::get<formats::PolygonsMap>(s.map).walls = {{{950, 0}, {1050, 0}, {1050, 450}, {950, 450}}};
   s.obstacles = {{Valve{.span = 400, .thickness = 40, .min_gap = 0, .max_gap = 300},
                   Still{.position = {1000, 700}}}};
-  s.navigator = RadarParams{};
+  s.navigator = navigation::RadarParams{};
   return s;
 }
 
-RadarParams& radar(Scenario& s) { return std::get<RadarParams>(s.navigator); }
+navigation::RadarParams& radar(Scenario& s) {
+  return std::get<navigation::RadarParams>(s.navigator);
+}
 
 std::string refusal(const Scenario& s) {
   return error_of([&] { KeyLocations("s.yaml").require_none(validate(s, world_of(s))); });
@@ -54,7 +56,7 @@ TEST(RadarCheck, AsPublishedRefusesWhatIsNotThePapers) {
   EXPECT_EQ(refusal(s), "");
   radar(s).max_turn = radians(120);
   EXPECT_TRUE(test::is_one_line_naming(refusal(s), "s.yaml", {"max_turn_deg", "as_published"}));
-  radar(s).max_turn = RadarParams{}.max_turn;
+  radar(s).max_turn = navigation::RadarParams{}.max_turn;
   radar(s).obstacle_speed_bound = 50;
   EXPECT_NE(refusal(s).find("obstacle_speed_bound_um_per_s"), std::string::npos) << refusal(s);
 }
@@ -88,7 +90,7 @@ TEST(RadarCheck, LegsThroughAWall) {
 
 TEST(RadarCheck, WaitAreas) {
   Scenario s = radar_room();
-  WaitZone area{.centre = {1000, 700}, .width = 300, .height = 300, .min_gap = 200};
+  navigation::WaitZone area{.centre = {1000, 700}, .width = 300, .height = 300, .min_gap = 200};
   const auto why = [&] {
     radar(s).wait_zones = {area};
     return refusal(s);
@@ -112,4 +114,4 @@ TEST(RadarCheck, AValveThatIsDrawnInStopsNobody) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::experiment

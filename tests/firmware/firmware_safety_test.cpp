@@ -26,7 +26,7 @@ class RawLine {
   explicit RawLine(const std::string& port) : line_(open(port.c_str(), O_RDWR | O_NOCTTY)) {
     EXPECT_GE(line_, 0);
     const auto started = next();
-    EXPECT_TRUE(started && started->to == CoilMessage::started);
+    EXPECT_TRUE(started && started->to == actuation::CoilMessage::started);
     if (started) last = *started;
   }
   ~RawLine() { close(line_); }
@@ -34,25 +34,29 @@ class RawLine {
   RawLine& operator=(const RawLine&) = delete;
 
   /// The answer to these bytes.
-  CoilReply ask(const std::vector<std::uint8_t>& bytes) {
+  actuation::CoilReply ask(const std::vector<std::uint8_t>& bytes) {
     EXPECT_EQ(write(line_, bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
     const auto reply = next();
     EXPECT_TRUE(reply);
-    return last = reply.value_or(CoilReply{});
+    return last = reply.value_or(actuation::CoilReply{});
   }
-  CoilReply hello() { return ask(encode_hello(++sequence)); }
-  CoilReply arm() { return ask(encode(CoilMessage::arm, ++sequence)); }
-  CoilReply status() { return ask(encode(CoilMessage::status, ++sequence)); }
+  actuation::CoilReply hello() { return ask(actuation::encode_hello(++sequence)); }
+  actuation::CoilReply arm() {
+    return ask(actuation::encode(actuation::CoilMessage::arm, ++sequence));
+  }
+  actuation::CoilReply status() {
+    return ask(actuation::encode(actuation::CoilMessage::status, ++sequence));
+  }
   /// With a deadline so many ms after the last answer.
-  CoilReply set(const CoilOutputs& outputs, int ms = 1000) {
-    return ask(encode_set(++sequence, last.clock + ms, outputs));
+  actuation::CoilReply set(const actuation::CoilOutputs& outputs, int ms = 1000) {
+    return ask(actuation::encode_set(++sequence, last.clock + ms, outputs));
   }
 
-  CoilReply last;
+  actuation::CoilReply last;
   std::uint8_t sequence = 0;
 
  private:
-  std::optional<CoilReply> next() {
+  std::optional<actuation::CoilReply> next() {
     for (const auto began = std::chrono::steady_clock::now();
          std::chrono::steady_clock::now() < began + patience;) {
       pollfd ready{line_, POLLIN, 0};
@@ -64,7 +68,7 @@ class RawLine {
   }
 
   int line_;
-  CoilReplyReader reader_;
+  actuation::CoilReplyReader reader_;
 };
 
 class FirmwareSafety : public testing::Test {
@@ -74,7 +78,7 @@ class FirmwareSafety : public testing::Test {
     for (const auto began = std::chrono::steady_clock::now();
          mega.outputs() != some_outputs && std::chrono::steady_clock::now() < began + patience;
          std::this_thread::sleep_for(5ms))
-      if (line.set(some_outputs).result == CoilResult::not_armed) line.arm();
+      if (line.set(some_outputs).result == actuation::CoilResult::not_armed) line.arm();
     ASSERT_EQ(mega.outputs(), some_outputs);
   }
 
@@ -88,26 +92,28 @@ TEST_F(FirmwareSafety, OnlyAnObeyedSetFeedsTheWatchdog) {
     drive(line);
     const std::uint8_t last_set = line.sequence;
     const double began = mega.order("mark");
-    for (int k = 0; k < 30 && line.last.state == CoilState::armed; ++k) {
+    for (int k = 0; k < 30 && line.last.state == actuation::CoilState::armed; ++k) {
       if (kind == 0) line.status();
-      if (kind == 1) line.set(some_outputs, -20);                          // late
-      if (kind == 2) line.ask(encode(CoilMessage::set, ++line.sequence));  // too short
-      if (kind == 3) line.ask(encode_set(last_set, line.last.clock + 1000, some_outputs));
+      if (kind == 1) line.set(some_outputs, -20);  // late
+      if (kind == 2)
+        line.ask(actuation::encode(actuation::CoilMessage::set, ++line.sequence));  // too short
+      if (kind == 3)
+        line.ask(actuation::encode_set(last_set, line.last.clock + 1000, some_outputs));
       std::this_thread::sleep_for(10ms);
     }
     const auto zero = mega.when(off);
     ASSERT_TRUE(zero) << kind;
     EXPECT_LE(*zero - began, zero_within_ms) << kind;
-    EXPECT_EQ(line.status().trip, CoilTrip::silence) << kind;
+    EXPECT_EQ(line.status().trip, actuation::CoilTrip::silence) << kind;
   }
 }
 
 TEST_F(FirmwareSafety, ALateSetIsStale) {
   RawLine line(mega.port());
   drive(line);
-  EXPECT_EQ(line.set({}, -20).result, CoilResult::stale);
+  EXPECT_EQ(line.set({}, -20).result, actuation::CoilResult::stale);
   EXPECT_NE(mega.outputs(), off);
-  EXPECT_EQ(line.set({}, 20).result, CoilResult::ok);
+  EXPECT_EQ(line.set({}, 20).result, actuation::CoilResult::ok);
   EXPECT_TRUE(mega.when(off));
 }
 
@@ -115,7 +121,7 @@ TEST_F(FirmwareSafety, AHelloTurnsOff) {
   RawLine line(mega.port());
   drive(line);
   const double began = mega.order("mark");
-  EXPECT_EQ(line.hello().state, CoilState::idle);
+  EXPECT_EQ(line.hello().state, actuation::CoilState::idle);
   const auto zero = mega.when(off);
   ASSERT_TRUE(zero);
   EXPECT_LE(*zero - began, 20);
@@ -132,30 +138,31 @@ TEST_F(FirmwareSafety, AmplifiersAreEnabledWhileArmed) {
 }
 
 TEST_F(FirmwareSafety, ThePressedEmergencyStopTurnsOffAndRefusesToArm) {
-  SerialCoilDriver driver(params(mega.port()));
-  ASSERT_EQ(driver.drive(some), DriveStatus::driven);
+  actuation::SerialCoilDriver driver(params(mega.port()));
+  ASSERT_EQ(driver.drive(some), actuation::DriveStatus::driven);
   const double pressed = mega.order("press");
   const auto zero = mega.when(off);
   ASSERT_TRUE(zero);
   EXPECT_LE(*zero - pressed, 10);
-  EXPECT_EQ(driver.drive(some), DriveStatus::emergency);
-  EXPECT_EQ(driver.ask_status()->trip, CoilTrip::emergency);
+  EXPECT_EQ(driver.drive(some), actuation::DriveStatus::emergency);
+  EXPECT_EQ(driver.ask_status()->trip, actuation::CoilTrip::emergency);
   EXPECT_TRUE(driver.ask_status()->emergency_open);
   EXPECT_TRUE(driver.stop().confirmed);
-  EXPECT_EQ(driver.drive(some), DriveStatus::emergency);  // does not let itself be armed
+  EXPECT_EQ(driver.drive(some), actuation::DriveStatus::emergency);  // does not let itself be armed
   mega.order("release");
   std::this_thread::sleep_for(200ms);
-  EXPECT_EQ(driver.drive(some), DriveStatus::driven);  // after a stop it may be armed again
+  EXPECT_EQ(driver.drive(some),
+            actuation::DriveStatus::driven);  // after a stop it may be armed again
 }
 
 TEST_F(FirmwareSafety, AReleasedEmergencyStopDoesNotTurnOnByItself) {
-  SerialCoilDriver driver(params(mega.port()));
-  ASSERT_EQ(driver.drive(some), DriveStatus::driven);
+  actuation::SerialCoilDriver driver(params(mega.port()));
+  ASSERT_EQ(driver.drive(some), actuation::DriveStatus::driven);
   mega.order("press");
   ASSERT_TRUE(mega.when(off));
   mega.order("release");
   std::this_thread::sleep_for(200ms);
-  EXPECT_EQ(driver.drive(some), DriveStatus::emergency);
+  EXPECT_EQ(driver.drive(some), actuation::DriveStatus::emergency);
   EXPECT_EQ(mega.outputs(), off);
 }
 
@@ -185,18 +192,19 @@ std::vector<Moment> read_trace(const std::filesystem::path& file) {
 TEST_F(FirmwareSafety, MakesAWaveformWithoutTheHost) {
   const Folder folder;
   RawLine line(mega.port());
-  CoilAim aim{.frequency = 100'000, .constant = {0, 0, 250, 0, 0, 0}};
+  actuation::CoilAim aim{.frequency = 100'000, .constant = {0, 0, 250, 0, 0, 0}};
   aim.cosine[0] = 800;
   aim.sine[1] = 800;
   const auto send = [&] {
-    return line.ask(encode_waveform(++line.sequence, line.last.clock + 1000, 0, aim)).result;
+    return line.ask(actuation::encode_waveform(++line.sequence, line.last.clock + 1000, 0, aim))
+        .result;
   };
   line.arm();
-  ASSERT_EQ(send(), CoilResult::ok);
+  ASSERT_EQ(send(), actuation::CoilResult::ok);
   std::this_thread::sleep_for(50ms);
   mega.order("trace " + (folder / "trace").string());
   for (int k = 0; k < 10; ++k) {
-    EXPECT_EQ(send(), CoilResult::ok);
+    EXPECT_EQ(send(), actuation::CoilResult::ok);
     std::this_thread::sleep_for(20ms);
   }
   mega.order("trace");
@@ -232,19 +240,19 @@ TEST_F(FirmwareSafety, MakesAWaveformWithoutTheHost) {
 // at 100 Hz while the host tells it 50 times a second.
 TEST_F(FirmwareSafety, AControllerSteersAFieldThatTheDeviceTurns) {
   const Folder folder;
-  SerialCoilParams serial = params(mega.port());
+  actuation::SerialCoilParams serial = params(mega.port());
   serial.waveforms = true;
-  SerialCoilDriver driver(serial);
-  const CoilSystem system = read_coil_system(std::filesystem::path(MICROSWARM_SOURCE_DIR) /
-                                             "scenarios/rigs/helmholtz.yaml");
-  FieldGeneratorParams field;
+  actuation::SerialCoilDriver driver(serial);
+  const actuation::CoilSystem system = actuation::read_coil_system(
+      std::filesystem::path(MICROSWARM_SOURCE_DIR) / "scenarios/rigs/helmholtz.yaml");
+  actuation::FieldGeneratorParams field;
   field.frequency = 100;
   field.amplitude = 2;
-  CoilController controller(system, field, driver, 0);
+  actuation::CoilController controller(system, field, driver, 0);
   const auto drive = [&](double seconds, double heading) {
     controller.command(Command{.heading = heading, .speed = 20});
     for (double t = 0; t < seconds; t += 0.02) {
-      ASSERT_EQ(controller.advance(0.02).status, DriveStatus::driven) << t;
+      ASSERT_EQ(controller.advance(0.02).status, actuation::DriveStatus::driven) << t;
       std::this_thread::sleep_for(12ms);
     }
   };
@@ -272,9 +280,9 @@ TEST_F(FirmwareSafety, AControllerSteersAFieldThatTheDeviceTurns) {
 
 TEST(FirmwareLimits, AreThoseGivenToMakeAndKeepTheDirection) {
   Simulator mega(nullptr, LIMITED_FIRMWARE);  // LIMITS=500,1000,1000,1000,1000,800 SLEW=50
-  SerialCoilDriver driver(params(mega.port()));
+  actuation::SerialCoilDriver driver(params(mega.port()));
   const std::array<double, 6> uneven{20, -4, 6, -8, 10, -8};
-  EXPECT_EQ(driver.drive(uneven), DriveStatus::scaled);
+  EXPECT_EQ(driver.drive(uneven), actuation::DriveStatus::scaled);
   EXPECT_NEAR(driver.report().scale, 0.5, 0.001);
   EXPECT_TRUE(mega.when({500, -100, 150, -200, 250, -200}));
 }

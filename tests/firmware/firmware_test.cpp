@@ -18,7 +18,7 @@ class Firmware : public testing::Test {
  protected:
   /// Drives until the outputs are there. A host that was kept from driving in between finds the
   /// device off and begins again.
-  bool reaches(SerialCoilDriver& driver, const Outputs& outputs = some_outputs) {
+  bool reaches(actuation::SerialCoilDriver& driver, const Outputs& outputs = some_outputs) {
     for (const auto began = std::chrono::steady_clock::now();
          std::chrono::steady_clock::now() < began + patience; std::this_thread::sleep_for(20ms)) {
       drives(driver);
@@ -26,50 +26,50 @@ class Firmware : public testing::Test {
     }
     return false;
   }
-  static bool drives(SerialCoilDriver& driver) {
+  static bool drives(actuation::SerialCoilDriver& driver) {
     const auto status = driver.drive(some);
-    return status == DriveStatus::driven || status == DriveStatus::resumed;
+    return status == actuation::DriveStatus::driven || status == actuation::DriveStatus::resumed;
   }
 
   Simulator mega;
 };
 
 TEST_F(Firmware, DrivesAndStops) {
-  SerialCoilDriver driver(params(mega.port()));
-  EXPECT_EQ(driver.drive(some), DriveStatus::driven);
+  actuation::SerialCoilDriver driver(params(mega.port()));
+  EXPECT_EQ(driver.drive(some), actuation::DriveStatus::driven);
   EXPECT_TRUE(reaches(driver));
   EXPECT_TRUE(driver.stop().confirmed);
   EXPECT_TRUE(mega.when(off));
 }
 
 TEST_F(Firmware, TellsItsStatus) {
-  SerialCoilDriver driver(params(mega.port()));
-  std::optional<CoilReply> status;
-  for (int k = 0; k < 100 && !(status && status->state == CoilState::armed); ++k) {
+  actuation::SerialCoilDriver driver(params(mega.port()));
+  std::optional<actuation::CoilReply> status;
+  for (int k = 0; k < 100 && !(status && status->state == actuation::CoilState::armed); ++k) {
     ASSERT_TRUE(reaches(driver));
     status = driver.ask_status();
     ASSERT_TRUE(status);
   }
-  EXPECT_EQ(status->state, CoilState::armed);
+  EXPECT_EQ(status->state, actuation::CoilState::armed);
   EXPECT_EQ(status->outputs, some_outputs);
   EXPECT_EQ(status->bad, 0);
 }
 
 TEST_F(Firmware, WaitsUnarmedForTheFirstCurrents) {
-  SerialCoilDriver driver(params(mega.port()));
+  actuation::SerialCoilDriver driver(params(mega.port()));
   std::this_thread::sleep_for(300ms);  // longer than its watchdog
   EXPECT_EQ(driver.ask_status()->trips, 0);
-  EXPECT_EQ(driver.drive(some), DriveStatus::driven);
+  EXPECT_EQ(driver.drive(some), actuation::DriveStatus::driven);
   EXPECT_TRUE(mega.when(some_outputs));
   EXPECT_TRUE(driver.stop().confirmed);
-  EXPECT_EQ(driver.drive(some), DriveStatus::driven);
+  EXPECT_EQ(driver.drive(some), actuation::DriveStatus::driven);
 }
 
 TEST_F(Firmware, APortHasOneProgram) {
-  SerialCoilDriver driver(params(mega.port()));
+  actuation::SerialCoilDriver driver(params(mega.port()));
   EXPECT_TRUE(drives(driver));
   try {
-    SerialCoilDriver other(params(mega.port()));
+    actuation::SerialCoilDriver other(params(mega.port()));
     FAIL();
   } catch (const HardwareError& e) {
     EXPECT_EQ(std::string(e.what()), mega.port() + ": another program drives coils there");
@@ -78,7 +78,7 @@ TEST_F(Firmware, APortHasOneProgram) {
 }
 
 TEST_F(Firmware, ReversesThroughZeroStepByStep) {
-  SerialCoilDriver driver(params(mega.port()));
+  actuation::SerialCoilDriver driver(params(mega.port()));
   const std::array<double, 6> one{20, 0, 0, 0, 0, 0}, other{-20, 0, 0, 0, 0, 0};
   driver.drive(one);
   ASSERT_TRUE(mega.when({1000, 0, 0, 0, 0, 0}));
@@ -87,23 +87,23 @@ TEST_F(Firmware, ReversesThroughZeroStepByStep) {
 }
 
 TEST_F(Firmware, RefusesMoreThanTheScale) {
-  SerialCoilDriver driver(params(mega.port()));
+  actuation::SerialCoilDriver driver(params(mega.port()));
   driver.drive(some);
   ASSERT_TRUE(mega.when(some_outputs));
   std::array<double, 6> much = some;
   much[2] = 20.1;
-  EXPECT_EQ(driver.drive(much), DriveStatus::refused);
+  EXPECT_EQ(driver.drive(much), actuation::DriveStatus::refused);
   much[2] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(driver.drive(much), DriveStatus::refused);
+  EXPECT_EQ(driver.drive(much), actuation::DriveStatus::refused);
 }
 
 TEST_F(Firmware, CutCableTurnsOffAndTheDriverSaysSo) {
   auto hasty = params(mega.port());
   hasty.attempts = 3;
-  SerialCoilDriver driver(hasty);
+  actuation::SerialCoilDriver driver(hasty);
   ASSERT_TRUE(reaches(driver));
   const double cut = mega.order("cut");
-  EXPECT_EQ(driver.drive(some), DriveStatus::no_answer);
+  EXPECT_EQ(driver.drive(some), actuation::DriveStatus::no_answer);
   const auto zero = mega.when(off);
   ASSERT_TRUE(zero);
   EXPECT_LE(*zero - cut, zero_within_ms);
@@ -114,14 +114,14 @@ TEST_F(Firmware, CutCableTurnsOffAndTheDriverSaysSo) {
 }
 
 TEST_F(Firmware, SilenceTurnsOff) {
-  SerialCoilDriver driver(params(mega.port()));
+  actuation::SerialCoilDriver driver(params(mega.port()));
   ASSERT_TRUE(reaches(driver));
   const double last = mega.order("mark");
   const auto zero = mega.when(off);
   ASSERT_TRUE(zero);
   EXPECT_LE(*zero - last, zero_within_ms);
-  EXPECT_EQ(driver.ask_status()->state, CoilState::tripped);
-  EXPECT_EQ(driver.drive(some), DriveStatus::resumed);
+  EXPECT_EQ(driver.ask_status()->state, actuation::CoilState::tripped);
+  EXPECT_EQ(driver.drive(some), actuation::DriveStatus::resumed);
 }
 
 TEST_F(Firmware, KilledHostTurnsOff) {
@@ -129,7 +129,7 @@ TEST_F(Firmware, KilledHostTurnsOff) {
   const pid_t host = fork();
   if (host == 0) {
     try {
-      SerialCoilDriver driver(params(port));
+      actuation::SerialCoilDriver driver(params(port));
       for (;; std::this_thread::sleep_for(20ms)) driver.drive(some);
     } catch (const HardwareError&) {
       _exit(1);
@@ -142,18 +142,18 @@ TEST_F(Firmware, KilledHostTurnsOff) {
   const auto zero = mega.when(off);
   ASSERT_TRUE(zero);
   EXPECT_LE(*zero - killed, zero_within_ms);
-  SerialCoilDriver next(params(port));  // whatever was half said
+  actuation::SerialCoilDriver next(params(port));  // whatever was half said
   EXPECT_TRUE(drives(next));
 }
 
 TEST_F(Firmware, RestartedDeviceIsOffUntilItIsArmedAgain) {
-  SerialCoilDriver driver(params(mega.port()));
+  actuation::SerialCoilDriver driver(params(mega.port()));
   ASSERT_TRUE(reaches(driver));
   const double restarted = mega.order("reset");
   const auto zero = mega.when(off);
   ASSERT_TRUE(zero);
   EXPECT_LE(*zero - restarted, zero_within_ms);
-  EXPECT_EQ(driver.drive(some), DriveStatus::resumed);
+  EXPECT_EQ(driver.drive(some), actuation::DriveStatus::resumed);
   EXPECT_TRUE(reaches(driver));
 }
 
@@ -168,23 +168,24 @@ class StockMega : public testing::Test {
 };
 
 TEST_F(StockMega, IsNotSpokenToUntilItsBootloaderHasEnded) {
-  SerialCoilDriver driver(params(mega->port()));
-  EXPECT_EQ(driver.drive(some), DriveStatus::driven);
+  actuation::SerialCoilDriver driver(params(mega->port()));
+  EXPECT_EQ(driver.drive(some), actuation::DriveStatus::driven);
   EXPECT_TRUE(mega->when(some_outputs));
 }
 
 TEST_F(StockMega, IsLeftAloneWhenItIsResetInARun) {
   auto hasty = params(mega->port());
   hasty.attempts = 3;
-  SerialCoilDriver driver(hasty);
-  ASSERT_EQ(driver.drive(some), DriveStatus::driven);
+  actuation::SerialCoilDriver driver(hasty);
+  ASSERT_EQ(driver.drive(some), actuation::DriveStatus::driven);
   mega->order("reset");
-  std::set<DriveStatus> seen;
+  std::set<actuation::DriveStatus> seen;
   for (const auto began = std::chrono::steady_clock::now();
-       !seen.count(DriveStatus::resumed) && std::chrono::steady_clock::now() < began + patience;
+       !seen.count(actuation::DriveStatus::resumed) &&
+       std::chrono::steady_clock::now() < began + patience;
        std::this_thread::sleep_for(20ms))
     seen.insert(driver.drive(some));
-  EXPECT_EQ(seen, (std::set{DriveStatus::no_answer, DriveStatus::resumed}));
+  EXPECT_EQ(seen, (std::set{actuation::DriveStatus::no_answer, actuation::DriveStatus::resumed}));
   EXPECT_TRUE(mega->when(some_outputs));
 }
 
@@ -192,7 +193,7 @@ TEST_F(StockMega, IsLeftAloneWhenItIsResetInARun) {
 TEST_F(Firmware, LostAndFlippedBytesAreNotObeyed) {
   auto often = params(mega.port());
   often.reply_timeout = 0.02;
-  SerialCoilDriver driver(often);
+  actuation::SerialCoilDriver driver(often);
   mega.order("flip 0.02");
   mega.order("lose 0.01");
   int driven = 0;
@@ -216,7 +217,7 @@ TEST_F(Firmware, LostAndFlippedBytesAreNotObeyed) {
 TEST_F(Firmware, GarbageAloneMovesNothingAndDoesNotKeepItOn) {
   const std::string port = mega.port();
   {
-    SerialCoilDriver driver(params(port));
+    actuation::SerialCoilDriver driver(params(port));
     ASSERT_TRUE(reaches(driver));
     const int line = open(port.c_str(), O_WRONLY | O_NOCTTY);
     ASSERT_GE(line, 0);
@@ -233,22 +234,22 @@ TEST_F(Firmware, GarbageAloneMovesNothingAndDoesNotKeepItOn) {
     ASSERT_TRUE(zero);
     EXPECT_LE(*zero - began, zero_within_ms);
   }
-  SerialCoilDriver again(params(port));
+  actuation::SerialCoilDriver again(params(port));
   EXPECT_TRUE(drives(again));
 }
 
 TEST(SerialCoilDriver, SaysWhatIsNotThere) {
-  SerialCoilParams p = params("/dev/there-is-no-such-port");
-  EXPECT_THROW(SerialCoilDriver{p}, HardwareError);
+  actuation::SerialCoilParams p = params("/dev/there-is-no-such-port");
+  EXPECT_THROW(actuation::SerialCoilDriver{p}, HardwareError);
   p.port = "/dev/null";
-  EXPECT_THROW(SerialCoilDriver{p}, HardwareError);
+  EXPECT_THROW(actuation::SerialCoilDriver{p}, HardwareError);
   Simulator mute;
   p.port = mute.port();
   mute.order("cut");
   p.attempts = 3;
   p.connect_timeout = 0.5;
   try {
-    SerialCoilDriver driver(p);
+    actuation::SerialCoilDriver driver(p);
     FAIL();
   } catch (const HardwareError& e) {
     EXPECT_EQ(std::string(e.what()), p.port + ": no answer within 0.5 s");

@@ -134,8 +134,8 @@ class Simulator {
   std::optional<double> matched_;  // when they became those wanted
 };
 
-inline SerialCoilParams params(const std::string& port) {
-  SerialCoilParams p;
+inline actuation::SerialCoilParams params(const std::string& port) {
+  actuation::SerialCoilParams p;
   p.port = port;
   p.full_scale = full_scale;
   p.reply_timeout = 0.1;

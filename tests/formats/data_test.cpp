@@ -12,7 +12,7 @@
 #include "microswarm/formats/tracks.hpp"
 #include "tests/files.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 namespace {
 
 class Data : public testing::Test {
@@ -161,4 +161,4 @@ TEST_F(Data, WalkersComeAtTheirSpeed) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::formats

@@ -10,7 +10,7 @@
 #include "tests/files.hpp"
 #include "tests/messages.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 namespace {
 
 using test::error_of;
@@ -197,4 +197,4 @@ TEST(JsonPlace, TextAndLine) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::formats

@@ -6,7 +6,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "tests/files.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 namespace {
 
 TEST(Gifs, NameTheFileThatCannotBeWritten) {
@@ -22,4 +22,4 @@ TEST(Gifs, NameTheFileThatCannotBeWritten) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::formats

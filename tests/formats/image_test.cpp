@@ -15,7 +15,7 @@
 #include "tests/formats/png.hpp"
 #include "tests/messages.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 namespace {
 
 using test::bytes_of;
@@ -289,4 +289,4 @@ TEST(ImageErrors, DamageIsNamed) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::formats

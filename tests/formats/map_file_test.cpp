@@ -12,7 +12,7 @@
 #include "tests/formats/png.hpp"
 #include "tests/messages.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 namespace {
 
 using test::error_of;
@@ -217,4 +217,4 @@ TEST(GuessMapSpec, SaysWhatIsMissing) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::formats

@@ -12,7 +12,7 @@
 #include "microswarm/core/maths/rng.hpp"
 #include "microswarm/geometry/distance.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 namespace {
 
 using Ring = std::vector<Vec2>;
@@ -221,4 +221,4 @@ TEST(Simplify, ZeroChangesNothing) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::formats

@@ -8,7 +8,7 @@
 #include "tests/files.hpp"
 #include "tests/messages.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 namespace {
 
 using test::error_of;
@@ -95,4 +95,4 @@ TEST(Scenarios, QueriesAndTheirErrors) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::formats

@@ -8,7 +8,7 @@
 #include "tests/files.hpp"
 #include "tests/messages.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 namespace {
 
 using test::error_of;
@@ -127,4 +127,4 @@ TEST(RosErrors, NameFileAndValue) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::formats

@@ -9,7 +9,7 @@
 
 #include "microswarm/core/errors/error.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 namespace {
 
 TEST(Samples, OfEightBitsAreCopied) {
@@ -38,4 +38,4 @@ TEST(Samples, OfSixteenBitsAreScaledByTheirDepth) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::formats

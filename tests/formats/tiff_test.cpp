@@ -9,7 +9,7 @@
 #include "microswarm/formats/images/image.hpp"
 #include "tests/files.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 namespace {
 
 /// How a page is stored.
@@ -248,4 +248,4 @@ TEST(Tiff, AStripThatIsNotThereIsDamageNotBlack) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::formats

@@ -8,7 +8,7 @@
 #include "tests/files.hpp"
 #include "tests/messages.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 namespace {
 
 using test::error_of;
@@ -77,4 +77,4 @@ TEST(Tracks, Pedestrians) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::formats

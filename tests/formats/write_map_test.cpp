@@ -11,7 +11,7 @@
 #include "tests/files.hpp"
 #include "tests/messages.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 namespace {
 
 using test::error_of;
@@ -108,4 +108,4 @@ TEST(WriteMapErrors, OneLineEach) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::formats

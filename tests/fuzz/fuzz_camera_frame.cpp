@@ -12,16 +12,16 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace microswarm;
   if (size < 4) return 0;
-  constexpr auto formats = enum_names(PixelFormat{});
-  RawPicture raw{.format = formats[data[0] % formats.size()].first,
-                 .width = 1 + data[1],
-                 .height = 1 + data[2],
-                 .bytes_per_line = 0,
-                 .bytes = std::as_bytes(std::span(data + 4, size - 4))};
+  constexpr auto formats = vision::enum_names(vision::PixelFormat{});
+  vision::RawPicture raw{.format = formats[data[0] % formats.size()].first,
+                         .width = 1 + data[1],
+                         .height = 1 + data[2],
+                         .bytes_per_line = 0,
+                         .bytes = std::as_bytes(std::span(data + 4, size - 4))};
   if (data[3] > 0) raw.bytes_per_line = static_cast<std::size_t>(3 * raw.width + data[3]);
-  Image image;
+  formats::Image image;
   try {
-    take_raw(raw, "/dev/video0", image);
+    vision::take_raw(raw, "/dev/video0", image);
     if (image.width != raw.width || image.height != raw.height ||
         image.pixels.size() != image.index(0, image.height))
       std::abort();

@@ -13,13 +13,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace microswarm;
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   try {
-    const FieldMeasurements measured = parse_measurements(text, "fuzz.csv");
+    const actuation::FieldMeasurements measured = actuation::parse_measurements(text, "fuzz.csv");
     if (measured.rows.empty()) std::abort();
-    for (const FieldMeasurement& row : measured.rows)
+    for (const actuation::FieldMeasurement& row : measured.rows)
       if (static_cast<std::size_t>(row.currents.size()) != measured.coils.size()) std::abort();
-    const FittedMatrix fit = fit_matrix(measured, {.offset = true});
+    const actuation::FittedMatrix fit = actuation::fit_matrix(measured, {.offset = true});
     if (fit.residuals.size() != measured.rows.size() || !std::isfinite(fit.total_rms)) std::abort();
-    const FittedMatrix local = fit_matrix(measured, {.offset = true, .gradients = true});
+    const actuation::FittedMatrix local =
+        actuation::fit_matrix(measured, {.offset = true, .gradients = true});
     if (!std::isfinite(local.total_rms)) std::abort();
   } catch (const InputError& error) {
     if (std::string_view(error.what()).find('\n') != std::string_view::npos) std::abort();

@@ -15,16 +15,18 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace microswarm;
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   try {
-    const FollowerModel model = parse_follower_model(text, "fuzz.yaml");
-    const std::string written = follower_model_text(model);
-    if (follower_model_text(parse_follower_model(written, "again.yaml")) != written) std::abort();
+    const navigation::FollowerModel model = navigation::parse_follower_model(text, "fuzz.yaml");
+    const std::string written = navigation::follower_model_text(model);
+    if (navigation::follower_model_text(navigation::parse_follower_model(written, "again.yaml")) !=
+        written)
+      std::abort();
     const std::vector<Vec2> path{{0, 0}, {100, 0}, {100, 100}};
-    const FollowerQuery query{.path = path,
-                              .position = {},
-                              .pose = {{10, 1}, 0},
-                              .speed = 60,
-                              .flow = {},
-                              .max_turn_rate = 3};
+    const navigation::FollowerQuery query{.path = path,
+                                          .position = {},
+                                          .pose = {{10, 1}, 0},
+                                          .speed = 60,
+                                          .flow = {},
+                                          .max_turn_rate = 3};
     if (const auto command = model.command(query))
       if (!std::isfinite(command->heading) || !(command->speed > 0 && command->speed <= 60))
         std::abort();

@@ -12,10 +12,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace microswarm;
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   try {
-    const MapParts parts = parse_geojson(text, "fuzz.geojson");
-    check(parts, "fuzz.geojson");
-    const MapParts again = parse_geojson(geojson_text(parts), "again.geojson");
-    if (fingerprint(again) != fingerprint(parts)) std::abort();
+    const formats::MapParts parts = formats::parse_geojson(text, "fuzz.geojson");
+    formats::check(parts, "fuzz.geojson");
+    const formats::MapParts again =
+        formats::parse_geojson(formats::geojson_text(parts), "again.geojson");
+    if (formats::fingerprint(again) != formats::fingerprint(parts)) std::abort();
   } catch (const InputError& error) {
     if (std::string_view(error.what()).find('\n') != std::string_view::npos) std::abort();
   }

@@ -19,14 +19,14 @@ void require(bool holds) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace microswarm;
-  LineReader reader;
+  actuation::LineReader reader;
   for (std::size_t k = 0; k < size; ++k) {
     const auto line = reader.take(data[k]);
     if (!line) continue;
-    require(line->size() <= line_protocol_length);
-    const auto reply = parse_line_reply(*line);
+    require(line->size() <= actuation::line_protocol_length);
+    const auto reply = actuation::parse_line_reply(*line);
     if (!reply) continue;
-    require(reply->values.size() <= line_protocol_values);
+    require(reply->values.size() <= actuation::line_protocol_values);
     require(std::ranges::all_of(reply->values, [](double value) { return std::isfinite(value); }));
     require(reply->text == one_line(reply->text, 1000));
   }

@@ -13,12 +13,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   try {
     if (text.starts_with('v')) {
-      parse_scenarios(text, "fuzz.scen");
+      formats::parse_scenarios(text, "fuzz.scen");
       return 0;
     }
-    const Mask mask = parse_moving_ai(text, "fuzz.map");
-    if (parse_moving_ai(moving_ai_text(mask), "again.map") != mask) std::abort();
-    mask_walls(mask, 1);
+    const formats::Mask mask = formats::parse_moving_ai(text, "fuzz.map");
+    if (formats::parse_moving_ai(formats::moving_ai_text(mask), "again.map") != mask) std::abort();
+    formats::mask_walls(mask, 1);
   } catch (const InputError& error) {
     if (std::string_view(error.what()).find('\n') != std::string_view::npos) std::abort();
   }

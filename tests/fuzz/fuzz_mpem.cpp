@@ -13,15 +13,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace microswarm;
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   try {
-    const MpemSystem system = parse_mpem(text, "fuzz.yaml");
+    const actuation::MpemSystem system = actuation::parse_mpem(text, "fuzz.yaml");
     if (system.coils.empty()) std::abort();
-    for (const MpemCoil& coil : system.coils) {
+    for (const actuation::MpemCoil& coil : system.coils) {
       if (coil.sources.empty()) std::abort();
-      for (const Multipole& source : coil.sources) {
+      for (const actuation::Multipole& source : coil.sources) {
         if (std::abs(source.direction.norm() - 1) > 1e-9) std::abort();
         if (source.A.empty() && source.B.empty()) std::abort();
       }
-      field_at(coil.sources, {1, 2, 3});
+      actuation::field_at(coil.sources, {1, 2, 3});
     }
   } catch (const InputError& error) {
     if (std::string_view(error.what()).find('\n') != std::string_view::npos) std::abort();

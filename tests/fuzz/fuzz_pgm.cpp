@@ -14,13 +14,14 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace microswarm;
   try {
-    const Image image = decode_image(std::as_bytes(std::span(data, size)), "fuzz.pgm");
+    const formats::Image image =
+        formats::decode_image(std::as_bytes(std::span(data, size)), "fuzz.pgm");
     if (image.width < 1 || image.height < 1 || image.pixels.size() != image.index(0, image.height))
       std::abort();
-    const std::string text = encode_pnm(image);
-    if (decode_image(std::as_bytes(std::span(text)), "again.pgm").pixels != image.pixels)
+    const std::string text = formats::encode_pnm(image);
+    if (formats::decode_image(std::as_bytes(std::span(text)), "again.pgm").pixels != image.pixels)
       std::abort();
-    mask_walls(threshold(image, 128, true), 1);
+    formats::mask_walls(formats::threshold(image, 128, true), 1);
   } catch (const InputError& error) {
     if (std::string_view(error.what()).find('\n') != std::string_view::npos) std::abort();
   }

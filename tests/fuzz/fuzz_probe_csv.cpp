@@ -18,7 +18,7 @@ bool read_in(std::string_view text, std::size_t piece, std::vector<Eigen::Vector
   using namespace microswarm;
   const std::size_t end = std::min(text.find('\n'), text.size());
   try {
-    ProbeRows rows(text.substr(0, end), "fuzz.csv");
+    actuation::ProbeRows rows(text.substr(0, end), "fuzz.csv");
     for (std::size_t at = end + 1; at < text.size(); at += piece)
       rows.take(text.substr(at, piece), fields);
   } catch (const InputError& error) {

@@ -14,7 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace microswarm;
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   try {
-    for (const auto& [id, samples] : parse_tracks(text, "fuzz.csv")) {
+    for (const auto& [id, samples] : formats::parse_tracks(text, "fuzz.csv")) {
       const auto& times = samples.times;
       if (times.empty() || times.size() != samples.points.size() || id.empty()) std::abort();
       if (!std::is_sorted(times.begin(), times.end(), std::less_equal<>())) std::abort();

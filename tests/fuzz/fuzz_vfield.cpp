@@ -11,9 +11,9 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace microswarm;
   const std::string_view text(reinterpret_cast<const char*>(data), size);
-  for (auto* parse : {parse_vfield_text, parse_vfield_yaml}) {
+  for (auto* parse : {actuation::parse_vfield_text, actuation::parse_vfield_yaml}) {
     try {
-      const FieldGrid grid = parse(text, "fuzz");
+      const actuation::FieldGrid grid = parse(text, "fuzz");
       const Eigen::Vector3d middle = 0.5 * (grid.lo() + grid.hi());
       if (!grid.contains(middle) || !grid.at(middle).field.allFinite()) std::abort();
       for (const Eigen::Vector3d& end : {grid.lo(), grid.hi()})

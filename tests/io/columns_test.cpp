@@ -11,7 +11,7 @@
 #include "microswarm/io/hdf5_tables.hpp"
 #include "microswarm/io/tables.hpp"
 
-namespace microswarm {
+namespace microswarm::io {
 namespace {
 
 enum class Mood { calm, cross };
@@ -154,4 +154,4 @@ TEST(Tables, ComeBackFromHdf5) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::io

@@ -9,7 +9,7 @@
 #include "tests/files.hpp"
 #include "tests/messages.hpp"
 
-namespace microswarm {
+namespace microswarm::io {
 namespace {
 
 using test::error_of;
@@ -126,4 +126,4 @@ TEST_F(ForeignHdf5, UnknownFiltersAreRefused) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::io

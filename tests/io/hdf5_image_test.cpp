@@ -7,7 +7,7 @@
 
 #include "tests/files.hpp"
 
-namespace microswarm {
+namespace microswarm::io {
 namespace {
 
 TEST(Hdf5Image, ColumnsOfEverySizeComeBack) {
@@ -79,4 +79,4 @@ TEST(Hdf5Image, SeveralAreOpenAtATime) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::io

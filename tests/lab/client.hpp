@@ -51,9 +51,9 @@ beast::error_code finished(asio::io_context& io, Start&& start,
 /// A lab with a folder of scenarios: flight.yaml, which takes a second or two to compute.
 class Lab {
  public:
-  explicit Lab(ServerOptions options = {}) : Lab(std::move(options), small_flight()) {}
-  Lab(ServerOptions options, const Scenario& scenario) {
-    file = folder.with("flight.yaml", scenario_text(scenario)).string();
+  explicit Lab(ServerOptions options = {}) : Lab(std::move(options), experiment::small_flight()) {}
+  Lab(ServerOptions options, const experiment::Scenario& scenario) {
+    file = folder.with("flight.yaml", experiment::scenario_text(scenario)).string();
     options.folders.push_back(std::filesystem::path(file).parent_path());
     server.emplace(std::move(options));
     const std::string url = server->url();

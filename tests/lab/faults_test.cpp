@@ -79,7 +79,7 @@ TEST(LabFaults, APageThatNeverReadsIsClosedAndTheOthersGoOn) {
   options.limits.unread = 100'000;
   options.limits.pages = 2;
   const Lab lab(options);
-  Session run(open_experiment(small_flight(), {}));
+  experiment::Session run(experiment::open_experiment(experiment::small_flight(), {}));
   run.finish();
   run.record_to(lab.folder / "run.h5");
   const std::uint64_t session = open(lab, {{"file", (lab.folder / "run.h5").string()}});

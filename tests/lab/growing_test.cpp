@@ -16,7 +16,7 @@ class Writer {
  public:
   explicit Writer(const std::filesystem::path& folder)
       : folder_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)),
-        run_(open_experiment(small_flight(), {})) {
+        run_(experiment::open_experiment(experiment::small_flight(), {})) {
     EXPECT_EQ(::flock(folder_, LOCK_EX | LOCK_NB), 0);
   }
   ~Writer() { ::close(folder_); }
@@ -27,11 +27,11 @@ class Writer {
     for (int i = 0; i < ticks; ++i) run_.step();
     run_.record_to(file);
   }
-  Session& run() { return run_; }
+  experiment::Session& run() { return run_; }
 
  private:
   int folder_;
-  Session run_;
+  experiment::Session run_;
 };
 
 TEST(GrowingRecords, AreFollowedToTheirEnd) {
@@ -90,7 +90,7 @@ TEST(GrowingRecords, AFileInTheMakingOfAnotherRunBeginsAnew) {
   writer.write(part, 20);
   TestPage page(lab, open(lab, {{"file", part.string()}}));
   page.until("standing");
-  Session other(open_experiment(small_flight(), {}));
+  experiment::Session other(experiment::open_experiment(experiment::small_flight(), {}));
   for (int i = 0; i < 4; ++i) other.step();
   other.record_to(part);
   EXPECT_FALSE(page.until("hello").is_null());

@@ -19,10 +19,10 @@ struct Shelf {
   Shelf() {
     fs::create_directories(folder / "in/deep");
     fs::create_directories(folder / "inside");
-    scenario = folder.with("in/flight.yaml", scenario_text(small_flight()));
-    folder.with("in/deep/other.yaml", scenario_text(small_flight()));
+    scenario = folder.with("in/flight.yaml", experiment::scenario_text(experiment::small_flight()));
+    folder.with("in/deep/other.yaml", experiment::scenario_text(experiment::small_flight()));
     secret = folder.with("secret.csv", "1,2,3,4\n");
-    folder.with("inside/near.yaml", scenario_text(small_flight()));
+    folder.with("inside/near.yaml", experiment::scenario_text(experiment::small_flight()));
   }
   test::Folder folder;
   fs::path scenario;
@@ -39,7 +39,7 @@ TEST(Library, ListsScenariosAndRecords) {
   ASSERT_EQ(entries.size(), 3u);
   EXPECT_TRUE(entries[0].file.ends_with("in/deep/other.yaml"));
   EXPECT_TRUE(entries[1].file.ends_with("in/flight.yaml"));
-  EXPECT_EQ(entries[1].name, small_flight().name);
+  EXPECT_EQ(entries[1].name, experiment::small_flight().name);
   EXPECT_TRUE(entries[2].file.ends_with("in/run.h5"));
   EXPECT_EQ(Library({shelf.folder / "in", shelf.folder / "in/deep"}).entries().size(), 3u);
   for (const Entry& entry : entries) EXPECT_EQ(shelf.library().find(entry.file), entry.file);
@@ -57,7 +57,7 @@ TEST(Library, NoFileOutsideIsOpened) {
         in + "/", in + "/deep", in + "/none.yaml", std::string("/etc/passwd"), std::string("../.."),
         std::string(), std::string("/"), std::string("/dev/zero"), in + "/flight.yaml/",
         std::string("a\0b", 3), std::string(100'000, 'a')})
-    EXPECT_TRUE(test::is_one_line_naming(error_of([&] { library.find(file); }), "", {}))
+    EXPECT_TRUE(test::is_one_line_naming(experiment::error_of([&] { library.find(file); }), "", {}))
         << file.substr(0, 200);
   EXPECT_EQ(library.find(in + "/deep/../flight.yaml"), shelf.scenario);
 }
@@ -66,7 +66,7 @@ TEST(Library, NoSettingNamesAFileOutside) {
   const Shelf shelf;
   const Library library = shelf.library();
   const auto refused = [&](const std::string& setting) {
-    return error_of([&] { library.check(shelf.scenario, {setting}); });
+    return experiment::error_of([&] { library.check(shelf.scenario, {setting}); });
   };
   const std::string outside = "map={type: rectangles, lo_um: [0, 0], hi_um: [9, 9], file: ";
   for (const std::string& file : {std::string("../secret.csv"), shelf.secret.string()})
@@ -83,7 +83,8 @@ TEST(Library, NoSettingNamesAFileOutside) {
 }
 
 TEST(Library, AFolderThatIsNotThereIsTold) {
-  EXPECT_TRUE(test::is_one_line_naming(error_of([] { Library({"/no/such"}); }), "/no/such", {}));
+  EXPECT_TRUE(test::is_one_line_naming(experiment::error_of([] { Library({"/no/such"}); }),
+                                       "/no/such", {}));
 }
 
 TEST(Thumbnail, IsSmallForEveryShippedScenario) {
@@ -103,9 +104,9 @@ TEST(Thumbnail, IsDrawnAnewWhenTheFileChanges) {
   Thumbnails thumbnails;
   const std::string first = thumbnails.of(shelf.scenario);
   EXPECT_EQ(thumbnails.of(shelf.scenario), first);
-  Scenario moved = small_flight();
+  experiment::Scenario moved = experiment::small_flight();
   moved.goal->x -= 300;
-  shelf.folder.with("in/flight.yaml", scenario_text(moved));
+  shelf.folder.with("in/flight.yaml", experiment::scenario_text(moved));
   fs::last_write_time(shelf.scenario, fs::file_time_type::clock::now() + std::chrono::seconds(2));
   EXPECT_NE(thumbnails.of(shelf.scenario), first);
 }

@@ -129,11 +129,11 @@ TEST_F(LabRig, TheRecordSoFarIsKeptWhileItDrives) {
   const fs::path runs = page.latest["rig"]["folder"].get<std::string>();
   EXPECT_EQ(runs.parent_path(), folder / "runs");
   beat_until(page, [&](const Json&) { return fs::exists(runs / "run.part.h5"); });
-  EXPECT_FALSE(read_record(runs / "run.part.h5").frames.empty());
+  EXPECT_FALSE(experiment::read_record(runs / "run.part.h5").frames.empty());
   page.does({{"do", "stop"}});
   rig_in(page, "ended");
   EXPECT_FALSE(fs::exists(runs / "run.part.h5"));
-  EXPECT_GT(read_record(runs / "run.h5").frames.size(), 10u);
+  EXPECT_GT(experiment::read_record(runs / "run.h5").frames.size(), 10u);
 }
 
 TEST_F(LabRig, SteersByHand) {
@@ -236,7 +236,8 @@ TEST_F(LabRig, DownloadsWaitForTheEndOfARunThatDrives) {
   rig_in(page, "ended");
   const Reply reply = get(*lab, record);
   ASSERT_EQ(reply.result(), http::status::ok);
-  EXPECT_EQ(read_record(lab->folder.with("run.h5", reply.body())).result.status, Status::fault);
+  EXPECT_EQ(experiment::read_record(lab->folder.with("run.h5", reply.body())).result.status,
+            Status::fault);
 }
 
 TEST_F(LabRig, OneRigIsOneSession) { EXPECT_EQ(open(*lab, Json::object()), session); }

@@ -13,16 +13,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Record record_of(const Lab& lab, std::uint64_t session) {
+experiment::Record record_of(const Lab& lab, std::uint64_t session) {
   const Reply reply = get(lab, "/api/sessions/" + std::to_string(session) + "/record.h5");
   EXPECT_EQ(reply.result(), http::status::ok);
   EXPECT_EQ(reply[http::field::content_disposition], "attachment; filename=\"record.h5\"");
-  return read_record(lab.folder.with("downloaded.h5", reply.body()));
+  return experiment::read_record(lab.folder.with("downloaded.h5", reply.body()));
 }
 
 /// Of the command line.
 std::string hash_of(const std::string& file, const std::vector<std::string>& settings = {}) {
-  const auto session = open_session(file, settings);
+  const auto session = experiment::open_session(file, settings);
   session->finish();
   return session->record().hash();
 }
@@ -48,9 +48,9 @@ TEST(Server, ARunThatIsPlayedIsTheCommandLines) {
   page.does(plays);
   const Json standing = page.ends();
   EXPECT_EQ(standing["status"], "solved");
-  const Record record = record_of(lab, session);
+  const experiment::Record record = record_of(lab, session);
   EXPECT_EQ(record.hash(), hash_of(lab.file));
-  EXPECT_TRUE(replay(record).identical);
+  EXPECT_TRUE(experiment::replay(record).identical);
 }
 
 TEST(Server, EveryTickIsARowForEveryPage) {
@@ -178,9 +178,9 @@ TEST(Server, WhatIsSetIsInTheRecordAndWhatIsWrongIsTold) {
   page.does(fastest);
   page.does(plays);
   page.ends();
-  const Record record = record_of(lab, session);
+  const experiment::Record record = record_of(lab, session);
   EXPECT_EQ(record.changes.size(), 2u);
-  EXPECT_TRUE(replay(record).identical);
+  EXPECT_TRUE(experiment::replay(record).identical);
   EXPECT_EQ(page.issues({{"do", "set"}, {"key", "time_limit_s"}, {"value", "9"}}).size(), 1u);
 }
 
@@ -212,7 +212,7 @@ TEST(Server, ARestartWithABadSettingKeepsTheSession) {
 
 TEST(Server, ARecordIsPlayedAndSoughtIn) {
   const Lab lab;
-  Session run(open_experiment(small_flight(), {}));
+  experiment::Session run(experiment::open_experiment(experiment::small_flight(), {}));
   run.finish();
   run.record_to(lab.folder / "run.h5");
   const std::uint64_t session = open(lab, {{"file", (lab.folder / "run.h5").string()}});
@@ -258,7 +258,7 @@ TEST(Server, APersonOperatesIt) {
   page.does({{"do", "end"}});
   page.does(plays);
   EXPECT_EQ(page.ends()["status"], "stopped");
-  EXPECT_TRUE(replay(record_of(lab, session)).identical);
+  EXPECT_TRUE(experiment::replay(record_of(lab, session)).identical);
 }
 
 TEST(Server, DownloadsAreWhatTheirNamesSay) {
@@ -270,7 +270,8 @@ TEST(Server, DownloadsAreWhatTheirNamesSay) {
   const std::string at = "/api/sessions/" + std::to_string(session) + "/";
   const Reply yaml = get(lab, at + "scenario.yaml");
   EXPECT_EQ(yaml[http::field::content_type], "application/yaml");
-  EXPECT_EQ(yaml.body(), scenario_text(read_scenario(lab.file, {"seed=5"})));
+  EXPECT_EQ(yaml.body(),
+            experiment::scenario_text(experiment::read_scenario(lab.file, {"seed=5"})));
   const std::string csv = get(lab, at + "frames.csv").body();
   EXPECT_EQ(std::ranges::count(csv, '\n'), 4);
   EXPECT_EQ(get(lab, at + "events.csv").result(), http::status::ok);
@@ -283,11 +284,12 @@ TEST(Server, ADownloadedScenarioFindsItsFiles) {
   Lab lab;
   std::filesystem::create_directories(lab.folder / "maps");
   lab.folder.with("maps/walls.csv", "5,5,9,9\n");
-  Scenario scenario = small_flight();
-  const Box bounds = build_world(load_scene(scenario, lab.folder / "")).map->bounds();
-  scenario.map =
-      RectanglesMap{.lo = bounds.lo, .hi = bounds.hi, .rectangles = {}, .file = "maps/walls.csv"};
-  const auto file = lab.folder.with("near.yaml", scenario_text(scenario));
+  experiment::Scenario scenario = experiment::small_flight();
+  const Box bounds =
+      experiment::build_world(experiment::load_scene(scenario, lab.folder / "")).map->bounds();
+  scenario.map = formats::RectanglesMap{
+      .lo = bounds.lo, .hi = bounds.hi, .rectangles = {}, .file = "maps/walls.csv"};
+  const auto file = lab.folder.with("near.yaml", experiment::scenario_text(scenario));
   const std::uint64_t session = open(lab, {{"file", file.string()}});
   const Reply yaml = get(lab, "/api/sessions/" + std::to_string(session) + "/scenario.yaml");
   std::filesystem::create_directories(lab.folder / "far");

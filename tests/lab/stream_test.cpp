@@ -24,7 +24,7 @@ std::vector<T> numbers(const Json& bytes) {
 }
 
 TEST(Stream, HelloHasScenarioMapAndCommand) {
-  const Session session(open_experiment(small_flight(), {}));
+  const experiment::Session session(experiment::open_experiment(experiment::small_flight(), {}));
   const MessagePtr message = hello_message(session, {.file = "a b/it's.yaml",
                                                      .rig = "rig.yaml",
                                                      .settings = {"goal_um=[1, 2]"},
@@ -37,14 +37,14 @@ TEST(Stream, HelloHasScenarioMapAndCommand) {
             "microswarm run 'a b/it'\\''s.yaml' --rig rig.yaml --set 'goal_um=[1, 2]' --set-rig "
             "drive_rate_hz=100");
   EXPECT_EQ(hello["settings"], Json({"goal_um=[1, 2]"}));
-  EXPECT_EQ(hello["scenario"]["goal_um"][0], small_flight().goal->x);
+  EXPECT_EQ(hello["scenario"]["goal_um"][0], experiment::small_flight().goal->x);
   EXPECT_EQ(hello["map"]["hi"][0], session.map().bounds().hi.x);
   EXPECT_FALSE(hello["changeable"].empty());
-  EXPECT_EQ(command_of({.file = "run.h5"}, true), "microswarm replay run.h5");
+  EXPECT_EQ(command_line({.file = "run.h5"}, true), "microswarm replay run.h5");
 }
 
 TEST(Stream, ClearanceIsThatOfTheMapInAtMostSoManyCells) {
-  const Session session(open_experiment(small_flight(), {}));
+  const experiment::Session session(experiment::open_experiment(experiment::small_flight(), {}));
   const Map& map = session.map();
   const Json json = decoded(clearance_message(map));
   const double cell = json["cell"];
@@ -62,9 +62,9 @@ TEST(Stream, ClearanceIsThatOfTheMapInAtMostSoManyCells) {
 }
 
 TEST(Stream, AFrameIsWhatTheSessionShows) {
-  Session session(open_experiment(small_flight(), {}));
+  experiment::Session session(experiment::open_experiment(experiment::small_flight(), {}));
   for (int i = 0; i < 20; ++i) ASSERT_TRUE(session.step());
-  const SessionView view = session.view();
+  const experiment::SessionView view = session.view();
   const MessagePtr message = frame_message(view, session.diagnostics());
   EXPECT_EQ(message->kind, Message::Kind::frame);
   const Json frame = decoded(message);
@@ -88,12 +88,12 @@ TEST(Stream, ARecordShowsTheDiagnosticsThatItKeeps) {
   const auto file =
       std::filesystem::path(MICROSWARM_SOURCE_DIR) / "scenarios/papers/radar/twelve.yaml";
   for (const auto& [navigator, key] : {std::pair{"radar", "radar"}, {"predictive", "predicted"}}) {
-    const auto live = open_session(file, {"record.diagnostics=true", "time_limit_s=1",
-                                          std::string("navigator.type=") + navigator});
+    const auto live = experiment::open_session(file, {"record.diagnostics=true", "time_limit_s=1",
+                                                      std::string("navigator.type=") + navigator});
     std::vector<Json> shown;
     while (live->step()) shown.push_back(decoded(frame_message(live->view(), live->diagnostics())));
     EXPECT_TRUE(shown[0].contains(key));
-    Session playback(live->record());
+    experiment::Session playback(live->record());
     for (const Json& frame : shown) {
       ASSERT_TRUE(playback.step());
       const Json again = decoded(frame_message(playback.view(), playback.diagnostics()));

@@ -134,7 +134,7 @@ TEST(Uploads, AScenarioAndARecordAreOpened) {
   const Reply scenario = send(lab, "flight.yml", read_file(lab.file));
   ASSERT_EQ(scenario.result(), http::status::ok) << scenario.body();
   EXPECT_NE(open(lab, {{"file", Json::parse(scenario.body())["file"]}}), 0u);
-  const auto session = open_session(lab.file);
+  const auto session = experiment::open_session(lab.file);
   session->finish();
   session->record_to(lab.folder / "run.h5");
   const Reply record = send(lab, "run.h5", read_file(lab.folder / "run.h5"));

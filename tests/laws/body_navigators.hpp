@@ -13,7 +13,7 @@ namespace microswarm {
 /// A navigator of a swarm seen as one body, as the laws take it.
 struct BodyNavigator {
   std::string name;
-  NavigatorParams params;
+  navigation::NavigatorParams params;
   std::uint64_t golden = 0;  ///< hash of its commands and states in fixed scenes
   bool allocates = false;    ///< its steps call a planner
   /// Contacts with a delay, in those worlds where it has none without; 1: it compensates no delay.
@@ -24,34 +24,34 @@ inline void PrintTo(const BodyNavigator& n, std::ostream* os) { *os << n.name; }
 
 /// Every one there is; a new one joins all laws by a line here.
 inline std::vector<BodyNavigator> body_navigators() {
-  HierarchicalParams hierarchical;
+  navigation::HierarchicalParams hierarchical;
   hierarchical.clearance = 40;
-  HierarchicalParams hierarchical_learned = hierarchical;
-  hierarchical_learned.follower.kind = FollowerKind::learned;
-  PathNavigatorParams learned;
-  learned.follower.kind = FollowerKind::learned;
-  PathNavigatorParams against_flow;
+  navigation::HierarchicalParams hierarchical_learned = hierarchical;
+  hierarchical_learned.follower.kind = navigation::FollowerKind::learned;
+  navigation::PathNavigatorParams learned;
+  learned.follower.kind = navigation::FollowerKind::learned;
+  navigation::PathNavigatorParams against_flow;
   against_flow.follower.correct_flow = true;
-  RadarParams radar;
+  navigation::RadarParams radar;
   radar.target_gain = 0.01;
-  RadarParams guided = radar;
+  navigation::RadarParams guided = radar;
   guided.waypoints = {{600, 400}};
   guided.safety_radius.adaptive = true;
   guided.obstacle_speed_bound = 50;
-  RadarParams published = radar;
+  navigation::RadarParams published = radar;
   published.as_published = true;
   return {{"Hierarchical", hierarchical, 0xce4454b94bfe1fa5, true},
           {"HierarchicalLearned", hierarchical_learned, 0x7f35d30000256b3a, true},
-          {"Path", PathNavigatorParams{}, 0x4ce7911165a783d9},
+          {"Path", navigation::PathNavigatorParams{}, 0x4ce7911165a783d9},
           {"PathAgainstFlow", against_flow, 0x2cdf8fd66303967f},
           {"PathLearned", learned, 0x891a8f1cfb0b1f27},
           {"Radar", radar, 0x45a98a87a1c1daea},
           {"RadarGuided", guided, 0xfc29d20f5f3f1faf},
           {"RadarAsPublished", published, 0x8fd591409b1c5021, false, 1},
-          {"StraightStop", StraightParams{}, 0xdb787b10f3972ee0},
-          {"PotentialField", PotentialFieldParams{}, 0xb25c0dc003a24249},
-          {"VelocityObstacle", VelocityObstacleParams{}, 0x3cdda3d52bc4c9f6},
-          {"Predictive", PredictiveParams{}, 0xb69a8061ef8a7fc5}};
+          {"StraightStop", navigation::StraightParams{}, 0xdb787b10f3972ee0},
+          {"PotentialField", navigation::PotentialFieldParams{}, 0xb25c0dc003a24249},
+          {"VelocityObstacle", navigation::VelocityObstacleParams{}, 0x3cdda3d52bc4c9f6},
+          {"Predictive", navigation::PredictiveParams{}, 0xb69a8061ef8a7fc5}};
 }
 
 }  // namespace microswarm

@@ -15,7 +15,7 @@
 namespace microswarm {
 namespace {
 
-using Coils = decltype(CoilSystemParams::coils);
+using Coils = decltype(actuation::CoilSystemParams::coils);
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
@@ -35,16 +35,18 @@ void PrintTo(const CoilCase& c, std::ostream* os) { *os << c.name; }
 
 class CoilLaws : public testing::TestWithParam<CoilCase> {
  protected:
-  CoilSystemParams params(double scale = 1) const {
-    CoilSystemParams p;
+  actuation::CoilSystemParams params(double scale = 1) const {
+    actuation::CoilSystemParams p;
     p.coils = GetParam().make(folder_, scale);
     return p;
   }
-  CoilSystem made(double scale = 1) const { return CoilSystem(params(scale), {}, folder_ / ""); }
-  Vector3d place(test::Dice& dice, const CoilSystem& system) const {
+  actuation::CoilSystem made(double scale = 1) const {
+    return actuation::CoilSystem(params(scale), {}, folder_ / "");
+  }
+  Vector3d place(test::Dice& dice, const actuation::CoilSystem& system) const {
     return system.centre() + GetParam().reach * dice.vector();
   }
-  static VectorXd random_currents(test::Dice& dice, const CoilSystem& system) {
+  static VectorXd random_currents(test::Dice& dice, const actuation::CoilSystem& system) {
     VectorXd currents(static_cast<Eigen::Index>(system.size()));
     for (double& i : currents) i = 5 * dice.number();
     return currents;
@@ -54,10 +56,10 @@ class CoilLaws : public testing::TestWithParam<CoilCase> {
 };
 
 TEST_P(CoilLaws, FieldIsLinearInTheCurrents) {
-  const CoilSystem system = made();
+  const actuation::CoilSystem system = made();
   test::Dice dice(1);
   for (int trial = 0; trial < 30; ++trial) {
-    const Actuation at = system.at(place(dice, system));
+    const actuation::Actuation at = system.at(place(dice, system));
     const VectorXd one = random_currents(dice, system), two = random_currents(dice, system);
     const double a = dice.number(), b = dice.number();
     const Vector3d offset = at.offset.field;
@@ -75,7 +77,7 @@ TEST_P(CoilLaws, FieldIsLinearInTheCurrents) {
 }
 
 TEST_P(CoilLaws, SamePlaceSameBits) {
-  const CoilSystem one = made(), two = made();
+  const actuation::CoilSystem one = made(), two = made();
   test::Dice dice(2);
   for (int trial = 0; trial < 10; ++trial) {
     const Vector3d p = place(dice, one);
@@ -85,7 +87,7 @@ TEST_P(CoilLaws, SamePlaceSameBits) {
 }
 
 TEST_P(CoilLaws, GradientIsThatOfTheField) {
-  const CoilSystem system = made();
+  const actuation::CoilSystem system = made();
   test::Dice dice(3);
   for (int trial = 0; trial < 20; ++trial) {
     const Vector3d p = place(dice, system);
@@ -105,12 +107,12 @@ TEST_P(CoilLaws, GradientIsThatOfTheField) {
 // What is twice as far away from coils twice as large is half as strong for one ampere turn.
 TEST_P(CoilLaws, LengthsScaleTheField) {
   if (!GetParam().has_lengths) return;
-  const CoilSystem one = made(1), two = made(2);
+  const actuation::CoilSystem one = made(1), two = made(2);
   test::Dice dice(4);
   const bool is_given_by_values = !GetParam().is_smooth;  // a grid: they stand at other places
   for (int trial = 0; trial < 20; ++trial) {
     const Vector3d p = place(dice, one);
-    const Actuation near = one.at(p), far = two.at(2 * p);
+    const actuation::Actuation near = one.at(p), far = two.at(2 * p);
     const double factor = is_given_by_values ? 1 : 2;
     EXPECT_LE((factor * far.field - near.field).norm(), 1e-9 * near.field.norm());
     EXPECT_LE((2 * factor * far.gradients - near.gradients).norm(), 1e-9 * near.gradients.norm());
@@ -119,12 +121,12 @@ TEST_P(CoilLaws, LengthsScaleTheField) {
 
 TEST_P(CoilLaws, IsAsSymmetricAsItIsBuilt) {
   if (!GetParam().is_mirrored) return;
-  const CoilSystem system = made();
+  const actuation::CoilSystem system = made();
   test::Dice dice(5);
   for (int trial = 0; trial < 20; ++trial) {
     const Vector3d away = GetParam().reach * dice.vector();
-    const Actuation here = system.at(system.centre() + away);
-    const Actuation there = system.at(system.centre() - away);
+    const actuation::Actuation here = system.at(system.centre() + away);
+    const actuation::Actuation there = system.at(system.centre() - away);
     // All coils alike: what one of a pair makes here, the other makes there.
     const VectorXd all = VectorXd::Ones(here.field.cols());
     EXPECT_LE((here.total_field(all) - there.total_field(all)).norm(),
@@ -133,12 +135,12 @@ TEST_P(CoilLaws, IsAsSymmetricAsItIsBuilt) {
 }
 
 TEST_P(CoilLaws, CurrentsMakeTheFieldThatIsAskedFor) {
-  const CoilSystem system = made();
+  const actuation::CoilSystem system = made();
   test::Dice dice(6);
   for (int trial = 0; trial < 40; ++trial) {
-    const Actuation at = system.at(place(dice, system));
+    const actuation::Actuation at = system.at(place(dice, system));
     const Vector3d wanted = 10 * dice.vector();
-    const CurrentsForField found = currents_for(at, wanted);
+    const actuation::CurrentsForField found = actuation::currents_for(at, wanted);
     const Vector3d made_field = at.total_field(found.currents);
     EXPECT_LE((made_field - found.field).norm(), 1e-9 * (1 + wanted.norm()));
     EXPECT_NEAR(found.short_by, (made_field - wanted).norm(), 1e-9 * (1 + wanted.norm()));
@@ -152,29 +154,29 @@ TEST_P(CoilLaws, CurrentsMakeTheFieldThatIsAskedFor) {
     }
     // Currents that change nothing only make them larger.
     const VectorXd random = random_currents(dice, system);
-    const VectorXd idle = random - currents_for(at, at.total_field(random)).currents;
+    const VectorXd idle = random - actuation::currents_for(at, at.total_field(random)).currents;
     EXPECT_LE((at.field * idle).norm(), 1e-9 * (1 + at.field.norm()));
     EXPECT_GE((found.currents + idle).norm(), found.currents.norm() * (1 - 1e-9));
   }
 }
 
 TEST_P(CoilLaws, LimitsAreHonouredAndTheDirectionKept) {
-  CoilSystem system = made();
+  actuation::CoilSystem system = made();
   constexpr double most = 2;
   system.limit_current(most);
   ASSERT_EQ(system.amplifiers().size(), system.size());
-  for (const AmplifierParams& amplifier : system.amplifiers()) {
+  for (const actuation::AmplifierParams& amplifier : system.amplifiers()) {
     ASSERT_TRUE(amplifier.max_current);
     EXPECT_LE(*amplifier.max_current, most);
   }
   system.limit_current(2 * most);  // a limit is never widened
   EXPECT_LE(*system.amplifiers()[0].max_current, most);
-  const Amplifiers amplifiers(system.amplifiers());
+  const actuation::Amplifiers amplifiers(system.amplifiers());
   test::Dice dice(7);
   int cut = 0;
   for (int trial = 0; trial < 40; ++trial) {
     const VectorXd wanted = random_currents(dice, system);
-    const LimitedCurrents driven = amplifiers.steady(wanted);
+    const actuation::LimitedCurrents driven = amplifiers.steady(wanted);
     EXPECT_LE(driven.currents.cwiseAbs().maxCoeff(), most * (1 + 1e-12));
     EXPECT_LE((driven.currents - driven.scale * wanted).norm(), 1e-12 * wanted.norm());
     EXPECT_EQ(driven.hits.empty(), wanted.cwiseAbs().maxCoeff() <= most);
@@ -189,7 +191,7 @@ TEST_P(CoilLaws, LimitsAreHonouredAndTheDirectionKept) {
 }
 
 TEST_P(CoilLaws, IsKnownInItsWorkspace) {
-  const CoilSystem system = made();
+  const actuation::CoilSystem system = made();
   EXPECT_TRUE(system.in_workspace(system.centre()));
   EXPECT_EQ(system.coil_names().size(), system.size());
   test::Dice dice(8);
@@ -210,8 +212,8 @@ TEST_P(CoilLaws, IsKnownInItsWorkspace) {
 
 TEST_P(CoilLaws, ReadsBack) { laws::expect_reads_back(params()); }
 TEST_P(CoilLaws, LimitsAreKept) {
-  const bool has_some = !std::holds_alternative<MpemCoils>(params().coils) &&
-                        !std::holds_alternative<VfieldCoils>(params().coils);
+  const bool has_some = !std::holds_alternative<actuation::MpemCoils>(params().coils) &&
+                        !std::holds_alternative<actuation::VfieldCoils>(params().coils);
   EXPECT_EQ(laws::expect_limits_are_kept(params().coils) > 0, has_some);
 }
 
@@ -249,20 +251,20 @@ std::string mpem_text(double scale) {
 
 std::vector<CoilCase> coil_cases() {
   const auto helmholtz = [](const test::Folder&, double scale) -> Coils {
-    HelmholtzCoils c;
+    actuation::HelmholtzCoils c;
     for (double& radius : c.radius) radius *= scale;
     return c;
   };
   const auto cube = [](const test::Folder&, double scale) -> Coils {
-    return CubeCoils{.radius = 30000 * scale,
-                     .distance = 60000 * scale,
-                     .length = 15000 * scale,
-                     .thickness = 8000 * scale};
+    return actuation::CubeCoils{.radius = 30000 * scale,
+                                .distance = 60000 * scale,
+                                .length = 15000 * scale,
+                                .thickness = 8000 * scale};
   };
   const auto loops = [](const test::Folder&, double scale) -> Coils {
-    LoopCoils c;
+    actuation::LoopCoils c;
     for (int axis = 0; axis < 3; ++axis) {
-      WindingParams winding;
+      actuation::WindingParams winding;
       winding.radius = 30000 * scale;
       winding.turns = 50;
       winding.axis = {0.1, 0.2, 0.3};
@@ -275,10 +277,10 @@ std::vector<CoilCase> coil_cases() {
   const auto mpem = [](const test::Folder& folder, double scale) -> Coils {
     const std::string name = fmt::format("three{}.yaml", scale);
     folder.with(name, mpem_text(scale));
-    return MpemCoils{name};
+    return actuation::MpemCoils{name};
   };
   const auto vfield = [](const test::Folder& folder, double scale) -> Coils {
-    VfieldCoils c;
+    actuation::VfieldCoils c;
     for (int axis = 0; axis < 3; ++axis) {
       c.files.push_back(fmt::format("grid{}of{}.txt", axis, scale));
       folder.with(c.files.back(), grid_text(scale, 2 * Vector3d::Unit(axis)));
@@ -286,12 +288,13 @@ std::vector<CoilCase> coil_cases() {
     return c;
   };
   const auto matrix = [](const test::Folder&, double) -> Coils {
-    return MatrixCoils{.names = {"a", "b", "c", "d"},
-                       .field = {{1, 0.2, 0, 0.5}, {0.1, 2, -0.3, 0.5}, {0, 0.4, 1.5, 0.5}},
-                       .offset = {0.05, -0.02, 0.03}};
+    return actuation::MatrixCoils{
+        .names = {"a", "b", "c", "d"},
+        .field = {{1, 0.2, 0, 0.5}, {0.1, 2, -0.3, 0.5}, {0, 0.4, 1.5, 0.5}},
+        .offset = {0.05, -0.02, 0.03}};
   };
   const auto flat = [](const test::Folder&, double) -> Coils {
-    return MatrixCoils{.names = {"a", "b"}, .field = {{1, 0.2}, {0.1, 2}, {0, 0}}};
+    return actuation::MatrixCoils{.names = {"a", "b"}, .field = {{1, 0.2}, {0.1, 2}, {0, 0}}};
   };
   return {{.name = "Helmholtz", .make = helmholtz, .is_mirrored = true},
           {.name = "Cube", .make = cube, .is_mirrored = true},

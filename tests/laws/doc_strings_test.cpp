@@ -53,16 +53,16 @@ struct DocStrings {
 
 TEST(DocStrings, AreShortAndUniqueInTheirStruct) {
   DocStrings all;
-  all.visit(type_of<Scenario>(), "scenario");
-  all.visit(type_of<Record>(), "record");
-  all.visit(type_of<Metrics>(), "metrics");
-  all.visit(type_of<RigParams>(), "rig");
-  all.visit(type_of<CoilSystemParams>(), "coils");
-  all.visit(type_of<Sweep>(), "sweep");
-  all.visit(type_of<TrackSettings>(), "track");
-  all.visit(type_of<GridParams>(), "grid");
-  all.visit(type_of<VesselParams>(), "vessels");
-  all.visit(type_of<FollowerTrainingParams>(), "learn");
+  all.visit(type_of<experiment::Scenario>(), "scenario");
+  all.visit(type_of<experiment::Record>(), "record");
+  all.visit(type_of<experiment::Metrics>(), "metrics");
+  all.visit(type_of<rig::RigParams>(), "rig");
+  all.visit(type_of<actuation::CoilSystemParams>(), "coils");
+  all.visit(type_of<sweep::Sweep>(), "sweep");
+  all.visit(type_of<vision::TrackSettings>(), "track");
+  all.visit(type_of<vision::GridParams>(), "grid");
+  all.visit(type_of<vision::VesselParams>(), "vessels");
+  all.visit(type_of<learning::FollowerTrainingParams>(), "learn");
   EXPECT_GT(all.fields, 550u);
 }
 

@@ -21,7 +21,7 @@ namespace {
 /// A map with a free point and one in a wall; its file, where it has one, is written into a folder.
 struct MapCase {
   std::string name;
-  std::function<MapSpec(const test::Folder&)> write;
+  std::function<formats::MapSpec(const test::Folder&)> write;
   Vec2 free;
   Vec2 wall;
 };
@@ -29,17 +29,17 @@ struct MapCase {
 void PrintTo(const MapCase& c, std::ostream* os) { *os << c.name; }
 
 /// The name of its file; null where there is none.
-std::string* named_file(MapSpec& spec) {
-  std::string* const file = file_name(spec);
+std::string* named_file(formats::MapSpec& spec) {
+  std::string* const file = formats::file_name(spec);
   return file && !file->empty() ? file : nullptr;
 }
 
 class MapSpecLaws : public testing::TestWithParam<MapCase> {
  protected:
   test::Folder folder_;
-  MapSpec spec_ = GetParam().write(folder_);
+  formats::MapSpec spec_ = GetParam().write(folder_);
 
-  LoadedMap load() const { return load_map(spec_, folder_ / ""); }
+  formats::LoadedMap load() const { return formats::load_map(spec_, folder_ / ""); }
   std::filesystem::path path() {
     const std::string* file = named_file(spec_);
     return file ? folder_ / *file : std::filesystem::path();
@@ -47,7 +47,7 @@ class MapSpecLaws : public testing::TestWithParam<MapCase> {
 };
 
 TEST_P(MapSpecLaws, HasItsWallsWhereTheyAre) {
-  const LoadedMap loaded = load();
+  const formats::LoadedMap loaded = load();
   const Map& map = *loaded.map;
   EXPECT_GT(map.bounds().width(), 0);
   EXPECT_GT(map.bounds().height(), 0);
@@ -59,12 +59,12 @@ TEST_P(MapSpecLaws, HasItsWallsWhereTheyAre) {
 
 TEST_P(MapSpecLaws, ReadTwiceItIsTheSame) {
   EXPECT_EQ(load().input_hash, load().input_hash);
-  const MapParts parts = read_map_parts(spec_, folder_ / "");
-  EXPECT_EQ(fingerprint(parts), load().input_hash);
+  const formats::MapParts parts = formats::read_map_parts(spec_, folder_ / "");
+  EXPECT_EQ(formats::fingerprint(parts), load().input_hash);
 }
 
 TEST_P(MapSpecLaws, ClearanceIsThatOfThePartsRead) {
-  const MapParts parts = read_map_parts(spec_, folder_ / "");
+  const formats::MapParts parts = formats::read_map_parts(spec_, folder_ / "");
   const auto map = load().map;
   const Box& b = parts.bounds;
   Rng rng(1, Purpose::test);
@@ -81,36 +81,39 @@ TEST_P(MapSpecLaws, ClearanceIsThatOfThePartsRead) {
 // The keys read back, and what they name is the same map.
 TEST_P(MapSpecLaws, ReadsBack) {
   laws::expect_reads_back(spec_);
-  const std::string text = to_yaml(laws::Keyed<MapSpec>{spec_});
-  const auto again = read_yaml_text<laws::Keyed<MapSpec>>(text, "law.yaml");
-  EXPECT_EQ(load_map(again.value, folder_ / "").input_hash, load().input_hash);
+  const std::string text = to_yaml(laws::Keyed<formats::MapSpec>{spec_});
+  const auto again = read_yaml_text<laws::Keyed<formats::MapSpec>>(text, "law.yaml");
+  EXPECT_EQ(formats::load_map(again.value, folder_ / "").input_hash, load().input_hash);
 }
 
 TEST_P(MapSpecLaws, WrittenExactlyItIsTheSameMap) {
-  const LoadedMap loaded = load();
+  const formats::LoadedMap loaded = load();
   const Map& map = *loaded.map;
-  write_map(folder_ / "out.geojson", map);
-  const LoadedMap again = load_map(guess_map_spec(folder_ / "out.geojson"));
-  EXPECT_EQ(fingerprint(to_parts(*again.map)), fingerprint(to_parts(map)));
+  formats::write_map(folder_ / "out.geojson", map);
+  const formats::LoadedMap again =
+      formats::load_map(formats::guess_map_spec(folder_ / "out.geojson"));
+  EXPECT_EQ(formats::fingerprint(formats::to_parts(*again.map)),
+            formats::fingerprint(formats::to_parts(map)));
 }
 
 TEST_P(MapSpecLaws, CellsSurviveEveryGridForm) {
-  const LoadedMap loaded = load();
+  const formats::LoadedMap loaded = load();
   const Map& map = *loaded.map;
   const double cell = map.bounds().width() / 64;
-  const Mask cells = rasterise(map, cell);
+  const formats::Mask cells = formats::rasterise(map, cell);
   for (const char* name : {"out.png", "out.map", "out.yaml"}) {
-    write_map(folder_ / name, map, cell);
-    const LoadedMap again = load_map(guess_map_spec(folder_ / name, cell));
-    EXPECT_EQ(rasterise(*again.map, cell), cells) << name;
+    formats::write_map(folder_ / name, map, cell);
+    const formats::LoadedMap again =
+        formats::load_map(formats::guess_map_spec(folder_ / name, cell));
+    EXPECT_EQ(formats::rasterise(*again.map, cell), cells) << name;
   }
 }
 
 TEST_P(MapSpecLaws, GuessedFromItsFileItIsOfItsKind) {
   if (path().empty()) return;
-  const bool is_picture = std::holds_alternative<ImageMap>(spec_);
-  const MapSpec guessed =
-      guess_map_spec(path(), is_picture ? std::optional<double>(10) : std::nullopt);
+  const bool is_picture = std::holds_alternative<formats::ImageMap>(spec_);
+  const formats::MapSpec guessed =
+      formats::guess_map_spec(path(), is_picture ? std::optional<double>(10) : std::nullopt);
   EXPECT_EQ(guessed.index(), spec_.index());
 }
 
@@ -129,7 +132,7 @@ TEST_P(MapSpecLaws, ADamagedFileIsReadOrNamed) {
   const auto expect_read_or_named = [&](const std::string& bytes) {
     std::ofstream(path(), std::ios::binary) << bytes;
     try {
-      read_map_parts(spec_, folder_ / "");
+      formats::read_map_parts(spec_, folder_ / "");
     } catch (const InputError& error) {
       std::istringstream lines(error.what());
       for (std::string line; std::getline(lines, line);)
@@ -147,13 +150,13 @@ TEST_P(MapSpecLaws, ADamagedFileIsReadOrNamed) {
 }
 
 TEST_P(MapSpecLaws, LimitsAreKept) {
-  const bool has_some = !std::holds_alternative<RectanglesMap>(spec_);
+  const bool has_some = !std::holds_alternative<formats::RectanglesMap>(spec_);
   EXPECT_EQ(laws::expect_limits_are_kept(spec_) > 0, has_some);
 }
 
 /// 12 × 10 pixels: a bright room with dark walls.
-Image room_picture() {
-  Image image{12, 10, 1, std::vector<std::uint8_t>(120, 254)};
+formats::Image room_picture() {
+  formats::Image image{12, 10, 1, std::vector<std::uint8_t>(120, 254)};
   for (int row = 2; row < 7; ++row)
     for (int column = 4; column < 6; ++column)
       image.pixels[static_cast<std::size_t>(12 * row + column)] = 0;
@@ -162,61 +165,62 @@ Image room_picture() {
 }
 
 std::vector<MapCase> map_cases() {
-  const auto polygons = [](const test::Folder&) -> MapSpec {
-    PolygonsMap spec;
+  const auto polygons = [](const test::Folder&) -> formats::MapSpec {
+    formats::PolygonsMap spec;
     spec.hi = {200, 100};
     spec.walls = {{{10, 10}, {10, 40}, {60, 40}}, {{50, 30}, {90, 30}, {90, 60}}};
     spec.discs = {{{150, 50}, 20}};
     return spec;
   };
-  const auto rectangles = [](const test::Folder&) -> MapSpec {
-    RectanglesMap spec;
+  const auto rectangles = [](const test::Folder&) -> formats::MapSpec {
+    formats::RectanglesMap spec;
     spec.lo = Vec2{-10, -10};
     spec.hi = Vec2{100, 90};
     spec.rectangles = {{0, 0, 30, 10}, {20, 5, 10, 60}};
     return spec;
   };
-  const auto rectangles_file = [](const test::Folder& folder) -> MapSpec {
+  const auto rectangles_file = [](const test::Folder& folder) -> formats::MapSpec {
     folder.with("a.csv", "x_um,y_um,width_um,height_um\n0,0,30,10\n20,5,10,60\n70,0,5,70\n");
-    RectanglesMap spec;
+    formats::RectanglesMap spec;
     spec.file = "a.csv";
     return spec;
   };
-  const auto channel = [](const test::Folder&) -> MapSpec {
-    ChannelMap spec;
+  const auto channel = [](const test::Folder&) -> formats::MapSpec {
+    formats::ChannelMap spec;
     spec.width = 1000;
     spec.height = 400;
     spec.centre_line = {{200, 150}, {500, 250}, {800, 200}};
     spec.half_width = spec.end_half_width = 90;
     return spec;
   };
-  const auto image = [](const test::Folder& folder) -> MapSpec {
-    write_png(folder / "a.png", room_picture());
-    return ImageMap{.file = "a.png", .um_per_px = 10};
+  const auto image = [](const test::Folder& folder) -> formats::MapSpec {
+    formats::write_png(folder / "a.png", room_picture());
+    return formats::ImageMap{.file = "a.png", .um_per_px = 10};
   };
-  const auto inverted = [](const test::Folder& folder) -> MapSpec {
-    Image picture = room_picture();
+  const auto inverted = [](const test::Folder& folder) -> formats::MapSpec {
+    formats::Image picture = room_picture();
     for (auto& p : picture.pixels) p = static_cast<std::uint8_t>(255 - p);
-    folder.with("a.pgm", encode_pnm(picture));
-    return ImageMap{.file = "a.pgm", .um_per_px = 10, .free = FreePixels::dark, .simplify = 1};
+    folder.with("a.pgm", formats::encode_pnm(picture));
+    return formats::ImageMap{
+        .file = "a.pgm", .um_per_px = 10, .free = formats::FreePixels::dark, .simplify = 1};
   };
-  const auto ros = [](const test::Folder& folder) -> MapSpec {
-    folder.with("a.pgm", encode_pnm(room_picture()));
+  const auto ros = [](const test::Folder& folder) -> formats::MapSpec {
+    folder.with("a.pgm", formats::encode_pnm(room_picture()));
     folder.with("a.yaml", "image: a.pgm\nresolution: 0.5\norigin: [-1, 2, 0]\n");
-    return RosMap{.file = "a.yaml", .um_per_m = 20};
+    return formats::RosMap{.file = "a.yaml", .um_per_m = 20};
   };
-  const auto moving_ai = [](const test::Folder& folder) -> MapSpec {
+  const auto moving_ai = [](const test::Folder& folder) -> formats::MapSpec {
     folder.with("a.map", "type octile\nheight 3\nwidth 5\nmap\n.....\n.@@..\n...T.\n");
-    return MovingAiMap{.file = "a.map", .um_per_cell = 20};
+    return formats::MovingAiMap{.file = "a.map", .um_per_cell = 20};
   };
-  const auto geojson = [](const test::Folder& folder) -> MapSpec {
+  const auto geojson = [](const test::Folder& folder) -> formats::MapSpec {
     folder.with("a.geojson",
                 R"({"type":"FeatureCollection","bbox":[0,0,50,40],"features":[)"
                 R"({"type":"Feature","properties":{"radius":5},"geometry":)"
                 R"({"type":"Point","coordinates":[10,10]}},)"
                 R"({"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":)"
                 R"([[[20,5],[40,5],[40,30],[20,5]]]}}]})");
-    return GeoJsonMap{.file = "a.geojson", .um_per_unit = 2};
+    return formats::GeoJsonMap{.file = "a.geojson", .um_per_unit = 2};
   };
   return {{"Polygons", polygons, {100, 80}, {80, 45}},
           {"Rectangles", rectangles, {80, 40}, {25, 50}},

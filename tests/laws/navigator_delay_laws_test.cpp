@@ -64,12 +64,13 @@ struct Timing {
 };
 
 /// Whether the swarm touches a disc within 12 s, or until it arrives.
-bool touches(const Approach& scene, const NavigatorParams& params, const Timing& timing) {
+bool touches(const Approach& scene, const navigation::NavigatorParams& params,
+             const Timing& timing) {
   SwarmLimits limits = delayed_swarm;
   limits.response_lag = timing.lag;
-  const Task task{
+  const navigation::Task task{
       .swarm = limits, .robots = {}, .goal = scene.goal, .goal_tolerance = 20, .tick = timing.tick};
-  const auto navigator = make_navigator(params, task, Rng(1, Purpose::planner));
+  const auto navigator = navigation::make_navigator(params, task, Rng(1, Purpose::planner));
   navigator->prepare(scene.at(0), {});
   const auto steps = [](double seconds) {
     return static_cast<std::size_t>(std::lround(seconds / substep));

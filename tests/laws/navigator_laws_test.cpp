@@ -73,9 +73,9 @@ class NavigatorLaws : public testing::TestWithParam<BodyNavigator> {
   }
   std::unique_ptr<Navigator> make(Vec2 goal, double tolerance, const SwarmLimits& limits,
                                   std::uint64_t seed = 1) const {
-    const Task task{
+    const navigation::Task task{
         .swarm = limits, .robots = {}, .goal = goal, .goal_tolerance = tolerance, .tick = tick};
-    return make_navigator(GetParam().params, task, Rng(seed, Purpose::planner));
+    return navigation::make_navigator(GetParam().params, task, Rng(seed, Purpose::planner));
   }
 
   /// Steers a swarm for some ticks; `watch(world, pose, command, state)` sees each.
@@ -133,15 +133,15 @@ TEST_P(NavigatorLaws, GetsThereInTheOpen) {
 
 /// What a navigator keeps from walls at the least [µm]: of the goals that the check lets through,
 /// what the radar as published gets to.
-double min_clearance(const NavigatorParams& params) {
-  const auto* radar = std::get_if<RadarParams>(&params);
+double min_clearance(const navigation::NavigatorParams& params) {
+  const auto* radar = std::get_if<navigation::RadarParams>(&params);
   if (radar && radar->as_published) return radius + radar->safety_distance;
-  return std::max(required_clearance(params), radius);
+  return std::max(navigation::required_clearance(params), radius);
 }
 
 // The goal itself is too near to the border, a point within its tolerance is not.
 TEST_P(NavigatorLaws, GetsNearAGoalBesideAWall) {
-  const bool repelled = std::holds_alternative<PotentialFieldParams>(GetParam().params);
+  const bool repelled = std::holds_alternative<navigation::PotentialFieldParams>(GetParam().params);
   const bool published = GetParam().name == "RadarAsPublished";
   for (const double share : {0.3, 0.6, 0.88})
     for (const bool corner : {false, true}) {
@@ -170,9 +170,9 @@ TEST_P(NavigatorLaws, GetsNearAGoalBesideAWall) {
 TEST_P(NavigatorLaws, GetsToASmallGoalAlongAWall) {
   const auto map = std::make_shared<const Map>(Box{{0, 0}, {1200, 800}}, std::vector<Polygon>{});
   if (GetParam().name == "RadarAsPublished" ||
-      std::holds_alternative<PotentialFieldParams>(GetParam().params))
+      std::holds_alternative<navigation::PotentialFieldParams>(GetParam().params))
     GTEST_SKIP() << "is repelled by the wall";
-  if (std::holds_alternative<PathNavigatorParams>(GetParam().params))
+  if (std::holds_alternative<navigation::PathNavigatorParams>(GetParam().params))
     GTEST_SKIP() << "follows its path once, and does not go round again";
   for (const double turn_rate : {infinity, 3.0, 0.8})
     for (const double tolerance : {5.0, 10.0})
@@ -315,15 +315,16 @@ INSTANTIATE_TEST_SUITE_P(All, NavigatorLaws, testing::ValuesIn(body_navigators()
 
 // Radar alone: measured by asking every body and wall, no command leads into what is screened.
 TEST(RadarLaws, NoCommandIntoAScreenedDirection) {
-  RadarParams params;
+  navigation::RadarParams params;
   params.target_gain = 0.01;
   params.compensate_delay = false;
   int avoided = 0, held = 0;
   for (std::uint32_t trial = 0; trial < 40; ++trial) {
     const Scene scene = random_scene(trial, 10);
     params.retreat = trial % 2 == 0;
-    RadarNavigator navigator(params, {.swarm = swarm, .goal = scene.goal, .goal_tolerance = 20},
-                             Rng(1, Purpose::planner));
+    navigation::RadarNavigator navigator(params,
+                                         {.swarm = swarm, .goal = scene.goal, .goal_tolerance = 20},
+                                         Rng(1, Purpose::planner));
     Pose2 pose{scene.start, 0};
     for (int k = 0; k < 200; ++k) {
       const Snapshot world = scene.at(tick * k);

@@ -24,7 +24,7 @@ constexpr double rounding = 1e-9;
 
 struct Case {
   std::string name;
-  PlannerParams params;
+  planning::PlannerParams params;
   std::uint64_t golden;  ///< digest of its plans below
 };
 
@@ -39,7 +39,7 @@ Params small(double tolerance = 30) {
     params.max_nodes = 600;
     params.max_iterations = 2000;
   }
-  if constexpr (std::is_same_v<Params, FmtStarParams>) {
+  if constexpr (std::is_same_v<Params, planning::FmtStarParams>) {
     params.samples = 400;
     params.max_nodes = 3200;
   }
@@ -54,14 +54,14 @@ Params grown() {
   return params;
 }
 
-DrrtStarParams plain_drrt_star() {
-  DrrtStarParams params = small<DrrtStarParams>();
+planning::DrrtStarParams plain_drrt_star() {
+  planning::DrrtStarParams params = small<planning::DrrtStarParams>();
   params.straighten = false;
   return params;
 }
 
-DrrtStarParams arcs_drrt_star() {
-  DrrtStarParams params = small<DrrtStarParams>();
+planning::DrrtStarParams arcs_drrt_star() {
+  planning::DrrtStarParams params = small<planning::DrrtStarParams>();
   params.arcs = true;
   params.turn_radius = 15;
   return params;
@@ -69,30 +69,32 @@ DrrtStarParams arcs_drrt_star() {
 
 std::vector<Case> cases();
 
-bool is_exact(const PlannerParams& params) { return std::holds_alternative<ExactParams>(params); }
-
-bool has_no_tree(const PlannerParams& params) {
-  return is_exact(params) || std::holds_alternative<AStarParams>(params) ||
-         std::holds_alternative<ThetaStarParams>(params);
+bool is_exact(const planning::PlannerParams& params) {
+  return std::holds_alternative<planning::ExactParams>(params);
 }
 
-void set_clearance(PlannerParams& params, double clearance) {
+bool has_no_tree(const planning::PlannerParams& params) {
+  return is_exact(params) || std::holds_alternative<planning::AStarParams>(params) ||
+         std::holds_alternative<planning::ThetaStarParams>(params);
+}
+
+void set_clearance(planning::PlannerParams& params, double clearance) {
   std::visit([&](auto& p) { p.clearance = clearance; }, params);
 }
 
-PathCost cost_of(const PlannerParams& params) {
-  if (const auto* drrt = std::get_if<DrrtStarParams>(&params)) {
+planning::PathCost cost_of(const planning::PlannerParams& params) {
+  if (const auto* drrt = std::get_if<planning::DrrtStarParams>(&params)) {
     return {drrt->length_weight, drrt->smoothness_weight, drrt->arcs ? drrt->turn_radius : 0};
   }
   return {};
 }
 
-double tolerance_of(const PlannerParams& params) {
+double tolerance_of(const planning::PlannerParams& params) {
   return std::visit([](const auto& p) { return p.goal_tolerance; }, params);
 }
 
 struct Query {
-  RawWorld world;
+  scenes::RawWorld world;
   Pose2 start;
   Vec2 goal;
 };
@@ -106,7 +108,7 @@ Query random_query(int kind, double clearance, std::uint32_t trial) {
   return query;
 }
 
-void expect_free(const RawWorld& world, Segment s, double clearance) {
+void expect_free(const scenes::RawWorld& world, Segment s, double clearance) {
   const double found = world.clearance(s);
   EXPECT_GE(found, clearance - rounding)
       << s.a.x << ", " << s.a.y << " to " << s.b.x << ", " << s.b.y;
@@ -127,7 +129,8 @@ void expect_good_path(const Query& query, const Plan& plan, double clearance, do
   }
 }
 
-void expect_good_tree(const Query& query, const Plan& plan, double clearance, PathCost cost) {
+void expect_good_tree(const Query& query, const Plan& plan, double clearance,
+                      planning::PathCost cost) {
   const auto& tree = plan.tree;
   ASSERT_FALSE(tree.empty());
   EXPECT_EQ(tree[0].parent, 0u);
@@ -143,7 +146,8 @@ void expect_good_tree(const Query& query, const Plan& plan, double clearance, Pa
     std::vector<Vec2> edge{parent.position, node.position};
     if (cost.turn_radius > 0) {
       edge.clear();
-      append_edge({parent.position, parent.heading}, node.position, cost.turn_radius, edge);
+      planning::append_edge({parent.position, parent.heading}, node.position, cost.turn_radius,
+                            edge);
     }
     for (std::size_t k = 1; k < edge.size(); ++k)
       expect_free(query.world, {edge[k - 1], edge[k]}, clearance);
@@ -155,7 +159,7 @@ void expect_good_tree(const Query& query, const Plan& plan, double clearance, Pa
 
 class PlannerLaws : public testing::TestWithParam<Case> {
  protected:
-  Plan run(const Query& query, const PlannerParams& params, const Stop& stop = {}) const {
+  Plan run(const Query& query, const planning::PlannerParams& params, const Stop& stop = {}) const {
     Rng rng(11, Purpose::planner);
     return plan(query.world.snapshot(), query.start, query.goal, params, rng, stop);
   }
@@ -170,7 +174,7 @@ TEST_P(PlannerLaws, PathAndTreeKeepTheClearance) {
           random_query(static_cast<int>(trial % scenes::random_kinds), clearance, trial);
       SCOPED_TRACE(query.world.name + ", trial " + std::to_string(trial) + ", clearance " +
                    std::to_string(clearance));
-      PlannerParams params = GetParam().params;
+      planning::PlannerParams params = GetParam().params;
       set_clearance(params, clearance);
       const Plan plan = run(query, params);
       expect_good_path(query, plan, clearance, tolerance_of(params));
@@ -179,7 +183,7 @@ TEST_P(PlannerLaws, PathAndTreeKeepTheClearance) {
       } else {
         expect_good_tree(query, plan, clearance, cost_of(params));
       }
-      if (std::holds_alternative<DrrtStarParams>(params)) {
+      if (std::holds_alternative<planning::DrrtStarParams>(params)) {
         EXPECT_EQ(plan.detections.size(), plan.tree.size());
       }
       ++asked;
@@ -252,7 +256,7 @@ TEST_P(PlannerLaws, GoalInAWallIsReachedWhereItsToleranceIsFree) {
 TEST_P(PlannerLaws, StartAtTheGoalIsSolved) {
   Query query = walled_query();
   query.goal = query.start.position + Vec2{20, 0};
-  PlannerParams params = GetParam().params;
+  planning::PlannerParams params = GetParam().params;
   std::visit(
       [](auto& p) {
         if constexpr (requires { p.stop_at_first; }) p.stop_at_first = true;
@@ -273,7 +277,7 @@ TEST_P(PlannerLaws, GoalCutOffIsNotSolved) {
 }
 
 /// The walled query, with work for minutes.
-PlannerParams endless(PlannerParams params) {
+planning::PlannerParams endless(planning::PlannerParams params) {
   std::visit(
       [](auto& p) {
         if constexpr (requires { p.max_iterations; }) {
@@ -298,7 +302,7 @@ double milliseconds_since(Stop::Clock::time_point begin) {
 
 TEST_P(PlannerLaws, StopsWhenTold) {
   const Query query = walled_query();
-  const PlannerParams params = endless(GetParam().params);
+  const planning::PlannerParams params = endless(GetParam().params);
   std::atomic<bool> flag = true;
   EXPECT_EQ(run(query, params, Stop(&flag)).status, Status::stopped);
   if (is_exact(params)) return;  // nothing takes it minutes
@@ -330,19 +334,19 @@ TEST_P(PlannerLaws, KeepsItsDeadline) {
 
 std::vector<Case> cases() {
   return {
-      {"Exact", small<ExactParams>(), 0xf388b469f2290449},
-      {"AStar", small<AStarParams>(), 0xbbb6ea61a7b7c14d},
-      {"ThetaStar", small<ThetaStarParams>(), 0x37b7fd5264e480e6},
-      {"Rrt", small<RrtParams>(), 0xf74c8abec189f922},
-      {"RrtConnect", small<RrtConnectParams>(), 0x66145b0900477dcd},
-      {"RrtStar", small<RrtStarParams>(), 0xd25316c5a33d98bc},
-      {"RrtStarGrown", grown<RrtStarParams>(), 0xd80bf708bf2299f3},
-      {"UniformRrtStar", small<UniformRrtStarParams>(), 0xcceb0429de52032e},
-      {"DrrtStar", small<DrrtStarParams>(), 0xc0f2b090f8193bce},
+      {"Exact", small<planning::ExactParams>(), 0xf388b469f2290449},
+      {"AStar", small<planning::AStarParams>(), 0xbbb6ea61a7b7c14d},
+      {"ThetaStar", small<planning::ThetaStarParams>(), 0x37b7fd5264e480e6},
+      {"Rrt", small<planning::RrtParams>(), 0xf74c8abec189f922},
+      {"RrtConnect", small<planning::RrtConnectParams>(), 0x66145b0900477dcd},
+      {"RrtStar", small<planning::RrtStarParams>(), 0xd25316c5a33d98bc},
+      {"RrtStarGrown", grown<planning::RrtStarParams>(), 0xd80bf708bf2299f3},
+      {"UniformRrtStar", small<planning::UniformRrtStarParams>(), 0xcceb0429de52032e},
+      {"DrrtStar", small<planning::DrrtStarParams>(), 0xc0f2b090f8193bce},
       {"DrrtStarPlain", plain_drrt_star(), 0xfa289e518101ea98},
-      {"DrrtStarGrown", grown<DrrtStarParams>(), 0xdc86aaf9732ff715},
+      {"DrrtStarGrown", grown<planning::DrrtStarParams>(), 0xdc86aaf9732ff715},
       {"DrrtStarArcs", arcs_drrt_star(), 0xfdc2a87441338c5f},
-      {"FmtStar", small<FmtStarParams>(), 0x2c9f62bc94e4eeba},
+      {"FmtStar", small<planning::FmtStarParams>(), 0x2c9f62bc94e4eeba},
   };
 }
 

@@ -25,7 +25,7 @@ constexpr int max_ticks = 3000;
 /// A navigator and what it is to do.
 struct RobotCase {
   std::string name;
-  NavigatorParams params;
+  navigation::NavigatorParams params;
   std::function<Map()> map;
   RobotSwarmParams robots;
   std::optional<Vec2> goal;  ///< one for all, else each has its own
@@ -40,14 +40,14 @@ using Change = std::function<void(Observation&)>;
 class RobotNavigatorLaws : public testing::TestWithParam<RobotCase> {
  protected:
   std::unique_ptr<Navigator> make(const RobotSwarmParams& robots, std::uint64_t seed = 1) const {
-    const Task task{.swarm = {},
-                    .robots = robots,
-                    .goal = GetParam().goal,
-                    .goal_tolerance = GetParam().goal_tolerance,
-                    .tick = robot_tick,
-                    .frame_timeout = robot_timeout};
-    EXPECT_EQ(unsupported_reason(GetParam().params, task), "");
-    return make_navigator(GetParam().params, task, Rng(seed, Purpose::planner));
+    const navigation::Task task{.swarm = {},
+                                .robots = robots,
+                                .goal = GetParam().goal,
+                                .goal_tolerance = GetParam().goal_tolerance,
+                                .tick = robot_tick,
+                                .frame_timeout = robot_timeout};
+    EXPECT_EQ(navigation::unsupported_reason(GetParam().params, task), "");
+    return navigation::make_navigator(GetParam().params, task, Rng(seed, Purpose::planner));
   }
   test::RobotScene scene(const RobotSwarmParams& robots, std::size_t delay = 1,
                          double begin = 0) const {
@@ -257,7 +257,8 @@ TEST_P(RobotNavigatorLaws, EndsItsThinkingWhenTold) {
   EXPECT_GT(navigator->step(later, {}).speed, 0);
 }
 
-RobotCase gathering(std::string name, const AggregationParams& params, std::string golden) {
+RobotCase gathering(std::string name, const navigation::AggregationParams& params,
+                    std::string golden) {
   RobotCase c{std::move(name),  params, [] { return scenes::t_junction().map(); }, {}, {}, 20,
               std::move(golden)};
   c.goal = scenes::t_junction().goal;
@@ -270,8 +271,8 @@ RobotCase gathering(std::string name, const AggregationParams& params, std::stri
   return c;
 }
 
-RobotCase global_input(std::string name, const PlanExecutorParams& params, ContactRule contact,
-                       std::string golden) {
+RobotCase global_input(std::string name, const navigation::PlanExecutorParams& params,
+                       ContactRule contact, std::string golden) {
   RobotCase c{std::move(name),  params, [] { return scenes::global_world(1); }, {}, {}, 20,
               std::move(golden)};
   c.robots.starts = {{60, 300}, {60, 250}};
@@ -282,19 +283,19 @@ RobotCase global_input(std::string name, const PlanExecutorParams& params, Conta
 }
 
 std::vector<RobotCase> robot_cases() {
-  AggregationParams dca;
+  navigation::AggregationParams dca;
   dca.tree.nodes = 2000;
-  AggregationParams heuristic = dca;
-  heuristic.method = Aggregation::heuristic;
-  AggregationParams published = dca;
-  published.reading = DcaReading::published;
+  navigation::AggregationParams heuristic = dca;
+  heuristic.method = navigation::Aggregation::heuristic;
+  navigation::AggregationParams published = dca;
+  published.reading = navigation::DcaReading::published;
   published.obstacle_weighted = false;
-  AggregationParams rollout = dca;
-  rollout.method = Aggregation::rollout;
+  navigation::AggregationParams rollout = dca;
+  rollout.method = navigation::Aggregation::rollout;
   rollout.rollout.budget = 2e4;
   rollout.rollout.first_budget = 2e4;
-  AggregationParams chase = dca;
-  chase.method = Aggregation::dynamic_shortest_path;
+  navigation::AggregationParams chase = dca;
+  chase.method = navigation::Aggregation::dynamic_shortest_path;
   return {gathering("DivideAndConquer", dca, "fefaa74672606905"),
           gathering("Heuristic", heuristic, "d683db1fb92e6414"),
           gathering("AsPublished", published, "a324eefc04c1cb9d"),

@@ -23,7 +23,8 @@ void set_weights(Layer& layer, const double* w, std::size_t ins, std::size_t out
 
 }  // namespace
 
-std::array<double, 2> dlib_answer(const MultilayerPerceptron& network, std::span<const double> in) {
+std::array<double, 2> dlib_answer(const navigation::MultilayerPerceptron& network,
+                                  std::span<const double> in) {
   dlib::matrix<float> row(static_cast<long>(in.size()), 1);
   std::copy(in.begin(), in.end(), row.begin());
   Net net;

@@ -12,6 +12,7 @@ namespace microswarm::test {
 inline constexpr std::array<std::size_t, 4> dlib_layers{6, 5, 4, 2};
 
 /// What dlib's own layers (fc and htan, in float) answer with the weights of the network.
-std::array<double, 2> dlib_answer(const MultilayerPerceptron& network, std::span<const double> in);
+std::array<double, 2> dlib_answer(const navigation::MultilayerPerceptron& network,
+                                  std::span<const double> in);
 
 }  // namespace microswarm::test

@@ -8,12 +8,12 @@
 
 #include "tests/learning/dlib_network.hpp"
 
-namespace microswarm {
+namespace microswarm::learning {
 namespace {
 
-MultilayerPerceptron random_network(std::vector<std::size_t> layers, Rng& rng) {
-  MultilayerPerceptron network{.layers = std::move(layers), .weights = {}};
-  network.weights.resize(MultilayerPerceptron::weight_count(network.layers));
+navigation::MultilayerPerceptron random_network(std::vector<std::size_t> layers, Rng& rng) {
+  navigation::MultilayerPerceptron network{.layers = std::move(layers), .weights = {}};
+  network.weights.resize(navigation::MultilayerPerceptron::weight_count(network.layers));
   for (double& w : network.weights) w = rng.uniform(-1, 1);
   return network;
 }
@@ -31,7 +31,7 @@ Examples random_examples(std::size_t count, Rng& rng) {
 TEST(MultilayerPerceptron, AnswersAsDlibsLayersDo) {
   Rng rng(1, Purpose::test);
   for (int trial = 0; trial < 20; ++trial) {
-    const MultilayerPerceptron network = random_network({6, 5, 4, 2}, rng);
+    const navigation::MultilayerPerceptron network = random_network({6, 5, 4, 2}, rng);
     std::array<double, 6> in{};
     for (double& v : in) v = rng.uniform(-2, 2);
     std::array<double, 2> ours{};
@@ -43,7 +43,7 @@ TEST(MultilayerPerceptron, AnswersAsDlibsLayersDo) {
 
 TEST(Loss, IsThatOfTheNetworkOneByOne) {
   Rng rng(2, Purpose::test);
-  const MultilayerPerceptron network = random_network({3, 7, 2}, rng);
+  const navigation::MultilayerPerceptron network = random_network({3, 7, 2}, rng);
   const Examples examples = random_examples(2500, rng);  // more than one shard, a part of lanes
   double sum = 0;
   for (std::size_t i = 0; i < examples.count(); ++i) {
@@ -58,7 +58,7 @@ TEST(Loss, IsThatOfTheNetworkOneByOne) {
 
 TEST(Loss, GradientIsThatOfDifferences) {
   Rng rng(3, Purpose::test);
-  MultilayerPerceptron network = random_network({3, 5, 4, 2}, rng);
+  navigation::MultilayerPerceptron network = random_network({3, 5, 4, 2}, rng);
   const Examples examples = random_examples(70, rng);
   std::vector<double> gradient, unused;
   loss_with_gradient(network, examples, gradient, 1);
@@ -81,7 +81,7 @@ TEST(Fit, FindsAFunctionAndTheSameBitsOnAnyThreads) {
     Rng weights(5, Purpose::test);
     return fit({3, 8, 8, 2}, examples, {.iterations = 60, .jobs = jobs}, weights);
   };
-  const MultilayerPerceptron one = fitted(1), two = fitted(2);
+  const navigation::MultilayerPerceptron one = fitted(1), two = fitted(2);
   EXPECT_EQ(one.weights, two.weights);
   std::vector<double> unused;
   EXPECT_LT(loss_with_gradient(one, examples, unused, 1), 0.01);  // the answers' own is about 0.6
@@ -98,4 +98,4 @@ TEST(Fit, EndsWhenTold) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::learning

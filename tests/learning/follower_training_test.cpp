@@ -9,7 +9,7 @@
 #include "microswarm/learning/follower_comparison.hpp"
 #include "microswarm/navigation/following/follower_model.hpp"
 
-namespace microswarm {
+namespace microswarm::learning {
 namespace {
 
 FollowerTrainingParams small() {
@@ -30,7 +30,7 @@ double mean_off(const FollowerOutcome& outcome) {
 TEST(FollowerTask, SameNumberSameTask) {
   const FollowerTask a = follower_task({}, 1, 7), b = follower_task({}, 1, 7);
   EXPECT_EQ(a.path, b.path);
-  EXPECT_EQ(scenario_text(a.scenario), scenario_text(b.scenario));
+  EXPECT_EQ(experiment::scenario_text(a.scenario), experiment::scenario_text(b.scenario));
   EXPECT_NE(a.path, follower_task({}, 1, 8).path);
 }
 
@@ -38,7 +38,7 @@ TEST(FollowerTraining, SameSeedSameBytesOnAnyThreads) {
   const TrainedFollower one = train_follower(small(), {.jobs = 1, .progress = {}});
   const TrainedFollower two = train_follower(small(), {.jobs = 2, .progress = {}});
   ASSERT_TRUE(one.finished);
-  EXPECT_EQ(follower_model_text(one.model), follower_model_text(two.model));
+  EXPECT_EQ(navigation::follower_model_text(one.model), navigation::follower_model_text(two.model));
   EXPECT_EQ(one.held_out_error, two.held_out_error);
 }
 
@@ -59,7 +59,8 @@ TEST(FollowerTraining, RoundsOfTheStudentAddData) {
 
 TEST(FollowerTraining, TheStudentDrivesAndTheExpertSaysWhatItWouldHaveDone) {
   const FollowerTask task = follower_task({}, 1, 3);
-  const auto student = std::make_shared<const FollowerModel>(default_follower_model());
+  const auto student =
+      std::make_shared<const navigation::FollowerModel>(navigation::default_follower_model());
   const auto expert_drove = demonstrate(task, nullptr), student_drove = demonstrate(task, student);
   ASSERT_FALSE(expert_drove.empty());
   ASSERT_FALSE(student_drove.empty());
@@ -90,4 +91,4 @@ TEST(FollowerComparison, TheBuiltInModelArrivesAndIsNearerThanPurePursuit) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::learning

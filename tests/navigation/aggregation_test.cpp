@@ -9,7 +9,7 @@
 #include "tests/cases.hpp"
 #include "tests/navigation/gathering.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 AggregationParams plain_params() {
@@ -155,4 +155,4 @@ TEST(Aggregation, AGoalInAWallIsRefused) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::navigation

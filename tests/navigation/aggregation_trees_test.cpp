@@ -7,7 +7,7 @@
 #include "tests/cases.hpp"
 #include "tests/navigation/gathering.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 constexpr Aggregation methods[] = {Aggregation::heuristic, Aggregation::divide_and_conquer,
@@ -74,4 +74,4 @@ TEST(AggregationTrees, LargerVascularNetwork) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -5,7 +5,7 @@
 
 #include "tests/navigation/room.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 // Whoever comes within the aim's tolerance is within the goal's.
@@ -24,4 +24,4 @@ TEST(Aim, ItsToleranceIsWhatIsLeftOfTheGoals) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -13,7 +13,7 @@
 #include "microswarm/world/world.hpp"
 #include "tests/navigation/room.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 constexpr SwarmLimits fast_vortex{50, 80, std::numeric_limits<double>::infinity(), 0.1};
@@ -196,4 +196,4 @@ TEST(VelocityObstacle, TheRouteLeadsThroughTheGap) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::navigation

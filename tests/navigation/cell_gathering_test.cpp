@@ -9,7 +9,7 @@
 #include "microswarm/navigation/gathering/policies/farthest_pair.hpp"
 #include "tests/navigation/gathering.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 std::vector<std::uint32_t> some_nodes(const CellGraph& graph, std::size_t count, Rng& rng) {
@@ -132,4 +132,4 @@ TEST(CellGathering, EveryMethodBringsAllWithinTenCells) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -9,7 +9,7 @@
 #include "microswarm/core/maths/rng.hpp"
 #include "microswarm/geometry/distance.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 Polygon convex_polygon(Rng& rng, Vec2 centre) {
@@ -90,4 +90,4 @@ TEST(ConvexOutline, HowHollowABodyMayBeIsTuned) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -7,7 +7,7 @@
 #include "microswarm/world/obstacles/body.hpp"
 #include "microswarm/world/obstacles/obstacle.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// A disc of 60 µm that moves.
 inline Obstacle moving_disc(Motion motion) { return {DiscShape{60}, std::move(motion)}; }
@@ -17,4 +17,4 @@ inline Body disc_body(Vec2 c, double r, std::uint32_t obstacle = 0) {
   return {.shape = Disc{c, r}, .obstacle = obstacle};
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

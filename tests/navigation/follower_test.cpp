@@ -8,7 +8,7 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/swarm/body/unicycle.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 const std::vector<Vec2> short_corner{{0, 0}, {100, 0}, {100, 100}};
@@ -57,4 +57,4 @@ TEST(Follower, ReachesTheEndFromAnyHeading) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::navigation

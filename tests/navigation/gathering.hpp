@@ -5,7 +5,7 @@
 #include "microswarm/navigation/gathering/gather.hpp"
 #include "microswarm/scenes/vascular.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// A map with a tree of its own seed, and robots anywhere in it.
 struct Gathering {
@@ -45,4 +45,4 @@ inline const Gathering& t_junction() {
   return gathering;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -13,7 +13,7 @@
 #include "microswarm/swarm/body/unicycle.hpp"
 #include "tests/navigation/room.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 std::unique_ptr<Navigator> navigator(const Snapshot& world, std::uint64_t seed = 1) {
@@ -286,4 +286,4 @@ TEST(Hierarchical, AsPublishedRefusesWhatIsNotThePapers) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -11,7 +11,7 @@
 #include "tests/messages.hpp"
 #include "tests/navigation/room.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 const std::vector<Vec2> long_corner{{0, 0}, {300, 0}, {300, 300}};
@@ -186,4 +186,4 @@ TEST(FlowEstimate, FindsTheFlowInNoise) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::navigation

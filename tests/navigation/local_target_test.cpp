@@ -9,7 +9,7 @@
 #include "tests/cases.hpp"
 #include "tests/navigation/room.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 LocalTargetQuery towards(Vec2 from, double heading, Vec2 goal, double clearance = 40) {
@@ -86,4 +86,4 @@ TEST(LocalTarget, AStoppedSearchHasNone) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 Observation at(double now, double heading = 0.5) {
@@ -47,4 +47,4 @@ TEST(ManualNavigator, KeepsTheSwarmsSpeedLimitAndTakesNoNonsense) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -15,7 +15,7 @@
 #include "tests/navigation/discs.hpp"
 #include "tests/navigation/room.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 constexpr SwarmLimits late_vortex{
@@ -200,4 +200,4 @@ TEST(Margins, PredictiveSeesWhatCrossesItsPathBetweenTwoSamples) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -5,7 +5,7 @@
 
 #include <numeric>
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 std::uint32_t sum(std::span<const std::uint32_t> counts) {
@@ -49,4 +49,4 @@ TEST(MergedRobots, OfNobody) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::navigation

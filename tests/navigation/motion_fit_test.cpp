@@ -8,7 +8,7 @@
 
 #include "microswarm/core/maths/rng.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 /// Third difference of evenly spaced sightings, in standard deviations of a coordinate's noise.
@@ -43,4 +43,4 @@ TEST(MotionFit, NoiseIsTheMedianThirdDifference) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::navigation

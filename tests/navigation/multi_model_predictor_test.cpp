@@ -8,7 +8,7 @@
 #include "microswarm/world/obstacles/obstacle.hpp"
 #include "tests/navigation/discs.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 /// A camera's frames of some obstacles: what only a simulation knows of them is wrong in these.
@@ -184,4 +184,4 @@ TEST(MultiModelPredictor, OscillationsAreFoundAmongTunedFrequenciesAndWindows) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -8,7 +8,7 @@
 #include "microswarm/world/obstacles/obstacle.hpp"
 #include "tests/navigation/discs.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 constexpr double remembered = 0.5;  // [s]
@@ -94,4 +94,4 @@ TEST(ObstacleMemory, RemembersNothingWhenAskedTo) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -7,7 +7,7 @@
 #include "microswarm/geometry/distance.hpp"
 #include "tests/cases.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 /// A body that moves straight and, when it is a disc, grows.
@@ -153,4 +153,4 @@ TEST(ObstaclePredictor, TheSignificanceOfAVelocityIsTuned) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::navigation

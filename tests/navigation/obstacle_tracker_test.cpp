@@ -9,7 +9,7 @@
 #include "microswarm/world/obstacles/obstacle.hpp"
 #include "tests/navigation/discs.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 /// Obstacles as a camera sees them.
@@ -276,4 +276,4 @@ TEST(ObstacleTracker, OutlinesAreComparedOverATunedTime) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::navigation

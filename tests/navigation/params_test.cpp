@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 const std::vector<NavigatorParams> one_of_each{
@@ -36,4 +36,4 @@ TEST(NavigatorParams, WhatIsPublishedSwitchesOurAdditionsOff) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -14,7 +14,7 @@
 #include "microswarm/navigation/prediction/obstacle_tracker.hpp"
 #include "microswarm/navigation/radar/safety_filter.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// SafetyFilter as it is defined: every way against every body at every time.
 class PlainSafetyFilter {
@@ -248,4 +248,4 @@ class PlainSafetyFilter {
   double closing_ = 0;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -12,7 +12,7 @@
 #include "microswarm/world/world.hpp"
 #include "tests/navigation/room.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 constexpr SwarmLimits slow_vortex{50, 70, infinity, 0.1};
@@ -220,4 +220,4 @@ TEST(Predictive, RefusesWindowsAndBoundsOutOfOrder) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::navigation

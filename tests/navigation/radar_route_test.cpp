@@ -8,7 +8,7 @@
 #include "microswarm/scenes/worlds.hpp"
 #include "tests/navigation/room.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 TEST(RadarRoute, GivenWaypointsAreVisitedInOrder) {
@@ -88,4 +88,4 @@ TEST(RadarRoute, EndsWhereTheGoalIsReached) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::navigation

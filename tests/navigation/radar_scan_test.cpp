@@ -13,7 +13,7 @@
 #include "tests/cases.hpp"
 #include "tests/navigation/discs.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 constexpr int directions = 360;
@@ -298,4 +298,4 @@ TEST(RadarScanner, NoWayOutIsNone) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -11,7 +11,7 @@
 #include "tests/navigation/discs.hpp"
 #include "tests/navigation/room.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 constexpr double radar_tick = 0.1;
@@ -393,4 +393,4 @@ TEST(Radar, WaypointsInAWallAreRefused) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::navigation

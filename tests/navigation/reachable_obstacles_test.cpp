@@ -9,7 +9,7 @@
 #include "tests/navigation/discs.hpp"
 #include "tests/navigation/room.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 constexpr double escape_speed = 80;
@@ -63,4 +63,4 @@ TEST(ReachableObstacles, ButNotFartherThanItsRange) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -9,7 +9,7 @@
 #include "microswarm/scenes/worlds.hpp"
 #include "tests/navigation/robot_scene.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 constexpr double robot_tick = 0.1;
@@ -210,4 +210,4 @@ TEST(MapAssumptions, TellsWhenThereIsLittleToDivide) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -7,7 +7,7 @@
 #include "microswarm/navigation/gathering/rollout/rollout_search.hpp"
 #include "tests/navigation/gathering.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 /// A simulator for the T junction, robots there and the best plan of a base policy for them.
@@ -139,4 +139,4 @@ TEST(RolloutSearch, KeepsToItsBudgets) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::navigation

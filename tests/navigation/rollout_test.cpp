@@ -8,7 +8,7 @@
 
 #include "tests/navigation/gathering.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 AggregationParams with_work(const Gathering& g, double max_work) {
@@ -210,4 +210,4 @@ TEST(Rollout, StopEndsTheThinkingOnly) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::navigation

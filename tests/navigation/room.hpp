@@ -8,7 +8,7 @@
 #include "microswarm/navigation/steering/task.hpp"
 #include "microswarm/world/snapshot.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// A room of 2000 µm × 1000 µm and where swarms go in it.
 inline Snapshot room_with(std::vector<Polygon> walls = {}, std::vector<Body> bodies = {}) {
@@ -24,4 +24,4 @@ inline Task body_task(const SwarmLimits& swarm, Vec2 goal = room_goal,
   return {.swarm = swarm, .goal = goal, .goal_tolerance = goal_tolerance};
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

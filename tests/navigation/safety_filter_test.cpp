@@ -8,7 +8,7 @@
 #include "microswarm/swarm/body/unicycle.hpp"
 #include "plain_safety_filter.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 constexpr double guard_tick = 0.1;
@@ -304,4 +304,4 @@ TEST(SafetyFilter, DecidesAsThePlainOneInManyScenes) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::navigation

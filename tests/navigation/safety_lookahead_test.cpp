@@ -8,7 +8,7 @@
 #include "tests/navigation/discs.hpp"
 #include "tests/navigation/room.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 constexpr Aim far_away{.position = {1800, 500}};
@@ -59,4 +59,4 @@ TEST(SafetyLookahead, KeepsItsRadiusAndWhatATickMayAddFromWalls) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -9,7 +9,7 @@
 
 #include "microswarm/core/maths/rng.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 /// J of Eq 23 [radar] for the gap x_0.
@@ -89,4 +89,4 @@ TEST(SafetyRadius, NearerObstaclesWidenTheCircle) {
 TEST(SafetyRadius, StaysWhenNotAdaptive) { EXPECT_EQ(SafetyRadius({}).radius(150, 125, 80), 150); }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::navigation

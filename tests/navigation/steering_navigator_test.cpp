@@ -7,7 +7,7 @@
 
 #include "tests/navigation/room.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 Observation sighting(const Snapshot& world, Vec2 at, double now, double age) {
@@ -126,4 +126,4 @@ TEST(SteeringNavigator, SeesASwarmWhoseEveryNumberIsGood) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -5,7 +5,7 @@
 
 #include "microswarm/core/maths/angles.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 constexpr double field_speed = 80;
@@ -77,4 +77,4 @@ TEST(TimeField, OutlinesAreNeverTooSmall) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::navigation

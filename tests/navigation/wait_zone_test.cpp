@@ -9,7 +9,7 @@
 #include "microswarm/scenes/worlds.hpp"
 #include "microswarm/world/obstacles/obstacle.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 /// A valve across a passage that runs upwards, 400 µm wide at x = 0; its leaves lie at y = ±20.
@@ -83,7 +83,7 @@ TEST(WaitZone, MayBeTurned) {
 TEST(WaitZone, ItsOutlineIsItsBorder) {
   const WaitZone turned{
       .centre = {300, 200}, .width = 500, .height = 80, .heading = radians(30), .min_gap = 120};
-  const Polygon outline = outline_of(turned);
+  const Polygon outline = zone_outline(turned);
   ASSERT_EQ(outline.outer.size(), 4u);
   for (const Vec2 corner : outline.outer) {
     const Vec2 out = corner - turned.centre;
@@ -96,4 +96,4 @@ TEST(WaitZone, ItsOutlineIsItsBorder) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -14,9 +14,11 @@ class DynamicWorld : public testing::TestWithParam<const char*> {};
 
 TEST_P(DynamicWorld, ArrivesAndKeepsItsMargin) {
   const auto folder = std::filesystem::path(MICROSWARM_SOURCE_DIR) / "scenarios/papers/drrt";
-  const Scene scene = load_scene(read_scenario(folder / GetParam()), folder);
-  const World world = build_world(scene);
-  for (const TrialResult& t : run_trials(scene.scenario, world, {.trials = 12, .jobs = 2})) {
+  const experiment::Scene scene =
+      experiment::load_scene(experiment::read_scenario(folder / GetParam()), folder);
+  const World world = experiment::build_world(scene);
+  for (const experiment::TrialResult& t :
+       experiment::run_trials(scene.scenario, world, {.trials = 12, .jobs = 2})) {
     EXPECT_EQ(t.result.status, Status::solved);
     EXPECT_GE(t.result.metrics.obstacles.clearance, 90);
     EXPECT_EQ(t.result.metrics.contacts, 0);

@@ -14,8 +14,8 @@ namespace microswarm {
 namespace {
 
 /// Robots at random in a map gather at the goal, by each method.
-void expect_gathered(const MapSpec& map, Vec2 goal, double step, int robots) {
-  Scenario s;
+void expect_gathered(const formats::MapSpec& map, Vec2 goal, double step, int robots) {
+  experiment::Scenario s;
   s.map = map;
   s.robots.emplace().count = robots;
   s.robots->max_speed = 80;
@@ -23,28 +23,30 @@ void expect_gathered(const MapSpec& map, Vec2 goal, double step, int robots) {
   s.time_limit = 100'000 * s.tick;
   s.goal = goal;
   s.goal_tolerance = 10 * step;
-  AggregationParams params;
+  navigation::AggregationParams params;
   params.scale = step;
-  for (const Aggregation method : {Aggregation::divide_and_conquer, Aggregation::heuristic}) {
-    if (test::sanitized && method == Aggregation::heuristic) break;  // steps in the same map
+  for (const navigation::Aggregation method :
+       {navigation::Aggregation::divide_and_conquer, navigation::Aggregation::heuristic}) {
+    if (test::sanitized && method == navigation::Aggregation::heuristic)
+      break;  // steps in the same map
     params.method = method;
     s.navigator = params;
-    const World world = build_world(load_scene(s, {}));
+    const World world = experiment::build_world(experiment::load_scene(s, {}));
     EXPECT_TRUE(validate(s, world).empty());
-    EXPECT_EQ(simulate(s, world).status, Status::solved);
+    EXPECT_EQ(experiment::simulate(s, world).status, Status::solved);
   }
 }
 
 // The goal is a dead end in both.
 TEST(GatherSample, RobotsInAMazeComeTogether) {
-  expect_gathered(guess_map_spec(test::sample_folder() / "maze.pgm", 1.0), {28, 12}, 0.8,
+  expect_gathered(formats::guess_map_spec(test::sample_folder() / "maze.pgm", 1.0), {28, 12}, 0.8,
                   test::cases(48));
 }
 
 TEST(Gather, RobotsAnywhereInARealVesselMaskComeTogether) {
   const std::filesystem::path mask = test::data_folder() / "vessels" / "CHASE_09L_mask_obs1.png";
   if (!std::filesystem::exists(mask)) GTEST_SKIP() << "no " << mask;
-  expect_gathered(guess_map_spec(mask, 6.0), {234, 3217}, 4, test::cases(48));
+  expect_gathered(formats::guess_map_spec(mask, 6.0), {234, 3217}, 4, test::cases(48));
 }
 
 }  // namespace

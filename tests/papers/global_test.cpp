@@ -12,15 +12,16 @@ namespace {
 
 /// A plan is found, and played it brings all robots to their goals.
 void expect_all_come_home(const scenes::GlobalTask& task) {
-  GlobalSearchParams params;
+  planning::GlobalSearchParams params;
   params.robostep = 2;
   params.goal_tolerance = 4;
   params.max_nodes = 100'000;
   Rng rng(1, Purpose::planner);
-  const GlobalPlan plan = global_search(task.map, task.starts, task.goals, params, rng).plan;
+  const planning::GlobalPlan plan =
+      planning::global_search(task.map, task.starts, task.goals, params, rng).plan;
   ASSERT_EQ(plan.status, Status::solved);
   std::vector<Vec2> positions = task.starts;
-  const RobotStepper stepper = input_stepper(task.map, params.robostep);
+  const RobotStepper stepper = planning::input_stepper(task.map, params.robostep);
   for (const Vec2 input : plan.inputs)
     for (Vec2& p : positions) {
       const PointF moved =
@@ -35,7 +36,7 @@ void expect_all_come_home(const scenes::GlobalTask& task) {
 TEST(GlobalSample, TwoRobotsAmongVeins) {
   const auto file = test::sample_folder() / "veins.csv";
   expect_all_come_home({.name = "veins",
-                        .map = *load_map(guess_map_spec(file)).map,
+                        .map = *formats::load_map(formats::guess_map_spec(file)).map,
                         .starts = {{25, 30}, {25, 50}},
                         .goals = {{175, 30}, {175, 60}}});
 }
@@ -44,7 +45,7 @@ TEST(Global, ThreeRobotsAmongThePublishedVeinsOfALeaf) {
   const auto data = test::data_folder();
   if (data.empty()) GTEST_SKIP() << "no folder MICROSWARM_DATA";
   const auto file = data / "paper_authors" / "global_leaf.csv";
-  expect_all_come_home(scenes::leaf_task(*load_map(guess_map_spec(file)).map));
+  expect_all_come_home(scenes::leaf_task(*formats::load_map(formats::guess_map_spec(file)).map));
 }
 
 }  // namespace

@@ -19,9 +19,9 @@ std::filesystem::path recorded_file() {
   return test::data_folder() / "moving_obstacles" / "ucy_zara01_obsmat.txt";
 }
 
-Scenario street(const Tracks& tracks) {
-  Scenario s;
-  s.map = PolygonsMap{.lo = {-1300, 550}, .hi = {1150, 3300}, .walls = {}, .discs = {}};
+experiment::Scenario street(const formats::Tracks& tracks) {
+  experiment::Scenario s;
+  s.map = formats::PolygonsMap{.lo = {-1300, 550}, .hi = {1150, 3300}, .walls = {}, .discs = {}};
   for (const auto& [id, samples] : tracks) {
     Track track;
     track.samples = std::make_shared<const Samples>(samples);
@@ -29,7 +29,7 @@ Scenario street(const Tracks& tracks) {
   }
   std::get<RibbonParams>(s.swarm).radius = 40;
   std::get<RibbonParams>(s.swarm).max_speed = 60;
-  HierarchicalParams navigator;
+  navigation::HierarchicalParams navigator;
   navigator.clearance = 60;
   navigator.speed = 60;
   s.navigator = navigator;
@@ -47,7 +47,7 @@ Samples begun_at(const Samples& samples, double t) {
 }
 
 // Another moment of the recording, and a start and a goal that are free then and far apart.
-void vary_within(double recording, Scenario& s, std::uint32_t trial) {
+void vary_within(double recording, experiment::Scenario& s, std::uint32_t trial) {
   Rng rng(s.seed, Purpose::start_goal, trial);
   const double begin = rng.uniform(0, recording - s.time_limit);
   for (Obstacle& o : s.obstacles) {
@@ -68,16 +68,19 @@ void vary_within(double recording, Scenario& s, std::uint32_t trial) {
 /// Walks among the recorded ones, which lasted for `recording` s, in so many trials. No contact may
 /// be one that holding would have avoided.
 void expect_safe(const std::filesystem::path& file, double recording, int trials, int least) {
-  const Scenario scenario = street(read_ucy_obsmat(file, um_per_m, slower));
+  const experiment::Scenario scenario = street(formats::read_ucy_obsmat(file, um_per_m, slower));
   const World world{
       std::make_shared<const Map>(Box{{-1300, 550}, {1150, 3300}}, std::vector<Polygon>{}),
       scenario.obstacles};
-  const auto vary = [&](Scenario& s, std::uint32_t trial) { vary_within(recording, s, trial); };
-  const auto results = run_trials(scenario, world, {.trials = trials, .jobs = 2, .vary = vary});
+  const auto vary = [&](experiment::Scenario& s, std::uint32_t trial) {
+    vary_within(recording, s, trial);
+  };
+  const auto results =
+      experiment::run_trials(scenario, world, {.trials = trials, .jobs = 2, .vary = vary});
   int arrived = 0;
   int contacts = 0;
   int avoidable = 0;
-  for (const TrialResult& r : results) {
+  for (const experiment::TrialResult& r : results) {
     arrived += r.result.status == Status::solved;
     contacts += r.result.metrics.contacts;
     avoidable += r.result.metrics.avoidable_contacts;

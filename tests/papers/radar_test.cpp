@@ -13,16 +13,18 @@ namespace {
 
 /// A shipped scene of [radar].
 struct RadarScene {
-  Scene scene;
+  experiment::Scene scene;
   World world;
 
   explicit RadarScene(const char* name) {
     const auto folder = std::filesystem::path(MICROSWARM_SOURCE_DIR) / "scenarios/papers/radar";
-    scene = load_scene(read_scenario(folder / name), folder);
-    world = build_world(scene);
+    scene = experiment::load_scene(experiment::read_scenario(folder / name), folder);
+    world = experiment::build_world(scene);
   }
-  RadarParams& params() { return std::get<RadarParams>(scene.scenario.navigator); }
-  RunResult run() const { return simulate(scene.scenario, world); }
+  navigation::RadarParams& params() {
+    return std::get<navigation::RadarParams>(scene.scenario.navigator);
+  }
+  experiment::RunResult run() const { return experiment::simulate(scene.scenario, world); }
 };
 
 /// One case of Fig 5, and what Fig 5 and 6 give of it.
@@ -39,7 +41,7 @@ TEST(RadarPaper, CasesOfFig5AsPublished) {
     s.params().as_published = true;
     s.params().safety_distance = c.safety_distance;
     s.params().detection_range = c.detection_range;
-    const RunResult r = s.run();
+    const experiment::RunResult r = s.run();
     EXPECT_EQ(r.status, Status::solved);
     EXPECT_NEAR(r.metrics.avoidance.mean_cost, c.cost, 0.15 * c.cost);
     EXPECT_NEAR(r.metrics.time, c.total, 0.1 * c.total);
@@ -57,7 +59,7 @@ class RadarTwelve : public testing::TestWithParam<Twelve> {};
 // As published these two scenes end in a contact.
 TEST_P(RadarTwelve, IsCrossedByOursWithoutTurningToAndFro) {
   RadarScene s(GetParam().file);
-  const RunResult guarded = s.run();
+  const experiment::RunResult guarded = s.run();
   EXPECT_EQ(guarded.status, Status::solved);
   EXPECT_EQ(guarded.metrics.contacts, 0);
   EXPECT_LT(degrees(guarded.metrics.turning), GetParam().max_turning);
@@ -81,7 +83,7 @@ TEST(RadarPaper, TheMicromazeIsCrossed) {
   RadarScene s("micromaze.yaml");
   for (const bool published : {false, true}) {
     s.params().as_published = published;
-    const RunResult r = s.run();
+    const experiment::RunResult r = s.run();
     EXPECT_EQ(r.status, Status::solved) << published;
     EXPECT_EQ(r.metrics.contacts, 0) << published;
     if (!published) {
@@ -95,7 +97,7 @@ TEST(RadarPaper, TheMicromazeIsCrossedFromBesideTheWall) {
   RadarScene s("micromaze.yaml");
   s.scene.scenario.start->position.y = 270.2;
   s.scene.scenario.sensing.position_noise = 6;
-  const RunResult r = s.run();
+  const experiment::RunResult r = s.run();
   EXPECT_EQ(r.status, Status::solved);
   EXPECT_EQ(r.metrics.contacts, 0);
 }

@@ -38,7 +38,7 @@ std::vector<Ground> grounds() {
     const auto file =
         test::data_folder() / "vessels" / (std::string("CHASE_") + name + "_mask_obs1.png");
     if (std::filesystem::exists(file))
-      all.push_back({name, *load_map(guess_map_spec(file, 6.0)).map, 4});
+      all.push_back({name, *formats::load_map(formats::guess_map_spec(file, 6.0)).map, 4});
   }
   return all;
 }

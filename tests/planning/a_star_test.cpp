@@ -11,7 +11,7 @@
 
 #include "microswarm/scenes/worlds.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 Plan ask(const Snapshot& world, Vec2 start, Vec2 goal, const AStarParams& params) {
@@ -201,4 +201,4 @@ TEST(AStar, IsOptimalOnItsGrid) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::planning

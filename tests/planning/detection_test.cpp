@@ -6,7 +6,7 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/scenes/worlds.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 scenes::RawWorld open_world() {
@@ -56,4 +56,4 @@ TEST(Detect, CircleWithoutExtentSeesNothing) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::planning

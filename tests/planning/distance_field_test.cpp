@@ -13,7 +13,7 @@
 #include "microswarm/scenes/global_worlds.hpp"
 #include "microswarm/scenes/worlds.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 std::shared_ptr<const Map> shared(Map map) { return std::make_shared<const Map>(std::move(map)); }
@@ -126,4 +126,4 @@ TEST(DistanceField, AFineGridIsCoarsenedToItsLimit) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::planning

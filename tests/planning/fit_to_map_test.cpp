@@ -6,7 +6,7 @@
 #include "microswarm/planning/path/planners.hpp"
 #include "microswarm/scenes/worlds.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 const IsGiven nothing = [](std::string_view) { return false; };
@@ -155,4 +155,4 @@ TEST(FitToMap, TheLimitThatEndedASearchIsNamed) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::planning

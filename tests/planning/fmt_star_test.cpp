@@ -9,7 +9,7 @@
 #include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/scenes/worlds.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 constexpr double clearance = 15;
@@ -197,4 +197,4 @@ TEST(FmtStar, RadiusIsThatOfTheTheory) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::planning

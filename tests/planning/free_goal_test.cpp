@@ -5,7 +5,7 @@
 
 #include "microswarm/scenes/worlds.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 TEST(FreeGoal, IsTheGoalItselfWhenThatIsFree) {
@@ -97,4 +97,4 @@ TEST(FreeGoal, NamesTheFault) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -11,14 +11,14 @@
 #include "microswarm/scenes/global_worlds.hpp"
 #include "tests/planning/global_ends.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 using scenes::global_world;
 
 GlobalRrt grow(int world, std::size_t n, const GlobalRrtParams& params, std::uint64_t seed = 1) {
   Rng rng(seed, Purpose::planner);
-  return global_rrt(global_world(world), starts(n), goals(n), params, rng);
+  return global_rrt(scenes::global_world(world), starts(n), goals(n), params, rng);
 }
 
 double worst_distance(const GlobalTree& tree, std::uint32_t node, std::span<const Vec2> to) {
@@ -47,7 +47,7 @@ void expect_edges_replay(const Map& map, const GlobalTree& tree) {
 
 TEST(GlobalRrt, EveryEdgeReplaysToTheBits) {
   for (int world = 1; world <= scenes::global_worlds; ++world) {
-    const Map map = global_world(world);
+    const Map map = scenes::global_world(world);
     for (const std::size_t n : {1u, 2u, 3u, 8u}) {
       for (const ContactRule rule : {ContactRule::slide, ContactRule::stop, ContactRule::reject}) {
         GlobalRrtParams params;
@@ -119,7 +119,8 @@ TEST(GlobalRrt, AGrownTreeAnswersOtherGoals) {
 
 TEST(GlobalRrt, GrowsWithoutGoals) {
   Rng rng(1, Purpose::planner);
-  const GlobalRrt grown = global_rrt(global_world(1), starts(2), {}, {.max_nodes = 3000}, rng);
+  const GlobalRrt grown =
+      global_rrt(scenes::global_world(1), starts(2), {}, {.max_nodes = 3000}, rng);
   EXPECT_EQ(grown.tree.size(), 3000u);
   EXPECT_EQ(grown.answer.status, Status::node_limit);
 }
@@ -131,7 +132,7 @@ TEST(GlobalRrt, GoalBiasHelpsOneRobot) {
 }
 
 TEST(GlobalRrt, StopsWhenToldAndAtItsLimits) {
-  const Map map = global_world(1);
+  const Map map = scenes::global_world(1);
   Rng rng(1, Purpose::planner);
   const std::atomic<bool> flag{true};
   EXPECT_EQ(global_rrt(map, starts(3), goals(3), {}, rng, Stop(&flag)).answer.status,
@@ -146,7 +147,7 @@ TEST(GlobalRrt, StopsWhenToldAndAtItsLimits) {
 }
 
 TEST(GlobalRrt, SaysWhatIsWrong) {
-  const Map map = global_world(1);
+  const Map map = scenes::global_world(1);
   Rng rng(1, Purpose::planner);
   const auto status = [&](std::vector<Vec2> from, std::vector<Vec2> to) {
     return global_rrt(map, from, to, {.max_nodes = 100}, rng).answer.status;
@@ -174,7 +175,7 @@ TEST(InputMoves, AxisDirectionsAreExact) {
 
 TEST(Coverage, SameAsCountingEveryHypercube) {
   for (const double cell : {30.0, 77.0}) {
-    const Map map = global_world(3);
+    const Map map = scenes::global_world(3);
     const GlobalRrt grown = grow(3, 2, {.max_nodes = 3000, .stop_at_first = false});
     const Coverage found = coverage(map, grown.tree, cell);
     std::set<std::vector<int>> cubes;
@@ -196,9 +197,9 @@ TEST(Coverage, SameAsCountingEveryHypercube) {
 }
 
 TEST(Coverage, RefusesCellsThatAreTooSmall) {
-  EXPECT_THROW(coverage(global_world(1), {}, 0), InputError);
-  EXPECT_THROW(coverage(global_world(1), {}, 1e-3), InputError);
+  EXPECT_THROW(coverage(scenes::global_world(1), {}, 0), InputError);
+  EXPECT_THROW(coverage(scenes::global_world(1), {}, 1e-3), InputError);
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -11,7 +11,7 @@
 #include "tests/cases.hpp"
 #include "tests/planning/global_ends.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 using scenes::global_world;
@@ -19,7 +19,7 @@ using scenes::global_world;
 GlobalSearch search(int world, std::size_t n, const GlobalSearchParams& params = {},
                     std::uint64_t seed = 1, const Stop& stop = {}) {
   Rng rng(seed, Purpose::planner);
-  return global_search(global_world(world), starts(n), goals(n), params, rng, stop);
+  return global_search(scenes::global_world(world), starts(n), goals(n), params, rng, stop);
 }
 
 /// Every configuration is where the stepper brings the one before, to the bits.
@@ -51,7 +51,7 @@ TEST(GlobalSearch, SolvesWhatThePlainTreeDoesNot) {
     for (std::size_t n = 1; n <= 3; ++n) {
       const GlobalSearch found = search(world, n);
       ASSERT_EQ(found.plan.status, Status::solved) << "Env " << world << ", " << n << " robots";
-      expect_replays(global_world(world), found.plan, starts(n), goals(n), {});
+      expect_replays(scenes::global_world(world), found.plan, starts(n), goals(n), {});
     }
   }
   EXPECT_EQ(search(2, 4).plan.status, Status::solved);
@@ -64,7 +64,7 @@ TEST(GlobalSearch, SolvesWithRobotsThatStopAtWalls) {
   params.directions = 16;
   const GlobalSearch found = search(1, 2, params);
   ASSERT_EQ(found.plan.status, Status::solved);
-  expect_replays(global_world(1), found.plan, starts(2), goals(2), params);
+  expect_replays(scenes::global_world(1), found.plan, starts(2), goals(2), params);
 }
 
 TEST(GlobalSearch, EveryPlanReplaysInRandomWorlds) {
@@ -116,16 +116,17 @@ TEST(GlobalSearch, AClosedRoomIsLeftUnsolved) {
 TEST(GlobalSearch, RobotsThatHaveMetAreNotParted) {
   const std::vector<Vec2> from{{100, 200}, {100, 200}}, far{{120, 200}, {200, 300}};
   Rng rng(1, Purpose::planner);
-  const auto found = global_search(global_world(1), from, far, {.max_nodes = 20'000}, rng);
+  const auto found = global_search(scenes::global_world(1), from, far, {.max_nodes = 20'000}, rng);
   EXPECT_EQ(found.plan.status, Status::node_limit);
   EXPECT_LT(found.counts.samples, 1000u);
   ASSERT_EQ(found.plan.configurations.size(), 1u);
   const std::vector<Vec2> near{{200, 300}, {220, 300}};
-  EXPECT_EQ(global_search(global_world(1), from, near, {}, rng).plan.status, Status::solved);
+  EXPECT_EQ(global_search(scenes::global_world(1), from, near, {}, rng).plan.status,
+            Status::solved);
 }
 
 TEST(GlobalSearch, SaysWhatIsWrong) {
-  const Map map = global_world(1);
+  const Map map = scenes::global_world(1);
   Rng rng(1, Purpose::planner);
   const auto status = [&](std::vector<Vec2> from, std::vector<Vec2> to) {
     return global_search(map, from, to, {.max_nodes = 100}, rng).plan.status;
@@ -139,4 +140,4 @@ TEST(GlobalSearch, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -15,7 +15,7 @@
 #include "tests/cases.hpp"
 #include "tests/planning/global_ends.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 using scenes::global_world;
@@ -56,7 +56,7 @@ TEST(GlobalSeparation, HoldsOnlyWhereNoMomentOfTheMoveIsTooNear) {
   Rng rng(3, Purpose::test);
   for (const ContactRule rule : {ContactRule::slide, ContactRule::stop, ContactRule::reject}) {
     for (int world = 1; world <= scenes::global_worlds; ++world) {
-      const Map map = global_world(world);
+      const Map map = scenes::global_world(world);
       const RobotStepper stepper = input_stepper(map, step);
       for (int k = 0; k < test::cases(2000); ++k) {
         // Two robots near each other and near walls.
@@ -89,7 +89,7 @@ TEST(GlobalSeparation, HoldsOnlyWhereNoMomentOfTheMoveIsTooNear) {
 }
 
 TEST(GlobalSeparation, NoneHoldsAlways) {
-  const RobotStepper stepper = input_stepper(global_world(1), 5);
+  const RobotStepper stepper = input_stepper(scenes::global_world(1), 5);
   const std::vector<PointF> same(2);
   EXPECT_TRUE(GlobalSeparation(stepper, ContactRule::slide, 0).holds(same));
   EXPECT_TRUE(GlobalSeparation(stepper, ContactRule::slide, 0).holds(same, same, {5, 0}));
@@ -98,7 +98,7 @@ TEST(GlobalSeparation, NoneHoldsAlways) {
 
 TEST(GlobalSeparation, ATreeKeepsIt) {
   constexpr double least = 30;
-  const Map map = global_world(1);
+  const Map map = scenes::global_world(1);
   const GlobalRrtParams plain{.max_nodes = 3000, .stop_at_first = false};
   GlobalRrtParams apart = plain;
   apart.separation = least;
@@ -126,7 +126,7 @@ TEST(GlobalSeparation, ATreeKeepsIt) {
 TEST(GlobalSeparation, PlansKeepIt) {
   for (const double least : {10.0, 25.0}) {
     for (int world = 1; world <= scenes::global_worlds; ++world) {
-      const Map map = global_world(world);
+      const Map map = scenes::global_world(world);
       const GlobalSearchParams params{.separation = least};
       Rng rng(1, Purpose::planner);
       const GlobalSearch found =
@@ -148,7 +148,7 @@ TEST(GlobalSeparation, PlansKeepIt) {
 }
 
 TEST(GlobalSeparation, SaysWhatIsWrong) {
-  const Map map = global_world(1);
+  const Map map = scenes::global_world(1);
   Rng rng(1, Purpose::planner);
   const std::vector<Vec2> near{{100, 200}, {100, 204}}, far{{100, 200}, {100, 260}};
   const auto status = [&](const std::vector<Vec2>& from, const std::vector<Vec2>& to) {
@@ -161,4 +161,4 @@ TEST(GlobalSeparation, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::planning

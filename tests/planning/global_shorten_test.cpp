@@ -9,7 +9,7 @@
 #include "microswarm/scenes/global_worlds.hpp"
 #include "tests/planning/global_ends.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 using scenes::global_world;
@@ -18,7 +18,7 @@ TEST(GlobalShorten, ReachesTheSameGoalsWithFewerInputs) {
   std::size_t before = 0, after = 0;
   for (int world = 1; world <= scenes::global_worlds; ++world) {
     for (const ContactRule rule : {ContactRule::slide, ContactRule::stop}) {
-      const Map map = global_world(world);
+      const Map map = scenes::global_world(world);
       Rng rng(1, Purpose::planner);
       const GlobalSearchParams params{.contact = rule};
       const GlobalPlan found =
@@ -52,7 +52,7 @@ TEST(GlobalShorten, ReachesTheSameGoalsWithFewerInputs) {
 }
 
 TEST(GlobalShorten, LeavesDetoursOut) {
-  const Map map = global_world(1);
+  const Map map = scenes::global_world(1);
   GlobalPlan plan{Status::solved, {}, {{{100, 100}}}, 0};
   for (const Vec2 u : {Vec2{5, 0}, Vec2{0, 5}, Vec2{-5, 0}, Vec2{0, -5}, Vec2{5, 0}, Vec2{5, 0}}) {
     plan.inputs.push_back(u);
@@ -65,7 +65,7 @@ TEST(GlobalShorten, LeavesDetoursOut) {
 }
 
 TEST(GlobalShorten, AnUnsolvedPlanStaysAsItIs) {
-  const Map map = global_world(1);
+  const Map map = scenes::global_world(1);
   const GlobalPlan plan{Status::node_limit, {{5, 0}}, {{{100, 100}}, {{105, 100}}}, 50};
   const std::vector<Vec2> goal{{200, 100}};
   EXPECT_EQ(shortened(map, plan, goal, {}).inputs, plan.inputs);
@@ -73,4 +73,4 @@ TEST(GlobalShorten, AnUnsolvedPlanStaysAsItIs) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -16,7 +16,7 @@
 #include "microswarm/world/connectivity/corner_lattice.hpp"
 #include "tests/files.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -29,9 +29,10 @@ constexpr std::size_t every = 40;
 class GridMap {
  public:
   explicit GridMap(const std::filesystem::path& file)
-      : blocked_(read_moving_ai(file)),
-        queries_(read_scenarios(file.string() + ".scen")),
-        map_(std::make_shared<const Map>(cell_bounds(blocked_, 1), mask_walls(blocked_, 1))) {}
+      : blocked_(formats::read_moving_ai(file)),
+        queries_(formats::read_scenarios(file.string() + ".scen")),
+        map_(std::make_shared<const Map>(formats::cell_bounds(blocked_, 1),
+                                         formats::mask_walls(blocked_, 1))) {}
 
   const std::shared_ptr<const Map>& map() const { return map_; }
 
@@ -40,17 +41,18 @@ class GridMap {
   void ask_every(std::size_t stride, Ask&& ask) const {
     std::size_t asked = 0;
     for (std::size_t i = queries_.size(); i > 0; i -= std::min(i, stride), ++asked) {
-      const GridQuery& query = queries_[i - 1];
+      const formats::GridQuery& query = queries_[i - 1];
       SCOPED_TRACE(i);
-      ask(cell_centre(blocked_, query.start.column, query.start.row, 1),
-          cell_centre(blocked_, query.goal.column, query.goal.row, 1), query.optimal_length);
+      ask(formats::cell_centre(blocked_, query.start.column, query.start.row, 1),
+          formats::cell_centre(blocked_, query.goal.column, query.goal.row, 1),
+          query.optimal_length);
     }
     EXPECT_GE(asked, queries_.size() / stride);
   }
 
  private:
-  Mask blocked_;
-  std::vector<GridQuery> queries_;
+  formats::Mask blocked_;
+  std::vector<formats::GridQuery> queries_;
   std::shared_ptr<const Map> map_;
 };
 
@@ -160,4 +162,4 @@ INSTANTIATE_TEST_SUITE_P(MovingAi, GridMaps,
                          });
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::planning

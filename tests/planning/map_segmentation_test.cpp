@@ -10,7 +10,7 @@
 #include "microswarm/scenes/worlds.hpp"
 #include "tests/cases.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 ObstacleWeightedRrt grow(const scenes::Vascular& scene, const Map& map, int nodes,
@@ -173,4 +173,4 @@ TEST(Vascular, GeneratedMapsAreConnectedAndEndAtADeadEnd) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -11,7 +11,7 @@
 #include "microswarm/scenes/vascular.hpp"
 #include "microswarm/scenes/worlds.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 /// As in the paper: Alg 1 alone grows the tree.
@@ -345,4 +345,4 @@ TEST(ObstacleWeightedRrt, OneNodeAndAGoalThatIsAlone) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::planning

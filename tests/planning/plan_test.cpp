@@ -5,7 +5,7 @@
 
 #include "microswarm/core/maths/angles.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 const std::vector<Vec2> square{{0, 0}, {10, 0}, {10, 10}, {0, 10}};
@@ -41,4 +41,4 @@ TEST(PathTo, RunsFromTheRoot) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::planning

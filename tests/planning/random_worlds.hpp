@@ -8,7 +8,7 @@
 #include "microswarm/core/maths/rng.hpp"
 #include "microswarm/world/map/map.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 inline constexpr double size = 100;
 
@@ -66,4 +66,4 @@ inline std::vector<Body> random_bodies(Rng& rng) {
   return bodies;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -6,7 +6,7 @@
 #include "microswarm/geometry/uniform_in.hpp"
 #include "random_worlds.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 TEST(Route, LeadsToTheGoalPastNineTenthsOfTheClearance) {
@@ -64,4 +64,4 @@ TEST(Route, PassesWhatAGridWouldMiss) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -5,7 +5,7 @@
 
 #include "microswarm/core/maths/rng.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 TEST(SampleBuckets, FindsWhatBruteForceFinds) {
@@ -32,4 +32,4 @@ TEST(SampleBuckets, FindsWhatBruteForceFinds) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::planning

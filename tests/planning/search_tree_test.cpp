@@ -6,7 +6,7 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/rng.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 const Box bounds{{0, 0}, {100, 100}};
@@ -107,4 +107,4 @@ TEST(SearchTree, NearestAndNearAgreeWithBruteForce) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::planning

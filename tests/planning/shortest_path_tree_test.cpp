@@ -11,7 +11,7 @@
 #include "microswarm/planning/exact/shortest_paths.hpp"
 #include "random_worlds.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 TEST(ShortestPathTree, PathsAreAsLongAsThoseSearchedOneByOne) {
@@ -134,4 +134,4 @@ TEST(ShortestPathTree, AGoalOutsideOrInAWallHasNoPaths) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::planning

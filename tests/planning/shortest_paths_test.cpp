@@ -12,7 +12,7 @@
 #include "microswarm/geometry/uniform_in.hpp"
 #include "random_worlds.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 /// Length of the shortest path over points on the circles around all corners and discs, a little
@@ -197,4 +197,4 @@ TEST(Corners, EveryFreeTangentLeadsToWhatIsSeen) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::planning

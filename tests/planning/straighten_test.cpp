@@ -7,7 +7,7 @@
 #include "microswarm/planning/trees/rrt.hpp"
 #include "microswarm/scenes/worlds.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 double cost_of(std::span<const Vec2> path, double start_heading, PathCost cost) {
@@ -89,4 +89,4 @@ TEST(Straighten, NeverCostsMoreAndStaysFree) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::planning

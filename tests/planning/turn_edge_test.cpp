@@ -8,7 +8,7 @@
 #include "microswarm/planning/path/planners.hpp"
 #include "microswarm/scenes/worlds.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 TEST(TurnEdge, StraightAheadIsStraight) {
@@ -111,4 +111,4 @@ TEST(DrrtStarArcs, PathsBeginWithTheStartsHeadingAndAreOfBoundedCurvature) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -10,7 +10,7 @@
 #include "tests/files.hpp"
 #include "tests/runs.hpp"
 
-namespace microswarm {
+namespace microswarm::report {
 namespace {
 
 constexpr double pixels = 400;
@@ -19,11 +19,14 @@ constexpr int margin = 24;  // px
 class RadarView : public testing::Test {
  protected:
   RadarView()
-      : record_(recorded()), world_(build_world(record_.scene)), view_(world_.map->bounds()) {}
+      : record_(recorded()),
+        world_(experiment::build_world(record_.scene)),
+        view_(world_.map->bounds()) {}
 
-  static Record recorded() {
+  static experiment::Record recorded() {
     const std::filesystem::path file = MICROSWARM_SOURCE_DIR "/scenarios/papers/radar/single.yaml";
-    return test::record_of(load_scene(read_scenario(file), file.parent_path()));
+    return test::record_of(
+        experiment::load_scene(experiment::read_scenario(file), file.parent_path()));
   }
 
   /// Blue of the picture beside the centre of the obstacle in a frame, off its velocity's arrow.
@@ -32,7 +35,7 @@ class RadarView : public testing::Test {
     Picture picture(view_, "", pixels);
     draw_radar_view(picture, record_, world_, number);
     picture.write(folder / "view.png");
-    const Image image = read_image(folder / "view.png");
+    const formats::Image image = formats::read_image(folder / "view.png");
     const Snapshot then = world_.at(record_.frames[number].t);
     const auto& disc = std::get<Disc>(then.moving().bodies().front().shape);
     const Placement at =
@@ -44,23 +47,23 @@ class RadarView : public testing::Test {
     return image.pixels[image.index(column, row) + 2];
   }
 
-  Record record_;
+  experiment::Record record_;
   World world_;
   Box view_;
 };
 
 TEST_F(RadarView, WithoutALookTheCirclesAreThoseOfTheParameters) {
-  const auto& params = std::get<RadarParams>(record_.scene.scenario.navigator);
-  const RadarCircles wanted = make_circles(params, record_.frames[3].radius);
+  const auto& params = std::get<navigation::RadarParams>(record_.scene.scenario.navigator);
+  const RadarCircles wanted = navigation::make_circles(params, record_.frames[3].radius);
   EXPECT_EQ(radar_circles(record_, 3).detection, wanted.detection);
-  RadarLook look;
+  navigation::RadarLook look;
   look.circles.detection = 7;
   EXPECT_EQ(radar_circles(record_, 3, look).detection, 7);
 }
 
 TEST_F(RadarView, AnObstacleIsLighterInsideTheDetectionCircle) {
   const auto& frames = record_.frames;
-  const auto clearance = [](const Frame& a, const Frame& b) {
+  const auto clearance = [](const experiment::Frame& a, const experiment::Frame& b) {
     return a.obstacle_clearance < b.obstacle_clearance;
   };
   const auto near = std::ranges::min_element(frames, clearance);
@@ -72,4 +75,4 @@ TEST_F(RadarView, AnObstacleIsLighterInsideTheDetectionCircle) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::report

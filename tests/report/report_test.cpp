@@ -14,7 +14,7 @@
 #include "microswarm/report/run_picture.hpp"
 #include "microswarm/report/run_report.hpp"
 
-namespace microswarm {
+namespace microswarm::report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -47,7 +47,7 @@ TEST_F(Report, ThePixelOfADiscHasItsColour) {
   Picture picture({{0, 0}, {100, 100}}, "", 100);
   picture.disc({{25, 75}, 10}, {1, 0, 0, 1});  // y up: in the picture's upper left
   picture.write(folder_ / "a.png");
-  const Image image = read_image(folder_ / "a.png");
+  const formats::Image image = formats::read_image(folder_ / "a.png");
   const std::size_t i = image.index(24 + 25, 24 + 25);
   EXPECT_EQ(image.pixels[i], 255);
   EXPECT_EQ(image.pixels[i + 1], 0);
@@ -60,9 +60,9 @@ TEST_F(Report, ASheetHoldsItsPicturesRowByRow) {
     pictures.back()->disc({{50, 50}, 20}, colour);
     pictures.back()->write(folder_ / "one.png");
   }
-  const Image one = read_image(folder_ / "one.png");
+  const formats::Image one = formats::read_image(folder_ / "one.png");
   write_sheet(pictures, 2, folder_ / "sheet.png");
-  const Image sheet = read_image(folder_ / "sheet.png");
+  const formats::Image sheet = formats::read_image(folder_ / "sheet.png");
   EXPECT_EQ(sheet.width, 2 * one.width);
   EXPECT_EQ(sheet.height, 2 * one.height);
   const auto channel_at = [&](int across, int down, std::size_t channel) {
@@ -119,7 +119,8 @@ TEST_F(Report, EveryStyleIsUnderstoodByGnuplotInEveryKindOfFile) {
 
 TEST_F(Report, OfARunThatWasStoppedBeforeItsFirstTick) {
   const fs::path file = fs::path(MICROSWARM_SOURCE_DIR) / "scenarios/first_flight.yaml";
-  const Scene scene = load_scene(read_scenario(file), file.parent_path());
+  const experiment::Scene scene =
+      experiment::load_scene(experiment::read_scenario(file), file.parent_path());
   const std::atomic<bool> stopped = true;
   write_run_report(test::record_of(scene, {}, Stop(&stopped)), folder_);
   EXPECT_TRUE(fs::exists(folder_ / "index.html"));
@@ -127,14 +128,14 @@ TEST_F(Report, OfARunThatWasStoppedBeforeItsFirstTick) {
 }
 
 TEST_F(Report, ARunIsDrawnWithItsChanges) {
-  Scenario scenario;
-  scenario.map = PolygonsMap{.hi = {1200, 600}};  // a pixel is 1 µm
+  experiment::Scenario scenario;
+  scenario.map = formats::PolygonsMap{.hi = {1200, 600}};  // a pixel is 1 µm
   scenario.start = Pose2{{100, 300}, 0};
   scenario.goal = Vec2{1000, 300};
   scenario.time_limit = 2;
-  Record record = test::record_of(load_scene(scenario, {}));
+  experiment::Record record = test::record_of(experiment::load_scene(scenario, {}));
   const auto is_goal_at = [&](Vec2 goal) {
-    const Image image = draw_run(record)->raster();
+    const formats::Image image = draw_run(record)->raster();
     const int left = 24, top = 58;  // of the drawing
     const std::size_t i =
         image.index(left + static_cast<int>(goal.x) + 9, top + 600 - static_cast<int>(goal.y));
@@ -214,4 +215,4 @@ TEST(Rows, JsonHasThePromisedKeys) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::report

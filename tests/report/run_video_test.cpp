@@ -14,7 +14,7 @@
 #include "tests/files.hpp"
 #include "tests/runs.hpp"
 
-namespace microswarm {
+namespace microswarm::report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -23,16 +23,17 @@ class RunVideos : public testing::Test {
  protected:
   RunVideos() {
     const fs::path file = fs::path(MICROSWARM_SOURCE_DIR) / "scenarios/first_flight.yaml";
-    const Scene scene = load_scene(read_scenario(file), file.parent_path());
+    const experiment::Scene scene =
+        experiment::load_scene(experiment::read_scenario(file), file.parent_path());
     record_ = test::record_of(scene);
   }
 
   test::Folder folder_;
-  Record record_;
+  experiment::Record record_;
 };
 
 /// Columns [px] between which a picture has the swarm's colour.
-std::pair<int, int> swarm_columns(const Image& picture) {
+std::pair<int, int> swarm_columns(const formats::Image& picture) {
   std::pair<int, int> columns{picture.width, -1};
   for (int row = 60; row < picture.height - 80; ++row)
     for (int column = 0; column < picture.width; ++column) {
@@ -51,8 +52,8 @@ TEST_F(RunVideos, ShowTheRunFromItsBeginToItsEnd) {
   ASSERT_EQ(video.file, file);
   EXPECT_FALSE(video.stopped);
   EXPECT_EQ(video.pictures, static_cast<int>(record_.frames.back().t / 2) + 1);
-  const auto frames = open_frames(file);
-  VideoFrame frame;
+  const auto frames = vision::open_frames(file);
+  vision::VideoFrame frame;
   std::vector<std::pair<int, int>> positions;
   while (frames->next(frame)) {
     EXPECT_EQ(frame.picture.width, 642);
@@ -60,11 +61,11 @@ TEST_F(RunVideos, ShowTheRunFromItsBeginToItsEnd) {
     positions.push_back(swarm_columns(frame.picture));
   }
   ASSERT_EQ(positions.size(), static_cast<std::size_t>(video.pictures));
-  const Box view = build_world(record_.scene).map->bounds();
+  const Box view = experiment::build_world(record_.scene).map->bounds();
   const double scale = (641 - 48) / view.width();
   for (const std::size_t k : {std::size_t{0}, positions.size() / 2}) {
     const double t = static_cast<double>(k) * 2;
-    const auto at = std::ranges::lower_bound(record_.frames, t - 1e-9, {}, &Frame::t);
+    const auto at = std::ranges::lower_bound(record_.frames, t - 1e-9, {}, &experiment::Frame::t);
     const double middle = 0.5 * (positions[k].first + positions[k].second);
     EXPECT_NEAR(middle, 24 + (at->pose.position.x - view.lo.x) * scale, 3) << "picture " << k;
   }
@@ -93,7 +94,7 @@ TEST_F(RunVideos, ShowAPartOfTheRun) {
 
 TEST_F(RunVideos, OfTooManyPicturesAreRefusedBeforeTheFirst) {
   EXPECT_THROW(write_run_video(record_, folder_ / "run.mp4", {.speed = 1e-4}), InputError);
-  EXPECT_THROW(write_run_video(Record{}, folder_ / "run.mp4"), InputError);
+  EXPECT_THROW(write_run_video(experiment::Record{}, folder_ / "run.mp4"), InputError);
   EXPECT_THROW(write_run_video(record_, folder_ / "run.gif", {.rate = 60}), InputError);
   EXPECT_TRUE(fs::is_empty(folder_ / ""));
 }
@@ -104,7 +105,7 @@ TEST(PictureRaster, HasTheColoursOfTheGroundBeneath) {
   Picture picture({{0, 0}, {100, 100}}, "", 101);
   picture.ground(ground);
   picture.disc({{50, 50}, 5}, {0, 0, 1, 1});
-  const Image image = picture.raster();
+  const formats::Image image = picture.raster();
   EXPECT_EQ(image.width % 2, 0);
   EXPECT_EQ(image.height % 2, 0);
   const auto colour = [&](int x, int y) {
@@ -117,4 +118,4 @@ TEST(PictureRaster, HasTheColoursOfTheGroundBeneath) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::report

@@ -7,12 +7,13 @@
 
 #include "tests/files.hpp"
 
-namespace microswarm {
+namespace microswarm::report {
 namespace {
 
 // The field grows to the right: it deviates by 100 % at the edges and is even along y.
-UniformityMap sloping() {
-  UniformityMap map{.grid = {.half_width = 1000, .points = 3}, .centre_field = {1, 0, 0}};
+actuation::UniformityMap sloping() {
+  actuation::UniformityMap map{.grid = {.half_width = 1000, .points = 3},
+                               .centre_field = {1, 0, 0}};
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 3; ++column) {
       map.field.emplace_back(column, 0, 0);
@@ -36,4 +37,4 @@ TEST(UniformityPicture, IsWrittenInTheFormatOfItsName) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::report

@@ -8,14 +8,14 @@
 #include "microswarm/rig/runtime/rig_checks.hpp"
 #include "tests/rig/coil_rig.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 /// Pictures that differ, one every 5 ms or later, so many of them.
-class ClockLike : public FrameSource {
+class ClockLike : public vision::FrameSource {
  public:
   explicit ClockLike(int count) : count_(count) {}
-  bool next(VideoFrame& frame) override {
+  bool next(vision::VideoFrame& frame) override {
     if (index_ >= count_) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
     frame.index = index_++;
@@ -34,7 +34,7 @@ class CameraChecks : public testing::Test {
  protected:
   /// Whether the check of that name is good, after a third of a second.
   bool good(const std::string& what, int frames, std::optional<double> rate = {}) {
-    NewestFrame camera(std::make_unique<ClockLike>(frames), "a clock");
+    vision::NewestFrame camera(std::make_unique<ClockLike>(frames), "a clock");
     for (const RigCheck& check : check_camera(camera, rig, rate, 0.3, {}))
       if (check.what == what) return check.good;
     ADD_FAILURE() << "no check of the " << what;
@@ -49,16 +49,16 @@ TEST_F(CameraChecks, AVideoMayEndACameraMayNot) {
   EXPECT_TRUE(good("camera", 10));
   EXPECT_TRUE(good("camera", 100'000));
   EXPECT_FALSE(good("camera", 1)) << "no time between frames";
-  rig.params.camera = CameraParams{};
+  rig.params.camera = vision::CameraParams{};
   EXPECT_FALSE(good("camera", 10));
   EXPECT_TRUE(good("camera", 100'000));
 }
 
 TEST_F(CameraChecks, FramesComeAsOftenAsTheCameraSays) {
-  rig.params.camera = CameraParams{};
+  rig.params.camera = vision::CameraParams{};
   EXPECT_TRUE(good("frames", 100'000, 10));
   EXPECT_FALSE(good("frames", 100'000, 1000));
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::rig

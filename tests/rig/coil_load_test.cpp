@@ -5,18 +5,18 @@
 
 #include "microswarm/config/yaml.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 TEST(CoilLoad, IsThatOfTheMostLoadedCoilWithinTheLastSecond) {
-  const CoilSystem system(
-      read_yaml_text<CoilSystemParams>(
+  const actuation::CoilSystem system(
+      read_yaml_text<actuation::CoilSystemParams>(
           "{coils: {type: helmholtz}, drives: [{max_current_a: 10, max_temperature_degc: 90}, "
           "{max_current_a: 2, max_temperature_degc: 60}, {max_temperature_degc: 200}]}",
           "coils"),
       "coils");
   CoilLoadMeter meter(system);
-  CoilOutput output;
+  actuation::CoilOutput output;
   output.currents = Eigen::Vector3d(-5, 1.6, 0.1);
   output.temperatures = Eigen::Vector3d(40, 35, 100);
   output.scale = 0.7;
@@ -37,10 +37,10 @@ TEST(CoilLoad, IsThatOfTheMostLoadedCoilWithinTheLastSecond) {
 }
 
 TEST(CoilLoad, WithoutALimitItIsTheLargestCurrent) {
-  const CoilSystem system(read_yaml_text<CoilSystemParams>("coils: {type: helmholtz}", "coils"),
-                          "coils");
+  const actuation::CoilSystem system(
+      read_yaml_text<actuation::CoilSystemParams>("coils: {type: helmholtz}", "coils"), "coils");
   CoilLoadMeter meter(system);
-  CoilOutput output;
+  actuation::CoilOutput output;
   output.currents = Eigen::Vector3d(-5, 1.6, 0.1);
   output.temperatures = Eigen::Vector3d(40, 35, 41);
   meter.take(0, output);
@@ -51,4 +51,4 @@ TEST(CoilLoad, WithoutALimitItIsTheLargestCurrent) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -14,33 +14,34 @@
 
 #include "microswarm/config/yaml.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 constexpr std::chrono::milliseconds standstill{800};
 
 /// Stands still in its tenth exchange, as a program that is stopped there.
-class StoppedInAnExchange : public CoilDriver {
+class StoppedInAnExchange : public actuation::CoilDriver {
  public:
-  Capabilities capabilities() const override { return {.channels = 3}; }
-  const DeviceReport& report() const override { return report_; }
-  DriveStatus drive(const CoilRequest&) override {
+  actuation::Capabilities capabilities() const override { return {.channels = 3}; }
+  const actuation::DeviceReport& report() const override { return report_; }
+  actuation::DriveStatus drive(const actuation::CoilRequest&) override {
     if (++sendings_ == 10) std::this_thread::sleep_for(standstill);
-    return DriveStatus::driven;
+    return actuation::DriveStatus::driven;
   }
-  StopReport stop() noexcept override { return {.confirmed = true}; }
+  actuation::StopReport stop() noexcept override { return {.confirmed = true}; }
   int sendings() const { return sendings_; }
 
  private:
-  DeviceReport report_{.currents = std::vector<double>(3)};
+  actuation::DeviceReport report_{.currents = std::vector<double>(3)};
   std::atomic<int> sendings_ = 0;
 };
 
 /// Why a loop ends that is commanded all the time, for two seconds at most.
-std::string end_of(CoilDriver& driver, const std::function<void(const CoilMoment&)>& heard) {
-  const CoilSystem system(read_yaml_text<CoilSystemParams>("coils: {type: helmholtz}", "coils"),
-                          "coils");
-  CoilController controller(system, {}, driver, 0);
+std::string end_of(actuation::CoilDriver& driver,
+                   const std::function<void(const CoilMoment&)>& heard) {
+  const actuation::CoilSystem system(
+      read_yaml_text<actuation::CoilSystemParams>("coils: {type: helmholtz}", "coils"), "coils");
+  actuation::CoilController controller(system, {}, driver, 0);
   CoilLoop loop(controller, {.max_pause = 0.4}, heard);
   for (int i = 0; i < 40 && loop.failure().empty(); ++i) {
     loop.command({0, 20}, controller.place());
@@ -57,7 +58,7 @@ TEST(CoilLoop, AStandstillInAnExchangeEndsIt) {
 }
 
 TEST(CoilLoop, AStandstillWhileItIsLoggedEndsIt) {
-  SimulatedCoilDriver driver(3, 20);
+  actuation::SimulatedCoilDriver driver(3, 20);
   int heard = 0;
   const std::string why = end_of(driver, [&](const CoilMoment&) {
     if (++heard == 10) std::this_thread::sleep_for(standstill);
@@ -69,7 +70,7 @@ TEST(CoilLoop, AStandstillWhileItIsLoggedEndsIt) {
 /// Answers 30 ms after it was asked.
 class SlowDriver : public StoppedInAnExchange {
  public:
-  DriveStatus drive(const CoilRequest& request) override {
+  actuation::DriveStatus drive(const actuation::CoilRequest& request) override {
     std::this_thread::sleep_for(std::chrono::milliseconds(30));
     return StoppedInAnExchange::drive(request);
   }
@@ -85,10 +86,10 @@ TEST(CoilLoop, ARoundTripIsTheTimeOfTheExchange) {
 }
 
 TEST(CoilLoop, ANewCommandGoesOutHalfAPeriodAfterTheLastSendingAtTheEarliest) {
-  const CoilSystem system(read_yaml_text<CoilSystemParams>("coils: {type: helmholtz}", "coils"),
-                          "coils");
-  SimulatedCoilDriver driver(3, 20);
-  CoilController controller(system, {}, driver, 0);
+  const actuation::CoilSystem system(
+      read_yaml_text<actuation::CoilSystemParams>("coils: {type: helmholtz}", "coils"), "coils");
+  actuation::SimulatedCoilDriver driver(3, 20);
+  actuation::CoilController controller(system, {}, driver, 0);
   std::mutex mutex;
   std::vector<CoilMoment> moments;
   CoilLoop loop(controller, {.rate = 1, .deadman = 10, .max_pause = 5},
@@ -119,9 +120,10 @@ TEST(CoilLoop, ANewCommandGoesOutHalfAPeriodAfterTheLastSendingAtTheEarliest) {
 
 /// A loop whose computer can be suspended.
 struct Sleeper {
-  CoilSystem system{read_yaml_text<CoilSystemParams>("coils: {type: helmholtz}", "coils"), "coils"};
+  actuation::CoilSystem system{
+      read_yaml_text<actuation::CoilSystemParams>("coils: {type: helmholtz}", "coils"), "coils"};
   StoppedInAnExchange driver;
-  CoilController controller{system, {}, driver, 0};
+  actuation::CoilController controller{system, {}, driver, 0};
   std::atomic<double> asleep = 100;  // [s], before the program started
   CoilLoop loop{controller, {.max_pause = 0.4}, {}, [this] { return asleep.load(); }};
 
@@ -155,4 +157,4 @@ TEST(CoilLoop, WhatIsCommandedAfterASuspensionBeforeTheFirstCommandIsNotDriven) 
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::rig

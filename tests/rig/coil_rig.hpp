@@ -9,10 +9,10 @@
 namespace microswarm::test {
 
 /// A simulated rig of three Helmholtz pairs, whose `drives` are a list of YAML.
-inline Rig coil_rig(const Folder& folder, const std::string& drives,
-                    const Settings& settings = {}) {
+inline rig::Rig coil_rig(const Folder& folder, const std::string& drives,
+                         const Settings& settings = {}) {
   folder.with("coils.yaml", "coils: {type: helmholtz}\ndrives: " + drives + "\n");
-  return read_rig(folder.with("rig.yaml", "coils: coils.yaml\n"), settings);
+  return rig::read_rig(folder.with("rig.yaml", "coils: coils.yaml\n"), settings);
 }
 
 }  // namespace microswarm::test

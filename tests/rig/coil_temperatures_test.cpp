@@ -9,7 +9,7 @@
 #include "tests/messages.hpp"
 #include "tests/rig/coil_rig.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 /// A user's state folder, and a rig whose coils cool with a time constant of five minutes.
@@ -71,7 +71,8 @@ TEST_F(CoilTemperaturesTest, OfAKilledProgramAreThoseAfterItsLargestCurrents) {
   at_start(true);
   keep(never, true, "[50, 60, 70]");
   const Eigen::VectorXd found = at_start();
-  const Eigen::VectorXd expected = heated(rig.system.amplifiers(), Eigen::Vector3d(50, 60, 70), 2);
+  const Eigen::VectorXd expected =
+      actuation::heated(rig.system.amplifiers(), Eigen::Vector3d(50, 60, 70), 2);
   expect_near(found, expected);
   keep(never, false, "[50, 60, 70]");
   expect_near(at_start(), {50, 60, 70});
@@ -98,4 +99,4 @@ TEST_F(CoilTemperaturesTest, OfADamagedFileAreRefusedInALineThatSaysWhatHelps) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::rig

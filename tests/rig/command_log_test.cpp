@@ -8,13 +8,14 @@
 #include "microswarm/config/yaml.hpp"
 #include "tests/files.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 TEST(CommandLog, HasItsFixedColumnsAndOneForEachCoil) {
   const test::Folder folder;
-  const CoilSystem system(read_yaml_text<CoilSystemParams>("coils: {type: helmholtz}", "rig.yaml"),
-                          "rig.yaml");
+  const actuation::CoilSystem system(
+      read_yaml_text<actuation::CoilSystemParams>("coils: {type: helmholtz}", "rig.yaml"),
+      "rig.yaml");
   const std::string wanted =
       "t_s,heading_deg,speed_um_per_s,bx_mt,by_mt,bz_mt,i_x_a,i_y_a,i_z_a,scale,device_scale,"
       "status,late_s,"
@@ -34,11 +35,11 @@ TEST(CommandLog, HasItsFixedColumnsAndOneForEachCoil) {
   CommandLog log(folder / "", system, false);
   log.add(moment, 99.5);
   moment.t += 0.1;
-  moment.output.status = DriveStatus::no_answer;
+  moment.output.status = actuation::DriveStatus::no_answer;
   log.add(moment, 99.5);
   EXPECT_EQ(log.finish({.confirmed = true, .at = 100.25}), "");
   EXPECT_EQ(read_file(folder / "commands.csv", 1 << 20), wanted);
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::rig

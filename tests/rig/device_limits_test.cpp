@@ -5,11 +5,11 @@
 
 #include "tests/messages.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 std::string taken(DeviceLimits& limits, double t, double scale) {
-  CoilOutput output;
+  actuation::CoilOutput output;
   output.device_scale = scale;
   return limits.take(t, output);
 }
@@ -38,4 +38,4 @@ TEST(DeviceLimits, NoCurrentIsCalledThat) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -9,28 +9,28 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/rng.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 constexpr double step = 0.005;  // [s]
 
-class EveryField : public testing::TestWithParam<FieldKind> {
+class EveryField : public testing::TestWithParam<actuation::FieldKind> {
  protected:
   EveryField() {
     field.kind = GetParam();
-    if (field.kind == FieldKind::rolling) field.frequency = 6;
+    if (field.kind == actuation::FieldKind::rolling) field.frequency = 6;
     response.kind = field.kind;
     response.frequency = field.frequency;
     response.speed_per_pitch = field.speed_per_pitch;
     response.length_per_turn = field.length_per_turn;
   }
-  FieldGeneratorParams field;
+  actuation::FieldGeneratorParams field;
   FieldResponseParams response;
 };
 
 TEST_P(EveryField, DrivesAsCommanded) {
   Rng rng(1, Purpose::test);
-  FieldGenerator generator(field, 0.3);
+  actuation::FieldGenerator generator(field, 0.3);
   FieldResponse swarm(response);
   for (int command = 0; command < 40; ++command) {
     const Command wanted{rng.uniform(-pi, pi), rng.uniform(5, 95)};
@@ -45,7 +45,7 @@ TEST_P(EveryField, DrivesAsCommanded) {
 }
 
 TEST_P(EveryField, SendingInUnevenPiecesChangesNothing) {
-  FieldGenerator generator(field, 0);
+  actuation::FieldGenerator generator(field, 0);
   FieldResponse swarm(response);
   generator.command({0.5, 60});
   for (int i = 0; i < 200; ++i) swarm.step(generator.advance(0.01), 0.01);
@@ -58,7 +58,7 @@ TEST_P(EveryField, SendingInUnevenPiecesChangesNothing) {
 }
 
 TEST_P(EveryField, HoldsAtSpeedZero) {
-  FieldGenerator generator(field, 1);
+  actuation::FieldGenerator generator(field, 1);
   FieldResponse swarm(response);
   generator.command({1, 60});
   for (int i = 0; i < 400; ++i) swarm.step(generator.advance(step), step);
@@ -67,13 +67,13 @@ TEST_P(EveryField, HoldsAtSpeedZero) {
   for (int i = 0; i < 400; ++i) driven = swarm.step(generator.advance(step), step);
   EXPECT_NEAR(driven.speed, 0, 1e-6);
   // While the pitch of a rotating field falls, its plane wobbles.
-  if (field.kind != FieldKind::rotating) {
+  if (field.kind != actuation::FieldKind::rotating) {
     EXPECT_LT(turn_between(driven.heading, 1), radians(2));
   }
 }
 
 TEST_P(EveryField, NothingMovesWithoutAField) {
-  FieldGenerator generator(field, 1);
+  actuation::FieldGenerator generator(field, 1);
   FieldResponse swarm(response);
   generator.command({1, 60});
   for (int i = 0; i < 400; ++i) swarm.step(generator.advance(step), step);
@@ -81,9 +81,10 @@ TEST_P(EveryField, NothingMovesWithoutAField) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, EveryField,
-                         testing::Values(FieldKind::rotating, FieldKind::rolling,
-                                         FieldKind::oscillating),
+                         testing::Values(actuation::FieldKind::rotating,
+                                         actuation::FieldKind::rolling,
+                                         actuation::FieldKind::oscillating),
                          [](const auto& kind) { return std::string(enum_name(kind.param)); });
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -10,7 +10,7 @@
 #include "microswarm/core/maths/rng.hpp"
 #include "microswarm/geometry/vec2.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 // Of the last steps, those are judged that make up the distance, and no more.
@@ -99,4 +99,4 @@ TEST(FollowAngle, NeedsFiveStretchesOfMotion) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -11,18 +11,18 @@
 #include "microswarm/rig/runtime/live_rig.hpp"
 #include "microswarm/rig/runtime/realtime_rig_simulator.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 namespace fs = std::filesystem;
 
 /// A camera whose pictures freeze, or show no swarm any more.
-class FailingCamera : public FrameSource {
+class FailingCamera : public vision::FrameSource {
  public:
-  FailingCamera(std::unique_ptr<FrameSource> camera, const std::atomic<bool>& freezes,
+  FailingCamera(std::unique_ptr<vision::FrameSource> camera, const std::atomic<bool>& freezes,
                 const std::atomic<bool>& loses)
       : camera_(std::move(camera)), freezes_(freezes), loses_(loses) {}
-  bool next(VideoFrame& frame) override {
+  bool next(vision::VideoFrame& frame) override {
     if (!camera_->next(frame)) return false;
     if (freezes_) frame.picture = last_;
     last_ = frame.picture;
@@ -35,10 +35,10 @@ class FailingCamera : public FrameSource {
   std::optional<double> rate() const override { return camera_->rate(); }
 
  private:
-  std::unique_ptr<FrameSource> camera_;
+  std::unique_ptr<vision::FrameSource> camera_;
   const std::atomic<bool>& freezes_;
   const std::atomic<bool>& loses_;
-  Image last_;
+  formats::Image last_;
 };
 
 class LiveOperation : public testing::Test {
@@ -51,22 +51,24 @@ class LiveOperation : public testing::Test {
                          .max_pause = 3};
   }
   /// Runs for 8 s at most; `then` is called after 0.5 s.
-  RunResult go(const std::function<void(Operation&)>& then) {
-    const Scene scene = load_scene(
-        read_scenario(scenarios / "papers/radar/single.yaml", {"obstacles=[]", "time_limit_s=30"}),
-        scenarios);
-    const Scenario& s = scene.scenario;
-    const World world = build_world(scene);
-    RealtimeRigSimulator simulator(s, world, rig, std::make_unique<SimulatedCoilDriver>(6, 20));
+  experiment::RunResult go(const std::function<void(experiment::Operation&)>& then) {
+    const experiment::Scene scene =
+        experiment::load_scene(experiment::read_scenario(scenarios / "papers/radar/single.yaml",
+                                                         {"obstacles=[]", "time_limit_s=30"}),
+                               scenarios);
+    const experiment::Scenario& s = scene.scenario;
+    const World world = experiment::build_world(scene);
+    RealtimeRigSimulator simulator(s, world, rig,
+                                   std::make_unique<actuation::SimulatedCoilDriver>(6, 20));
     LiveRig plant(s, world.map, rig,
                   std::make_unique<FailingCamera>(simulator.camera(40), freezes, loses),
                   simulator.view().scale, simulator.coils());
-    Session session({scene, world, {}}, {.plant = borrowed(plant)});
+    experiment::Session session({scene, world, {}}, {.plant = borrowed(plant)});
     std::thread person([&] {
       std::this_thread::sleep_for(std::chrono::milliseconds(500));
       then(*session.operation());
     });
-    const RunResult result = session.finish(Stop(std::chrono::seconds(8)));
+    const experiment::RunResult result = session.finish(Stop(std::chrono::seconds(8)));
     person.join();
     for (const double current : simulator.coils().report().currents) EXPECT_EQ(current, 0);
     return result;
@@ -79,7 +81,7 @@ class LiveOperation : public testing::Test {
 };
 
 TEST_F(LiveOperation, ALostSwarmEndsAPauseToo) {
-  const RunResult result = go([&](Operation& operation) {
+  const experiment::RunResult result = go([&](experiment::Operation& operation) {
     operation.pause();
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     loses = true;
@@ -89,7 +91,7 @@ TEST_F(LiveOperation, ALostSwarmEndsAPauseToo) {
 }
 
 TEST_F(LiveOperation, FrozenPicturesEndTheSteeringByHandToo) {
-  const RunResult result = go([&](Operation& operation) {
+  const experiment::RunResult result = go([&](experiment::Operation& operation) {
     operation.manual();
     operation.steer({0, 20});
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
@@ -100,4 +102,4 @@ TEST_F(LiveOperation, FrozenPicturesEndTheSteeringByHandToo) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -13,7 +13,7 @@
 #include "tests/files.hpp"
 #include "tests/messages.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 using test::LiveRigs;
@@ -23,7 +23,7 @@ using test::WatchedCoils;
 
 TEST_F(LiveRigs, DrivesTheSwarmInRealTime) {
   const Vec2 start = scene.scenario.start->position;
-  const RunResult result = go(3);
+  const experiment::RunResult result = go(3);
   EXPECT_EQ(result.status, Status::stopped);
   EXPECT_GT(driven, 0.1);
   // 10 pictures and 200 sendings a second are meant, far fewer come on a busy computer.
@@ -43,19 +43,20 @@ TEST_F(LiveRigs, DroppedFramesAreNoFault) {
 }
 
 TEST_F(LiveRigs, FrozenPicturesEndIt) {
-  const RunResult result = go(6, [&](LiveRig&) { trouble->freeze = true; });
+  const experiment::RunResult result = go(6, [&](LiveRig&) { trouble->freeze = true; });
   EXPECT_EQ(fault_of(result), "the camera's pictures are frozen");
   EXPECT_LT(zero_after, patience * 0.8);
 }
 
 TEST_F(LiveRigs, PicturesThatComeAgainAndAgainEndIt) {
-  const RunResult result = go(6, [&](LiveRig&) { trouble->cycle = true; });
+  const experiment::RunResult result = go(6, [&](LiveRig&) { trouble->cycle = true; });
   EXPECT_EQ(fault_of(result), "the camera's pictures are frozen");
   EXPECT_LT(zero_after, patience * 0.8);
 }
 
 TEST_F(LiveRigs, ADeviceThatTripsAgainEndsIt) {
-  const RunResult result = go(6, [&](LiveRig&) { coils->answer = DriveStatus::resumed; });
+  const experiment::RunResult result =
+      go(6, [&](LiveRig&) { coils->answer = actuation::DriveStatus::resumed; });
   EXPECT_EQ(fault_of(result),
             "the coils had switched off by themselves 2 times in 10 s, allowed 1");
   EXPECT_EQ(timing.resumed, 2);
@@ -63,11 +64,11 @@ TEST_F(LiveRigs, ADeviceThatTripsAgainEndsIt) {
 }
 
 TEST_F(LiveRigs, OneTripIsNoFault) {
-  const RunResult result = go(2, [&](LiveRig&) {
-    coils->answer = DriveStatus::resumed;
+  const experiment::RunResult result = go(2, [&](LiveRig&) {
+    coils->answer = actuation::DriveStatus::resumed;
     const int before = coils->drives;
     while (coils->drives == before) std::this_thread::yield();
-    coils->answer = DriveStatus::driven;
+    coils->answer = actuation::DriveStatus::driven;
   });
   EXPECT_LE(timing.resumed, 2);
   EXPECT_EQ(result.status, timing.resumed == 1 ? Status::stopped : Status::fault);
@@ -75,7 +76,7 @@ TEST_F(LiveRigs, OneTripIsNoFault) {
 
 TEST_F(LiveRigs, DeadAmplifiersEndIt) {
   rig->params.safety.follow_distance = 60;
-  const RunResult result = go(20, [&](LiveRig&) { coils->dead = true; });
+  const experiment::RunResult result = go(20, [&](LiveRig&) { coils->dead = true; });
   EXPECT_EQ(result.status, Status::fault);
   EXPECT_NE(result.state.find("the swarm does not follow: of 6"), std::string::npos)
       << result.state;
@@ -84,7 +85,7 @@ TEST_F(LiveRigs, DeadAmplifiersEndIt) {
 TEST_F(LiveRigs, ExchangedCoilsEndIt) {
   rig->params.safety.follow_distance = 60;
   coils->exchanged = true;
-  const RunResult result = go(20, [&](LiveRig&) {});
+  const experiment::RunResult result = go(20, [&](LiveRig&) {});
   EXPECT_TRUE(fault_of(result).starts_with("the swarm does not follow: of 6")) << result.state;
 }
 
@@ -94,7 +95,7 @@ TEST_F(LiveRigs, ATurnedCameraEndsIt) {
   scene.scenario.goal = Vec2{1300, 1100};
   for (const double angle : {90.0, 180.0}) {
     turn = angle * pi / 180;
-    const RunResult result = go(20, [](LiveRig&) {});
+    const experiment::RunResult result = go(20, [](LiveRig&) {});
     EXPECT_EQ(result.status, Status::fault) << angle;
     EXPECT_NE(result.state.find("the swarm does not follow: of 6"), std::string::npos)
         << result.state;
@@ -120,28 +121,28 @@ TEST_F(LiveRigs, ASlightlyTurnedCameraIsToldByItsAngle) {
 }
 
 TEST_F(LiveRigs, BlackPicturesEndIt) {
-  const RunResult result = go(6, [&](LiveRig&) { trouble->black = true; });
+  const experiment::RunResult result = go(6, [&](LiveRig&) { trouble->black = true; });
   EXPECT_EQ(fault_of(result), "the camera's pictures are black");
   EXPECT_LT(zero_after, patience * 0.8);
 }
 
 TEST_F(LiveRigs, PicturesThatComeTwoSecondsLateEndIt) {
   rig->params.safety.max_frame_age = 0.5;
-  const RunResult result = go(6, [&](LiveRig&) { trouble->late = 2; });
+  const experiment::RunResult result = go(6, [&](LiveRig&) { trouble->late = 2; });
   EXPECT_TRUE(names(fault_of(result), "s old, allowed 0.5 s")) << result.state;
   EXPECT_LT(zero_after, patience * 1.2);
 }
 
 TEST_F(LiveRigs, ASwarmThatLeavesThePictureEndsIt) {
   rig->params.safety.lost_swarm = 0.5;
-  const RunResult result = go(6, [&](LiveRig&) { trouble->no_swarm = true; });
+  const experiment::RunResult result = go(6, [&](LiveRig&) { trouble->no_swarm = true; });
   EXPECT_TRUE(names(fault_of(result), "the swarm was not found for")) << result.state;
   EXPECT_LT(zero_after, patience * 1.2);
 }
 
 TEST_F(LiveRigs, ASwarmThatSplitsEndsIt) {
   rig->params.safety.lost_swarm = 0.5;
-  const RunResult result = go(6, [&](LiveRig&) { trouble->split = true; });
+  const experiment::RunResult result = go(6, [&](LiveRig&) { trouble->split = true; });
   EXPECT_EQ(result.status, Status::fault);
   EXPECT_NE(result.state.find("(it split into parts of "), std::string::npos) << result.state;
   EXPECT_NE(result.state.find(" and "), std::string::npos) << result.state;
@@ -150,23 +151,26 @@ TEST_F(LiveRigs, ASwarmThatSplitsEndsIt) {
 }
 
 TEST_F(LiveRigs, AnUnpluggedCameraEndsIt) {
-  const RunResult result = go(6, [&](LiveRig&) { trouble->unplug = true; });
+  const experiment::RunResult result = go(6, [&](LiveRig&) { trouble->unplug = true; });
   EXPECT_EQ(fault_of(result), "camera: unplugged");
   EXPECT_LT(zero_after, patience * 0.8);
 }
 
 TEST_F(LiveRigs, ASilentCoilDriverEndsIt) {
-  const RunResult result = go(6, [&](LiveRig&) { coils->answer = DriveStatus::no_answer; });
+  const experiment::RunResult result =
+      go(6, [&](LiveRig&) { coils->answer = actuation::DriveStatus::no_answer; });
   EXPECT_EQ(fault_of(result), "the coil driver does not answer");
 }
 
 TEST_F(LiveRigs, RefusedCurrentsEndIt) {
-  const RunResult result = go(6, [&](LiveRig&) { coils->answer = DriveStatus::refused; });
+  const experiment::RunResult result =
+      go(6, [&](LiveRig&) { coils->answer = actuation::DriveStatus::refused; });
   EXPECT_EQ(fault_of(result), "the coil driver refuses the currents");
 }
 
 TEST_F(LiveRigs, ADeviceThatStaysOffEndsIt) {
-  const RunResult result = go(6, [&](LiveRig&) { coils->answer = DriveStatus::not_armed; });
+  const experiment::RunResult result =
+      go(6, [&](LiveRig&) { coils->answer = actuation::DriveStatus::not_armed; });
   EXPECT_EQ(fault_of(result), "the coils' device is off and does not let itself be armed");
 }
 
@@ -175,7 +179,7 @@ TEST_F(LiveRigs, TimesInFramesThatJumpDoNotMatter) {
 }
 
 TEST_F(LiveRigs, TheEmergencyStopComesAtOnceFromAnyThread) {
-  const RunResult result = go(6, [&](LiveRig& plant) { plant.stop("key"); });
+  const experiment::RunResult result = go(6, [&](LiveRig& plant) { plant.stop("key"); });
   EXPECT_EQ(result.status, Status::fault);
   EXPECT_EQ(result.state, "key");
   EXPECT_LT(zero_after, patience * 0.1);
@@ -196,28 +200,28 @@ class Slow : public Navigator {
 
 TEST_F(LiveRigs, ANavigatorThatHangsEndsIt) {
   rig->params.safety.deadman = 0.5;
-  const Scenario& s = scene.scenario;
+  const experiment::Scenario& s = scene.scenario;
   RealtimeRigSimulator simulator(s, world, *rig, std::make_unique<WatchedCoils>(coils));
   LiveRig plant(s, world.map, *rig, simulator.camera(40), simulator.view().scale,
                 simulator.coils());
   Slow slow;
-  const RunResult result = test::run(s, plant, slow);
+  const experiment::RunResult result = test::run(s, plant, slow);
   EXPECT_EQ(result.status, Status::fault);
   EXPECT_NE(result.state.find("no command for 0.5"), std::string::npos) << result.state;
   EXPECT_EQ(coils->strongest, 0);
 }
 
 TEST_F(LiveRigs, ALogThatCannotBeWrittenEndsIt) {
-  const Scenario& s = scene.scenario;
+  const experiment::Scenario& s = scene.scenario;
   RealtimeRigSimulator simulator(s, world, *rig, std::make_unique<WatchedCoils>(coils));
   int moments = 0;
   LiveRig plant(s, world.map, *rig, simulator.camera(40), simulator.view().scale, simulator.coils(),
                 {.coils = [&](const CoilMoment&) {
                   if (++moments > 50) throw InputError("commands.csv: cannot write: disk full");
                 }});
-  const auto navigator =
-      make_navigator(s.navigator, navigation_task(s), Rng(1, Purpose::planner, 0));
-  const RunResult result = test::run(s, plant, *navigator);
+  const auto navigator = navigation::make_navigator(s.navigator, experiment::navigation_task(s),
+                                                    Rng(1, Purpose::planner, 0));
+  const experiment::RunResult result = test::run(s, plant, *navigator);
   EXPECT_EQ(result.status, Status::fault);
   EXPECT_EQ(result.state, "commands.csv: cannot write: disk full");
   EXPECT_EQ(coils->strongest, 0);
@@ -233,9 +237,9 @@ TEST_F(LiveRigs, ADeadmanShorterThanATickIsRefused) {
 }
 
 TEST_F(LiveRigs, AGoalOutsideThePictureIsRefused) {
-  const Scenario& s = scene.scenario;
+  const experiment::Scenario& s = scene.scenario;
   RealtimeRigSimulator simulator(s, world, *rig, std::make_unique<WatchedCoils>(coils));
-  CameraScale near = simulator.view().scale;
+  vision::CameraScale near = simulator.view().scale;
   near.um_per_px /= 2;
   const std::string error = test::error_of(
       [&] { LiveRig(s, world.map, *rig, simulator.camera(40), near, simulator.coils()); });
@@ -247,7 +251,7 @@ TEST_F(LiveRigs, AGoalOutsideThePictureIsRefused) {
 TEST_F(LiveRigs, ObstaclesOfTheScenarioAreVirtualBesideThoseOfARealCamera) {
   Rig bench_rig = *rig;
   bench_rig.params.camera = VideoCamera{};
-  Scenario s = scene.scenario;
+  experiment::Scenario s = scene.scenario;
   Straight motion{.start = s.start->position + Vec2{400, 300}, .velocity = {0, -30}};
   s.obstacles = {{DiscShape{80}, motion}};
   RealtimeRigSimulator simulator(scene.scenario, world, *rig,
@@ -276,54 +280,57 @@ TEST_F(LiveRigs, AVirtualObstacleInTheWayIsAvoided) {
   bench_rig.params.camera = VideoCamera{};
   const Pose2 start = *scene.scenario.start;
   const Vec2 ahead = *scene.scenario.goal - start.position;
-  Scenario s = scene.scenario;
+  experiment::Scenario s = scene.scenario;
   s.obstacles = {{DiscShape{60}, Straight{.start = start.position + (220 / norm(ahead)) * ahead}}};
   RealtimeRigSimulator simulator(scene.scenario, world, *rig,
                                  std::make_unique<WatchedCoils>(coils));
   LiveRig plant(s, world.map, bench_rig, simulator.camera(40), simulator.view().scale,
                 simulator.coils());
-  const auto navigator =
-      make_navigator(s.navigator, navigation_task(s), Rng(s.seed, Purpose::planner, 0));
-  const RunResult result = test::run(s, plant, *navigator, {}, Stop(std::chrono::seconds(12)));
+  const auto navigator = navigation::make_navigator(s.navigator, experiment::navigation_task(s),
+                                                    Rng(s.seed, Purpose::planner, 0));
+  const experiment::RunResult result =
+      test::run(s, plant, *navigator, {}, Stop(std::chrono::seconds(12)));
   EXPECT_EQ(result.status, Status::stopped) << result.state;
   EXPECT_GT(result.metrics.obstacles.clearance, 60);
   EXPECT_LT(result.metrics.obstacles.clearance, 240);
 }
 
 /// A device that makes waveforms and lets through a share of what it is told.
-class WeakenedCoils : public CoilDriver {
+class WeakenedCoils : public actuation::CoilDriver {
  public:
   explicit WeakenedCoils(double share)
       : report_{.currents = std::vector<double>(6), .scale = share} {}
-  Capabilities capabilities() const override { return {6, CoilInput::waveform}; }
-  const DeviceReport& report() const override { return report_; }
-  DriveStatus drive(const CoilRequest& request) override {
-    const auto* const waveform = std::get_if<CurrentWaveform>(&request);
-    if (!waveform) return DriveStatus::refused;
+  actuation::Capabilities capabilities() const override {
+    return {6, actuation::CoilInput::waveform};
+  }
+  const actuation::DeviceReport& report() const override { return report_; }
+  actuation::DriveStatus drive(const actuation::CoilRequest& request) override {
+    const auto* const waveform = std::get_if<actuation::CurrentWaveform>(&request);
+    if (!waveform) return actuation::DriveStatus::refused;
     const double now = steady_seconds();
     if (!report_.phase) began_ = now - waveform->phase / (2 * pi * waveform->frequency);
     report_.phase = 2 * pi * waveform->frequency * (now - began_);
-    return report_.scale < 1 ? DriveStatus::scaled : DriveStatus::driven;
+    return report_.scale < 1 ? actuation::DriveStatus::scaled : actuation::DriveStatus::driven;
   }
-  StopReport stop() noexcept override {
+  actuation::StopReport stop() noexcept override {
     report_.phase.reset();
     return {.confirmed = true};
   }
 
  private:
-  DeviceReport report_;
+  actuation::DeviceReport report_;
   double began_ = 0;  // [s], by steady_seconds()
 };
 
 TEST_F(LiveRigs, AWaveformThatTheDeviceWeakensMovesTheSwarmAsItsFieldDoes) {
-  const Scenario& s = scene.scenario;
+  const experiment::Scenario& s = scene.scenario;
   const Vec2 start = s.start->position;
   const auto way = [&](double share) {
     RealtimeRigSimulator simulator(s, world, *rig, std::make_unique<WeakenedCoils>(share));
     LiveRig plant(s, world.map, *rig, simulator.camera(40), simulator.view().scale,
                   simulator.coils());
-    const auto navigator =
-        make_navigator(s.navigator, navigation_task(s), Rng(1, Purpose::planner, 0));
+    const auto navigator = navigation::make_navigator(s.navigator, experiment::navigation_task(s),
+                                                      Rng(1, Purpose::planner, 0));
     test::run(s, plant, *navigator, {}, Stop(std::chrono::seconds(2)));
     return distance(simulator.swarm().pose.position, start);
   };
@@ -332,10 +339,10 @@ TEST_F(LiveRigs, AWaveformThatTheDeviceWeakensMovesTheSwarmAsItsFieldDoes) {
 }
 
 /// Gives one picture, then fails.
-class OnePicture : public FrameSource {
+class OnePicture : public vision::FrameSource {
  public:
-  explicit OnePicture(Image picture) : picture_(std::move(picture)) {}
-  bool next(VideoFrame& frame) override {
+  explicit OnePicture(formats::Image picture) : picture_(std::move(picture)) {}
+  bool next(vision::VideoFrame& frame) override {
     if (given_) throw HardwareError("camera: gone");
     frame.picture = picture_;
     return given_ = true;
@@ -344,24 +351,24 @@ class OnePicture : public FrameSource {
   std::optional<double> rate() const override { return std::nullopt; }
 
  private:
-  Image picture_;
+  formats::Image picture_;
   bool given_ = false;
 };
 
 TEST_F(LiveRigs, ACameraThatFailsAtTheStartEndsIt) {
-  const Scenario& s = scene.scenario;
+  const experiment::Scenario& s = scene.scenario;
   RealtimeRigSimulator simulator(s, world, *rig, std::make_unique<WatchedCoils>(coils));
   const auto camera = simulator.camera(40);
-  VideoFrame first;
+  vision::VideoFrame first;
   ASSERT_TRUE(camera->next(first));
   LiveRig plant(s, world.map, *rig, std::make_unique<OnePicture>(first.picture),
                 simulator.view().scale, simulator.coils());
-  const auto navigator =
-      make_navigator(s.navigator, navigation_task(s), Rng(1, Purpose::planner, 0));
-  const RunResult result = test::run(s, plant, *navigator);
+  const auto navigator = navigation::make_navigator(s.navigator, experiment::navigation_task(s),
+                                                    Rng(1, Purpose::planner, 0));
+  const experiment::RunResult result = test::run(s, plant, *navigator);
   EXPECT_EQ(result.status, Status::fault);
   EXPECT_EQ(result.state, "camera: gone");
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -21,25 +21,26 @@
 namespace microswarm::test {
 
 /// Coils that remember what they were told, and fail when they are asked to.
-class WatchedCoils : public CoilDriver {
+class WatchedCoils : public actuation::CoilDriver {
  public:
   struct Log {
     std::atomic<double> strongest = 0;  // [A], of the last currents
     std::atomic<int> drives = 0;
     std::atomic<int> stops = 0;
-    std::atomic<DriveStatus> answer = DriveStatus::driven;
+    std::atomic<actuation::DriveStatus> answer = actuation::DriveStatus::driven;
     std::atomic<bool> dead = false;       // the amplifiers give nothing
     std::atomic<bool> exchanged = false;  // the first two coils
   };
   explicit WatchedCoils(std::shared_ptr<Log> log) : log_(std::move(log)) {}
 
-  Capabilities capabilities() const override { return {.channels = 6}; }
-  const DeviceReport& report() const override { return report_; }
-  DriveStatus drive(const CoilRequest& request) override {
+  actuation::Capabilities capabilities() const override { return {.channels = 6}; }
+  const actuation::DeviceReport& report() const override { return report_; }
+  actuation::DriveStatus drive(const actuation::CoilRequest& request) override {
     const auto currents = std::get<std::span<const double>>(request);
     ++log_->drives;
-    const DriveStatus answer = log_->answer;
-    if (answer != DriveStatus::driven && answer != DriveStatus::resumed) return answer;
+    const actuation::DriveStatus answer = log_->answer;
+    if (answer != actuation::DriveStatus::driven && answer != actuation::DriveStatus::resumed)
+      return answer;
     std::array<double, 6> made{};
     std::copy(currents.begin(), currents.end(), made.begin());
     if (log_->exchanged) std::swap(made[0], made[1]);
@@ -47,7 +48,7 @@ class WatchedCoils : public CoilDriver {
     set(made);
     return answer;
   }
-  StopReport stop() noexcept override {
+  actuation::StopReport stop() noexcept override {
     ++log_->stops;
     set(std::array<double, 6>{});
     return {.confirmed = true};
@@ -63,21 +64,21 @@ class WatchedCoils : public CoilDriver {
     log_->strongest = most;
   }
   std::shared_ptr<Log> log_;
-  DeviceReport report_{.currents = std::vector<double>(6)};
+  actuation::DeviceReport report_{.currents = std::vector<double>(6)};
 };
 
 /// A camera between the simulator and the rig that can be made to fail.
-class TroubledCamera : public FrameSource {
+class TroubledCamera : public vision::FrameSource {
  public:
   struct Trouble {
     std::atomic<bool> drop = false, freeze = false, black = false, unplug = false, no_swarm = false,
                       jump = false, cycle = false, split = false;
     std::atomic<double> late = 0;  // [s]
   };
-  TroubledCamera(std::unique_ptr<FrameSource> camera, std::shared_ptr<Trouble> trouble)
+  TroubledCamera(std::unique_ptr<vision::FrameSource> camera, std::shared_ptr<Trouble> trouble)
       : camera_(std::move(camera)), trouble_(std::move(trouble)) {}
 
-  bool next(VideoFrame& frame) override {
+  bool next(vision::VideoFrame& frame) override {
     do {
       if (trouble_->unplug) throw HardwareError("camera: unplugged");
       if (!camera_->next(frame)) return false;
@@ -100,7 +101,7 @@ class TroubledCamera : public FrameSource {
   std::optional<double> rate() const override { return camera_->rate(); }
 
  private:
-  static void paint(Image& picture, std::uint8_t grey, Vec2 at, double radius) {
+  static void paint(formats::Image& picture, std::uint8_t grey, Vec2 at, double radius) {
     for (int row = 0; row < picture.height; ++row)
       for (int column = 0; column < picture.width; ++column)
         if (distance(at, Vec2{1.0 * column, 1.0 * row}) <= radius)
@@ -109,7 +110,7 @@ class TroubledCamera : public FrameSource {
     if (grey > 0) picture.pixels[static_cast<std::size_t>(count_++ % 1000)] ^= 1;
   }
   /// Cuts what is darkest in two and draws the halves apart.
-  static void cut(Image& picture) {
+  static void cut(formats::Image& picture) {
     constexpr int apart = 8, away = 50;
     Vec2 sum;
     double count = 0;
@@ -130,38 +131,39 @@ class TroubledCamera : public FrameSource {
     }
   }
   static inline std::atomic<int> count_ = 0;
-  std::unique_ptr<FrameSource> camera_;
+  std::unique_ptr<vision::FrameSource> camera_;
   std::shared_ptr<Trouble> trouble_;
-  Image still_;
-  std::vector<Image> ring_;
+  formats::Image still_;
+  std::vector<formats::Image> ring_;
 };
 
 class LiveRigs : public ::testing::Test {
  protected:
   LiveRigs() {
-    set_picture_threads(1);  // as `rig run` does
+    vision::set_picture_threads(1);  // as `rig run` does
     const std::filesystem::path scenarios =
         std::filesystem::path(MICROSWARM_SOURCE_DIR) / "scenarios";
-    scene = load_scene(read_scenario(scenarios / "papers/radar/single.yaml"), scenarios);
+    scene = experiment::load_scene(
+        experiment::read_scenario(scenarios / "papers/radar/single.yaml"), scenarios);
     scene.scenario.obstacles.clear();
     scene.scenario.time_limit = 30;
-    world = build_world(scene);
-    rig.emplace(read_rig(scenarios / "rigs/vortex.yaml",
-                         {"camera.type=simulated", "camera.microscope.um_per_px=6"}));
+    world = experiment::build_world(scene);
+    rig.emplace(rig::read_rig(scenarios / "rigs/vortex.yaml",
+                              {"camera.type=simulated", "camera.microscope.um_per_px=6"}));
     // A busy computer stalls: a test sets the limit that it is about.
     rig->params.safety = {
         .lost_swarm = 3, .max_frame_age = 3, .deadman = 3, .missed_deadlines = 100, .max_pause = 3};
   }
 
   /// Runs until `seconds` have passed or it ends; `then` is called after 0.5 s.
-  RunResult go(double seconds, const std::function<void(LiveRig&)>& then = {}) {
-    const Scenario& s = scene.scenario;
-    RealtimeRigSimulator simulator(s, world, *rig, std::make_unique<WatchedCoils>(coils));
-    LiveRig plant(s, world.map, *rig,
-                  std::make_unique<TroubledCamera>(simulator.camera(40), trouble),
-                  turned(simulator.view().scale), simulator.coils());
-    const auto navigator =
-        make_navigator(s.navigator, navigation_task(s), Rng(s.seed, Purpose::planner, 0));
+  experiment::RunResult go(double seconds, const std::function<void(rig::LiveRig&)>& then = {}) {
+    const experiment::Scenario& s = scene.scenario;
+    rig::RealtimeRigSimulator simulator(s, world, *rig, std::make_unique<WatchedCoils>(coils));
+    rig::LiveRig plant(s, world.map, *rig,
+                       std::make_unique<TroubledCamera>(simulator.camera(40), trouble),
+                       turned(simulator.view().scale), simulator.coils());
+    const auto navigator = navigation::make_navigator(s.navigator, experiment::navigation_task(s),
+                                                      Rng(s.seed, Purpose::planner, 0));
     std::atomic<bool> over = false;
     std::thread trouble_maker([&] {
       std::this_thread::sleep_for(std::chrono::milliseconds(500));
@@ -172,9 +174,10 @@ class LiveRigs : public ::testing::Test {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
       zero_after = steady_seconds() - began;
     });
-    const RunResult result = test::run(s, plant, *navigator, {},
-                                       Stop(std::chrono::duration_cast<Stop::Clock::duration>(
-                                           std::chrono::duration<double>(seconds))));
+    const experiment::RunResult result =
+        test::run(s, plant, *navigator, {},
+                  Stop(std::chrono::duration_cast<Stop::Clock::duration>(
+                      std::chrono::duration<double>(seconds))));
     timing = plant.timing();
     at_end = coils->strongest;
     position = simulator.swarm().pose.position;
@@ -185,14 +188,14 @@ class LiveRigs : public ::testing::Test {
   }
 
   /// Why a run ended as a fault, with the coils at zero.
-  std::string fault_of(const RunResult& result) const {
+  std::string fault_of(const experiment::RunResult& result) const {
     EXPECT_EQ(result.status, Status::fault);
     EXPECT_EQ(at_end, 0);
     return result.state;
   }
 
   /// The scale of a camera that is turned by `turn` about the start, and not known to be.
-  CameraScale turned(CameraScale scale) const {
+  vision::CameraScale turned(vision::CameraScale scale) const {
     const Vec2 start_px = scale.to_picture(scene.scenario.start->position);
     scale.rotation += turn;
     scale.origin_px += start_px - scale.to_picture(scene.scenario.start->position);
@@ -200,9 +203,9 @@ class LiveRigs : public ::testing::Test {
   }
 
   double turn = 0;  // [rad]
-  Scene scene;
+  experiment::Scene scene;
   World world;
-  std::optional<Rig> rig;
+  std::optional<rig::Rig> rig;
   std::shared_ptr<WatchedCoils::Log> coils = std::make_shared<WatchedCoils::Log>();
   std::shared_ptr<TroubledCamera::Trouble> trouble = std::make_shared<TroubledCamera::Trouble>();
   double driven = 0;      // [A], before the trouble
@@ -210,7 +213,7 @@ class LiveRigs : public ::testing::Test {
   double zero_after = 0;  // [s] it took until the coils were at zero
   double at_end = -1;     // [A], when the run has ended
   Vec2 position;
-  RigTiming timing;
+  rig::RigTiming timing;
 };
 
 /// How much later than meant coils may be at zero here: tests share the computer.

@@ -13,27 +13,27 @@
 #include "microswarm/core/errors/error.hpp"
 #include "tests/rig/coil_rig.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 using enum MeasurementOutcome;
 
 /// Coils whose device reports what a test says of the requested currents.
-class ReportingDriver : public CoilDriver {
+class ReportingDriver : public actuation::CoilDriver {
  public:
   using Report = std::function<double(double current)>;
   explicit ReportingDriver(Report report = [](double current) { return current; })
       : reports_(std::move(report)) {}
-  Capabilities capabilities() const override { return {.channels = 6}; }
-  const DeviceReport& report() const override { return report_; }
-  DriveStatus drive(const CoilRequest& request) override {
+  actuation::Capabilities capabilities() const override { return {.channels = 6}; }
+  const actuation::DeviceReport& report() const override { return report_; }
+  actuation::DriveStatus drive(const actuation::CoilRequest& request) override {
     sent = std::get<std::span<const double>>(request)[0];
     most = std::max(most, std::abs(sent));
     std::ranges::transform(std::get<std::span<const double>>(request), report_.currents.begin(),
                            reports_);
-    return DriveStatus::driven;
+    return actuation::DriveStatus::driven;
   }
-  StopReport stop() noexcept override {
+  actuation::StopReport stop() noexcept override {
     sent = 0;
     return {.confirmed = confirms};
   }
@@ -43,7 +43,7 @@ class ReportingDriver : public CoilDriver {
 
  private:
   Report reports_;
-  DeviceReport report_{.currents = std::vector<double>(6)};
+  actuation::DeviceReport report_{.currents = std::vector<double>(6)};
 };
 
 /// Answers what a test says, once the currents have settled.
@@ -76,7 +76,7 @@ class MeasurementRuns : public testing::Test {
   Measurement measure(ReportingDriver& driver, Reader& reader, const Stop& stop = {}) {
     const Measurement made = measure_field(
         rig, driver, step, timing, reader, Eigen::VectorXd::Constant(6, 20),
-        [this](const CoilOutput&) { ++heard; }, stop);
+        [this](const actuation::CoilOutput&) { ++heard; }, stop);
     EXPECT_EQ(driver.sent, 0) << "the coils are at zero afterwards";
     return made;
   }
@@ -88,7 +88,7 @@ class MeasurementRuns : public testing::Test {
   test::Folder folder;
   Rig rig = test::coil_rig(folder, "[{}, {}, {}]");
   MeasurementTiming timing{.ramp = 0.05, .settle = 0.05, .hold = 0.3};
-  MeasurementStep step{Eigen::VectorXd::Zero(6), Eigen::Vector3d::Zero()};
+  actuation::MeasurementStep step{Eigen::VectorXd::Zero(6), Eigen::Vector3d::Zero()};
   int heard = 0;
 };
 
@@ -185,7 +185,8 @@ TEST_F(MeasurementRuns, AStopEndsIt) {
 }
 
 TEST_F(MeasurementRuns, AReadingOfTheOtherSignNamesItsAxis) {
-  Measurement made{.outcome = measured, .reading = FieldReading{}, .expected = Eigen::Vector3d{}};
+  Measurement made{
+      .outcome = measured, .reading = actuation::FieldReading{}, .expected = Eigen::Vector3d{}};
   *made.expected = {1, -4, 0.1};
   const auto axis = [&](double y) {
     made.reading->mean = {-1, y, -1};
@@ -203,16 +204,17 @@ TEST_F(MeasurementRuns, AReadingOfTheOtherSignNamesItsAxis) {
 }
 
 TEST_F(MeasurementRuns, MissingStepsComeInOrderAndAttemptsWithoutOneEnd) {
-  MeasurementLog log(folder / "measured.csv", rig.system.coil_names());
-  std::vector<MeasurementStep> steps(3, step);
+  actuation::MeasurementLog log(folder / "measured.csv", rig.system.coil_names());
+  std::vector<actuation::MeasurementStep> steps(3, step);
   for (int k = 0; k < 3; ++k) steps[static_cast<std::size_t>(k)].currents[0] = k;
   MeasurementRun run(steps, log);
   const auto is_next = [&](double current) {
     return run.next() && run.next()->currents[0] == current;
   };
   const auto read = [&] {
-    return Measurement{
-        .outcome = measured, .currents = run.next()->currents, .reading = FieldReading{}};
+    return Measurement{.outcome = measured,
+                       .currents = run.next()->currents,
+                       .reading = actuation::FieldReading{}};
   };
   EXPECT_TRUE(is_next(0));
   run.take(read(), false);
@@ -242,4 +244,4 @@ TEST_F(MeasurementRuns, MissingStepsComeInOrderAndAttemptsWithoutOneEnd) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::rig

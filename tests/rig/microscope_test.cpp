@@ -7,7 +7,7 @@
 
 #include "microswarm/core/maths/angles.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 std::shared_ptr<const Map> room() {
@@ -16,14 +16,14 @@ std::shared_ptr<const Map> room() {
       std::vector<Polygon>{{{{200, 50}, {300, 50}, {300, 150}, {200, 150}}, {}}});
 }
 
-MicroscopeParams plain() {
+MicroscopeParams plain_microscope() {
   MicroscopeParams p;
   p.um_per_px = 1;
   p.light_gradient = p.light_drift = p.noise = p.blur = 0;
   return p;
 }
 
-std::uint8_t grey_at(const Microscope& m, const Image& picture, Vec2 position) {
+std::uint8_t grey_at(const Microscope& m, const formats::Image& picture, Vec2 position) {
   const Vec2 at = m.scale().to_picture(position);
   return picture.pixels[picture.index(static_cast<int>(std::lround(at.x)),
                                       static_cast<int>(std::lround(at.y)))];
@@ -31,14 +31,14 @@ std::uint8_t grey_at(const Microscope& m, const Image& picture, Vec2 position) {
 
 TEST(Microscope, ShowsWallsObstaclesAndRobotsWhereTheyAre) {
   const auto map = room();
-  Microscope microscope(plain(), *map, 1, 0);
+  Microscope microscope(plain_microscope(), *map, 1, 0);
   EXPECT_EQ(microscope.width(), 400 + 2 * 16);
   EXPECT_EQ(microscope.height(), 200 + 2 * 16);
   const Snapshot world(map, 0,
                        {{.shape = Disc{{0, 100}, 20}},
                         {.shape = Polygon{{{100, 180}, {140, 180}, {140, 200}, {100, 200}}, {}}}});
   const std::vector<Vec2> robots{{50, 60}};
-  const Image& picture = microscope.look(world, std::nullopt, robots);
+  const formats::Image& picture = microscope.look(world, std::nullopt, robots);
   EXPECT_EQ(grey_at(microscope, picture, {0, 200}), 180);
   EXPECT_EQ(grey_at(microscope, picture, {250, 100}), 117);  // wall
   EXPECT_EQ(grey_at(microscope, picture, {-108, 60}), 117);  // beyond the map
@@ -51,8 +51,8 @@ TEST(Microscope, ShowsWallsObstaclesAndRobotsWhereTheyAre) {
 
 TEST(Microscope, TheSwarmIsADarkCloudOfItsRadius) {
   const auto map = room();
-  Microscope microscope(plain(), *map, 1, 0);
-  const Image& picture = microscope.look(Snapshot(map), SwarmPose{{{50, 150}, 0}, 40}, {});
+  Microscope microscope(plain_microscope(), *map, 1, 0);
+  const formats::Image& picture = microscope.look(Snapshot(map), SwarmPose{{{50, 150}, 0}, 40}, {});
   double sum = 0;
   double x = 0;
   double farthest = 0;
@@ -71,24 +71,24 @@ TEST(Microscope, TheSwarmIsADarkCloudOfItsRadius) {
 }
 
 TEST(Microscope, NoiseLightAndDriftAreAsAskedFor) {
-  MicroscopeParams p = plain();
+  MicroscopeParams p = plain_microscope();
   p.noise = 4;
   p.light_gradient = 0.2;
   p.light_drift = 0.1;
   p.light_period = 8;
   const auto map = std::make_shared<const Map>(Box{{0, 0}, {300, 200}}, std::vector<Polygon>{});
   Microscope microscope(p, *map, 1, 0);
-  const auto mean = [&](const Image& picture) {
+  const auto mean = [&](const formats::Image& picture) {
     double sum = 0;
     for (int row = 20; row < picture.height - 20; ++row)
       for (int column = 20; column < picture.width - 20; ++column)
         sum += picture.pixels[picture.index(column, row)];
     return sum / ((picture.height - 40) * (picture.width - 40));
   };
-  const Image first = microscope.look(Snapshot(map, 0), std::nullopt, {});
+  const formats::Image first = microscope.look(Snapshot(map, 0), std::nullopt, {});
   EXPECT_NEAR(mean(first), 180, 0.5);
   EXPECT_NEAR(mean(microscope.look(Snapshot(map, 2), std::nullopt, {})), 198, 0.5);
-  const Image& second = microscope.look(Snapshot(map, 4), std::nullopt, {});
+  const formats::Image& second = microscope.look(Snapshot(map, 4), std::nullopt, {});
   double squares = 0;
   for (int row = 20; row < first.height - 20; ++row)
     for (int column = 20; column < first.width - 20; ++column) {
@@ -115,4 +115,4 @@ TEST(Microscope, TheSameSeedGivesTheSamePicture) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::rig

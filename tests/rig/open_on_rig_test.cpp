@@ -6,7 +6,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "tests/files.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 namespace fs = std::filesystem;
@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 const fs::path shipped = fs::path(MICROSWARM_SOURCE_DIR) / "scenarios";
 const fs::path s_channel = shipped / "papers/drrt/s_channel.yaml";
 
-std::string hash_of(Session& session) {
+std::string hash_of(experiment::Session& session) {
   session.finish();
   return session.record().hash();
 }
@@ -39,11 +39,11 @@ TEST(OpenOnRig, TheTrialSelectsTheStreamsOfTheRigToo) {
 TEST(OpenOnRig, ValuesOfARigNeedARigAndRecordsNone) {
   EXPECT_THROW(open_on_rig(s_channel, {.rig_settings = {"drive_rate_hz=100"}}), InputError);
   const test::Folder folder;
-  const auto session = open_session(s_channel, {"time_limit_s=1"});
+  const auto session = experiment::open_session(s_channel, {"time_limit_s=1"});
   session->record_to(folder / "run.h5");
   EXPECT_TRUE(open_on_rig(folder / "run.h5", {})->is_playback());
   EXPECT_THROW(open_on_rig(folder / "run.h5", {.rig = "rig.yaml"}), InputError);
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::rig

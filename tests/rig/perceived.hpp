@@ -21,10 +21,12 @@ inline Box bounding_box(const Body& body) {
   return microswarm::bounding_box(std::get<Polygon>(body.shape));
 }
 
-inline CameraView session_view(const Microscope& m) { return {m.scale(), m.width(), m.height()}; }
+inline rig::CameraView session_view(const rig::Microscope& m) {
+  return {m.scale(), m.width(), m.height()};
+}
 
-inline PerceptionParams eye_params() {
-  PerceptionParams p;
+inline rig::PerceptionParams eye_params() {
+  rig::PerceptionParams p;
   p.edge = 1.5;
   p.scene.swarm.look.min_contrast = 80;
   p.scene.swarm.look.gap = 4;

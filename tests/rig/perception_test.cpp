@@ -13,7 +13,7 @@
 #include "microswarm/rig/simulation/microscope.hpp"
 #include "tests/rig/perceived.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 using test::channel;
@@ -177,7 +177,7 @@ TEST(RobotPerception, LosesNoneAtWallsAndInPiles) {
 }
 
 TEST(BodyNumbers, StayWithTheirBodies) {
-  BodyNumbers numbers(50);
+  navigation::BodyNumbers numbers(50);
   for (int i = 0; i < 100; ++i) {
     const double x = 10.0 * i;
     std::vector<Body> bodies{{.shape = Disc{{x, 0}, 10}}, {.shape = Disc{{1000 - x, 30}, 12}}};
@@ -229,7 +229,7 @@ TEST(BodyNumbers, AreThoseOfAllPairs) {
     const double reach = 30;
     const std::size_t count = 50 + rng.below(400);
     const double size = rng.uniform(300, 2000);
-    BodyNumbers fast(reach);
+    navigation::BodyNumbers fast(reach);
     NumbersOfAllPairs slow(reach);
     std::vector<Vec2> positions;
     for (std::size_t i = 0; i < count; ++i)
@@ -246,4 +246,4 @@ TEST(BodyNumbers, AreThoseOfAllPairs) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -12,7 +12,7 @@
 #include "tests/messages.hpp"
 #include "tests/rig/coil_rig.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 constexpr const char* limited =
@@ -21,29 +21,29 @@ constexpr const char* limited =
     " {max_current_a: 9, max_voltage_v: 40, max_temperature_degc: 90}]";
 
 /// Gives these answers and then says that it is enough.
-class AnsweringDriver : public CoilDriver {
+class AnsweringDriver : public actuation::CoilDriver {
  public:
-  AnsweringDriver(std::vector<DriveStatus> answers, bool stops)
+  AnsweringDriver(std::vector<actuation::DriveStatus> answers, bool stops)
       : answers_(answers), stops_(stops) {}
-  Capabilities capabilities() const override { return {.channels = 6}; }
-  const DeviceReport& report() const override { return report_; }
-  DriveStatus drive(const CoilRequest& request) override {
+  actuation::Capabilities capabilities() const override { return {.channels = 6}; }
+  const actuation::DeviceReport& report() const override { return report_; }
+  actuation::DriveStatus drive(const actuation::CoilRequest& request) override {
     const auto currents = std::get<std::span<const double>>(request);
     EXPECT_EQ(currents.size(), 6u);
     EXPECT_TRUE(std::ranges::all_of(currents, [](double i) { return i == 0; }));
-    const DriveStatus answer = answers_[given++];
+    const actuation::DriveStatus answer = answers_[given++];
     if (given == answers_.size()) enough = true;
     return answer;
   }
-  StopReport stop() noexcept override { return {.confirmed = stops_}; }
+  actuation::StopReport stop() noexcept override { return {.confirmed = stops_}; }
 
   std::size_t given = 0;
   std::atomic<bool> enough = false;
 
  private:
-  std::vector<DriveStatus> answers_;
+  std::vector<actuation::DriveStatus> answers_;
   bool stops_;
-  DeviceReport report_{.currents = std::vector<double>(6)};
+  actuation::DeviceReport report_{.currents = std::vector<double>(6)};
 };
 
 class RigChecks : public testing::Test {
@@ -65,7 +65,7 @@ class RigChecks : public testing::Test {
       return text;
     }
   };
-  Driven exchange(std::vector<DriveStatus> answers, bool stops = true) const {
+  Driven exchange(std::vector<actuation::DriveStatus> answers, bool stops = true) const {
     AnsweringDriver driver(std::move(answers), stops);
     Driven out;
     out.checks = check_driver(driver, test::coil_rig(folder, limited), 1e6, Stop(&driver.enough));
@@ -104,7 +104,7 @@ TEST_F(RigChecks, MissingLimitsAreNamed) {
   EXPECT_TRUE(test::names(text("{}"), "the current and the temperature"));
 }
 
-using enum DriveStatus;
+using enum actuation::DriveStatus;
 
 TEST_F(RigChecks, ADriverThatAnswersIsGood) {
   const Driven all = exchange({driven, driven, scaled});
@@ -124,7 +124,8 @@ TEST_F(RigChecks, AMissedAnswerIsNoted) {
 TEST_F(RigChecks, ADriverThatIsGoneIsAskedNoMore) {
   EXPECT_EQ(exchange({driven, gone, driven}).given, 2u);
   EXPECT_EQ(exchange({no_answer, no_answer, no_answer, driven}).given, 3u);
-  for (const DriveStatus trouble : {refused, not_armed, emergency, mismatched, gone, resumed})
+  for (const actuation::DriveStatus trouble :
+       {refused, not_armed, emergency, mismatched, gone, resumed})
     EXPECT_FALSE(exchange({driven, trouble, driven}).good("driver")) << to_string(trouble);
 }
 
@@ -145,4 +146,4 @@ TEST_F(RigChecks, QuantilesOfTimesAreRoundedUpByAPercentAtMost) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -8,7 +8,7 @@
 
 #include "tests/files.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 class RigComparison : public testing::Test {
@@ -33,7 +33,7 @@ TEST_F(RigComparison, ItsTrialsAreThoseOfTheTwoSimulationsAtAnyNumberOfThreads) 
   for (int k = 0; k < 2; ++k) {
     const ComparedTrial& both = one[static_cast<std::size_t>(k)];
     EXPECT_EQ(both.trial, k);
-    const RunResult plain =
+    const experiment::RunResult plain =
         simulate(on_.scenario(), on_.experiment.world, {.trial = static_cast<std::uint32_t>(k)});
     EXPECT_EQ(both.kinematic.metrics.time, plain.metrics.time);
     EXPECT_EQ(both.rig.metrics.time, two[static_cast<std::size_t>(k)].rig.metrics.time);
@@ -70,4 +70,4 @@ TEST(RunSummary, CountsArrivalsAndTakesTheMedianOfTheirTimes) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::rig

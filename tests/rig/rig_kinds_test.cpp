@@ -6,7 +6,7 @@
 #include "microswarm/rig/runtime/devices.hpp"
 #include "tests/files.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 using test::Folder;
@@ -47,7 +47,7 @@ TEST_F(RigKinds, ChannelsAndFullScaleAreTheDrivers) {
     return channel_count(r.params, r.system);
   };
   EXPECT_EQ(channels("{type: simulated, channels: 9}"), 9);
-  EXPECT_EQ(channels(device_drivers[0]), coil_link_channels);
+  EXPECT_EQ(channels(device_drivers[0]), actuation::coil_link_channels);
   EXPECT_EQ(channels(device_drivers[1]), 3);  // one for each coil
   EXPECT_EQ(channels("{type: socket, channels: 5}"), 5);
   EXPECT_EQ(driver_full_scale(rig("{type: program, command: [a], full_scale_a: 7}").params), 7);
@@ -55,13 +55,13 @@ TEST_F(RigKinds, ChannelsAndFullScaleAreTheDrivers) {
 
 TEST_F(RigKinds, WhoTurnsTheFieldAndWhoTakesIt) {
   const auto input = [&](const std::string& driver) { return coil_input(rig(driver).params); };
-  EXPECT_EQ(input("{type: simulated, waveforms: true}"), CoilInput::waveform);
-  EXPECT_EQ(input("{type: serial, waveforms: true}"), CoilInput::waveform);
-  EXPECT_EQ(input("{type: program, command: [a], send: field}"), CoilInput::field);
-  EXPECT_EQ(input("{type: socket, send: field}"), CoilInput::field);
-  EXPECT_EQ(input("{type: simulated}"), CoilInput::currents);
+  EXPECT_EQ(input("{type: simulated, waveforms: true}"), actuation::CoilInput::waveform);
+  EXPECT_EQ(input("{type: serial, waveforms: true}"), actuation::CoilInput::waveform);
+  EXPECT_EQ(input("{type: program, command: [a], send: field}"), actuation::CoilInput::field);
+  EXPECT_EQ(input("{type: socket, send: field}"), actuation::CoilInput::field);
+  EXPECT_EQ(input("{type: simulated}"), actuation::CoilInput::currents);
   for (const std::string& driver : device_drivers)
-    EXPECT_EQ(input(driver), CoilInput::currents) << driver;
+    EXPECT_EQ(input(driver), actuation::CoilInput::currents) << driver;
 }
 
 TEST_F(RigKinds, CamerasAreSimulatedDevicesOrVideos) {
@@ -86,4 +86,4 @@ TEST_F(RigKinds, CamerasAreSimulatedDevicesOrVideos) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -10,7 +10,7 @@
 #include "tests/files.hpp"
 #include "tests/runs.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 namespace fs = std::filesystem;
@@ -21,29 +21,30 @@ const fs::path scenarios = fs::path(MICROSWARM_SOURCE_DIR) / "scenarios";
 const std::vector<std::string> coarse{"camera.type=simulated", "camera.microscope.um_per_px=3"};
 
 struct Rehearsal {
-  Scene scene;
+  experiment::Scene scene;
   World world;
   Rig rig;
 
   Rehearsal(const std::string& scenario, const std::string& rig_name,
             const std::vector<std::string>& rig_settings = {},
             const std::vector<std::string>& settings = {})
-      : scene(load_scene(read_scenario(scenarios / scenario, settings),
-                         (scenarios / scenario).parent_path())),
-        world(build_world(scene)),
+      : scene(experiment::load_scene(experiment::read_scenario(scenarios / scenario, settings),
+                                     (scenarios / scenario).parent_path())),
+        world(experiment::build_world(scene)),
         rig(read_rig(scenarios / "rigs" / rig_name, rig_settings)) {}
 
-  RunResult in_rig(SimulatedRig& plant, std::span<RunListener* const> listeners = {}) const {
-    const Scenario& s = scene.scenario;
-    const auto navigator =
-        make_navigator(s.navigator, navigation_task(s), Rng(s.seed, Purpose::planner, 0));
+  experiment::RunResult in_rig(SimulatedRig& plant,
+                               std::span<experiment::RunListener* const> listeners = {}) const {
+    const experiment::Scenario& s = scene.scenario;
+    const auto navigator = navigation::make_navigator(s.navigator, experiment::navigation_task(s),
+                                                      Rng(s.seed, Purpose::planner, 0));
     return test::run(s, plant, *navigator, listeners);
   }
-  RunResult in_rig() const {
+  experiment::RunResult in_rig() const {
     SimulatedRig plant(scene.scenario, world, rig);
     return in_rig(plant);
   }
-  RunResult without() const { return simulate(scene.scenario, world); }
+  experiment::RunResult without() const { return experiment::simulate(scene.scenario, world); }
 };
 
 struct Pair {
@@ -56,13 +57,13 @@ class Rehearsals : public testing::TestWithParam<Pair> {};
 
 TEST_P(Rehearsals, TheGoalIsReachedAboutAsFast) {
   const Rehearsal r(GetParam().scenario, GetParam().rig, GetParam().rig_settings);
-  const RunResult plain = r.without();
-  const RunResult whole = r.in_rig();
+  const experiment::RunResult plain = r.without();
+  const experiment::RunResult whole = r.in_rig();
   EXPECT_EQ(plain.status, Status::solved);
   EXPECT_EQ(whole.status, Status::solved);
   EXPECT_LT(whole.metrics.time, 1.35 * plain.metrics.time);
   EXPECT_EQ(whole.metrics.contacts, 0);
-  const double margin = required_clearance(r.scene.scenario.navigator);
+  const double margin = navigation::required_clearance(r.scene.scenario.navigator);
   EXPECT_GE(plain.metrics.obstacles.clearance, margin);
   EXPECT_GE(whole.metrics.obstacles.clearance, margin);
 }
@@ -80,9 +81,11 @@ INSTANTIATE_TEST_SUITE_P(Scenarios, Rehearsals,
                          });
 
 /// Counts the ticks in which the swarm waits for a valve.
-class Waits : public RunListener {
+class Waits : public experiment::RunListener {
  public:
-  void on_tick(const Tick& tick) override { count += tick.frame.state == NavigatorState::wait; }
+  void on_tick(const experiment::Tick& tick) override {
+    count += tick.frame.state == NavigatorState::wait;
+  }
   int count = 0;
 };
 
@@ -94,8 +97,8 @@ TEST(SimulatedRig, ItWaitsForAValveThatTheCameraSees) {
                      "navigator.global_plan=false"});
   SimulatedRig plant(r.scene.scenario, r.world, r.rig);
   Waits waits;
-  RunListener* const listener = &waits;
-  const RunResult result = r.in_rig(plant, std::span(&listener, 1));
+  experiment::RunListener* const listener = &waits;
+  const experiment::RunResult result = r.in_rig(plant, std::span(&listener, 1));
   EXPECT_EQ(result.status, Status::solved);
   EXPECT_EQ(result.metrics.contacts, 0);
   EXPECT_GT(waits.count * r.scene.scenario.tick, 10);  // [s]
@@ -121,10 +124,10 @@ TEST(SimulatedRig, LimitsOfTheCoilsSlowItDown) {
   SimulatedRig free(r.scene.scenario, r.world, r.rig);
   r.in_rig(free);
   EXPECT_EQ(free.coils().scale, 1);
-  CoilSystemParams weak;
-  weak.coils = HelmholtzCoils{};
-  weak.amplifiers = {AmplifierParams{.max_current = 0.01}};
-  const Rig rig{r.rig.params, CoilSystem(weak)};
+  actuation::CoilSystemParams weak;
+  weak.coils = actuation::HelmholtzCoils{};
+  weak.amplifiers = {actuation::AmplifierParams{.max_current = 0.01}};
+  const Rig rig{r.rig.params, actuation::CoilSystem(weak)};
   SimulatedRig weakened(r.scene.scenario, r.world, rig);
   const Vec2 start = r.scene.scenario.start->position;
   r.in_rig(weakened);
@@ -172,9 +175,10 @@ TEST(SimulatedRig, ANamedDeviceIsSimulatedLikeItAndNotOpened) {
       {"camera.type=simulated", "camera.microscope.um_per_px=6", "driver.port=/dev/none"});
   const auto coils = simulated_coils(r.rig);
   EXPECT_EQ(coils->capabilities().channels, 6);
-  EXPECT_EQ(coils->capabilities().input, CoilInput::waveform);
-  EXPECT_EQ(coils->drive(std::vector<double>{10, 0, 0, 0, 0, 0}), DriveStatus::driven);
-  EXPECT_EQ(coils->drive(std::vector<double>{10.1, 0, 0, 0, 0, 0}), DriveStatus::refused);
+  EXPECT_EQ(coils->capabilities().input, actuation::CoilInput::waveform);
+  EXPECT_EQ(coils->drive(std::vector<double>{10, 0, 0, 0, 0, 0}), actuation::DriveStatus::driven);
+  EXPECT_EQ(coils->drive(std::vector<double>{10.1, 0, 0, 0, 0, 0}),
+            actuation::DriveStatus::refused);
   EXPECT_EQ(r.in_rig().status, Status::solved);
 }
 
@@ -220,4 +224,4 @@ TEST(SimulatedRig, AFieldThatTurnsTooSlowlyIsNoted) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::rig

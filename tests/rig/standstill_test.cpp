@@ -5,7 +5,7 @@
 
 #include "tests/messages.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 constexpr double for_ever = 1e9;  // [s] that a pass may take
@@ -29,4 +29,4 @@ TEST(Standstill, TimeBeyondWhatWasMeantIsOne) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -15,7 +15,7 @@
 #include "microswarm/rig/simulation/microscope.hpp"
 #include "tests/rig/perceived.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 using test::channel;
@@ -95,14 +95,15 @@ TEST(SwarmPerception, LeavesOfAValveAreOneObstacle) {
                        Still{{700, 450}, 0}};
   SwarmPerception perception(eye_params(), {.max_speed = 100}, *map, {{200, 300}, 0},
                              session_view(microscope), std::span(&valve, 1));
-  const WaitZone zone{.centre = {700, 450}, .width = 400, .height = 700, .min_gap = 200};
-  const Waiting swarm{{560, 450}, 50, 75, {1100, 450}};
+  const navigation::WaitZone zone{
+      .centre = {700, 450}, .width = 400, .height = 700, .min_gap = 200};
+  const navigation::Waiting swarm{{560, 450}, 50, 75, {1100, 450}};
   int waits = 0;
   for (int i = 0; i < 120; ++i) {
     const double t = 0.1 * i;
     std::vector<Body> bodies;
     append_bodies(valve, 0, t, bodies);
-    const double gap = gap_between(bodies[0], bodies[1]);
+    const double gap = navigation::gap_between(bodies[0], bodies[1]);
     bodies.push_back({.shape = Disc{{700 + 30 * t, 300}, 40}, .obstacle = 1});
     const Detections& seen = perception.process(
         microscope.look(Snapshot(map, t, bodies), SwarmPose{{{200, 300}, 0}, 50}, {}), t);
@@ -110,11 +111,12 @@ TEST(SwarmPerception, LeavesOfAValveAreOneObstacle) {
     if (t > 4) {  // the disc is out of the valve's way
       ASSERT_EQ(std::ranges::count_if(seen.moving, leaf), 2) << t;
       EXPECT_GT(test::bounding_box(seen.moving[seen.moving.size() - 2]).centre().y, 450) << t;
-      EXPECT_NEAR(gap_between(seen.moving.end()[-2], seen.moving.end()[-1]), gap, 15) << t;
+      EXPECT_NEAR(navigation::gap_between(seen.moving.end()[-2], seen.moving.end()[-1]), gap, 15)
+          << t;
       if (std::abs(gap - zone.min_gap) > 15) {
-        EXPECT_EQ(must_wait(zone, seen.moving, swarm), gap < zone.min_gap) << t;
+        EXPECT_EQ(navigation::must_wait(zone, seen.moving, swarm), gap < zone.min_gap) << t;
       }
-      waits += must_wait(zone, seen.moving, swarm);
+      waits += navigation::must_wait(zone, seen.moving, swarm);
     }
     for (const Body& body : seen.moving)
       if (std::holds_alternative<Disc>(body.shape)) {
@@ -172,7 +174,7 @@ TEST(SwarmPerception, SaysWhyThereIsNone) {
   const Detections& empty = perception.process(microscope.look(Snapshot(map), std::nullopt, {}), 0);
   EXPECT_FALSE(empty.swarm);
   EXPECT_EQ(empty.not_found, NotFound::none);
-  Image black = microscope.look(Snapshot(map), std::nullopt, {});
+  formats::Image black = microscope.look(Snapshot(map), std::nullopt, {});
   std::fill(black.pixels.begin(), black.pixels.end(), std::uint8_t{0});
   EXPECT_FALSE(perception.process(black, 0.1).swarm);
 }
@@ -182,8 +184,8 @@ TEST(SwarmPerception, TwoSwarmsAreNotGuessedBetween) {
   Microscope microscope({}, *map, 1, 0);
   SwarmPerception perception(eye_params(), {.max_speed = 100}, *map, {{300, 400}, 0},
                              session_view(microscope));
-  Image both = microscope.look(Snapshot(map), SwarmPose{{{260, 400}, 0}, 30}, {});
-  const Image right = microscope.look(Snapshot(map), SwarmPose{{{340, 400}, 0}, 30}, {});
+  formats::Image both = microscope.look(Snapshot(map), SwarmPose{{{260, 400}, 0}, 30}, {});
+  const formats::Image right = microscope.look(Snapshot(map), SwarmPose{{{340, 400}, 0}, 30}, {});
   for (std::size_t i = 0; i < both.pixels.size(); ++i)
     both.pixels[i] = std::min(both.pixels[i], right.pixels[i]);
   const Detections& seen = perception.process(both, 0);
@@ -233,7 +235,7 @@ TEST(SwarmPerception, WhatIsOfAnotherSizeIsNotTheSwarm) {
 }
 
 /// Darkens a disc of a picture, without texture.
-void stain(Image& picture, Vec2 at_px, double radius, double share) {
+void stain(formats::Image& picture, Vec2 at_px, double radius, double share) {
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x)
       if (distance(at_px, Vec2{1.0 * x, 1.0 * y}) < radius) {
@@ -247,13 +249,13 @@ struct Smooth {
   std::shared_ptr<const Map> map = channel();
   Microscope microscope{{}, *map, 1, 0};
   PerceptionParams params = eye_params();
-  CameraScale scale = microscope.scale();
+  vision::CameraScale scale = microscope.scale();
   SwarmPerception perception{
       params, {.radius = 60, .max_speed = 40}, *map, {{300, 400}, 0}, session_view(microscope)};
   double t = 0;
 
   const Detections& see(const std::vector<Disc>& discs) {
-    Image picture = microscope.look(Snapshot(map, t += 0.1), std::nullopt, {});
+    formats::Image picture = microscope.look(Snapshot(map, t += 0.1), std::nullopt, {});
     for (const Disc& disc : discs)
       stain(picture, scale.to_picture(disc.centre), disc.radius / scale.um_per_px, 0.4);
     return perception.process(picture, t);
@@ -287,8 +289,8 @@ TEST(SwarmPerception, ASmoothBodyElsewhereOrOfAnotherSizeIsNoSwarm) {
 
 TEST(SwarmPerception, ASmoothBodyIsNeverTakenForASwarmThatHadTexture) {
   Followed f;
-  Image picture = f.microscope.look(Snapshot(f.map), std::nullopt, {});
-  const CameraScale scale = f.microscope.scale();
+  formats::Image picture = f.microscope.look(Snapshot(f.map), std::nullopt, {});
+  const vision::CameraScale scale = f.microscope.scale();
   stain(picture, scale.to_picture(f.position), 60 / scale.um_per_px, 0.4);
   const Detections& seen = f.perception.process(picture, f.t + 0.1);
   EXPECT_FALSE(seen.swarm);
@@ -297,10 +299,10 @@ TEST(SwarmPerception, ASmoothBodyIsNeverTakenForASwarmThatHadTexture) {
 }
 
 /// A picture of two swarms.
-Image both(Microscope& microscope, const std::shared_ptr<const Map>& map, const SwarmPose& a,
-           const SwarmPose& b) {
-  Image picture = microscope.look(Snapshot(map), a, {});
-  const Image other = microscope.look(Snapshot(map), b, {});
+formats::Image both(Microscope& microscope, const std::shared_ptr<const Map>& map,
+                    const SwarmPose& a, const SwarmPose& b) {
+  formats::Image picture = microscope.look(Snapshot(map), a, {});
+  const formats::Image other = microscope.look(Snapshot(map), b, {});
   for (std::size_t i = 0; i < picture.pixels.size(); ++i)
     picture.pixels[i] = std::min(picture.pixels[i], other.pixels[i]);
   return picture;
@@ -309,8 +311,8 @@ Image both(Microscope& microscope, const std::shared_ptr<const Map>& map, const 
 TEST(SwarmPerception, ASplitIsToldWithItsParts) {
   for (const auto& [left, right] : {std::pair{43.0, 42.0}, {48.0, 34.0}}) {
     Followed f;
-    const Image picture = both(f.microscope, f.map, {{f.position - Vec2{60, 0}, 0}, left},
-                               {{f.position + Vec2{60, 0}, 0}, right});
+    const formats::Image picture = both(f.microscope, f.map, {{f.position - Vec2{60, 0}, 0}, left},
+                                        {{f.position + Vec2{60, 0}, 0}, right});
     const Detections& seen = f.perception.process(picture, f.t + 0.1);
     EXPECT_FALSE(seen.swarm);
     EXPECT_EQ(seen.not_found, NotFound::split);
@@ -385,4 +387,4 @@ TEST(FollowAngle, IsThatOfTheSeenWay) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::rig

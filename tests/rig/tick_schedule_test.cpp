@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 /// The ticks of a schedule that is driven as a rig drives it.
@@ -105,4 +105,4 @@ TEST(TickSchedule, AfterAMissedDeadlineTheNextTickIsDueAtOnce) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::rig

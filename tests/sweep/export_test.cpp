@@ -13,7 +13,7 @@
 #include "tests/messages.hpp"
 #include "tests/sweep/sweeps.hpp"
 
-namespace microswarm {
+namespace microswarm::sweep {
 namespace {
 
 /// A Python that has the module, or nothing.
@@ -139,7 +139,7 @@ TEST_F(SweepExport, TrialsThatAreMissingAreNotInTheLogs) {
   ASSERT_EQ(logs.size(), 3u);
   EXPECT_EQ(logs[0].first, "00001.log");
   EXPECT_NE(logs[0].second.find("\n1 planners\nroute\n"), std::string::npos);
-  const auto partial = empty_folder("partial_logs");
+  const auto partial = experiment::empty_folder("partial_logs");
   EXPECT_TRUE(python("re", "ompl_grammar.py" + write_logs(SweepReader(file), partial)));
 }
 
@@ -174,10 +174,10 @@ TEST_F(SweepExport, WhatAKilledWriterLeftHalfDoneIsUndone) {
 }
 
 struct DatabaseFile : testing::Test {
-  std::filesystem::path file = empty_folder("database") / "a.db";
+  std::filesystem::path file = experiment::empty_folder("database") / "a.db";
   void SetUp() override { std::ofstream(file).close(); }
   std::string refused(const std::string& sql, Database::Access access = Database::Access::write) {
-    const std::string what = error_of([&] { Database(file, access).run(sql); });
+    const std::string what = experiment::error_of([&] { Database(file, access).run(sql); });
     EXPECT_EQ(std::count(what.begin(), what.end(), '\n'), 0) << what;
     return what.substr(std::min(what.size(), file.string().size() + 2));
   }
@@ -205,7 +205,7 @@ TEST_F(DatabaseFile, ATransactionThatThrowsIsUndone) {
       database.run("INSERT INTO none VALUES(1)");
     });
   };
-  EXPECT_EQ(error_of(fails), file.string() + ": no such table: none");
+  EXPECT_EQ(experiment::error_of(fails), file.string() + ": no such table: none");
   EXPECT_EQ(database.number("SELECT count(*) FROM t"), 0);
   database.transaction([&] { database.run("INSERT INTO t VALUES(1)"); });
   EXPECT_EQ(database.number("SELECT count(*) FROM t"), 1);
@@ -264,22 +264,22 @@ TEST_F(SweepExport, AViewInPlaceOfTheTrialsIsRefused) {
     database.run("ALTER TABLE trials RENAME TO others");
     database.run("CREATE VIEW trials AS SELECT * FROM others");
   }
-  EXPECT_TRUE(test::is_one_line_naming(error_of([&] { SweepReader reader(file); }), file.string(),
-                                       {"trials", "no table"}));
+  EXPECT_TRUE(test::is_one_line_naming(experiment::error_of([&] { SweepReader reader(file); }),
+                                       file.string(), {"trials", "no table"}));
 }
 
 TEST(RecordExport, TablesAsCsv) {
-  const Record record = record_of(small_flight());
+  const experiment::Record record = experiment::record_of(experiment::small_flight());
   const std::string frames = record_csv(record, "frames");
   EXPECT_TRUE(frames.starts_with("t_s,x_um,y_um,heading_rad,")) << frames.substr(0, 100);
   EXPECT_EQ(static_cast<std::size_t>(std::count(frames.begin(), frames.end(), '\n')),
             record.frames.size() + 1);
   EXPECT_TRUE(record_csv(record, "paths/points").starts_with("row,x_um,y_um\n0,"));
   EXPECT_TRUE(record_csv(record, "events").starts_with("t_s,kind,"));
-  EXPECT_TRUE(error_of([&] {
+  EXPECT_TRUE(experiment::error_of([&] {
                 record_csv(record, "frame");
               }).starts_with("the record has no table 'frame', only frames, paths, "));
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::sweep

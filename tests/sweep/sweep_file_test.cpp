@@ -10,11 +10,11 @@
 #include "microswarm/experiment/trials.hpp"
 #include "microswarm/sweep/worker_pool.hpp"
 
-namespace microswarm {
+namespace microswarm::sweep {
 namespace {
 
 std::string complaint(const std::string& text) {
-  return error_of([&] { read_sweep_text(text, "s.yaml"); });
+  return experiment::error_of([&] { read_sweep_text(text, "s.yaml"); });
 }
 
 TEST(SweepFile, SaysWhatIsWrongInOneLine) {
@@ -65,7 +65,7 @@ TEST(SweepPlan, CellsAreTheCrossProduct) {
   EXPECT_EQ(plan.cells[1].method, "route");
   EXPECT_EQ(plan.cells[2].values, (std::vector<std::string>{"60", "[800, 600]"}));
   EXPECT_EQ(plan.cells[7].values, (std::vector<std::string>{"90.5", "[800, 600]"}));
-  EXPECT_EQ(required_clearance(plan.cells[7].scenario.navigator), 90.5);
+  EXPECT_EQ(navigation::required_clearance(plan.cells[7].scenario.navigator), 90.5);
   EXPECT_EQ(plan.cells[7].scenario.time_limit, 20);
   EXPECT_EQ(plan.cells[7].scenario.seed, 7u);
   EXPECT_EQ(plan.cells[0].world.map, plan.cells[7].world.map);
@@ -92,7 +92,7 @@ TEST(SweepPlan, BadSettingsNameWhereTheyStand) {
     text.replace(text.find(from), from.size(), to);
     const auto folder = sweep_folder("sweep_bad", text);
     const std::string file = (folder / "sweep.yaml").string();
-    const std::string what = error_of([&] { check(load_sweep(file, 2), 2); });
+    const std::string what = experiment::error_of([&] { check(load_sweep(file, 2), 2); });
     return what.starts_with(file + ": ") ? what.substr(file.size() + 2) : "elsewhere: " + what;
   };
   EXPECT_EQ(refused("navigator.clearance_um", "navigator.magrin_um"),
@@ -117,12 +117,12 @@ TEST(SweepPlan, FormerKeysAreNotedOnceAndAreNoSecondParameter) {
   const SweepPlan plan = load_sweep(folder / "sweep.yaml", 2);
   EXPECT_EQ(plan.notes,
             Notes{file + ": grid: navigator.margin_um: is now 'navigator.clearance_um'"});
-  EXPECT_EQ(required_clearance(plan.cells[7].scenario.navigator), 90.5);
+  EXPECT_EQ(navigation::required_clearance(plan.cells[7].scenario.navigator), 90.5);
 
   const std::string goal = "key: goal_um, values: [\"[700, 500]\", \"[800, 600]\"]";
   text.replace(text.find(goal), goal.size(), "key: navigator.clearance_um, values: [50]");
   const auto both = sweep_folder("sweep_both", text);
-  EXPECT_EQ(error_of([&] { load_sweep(both / "sweep.yaml", 2); }),
+  EXPECT_EQ(experiment::error_of([&] { load_sweep(both / "sweep.yaml", 2); }),
             (both / "sweep.yaml").string() +
                 ": 'navigator.clearance_um' is varied by the grid and set a second time, in the "
                 "grid, in 'set' or by method 'straight on'");
@@ -133,7 +133,7 @@ TEST(SweepPlan, AKeyOfTheGridIsNotSetElsewhere) {
     std::string text = sweep_text();
     text.replace(text.find(from), from.size(), to);
     const auto folder = sweep_folder("sweep_twice", text);
-    return error_of([&] { load_sweep(folder / "sweep.yaml", 2); });
+    return experiment::error_of([&] { load_sweep(folder / "sweep.yaml", 2); });
   };
   EXPECT_NE(refused("navigator.guide=straight", "navigator.clearance_um=77")
                 .find("'navigator.clearance_um' is varied by the grid"),
@@ -146,7 +146,7 @@ TEST(SweepPlan, AsPublishedBesideAKeyOfOursIsRefused) {
     const std::string from = "navigator.guide=straight";
     text.replace(text.find(from), from.size(), set);
     const auto folder = sweep_folder("sweep_published", text);
-    return error_of([&] { check(load_sweep(folder / "sweep.yaml", 2), 2); });
+    return experiment::error_of([&] { check(load_sweep(folder / "sweep.yaml", 2), 2); });
   };
   const std::string published = "\"navigator={type: hierarchical_drrt_star, as_published: true";
   EXPECT_EQ(refused(published + "}\""), "");
@@ -160,7 +160,8 @@ TEST(SweepPlan, AsPublishedBesideAKeyOfOursIsRefused) {
 TEST(SweepPlan, ATrialIsTheTrialOfRun) {
   const auto folder = sweep_folder("sweep_trial", sweep_text());
   const SweepPlan plan = load_sweep(folder / "sweep.yaml", 1);
-  const auto trials = run_trials(plan.cells[3].scenario, plan.cells[3].world, {.trials = 3});
+  const auto trials =
+      experiment::run_trials(plan.cells[3].scenario, plan.cells[3].world, {.trials = 3});
   for (std::uint32_t trial = 0; trial < 3; ++trial)
     EXPECT_EQ(run_task(plan, {3, trial}).hash, trials[trial].hash);
 }
@@ -228,20 +229,20 @@ TEST(SweepMessage, NumbersKeepEveryBit) {
 TEST(SweepMessage, MalformedBytesAreRefused) {
   const std::string bytes = to_bytes(some_message());
   for (std::size_t size = 0; size < bytes.size(); ++size)
-    EXPECT_EQ(error_of([&] { parse_message(bytes.substr(0, size)); }),
+    EXPECT_EQ(experiment::error_of([&] { parse_message(bytes.substr(0, size)); }),
               fmt::format("mpirun: malformed message of {} bytes", size));
-  EXPECT_NE(error_of([&] { parse_message(bytes + '\0'); }), "");
+  EXPECT_NE(experiment::error_of([&] { parse_message(bytes + '\0'); }), "");
   for (std::size_t at = 0; at < bytes.size(); ++at)
     for (int value = 0; value < 256; ++value) {
       std::string changed = bytes;
       changed[at] = static_cast<char>(value);
-      error_of([&] { parse_message(changed); });  // an InputError or a message
+      experiment::error_of([&] { parse_message(changed); });  // an InputError or a message
     }
   std::string unknown = to_bytes({});
   unknown[1] = 7;
-  EXPECT_EQ(error_of([&] { parse_message(unknown); }),
+  EXPECT_EQ(experiment::error_of([&] { parse_message(unknown); }),
             fmt::format("mpirun: malformed message of {} bytes", unknown.size()));
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::sweep

@@ -6,7 +6,7 @@
 
 #include "tests/sweep/sweeps.hpp"
 
-namespace microswarm {
+namespace microswarm::sweep {
 namespace {
 
 TEST(Sweep, RowsAreTheSameForAnyNumberOfThreads) {
@@ -54,7 +54,7 @@ TEST(Sweep, OneWriterAtATime) {
   const std::string file = (folder / "one.db").string();
   {
     const SweepDatabase first(file, plan, {});
-    EXPECT_EQ(error_of([&] { SweepDatabase(file, plan, {}); }),
+    EXPECT_EQ(experiment::error_of([&] { SweepDatabase(file, plan, {}); }),
               file + ": another sweep is writing to it");
     EXPECT_EQ(SweepReader(file).trials(), 0u);
   }
@@ -66,7 +66,7 @@ TEST(Sweep, OnAChangedInputIsRefused) {
   const std::string file = (folder / "one.db").string();
   run_alone(load_sweep(folder / "sweep.yaml", 1), file, 1);
   const auto refused = [&] {
-    return error_of([&] { run_alone(load_sweep(folder / "sweep.yaml", 1), file, 1); });
+    return experiment::error_of([&] { run_alone(load_sweep(folder / "sweep.yaml", 1), file, 1); });
   };
   const auto line = [&](const std::string& what) {
     return file + ": was begun with another " + what +
@@ -76,22 +76,23 @@ TEST(Sweep, OnAChangedInputIsRefused) {
   EXPECT_EQ(refused(), line("sweep file"));
   write_file_atomically(folder / "sweep.yaml", "# the same\n" + sweep_text(1));
   EXPECT_EQ(refused(), "");
-  Scenario scenario = small_flight();
+  experiment::Scenario scenario = experiment::small_flight();
   std::get<RibbonParams>(scenario.swarm).max_speed += 1;
-  write_file_atomically(folder / "flight.yaml", scenario_text(scenario));
+  write_file_atomically(folder / "flight.yaml", experiment::scenario_text(scenario));
   EXPECT_EQ(refused(), line("scenario"));
 }
 
 TEST(Sweep, OnAChangedMapIsRefused) {
-  Scenario scenario = small_flight();
-  scenario.map = RectanglesMap{.lo = Vec2{0, 0}, .hi = Vec2{2000, 1000}, .file = "walls.csv"};
+  experiment::Scenario scenario = experiment::small_flight();
+  scenario.map =
+      formats::RectanglesMap{.lo = Vec2{0, 0}, .hi = Vec2{2000, 1000}, .file = "walls.csv"};
   const auto folder = sweep_folder("sweep_map", sweep_text(1));
-  write_file_atomically(folder / "flight.yaml", scenario_text(scenario));
+  write_file_atomically(folder / "flight.yaml", experiment::scenario_text(scenario));
   write_file_atomically(folder / "walls.csv", "950,0,100,450\n");
   const std::string file = (folder / "one.db").string();
   run_alone(load_sweep(folder / "sweep.yaml", 1), file, 1);
   write_file_atomically(folder / "walls.csv", "950,0,100,440\n");
-  EXPECT_EQ(error_of([&] { run_alone(load_sweep(folder / "sweep.yaml", 1), file, 1); }),
+  EXPECT_EQ(experiment::error_of([&] { run_alone(load_sweep(folder / "sweep.yaml", 1), file, 1); }),
             file +
                 ": was begun with another map, track or program: go on with that one, or give "
                 "another database with --out");
@@ -101,7 +102,7 @@ TEST(Sweep, WhatIsNoDatabaseOfASweepIsRefused) {
   const auto folder = sweep_folder("sweep_foreign", sweep_text(1));
   const SweepPlan plan = load_sweep(folder / "sweep.yaml", 1);
   const auto refused = [&](const std::filesystem::path& file) {
-    const std::string what = error_of([&] { SweepDatabase(file, plan, {}); });
+    const std::string what = experiment::error_of([&] { SweepDatabase(file, plan, {}); });
     EXPECT_TRUE(what.starts_with(file.string() + ": ")) << what;
     return what.substr(std::min(what.size(), file.string().size() + 2));
   };
@@ -129,7 +130,7 @@ TEST(Sweep, WhatIsNoDatabaseOfASweepIsRefused) {
             "was begun with another version of this program: go on with that one, or give another "
             "database with --out");
   Database(older, Database::Access::write).run("DROP TABLE columns");
-  EXPECT_NE(error_of([&] { SweepReader reader(older); }), "");
+  EXPECT_NE(experiment::error_of([&] { SweepReader reader(older); }), "");
 }
 
 TEST(Sweep, ATableInMemoryHasTheRowsOfTheDatabase) {
@@ -158,4 +159,4 @@ TEST(Sweep, AStoppedPlanHasNoCells) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::sweep

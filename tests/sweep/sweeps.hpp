@@ -5,7 +5,7 @@
 #include "microswarm/sweep/sweep.hpp"
 #include "tests/experiment/scenes.hpp"
 
-namespace microswarm {
+namespace microswarm::sweep {
 
 /// A sweep of 2 × 2 values and 2 methods, `trials` each, whose scenario stands beside it.
 inline std::string sweep_text(int trials = 3) {
@@ -25,8 +25,9 @@ inline std::string sweep_text(int trials = 3) {
 
 /// An empty folder with the sweep in sweep.yaml.
 inline std::filesystem::path sweep_folder(const std::string& name, const std::string& text) {
-  const auto folder = empty_folder(name);
-  write_file_atomically(folder / "flight.yaml", scenario_text(small_flight()));
+  const auto folder = experiment::empty_folder(name);
+  write_file_atomically(folder / "flight.yaml",
+                        experiment::scenario_text(experiment::small_flight()));
   write_file_atomically(folder / "sweep.yaml", text);
   return folder;
 }
@@ -52,4 +53,4 @@ inline std::vector<std::vector<SqlValue>> physical_rows(const std::filesystem::p
   return rows;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::sweep

@@ -38,9 +38,9 @@ class Bench {
  public:
   Bench(const fs::path& folder, const fs::path& picture)
       : picture_(picture),
-        on_(open_rig_experiment(folder / "first_rig.yaml", {}, folder / "bench.yaml",
-                                {"camera.type=simulated", "camera.microscope.um_per_px=4.2",
-                                 "camera.microscope.margin_px=0"})),
+        on_(rig::open_rig_experiment(folder / "first_rig.yaml", {}, folder / "bench.yaml",
+                                     {"camera.type=simulated", "camera.microscope.um_per_px=4.2",
+                                      "camera.microscope.margin_px=0"})),
         physics_(on_.scenario(), World{on_.experiment.world.map, {}}, on_.rig),
         camera_([this] { expose(); }) {}
   ~Bench() {
@@ -70,7 +70,7 @@ class Bench {
   /// What a probe at the centre shows now [mT].
   Eigen::Vector3d field() {
     const std::lock_guard lock(mutex_);
-    const CoilSystem& system = on_.rig.system;
+    const actuation::CoilSystem& system = on_.rig.system;
     return system.at(system.centre())
         .total_field(Eigen::Map<const Eigen::VectorXd>(currents_.data(),
                                                        static_cast<Eigen::Index>(system.size())));
@@ -91,11 +91,11 @@ class Bench {
   void expose() {
     for (double due = steady_seconds(); !over_; due += 0.03) {
       std::this_thread::sleep_for(std::chrono::duration<double>(due - steady_seconds()));
-      Image picture;
+      formats::Image picture;
       {
         std::unique_lock lock(mutex_);
         catch_up();
-        RigSimulator::Shot shot = physics_.capture();
+        rig::RigSimulator::Shot shot = physics_.capture();
         lock.unlock();
         if (shown_ != Scene::swarm) shot.swarm.reset();
         picture = physics_.render(shot);
@@ -111,7 +111,7 @@ class Bench {
     }
   }
   /// 9 × 7 dots, 210 µm apart.
-  static void draw_slide(Image& picture) {
+  static void draw_slide(formats::Image& picture) {
     constexpr double pitch = 210 / um_per_px;
     for (int row = 0; row < picture.height; ++row)
       for (int column = 0; column < picture.width; ++column) {
@@ -123,9 +123,9 @@ class Bench {
   }
 
   fs::path picture_;
-  RigExperiment on_;
+  rig::RigExperiment on_;
   std::mutex mutex_;
-  RigSimulator physics_;
+  rig::RigSimulator physics_;
   std::vector<double> currents_ = std::vector<double>(6);
   std::array<double, 6> largest_{};
   double at_ = steady_seconds();
@@ -287,7 +287,7 @@ TEST_F(FirstRig, FromABareBoardToARun) {
   }
   EXPECT_EQ(std::ranges::count(done, "make"), 1);
   EXPECT_GE(std::ranges::count(done, "microswarm"), 8);
-  const Record record = read_record(folder / "my/run1/run.h5");
+  const experiment::Record record = experiment::read_record(folder / "my/run1/run.h5");
   EXPECT_EQ(record.result.status, Status::solved);
   EXPECT_EQ(record.rig_log.note, "first run");
 }

@@ -16,7 +16,7 @@
 #include "tests/messages.hpp"
 #include "tests/vision/microscope.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 CameraScale any_scale(Rng& rng, bool y_up) {
@@ -110,7 +110,7 @@ TEST(CameraScale, YamlReadsBackTheSameBits) {
 }
 
 /// A slide with a grid whose points are `truth` sees, drawn with noise.
-Image slide(const GridParams& grid, const CameraScale& truth, Rng& rng) {
+formats::Image slide(const GridParams& grid, const CameraScale& truth, Rng& rng) {
   test::DrawnFrame frame(640, 480);
   const double pitch_px = grid.pitch / truth.um_per_px;
   if (grid.pattern == GridPattern::dots) {
@@ -165,13 +165,13 @@ TEST(CalibrationGrid, AnotherGridOrNoneIsRefused) {
   Rng rng(6, Purpose::test);
   const GridParams nine{.columns = 9, .rows = 6, .pitch = 100};
   const CameraScale s{.um_per_px = 4, .origin_px = {200, 300}};
-  const Image picture = slide(nine, s, rng);
-  const auto refusal = [&](const Image& image, const GridParams& grid) {
+  const formats::Image picture = slide(nine, s, rng);
+  const auto refusal = [&](const formats::Image& image, const GridParams& grid) {
     return test::error_of([&] { find_grid(image, grid); });
   };
   EXPECT_TRUE(test::is_one_line_naming(refusal(picture, {.columns = 8, .rows = 6}), "grid",
                                        {"54", "points"}));
-  const Image flat{64, 48, 1, std::vector<std::uint8_t>(64 * 48, 100)};
+  const formats::Image flat{64, 48, 1, std::vector<std::uint8_t>(64 * 48, 100)};
   EXPECT_EQ(refusal(flat, nine), "grid: none is seen, asked for is one of 9x6");
   EXPECT_EQ(refusal(flat, {.pattern = GridPattern::chessboard}),
             "grid: none is seen, asked for is one of 9x6");
@@ -179,4 +179,4 @@ TEST(CalibrationGrid, AnotherGridOrNoneIsRefused) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::vision

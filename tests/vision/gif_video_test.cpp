@@ -10,14 +10,14 @@
 #include "microswarm/vision/camera/video_file_writer.hpp"
 #include "tests/files.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 /// Noise of so many greys with a colour cast; each picture changes a part of the one before.
-std::vector<Image> noise(int pictures, int greys, Rng& rng) {
-  std::vector<Image> made{{113, 97, 3, std::vector<std::uint8_t>(113 * 97 * 3, 200)}};
+std::vector<formats::Image> noise(int pictures, int greys, Rng& rng) {
+  std::vector<formats::Image> made{{113, 97, 3, std::vector<std::uint8_t>(113 * 97 * 3, 200)}};
   for (int k = 1; k < pictures; ++k) {
-    Image next = made.back();
+    formats::Image next = made.back();
     const int left = 7 * k % 50;
     for (int row = 5 * k % 40; row < 90; ++row)
       for (int column = left; column < 100; ++column) {
@@ -35,16 +35,16 @@ TEST(GifVideos, ShowEveryPixelAsItWas) {
   const test::Folder folder;
   Rng rng(5, Purpose::test);
   for (const int greys : {1, 2, 3, 16, 254}) {
-    const std::vector<Image> pictures = noise(5, greys, rng);
+    const std::vector<formats::Image> pictures = noise(5, greys, rng);
     const auto file = folder / "x.gif";
     VideoFileWriter writer(file, 12.5);
-    for (const Image& picture : pictures) writer.add(picture);
+    for (const formats::Image& picture : pictures) writer.add(picture);
     EXPECT_FALSE(std::filesystem::exists(file));
     ASSERT_EQ(writer.commit(), file);
     const auto frames = open_frames(file);
     EXPECT_NEAR(frames->rate().value_or(0), 12.5, 1e-6);
     VideoFrame frame;
-    for (const Image& picture : pictures) {
+    for (const formats::Image& picture : pictures) {
       ASSERT_TRUE(frames->next(frame)) << greys;
       EXPECT_TRUE(frame.picture.pixels == picture.pixels) << greys << " greys";
     }
@@ -55,7 +55,7 @@ TEST(GifVideos, ShowEveryPixelAsItWas) {
 
 TEST(GifVideos, OfManyColoursAreNear) {
   const test::Folder folder;
-  Image picture{256, 64, 3, {}};
+  formats::Image picture{256, 64, 3, {}};
   for (int row = 0; row < 64; ++row)
     for (int column = 0; column < 256; ++column)
       for (const int value : {column, 4 * row, 255 - column})
@@ -80,4 +80,4 @@ TEST(GifVideos, HaveAtMostFiftyPicturesASecond) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -8,7 +8,7 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/rng.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 constexpr int lens_width = 640;
@@ -95,4 +95,4 @@ TEST(LensDistortion, TooFewPointsTellNothing) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::vision

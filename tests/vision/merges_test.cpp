@@ -11,7 +11,7 @@
 #include "tests/cases.hpp"
 #include "tests/vision/spots.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 /// A drawn video: pairs, one robot brighter than the other, that come together, stay one for 12
@@ -24,7 +24,7 @@ struct PairsVideo {
   static constexpr int pairs = 24;
   static constexpr int flickering = 40;
 
-  std::vector<Image> pictures;
+  std::vector<formats::Image> pictures;
 
   static Vec2 middle_of(int pair) { return {60.0 + 90 * (pair % 6), 60.0 + 90 * (pair / 6)}; }
   /// Half of the distance in a pair [px]; the finder sees one where it is below 7.
@@ -37,7 +37,7 @@ struct PairsVideo {
   PairsVideo() {
     constexpr double beside = 14;  // [px]
     Rng rng(23, Purpose::test);
-    const Image ground = test::draw_spots(width, height, {}, 2.2, 0, 0, rng);
+    const formats::Image ground = test::draw_spots(width, height, {}, 2.2, 0, 0, rng);
     pictures.reserve(frames);
     for (int k = 0; k < frames; ++k) {
       std::vector<Vec2> bright;
@@ -53,9 +53,9 @@ struct PairsVideo {
         bright.push_back(p);
         if (rng.uniform() < 0.7) faint.push_back(p + beside * unit_vector(i));
       }
-      Image picture = test::draw_spots(width, height, bright, 2.2, 90, 1.5, rng);
-      for (const Image& more : {test::draw_spots(width, height, dim, 2.2, 60, 0, rng),
-                                test::draw_spots(width, height, faint, 2.2, 30, 0, rng)})
+      formats::Image picture = test::draw_spots(width, height, bright, 2.2, 90, 1.5, rng);
+      for (const formats::Image& more : {test::draw_spots(width, height, dim, 2.2, 60, 0, rng),
+                                         test::draw_spots(width, height, faint, 2.2, 30, 0, rng)})
         for (std::size_t p = 0; p < picture.pixels.size(); ++p)
           picture.pixels[p] = static_cast<std::uint8_t>(
               std::min(255, picture.pixels[p] + more.pixels[p] - ground.pixels[p]));
@@ -112,4 +112,4 @@ TEST(VideoTracker, TrueMergesAndSplitsAreToldFromFlicker) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::vision

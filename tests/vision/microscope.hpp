@@ -83,9 +83,9 @@ class DrawnFrame {
   }
   /// The picture: light that is uneven by ± `slope` from edge to edge along `heading`, and falls
   /// off towards the corners by `vignette`, with noise [grey].
-  Image expose(double grey, double slope, double heading, double vignette, double noise,
-               Rng& rng) const {
-    Image image{width, height, 1, {}};
+  formats::Image expose(double grey, double slope, double heading, double vignette, double noise,
+                        Rng& rng) const {
+    formats::Image image{width, height, 1, {}};
     image.pixels.reserve(light_.size());
     const Vec2 middle{0.5 * (width - 1), 0.5 * (height - 1)};
     const Vec2 along = unit_vector(heading);

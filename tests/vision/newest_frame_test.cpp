@@ -13,7 +13,7 @@
 #include "microswarm/vision/camera/camera.hpp"
 #include "tests/files.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 using namespace std::chrono_literals;
@@ -21,7 +21,7 @@ using namespace std::chrono_literals;
 /// A source that does what a test says with each picture; false ends it.
 class Made : public FrameSource {
  public:
-  using Make = std::function<bool(int index, Image& picture)>;
+  using Make = std::function<bool(int index, formats::Image& picture)>;
   explicit Made(Make make) : make_(std::move(make)) {}
   bool next(VideoFrame& frame) override {
     frame.index = index_++;
@@ -42,7 +42,7 @@ std::unique_ptr<FrameSource> made(Made::Make make) {
 
 /// Pictures that differ, one every `pause`.
 std::unique_ptr<FrameSource> clock_like(std::chrono::microseconds pause) {
-  return made([pause](int index, Image& picture) {
+  return made([pause](int index, formats::Image& picture) {
     std::this_thread::sleep_for(pause);
     picture.pixels[0] = static_cast<std::uint8_t>(index);
     return true;
@@ -107,7 +107,7 @@ TEST(NewestFrame, OfASlowSourceEachFrameIsTakenOnceAndItsAgeIsTold) {
 
 TEST(NewestFrame, TheSamePictureAgainAndAgainIsFrozenUntilAnotherComes) {
   std::atomic<bool> moves = false;
-  NewestFrame camera(made([&](int index, Image& picture) {
+  NewestFrame camera(made([&](int index, formats::Image& picture) {
                        std::this_thread::sleep_for(1ms);
                        if (moves) picture.pixels[0] = static_cast<std::uint8_t>(index);
                        return true;
@@ -122,7 +122,7 @@ TEST(NewestFrame, TheSamePictureAgainAndAgainIsFrozenUntilAnotherComes) {
 }
 
 TEST(NewestFrame, PicturesWithoutLightAreBlack) {
-  NewestFrame camera(made([](int index, Image& picture) {
+  NewestFrame camera(made([](int index, formats::Image& picture) {
                        std::this_thread::sleep_for(1ms);
                        for (auto& g : picture.pixels) g = static_cast<std::uint8_t>(index % 7);
                        return true;
@@ -132,7 +132,7 @@ TEST(NewestFrame, PicturesWithoutLightAreBlack) {
 }
 
 TEST(NewestFrame, AnEndIsToldAndTheLastFrameIsKept) {
-  NewestFrame camera(made([](int index, Image&) { return index < 3; }), "ending");
+  NewestFrame camera(made([](int index, formats::Image&) { return index < 3; }), "ending");
   seconds_until(camera, CameraState::ended);
   LiveFrame frame;
   EXPECT_TRUE(camera.wait(frame, 5));
@@ -144,7 +144,7 @@ TEST(NewestFrame, AnEndIsToldAndTheLastFrameIsKept) {
 }
 
 TEST(NewestFrame, AFailureIsAHardwareErrorAtOnce) {
-  NewestFrame camera(made([](int index, Image&) -> bool {
+  NewestFrame camera(made([](int index, formats::Image&) -> bool {
                        if (index == 2) throw HardwareError("/dev/video7: gives no more pictures");
                        return true;
                      }),
@@ -162,7 +162,7 @@ TEST(NewestFrame, ASilentSourceIsToldInTimeAndHoldsUpNobody) {
   std::atomic<bool> released = false;
   std::atomic<bool> gone = false;
   {
-    NewestFrame camera(made([&](int index, Image&) {
+    NewestFrame camera(made([&](int index, formats::Image&) {
                          if (index == 0) return true;
                          while (!released) std::this_thread::sleep_for(1ms);
                          gone = true;
@@ -214,7 +214,7 @@ TEST(NewestFrame, ManyMayAsk) {
 
 TEST(NewestFrame, AListenerHearsEveryFrameAndItsTime) {
   std::vector<std::pair<int, double>> heard;  // of the camera's thread alone until it has ended
-  NewestFrame camera(made([&](int index, Image& picture) {
+  NewestFrame camera(made([&](int index, formats::Image& picture) {
                        std::this_thread::sleep_for(2ms);
                        picture.pixels[0] = static_cast<std::uint8_t>(index);
                        return index < 50;
@@ -249,7 +249,7 @@ TEST(Camera, NoSuchDeviceIsRefusedInOneLine) {
 
 TEST(NewestFrame, WaitsForAFrameThatIsNewEnough) {
   std::atomic<int> given = 0;
-  NewestFrame camera(made([&](int index, Image& picture) {
+  NewestFrame camera(made([&](int index, formats::Image& picture) {
                        while (given <= index) std::this_thread::sleep_for(1ms);
                        picture.pixels[0] = static_cast<std::uint8_t>(index);
                        return true;
@@ -271,4 +271,4 @@ TEST(NewestFrame, WaitsForAFrameThatIsNewEnough) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::vision

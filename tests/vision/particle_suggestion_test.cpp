@@ -10,25 +10,25 @@
 #include "tests/files.hpp"
 #include "tests/vision/spots.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 /// Ten pictures of 48 spots, bright or dark by the sign of `height`.
-std::vector<Image> spotted(double spread, double height, double noise, int pitch = 50) {
+std::vector<formats::Image> spotted(double spread, double height, double noise, int pitch = 50) {
   Rng rng(31, Purpose::test);
   const std::vector<Vec2> at = test::scattered(450, 350, pitch, rng);
-  std::vector<Image> pictures;
+  std::vector<formats::Image> pictures;
   for (int k = 0; k < 10; ++k)
     pictures.push_back(test::draw_spots(450, 350, at, spread, height, noise, rng));
   return pictures;
 }
 
-int found_in(const Image& picture, const ParticleParams& params) {
+int found_in(const formats::Image& picture, const ParticleParams& params) {
   return static_cast<int>(ParticleFinder(params).find(picture).size());
 }
 
-std::vector<Image> pictures_of(const std::filesystem::path& folder, VideoChannel channel) {
-  std::vector<Image> pictures;
+std::vector<formats::Image> pictures_of(const std::filesystem::path& folder, VideoChannel channel) {
+  std::vector<formats::Image> pictures;
   const auto source = open_frames(folder);
   for (VideoFrame frame; source->next(frame);)
     take_channel(frame.picture, channel, pictures.emplace_back());
@@ -45,7 +45,7 @@ TEST(ParticleSuggestion, AMassBetweenNoiseAndRobots) {
       ASSERT_TRUE(s.kinds.gap) << height << " " << noise;
       EXPECT_EQ(s.params.tone, given.tone);
       EXPECT_EQ(s.params.diameter, 11);
-      for (const Image& picture : pictures) EXPECT_EQ(found_in(picture, s.params), 48);
+      for (const formats::Image& picture : pictures) EXPECT_EQ(found_in(picture, s.params), 48);
     }
 }
 
@@ -126,9 +126,9 @@ TEST(ParticleSuggestion, TheSampleOfBrightRobots) {
 
 TEST(ParticleSuggestion, NothingAtAllIsNoCrash) {
   EXPECT_FALSE(suggest_particles({}, {}).kinds.gap);
-  const std::vector<Image> flat{{60, 50, 1, std::vector<std::uint8_t>(3000, 7)}};
+  const std::vector<formats::Image> flat{{60, 50, 1, std::vector<std::uint8_t>(3000, 7)}};
   EXPECT_FALSE(suggest_particles(flat, {}).kinds.gap);
-  const std::vector<Image> tiny{{1, 1, 1, {7}}};
+  const std::vector<formats::Image> tiny{{1, 1, 1, {7}}};
   EXPECT_FALSE(suggest_particles(tiny, {}).kinds.gap);
 }
 
@@ -152,4 +152,4 @@ TEST(RealVideos, SettingsAreSuggested) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::vision

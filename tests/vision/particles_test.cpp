@@ -12,7 +12,7 @@
 #include "microswarm/vision/tracking/ring_fit.hpp"
 #include "tests/vision/spots.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 /// Root mean square distance of found particles from the true places, each the nearest within 1 px;
@@ -35,7 +35,8 @@ TEST(Particles, CentresAreExactToATwentiethOfAPixel) {
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
       Rng rng(seed, Purpose::test);
       const auto truth = test::scattered(400, 300, 25, rng);
-      const Image image = test::draw_spots(400, 300, truth, 2.2, dark ? -90 : 90, 1.5, rng);
+      const formats::Image image =
+          test::draw_spots(400, 300, truth, 2.2, dark ? -90 : 90, 1.5, rng);
       ParticleFinder finder({.diameter = 13,
                              .tone = dark ? ParticleTone::dark : ParticleTone::bright,
                              .min_mass = 300});
@@ -52,7 +53,7 @@ TEST(Particles, ErrorGrowsWithNoise) {
   for (const double noise : {0.5, 4.0, 12.0}) {
     Rng rng(9, Purpose::test);
     const auto truth = test::scattered(400, 300, 25, rng);
-    const Image image = test::draw_spots(400, 300, truth, 2.2, 90, noise, rng);
+    const formats::Image image = test::draw_spots(400, 300, truth, 2.2, 90, noise, rng);
     ParticleFinder finder({.diameter = 13, .tone = ParticleTone::bright, .min_mass = 300});
     const auto error = rms_error(truth, finder.find(image));
     ASSERT_TRUE(error) << noise;
@@ -66,10 +67,10 @@ TEST(Particles, MovedPictureMovesParticles) {
   std::vector<Vec2> positions = test::scattered(300, 200, 30, rng);
   ParticleFinder finder({.diameter = 11, .tone = ParticleTone::bright, .min_mass = 300});
   Rng none(1, Purpose::test);
-  const Image a = test::draw_spots(300, 200, positions, 2, 80, 0, none);
+  const formats::Image a = test::draw_spots(300, 200, positions, 2, 80, 0, none);
   const std::vector<Particle> before = finder.find(a);
   for (Vec2& p : positions) p += Vec2{7, 0};
-  Image b = a;  // the same pixels, seven columns on
+  formats::Image b = a;  // the same pixels, seven columns on
   for (int y = 0; y < 200; ++y)
     for (int x = 7; x < 300; ++x) b.pixels[b.index(x, y)] = a.pixels[a.index(x - 7, y)];
   const std::vector<Particle> after = finder.find(b);
@@ -80,9 +81,9 @@ TEST(Particles, MovedPictureMovesParticles) {
 
 TEST(Particles, FainterOfTwoTooNearIsDropped) {
   Rng rng(1, Purpose::test);
-  const Image one = test::draw_spots(100, 100, {{40, 50}}, 2, 60, 0, rng);
-  Image two = one;
-  const Image other = test::draw_spots(100, 100, {{49, 50}}, 2, 100, 0, rng);
+  const formats::Image one = test::draw_spots(100, 100, {{40, 50}}, 2, 60, 0, rng);
+  formats::Image two = one;
+  const formats::Image other = test::draw_spots(100, 100, {{49, 50}}, 2, 100, 0, rng);
   for (std::size_t i = 0; i < two.pixels.size(); ++i)
     two.pixels[i] = std::max(one.pixels[i], other.pixels[i]);
   ParticleFinder wide({.diameter = 9, .tone = ParticleTone::bright, .separation = 14});
@@ -95,7 +96,7 @@ TEST(Particles, FainterOfTwoTooNearIsDropped) {
 TEST(Particles, NoneInBlankAndTinyPictures) {
   ParticleFinder finder({.diameter = 11});
   for (const int side : {1, 2, 5, 11, 12, 40}) {
-    const Image blank{side, side, 1, std::vector<std::uint8_t>(side * side, 77)};
+    const formats::Image blank{side, side, 1, std::vector<std::uint8_t>(side * side, 77)};
     EXPECT_TRUE(finder.find(blank).empty()) << side;
   }
 }
@@ -103,7 +104,7 @@ TEST(Particles, NoneInBlankAndTinyPictures) {
 TEST(Particles, NothingIsNearerToTheBorderThanTheMask) {
   Rng rng(5, Purpose::test);
   const auto truth = std::vector<Vec2>{{2, 2}, {97, 50}, {50, 50}, {50, 1}};
-  const Image image = test::draw_spots(100, 100, truth, 2, 90, 2, rng);
+  const formats::Image image = test::draw_spots(100, 100, truth, 2, 90, 2, rng);
   ParticleFinder finder({.diameter = 11, .tone = ParticleTone::bright, .min_mass = 100});
   for (const Particle& p : finder.find(image)) {
     EXPECT_GE(std::min(p.at_px.x, p.at_px.y), 3);
@@ -114,7 +115,7 @@ TEST(Particles, NothingIsNearerToTheBorderThanTheMask) {
 TEST(Particles, SamePictureSameBits) {
   Rng rng(8, Purpose::test);
   const auto truth = test::scattered(300, 200, 20, rng);
-  const Image image = test::draw_spots(300, 200, truth, 2, 70, 6, rng);
+  const formats::Image image = test::draw_spots(300, 200, truth, 2, 70, 6, rng);
   ParticleFinder used({.diameter = 11, .tone = ParticleTone::bright});
   used.find(test::draw_spots(500, 100, {{50, 50}}, 2, 70, 6, rng));
   const std::vector<Particle> again = used.find(image);
@@ -132,8 +133,8 @@ TEST(Particles, NoiseAsWideAsAParticleIsRefused) {
 }
 
 /// A picture of random greys.
-Image random_picture(int width, int height, Rng& rng) {
-  Image image{width, height, 1, {}};
+formats::Image random_picture(int width, int height, Rng& rng) {
+  formats::Image image{width, height, 1, {}};
   for (int i = 0; i < width * height; ++i)
     image.pixels.push_back(static_cast<std::uint8_t>(rng.below(256)));
   return image;
@@ -143,7 +144,7 @@ TEST(RoundWindow, SumsAreThoseOfEachPixel) {
   Rng rng(5, Purpose::test);
   for (const int radius : {0, 1, 5, 15, 16, 40}) {
     const int side = 2 * radius + 1 + RoundWindow::read_beyond;
-    const Image image = random_picture(side, 2 * radius + 2, rng);
+    const formats::Image image = random_picture(side, 2 * radius + 2, rng);
     RoundWindow::Moments expected;
     for (int dy = -radius; dy <= radius; ++dy)
       for (int dx = -radius; dx <= radius; ++dx) {
@@ -165,7 +166,7 @@ TEST(RoundWindow, SumsAreThoseOfEachPixel) {
 TEST(BandPass, IsSmoothMinusGround) {
   Rng rng(6, Purpose::test);
   for (const int box : {3, 11, 31}) {
-    const Image image = random_picture(57, 38, rng);
+    const formats::Image image = random_picture(57, 38, rng);
     const auto grey = [&](int x, int y) {
       return static_cast<int>(image.pixels[image.index(std::clamp(x, 0, image.width - 1),
                                                        std::clamp(y, 0, image.height - 1))]);
@@ -221,7 +222,7 @@ TEST(RingFit, FindsCentreAndRadius) {
     const double x = rng.uniform(29, 31);
     const Vec2 centre{x, rng.uniform(29, 31)};
     const double radius = rng.uniform(7, 10);
-    Image image{60, 60, 1, {}};
+    formats::Image image{60, 60, 1, {}};
     for (int row = 0; row < 60; ++row)
       for (int column = 0; column < 60; ++column) {
         const double off = distance(Vec2(column, row), centre) - radius;
@@ -233,9 +234,9 @@ TEST(RingFit, FindsCentreAndRadius) {
     EXPECT_LT(distance(ring->centre_px, centre), 0.1);
     EXPECT_NEAR(ring->radius_px, radius, 0.1);
   }
-  const Image blank{60, 60, 1, std::vector<std::uint8_t>(3600, 90)};
+  const formats::Image blank{60, 60, 1, std::vector<std::uint8_t>(3600, 90)};
   EXPECT_FALSE(fit_ring(blank, {30, 30}, 8, true));
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::vision

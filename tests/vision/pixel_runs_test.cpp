@@ -7,7 +7,7 @@
 
 #include "microswarm/core/maths/rng.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 TEST(PixelRuns, PiecesAreThoseOfLabels) {
@@ -38,4 +38,4 @@ TEST(PixelRuns, PiecesAreThoseOfLabels) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::vision

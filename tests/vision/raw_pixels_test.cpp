@@ -14,14 +14,14 @@
 #include "tests/files.hpp"
 #include "tests/messages.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-Image pixels_of(PixelFormat format, int width, int height, const Bytes& data,
-                std::size_t bytes_per_line = 0) {
-  Image image;
+formats::Image pixels_of(PixelFormat format, int width, int height, const Bytes& data,
+                         std::size_t bytes_per_line = 0) {
+  formats::Image image;
   take_raw({format, width, height, bytes_per_line, std::as_bytes(std::span(data))}, "/dev/video0",
            image);
   return image;
@@ -63,7 +63,7 @@ TEST(RawPixels, AFlatColourOfBayerIsThatColour) {
           const char colour = order[static_cast<std::size_t>(2 * (y % 2) + x % 2)];
           data.push_back(colour == 'R' ? 200 : colour == 'G' ? 100 : 30);
         }
-      const Image image = pixels_of(format, width, 6, data);
+      const formats::Image image = pixels_of(format, width, 6, data);
       ASSERT_EQ(image.channels, 3);
       for (std::size_t i = 0; i < image.pixels.size(); i += 3)
         EXPECT_TRUE(image.pixels[i] == 200 && image.pixels[i + 1] == 100 &&
@@ -87,8 +87,9 @@ TEST(RawPixels, BlackWhiteAndRedOfAVideo) {
             (Bytes{0, 0, 0, 255, 255, 255}));
   EXPECT_EQ(pixels_of(PixelFormat::uyvy, 2, 1, {128, 16, 128, 235}).pixels,
             (Bytes{0, 0, 0, 255, 255, 255}));
-  for (const Image& red : {pixels_of(PixelFormat::yuyv, 2, 1, {81, 90, 81, 240}),
-                           pixels_of(PixelFormat::nv12, 2, 2, {81, 81, 81, 81, 90, 240})}) {
+  for (const formats::Image& red :
+       {pixels_of(PixelFormat::yuyv, 2, 1, {81, 90, 81, 240}),
+        pixels_of(PixelFormat::nv12, 2, 2, {81, 81, 81, 81, 90, 240})}) {
     EXPECT_NEAR(red.pixels[0], 255, 2);
     EXPECT_NEAR(red.pixels[1], 0, 2);
     EXPECT_NEAR(red.pixels[2], 0, 2);
@@ -116,7 +117,7 @@ class JpegFrames : public testing::Test {
   }
   cv::Mat picture_;
   Bytes jpeg_;
-  Image whole_;
+  formats::Image whole_;
 };
 
 TEST_F(JpegFrames, AreDecoded) {
@@ -158,4 +159,4 @@ TEST_F(JpegFrames, ThatAreCutOrDamagedAreRefused) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::vision

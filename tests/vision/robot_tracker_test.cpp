@@ -11,7 +11,7 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/rng.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 constexpr double diameter = 10;  // [µm]
@@ -155,4 +155,4 @@ TEST(RobotTracker, NothingBeyondTheSearchRangeIsTaken) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::vision

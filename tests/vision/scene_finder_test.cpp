@@ -15,7 +15,7 @@
 #include "tests/files.hpp"
 #include "tests/vision/microscope.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 using test::DrawnFrame;
@@ -41,7 +41,8 @@ TEST(SceneFinder, SwarmAndObstaclesOfTheSameToneAreToldApart) {
     const Vec2 v = perpendicular(u) * 0.6;
     const std::vector<Vec2> box{at - u - v, at + u - v, at + u + v, at - u + v};
     frame.polygon(box, 0.65);
-    const Image picture = frame.expose(170, 0.3, rng.uniform(-3, 3), 0.1, rng.uniform(0, 8), rng);
+    const formats::Image picture =
+        frame.expose(170, 0.3, rng.uniform(-3, 3), 0.1, rng.uniform(0, 8), rng);
     const SeenScene scene = find_scene(picture);
     ASSERT_EQ(scene.swarm.sight, SwarmSight::found) << trial;
     EXPECT_LT(distance(scene.swarm.swarm->centre_px, swarm.centre), 1.5);
@@ -110,7 +111,7 @@ TEST(SceneFinder, ASwarmThatTouchesAnObstacleOfItsToneIsStillSeenAndSoIsTheObsta
 /// Two channels that cross, with walls around them, and what moves in them.
 struct Channels {
   DrawnFrame frame{test::frame_width, test::frame_height};
-  Mask walls{test::frame_width, test::frame_height};
+  formats::Mask walls{test::frame_width, test::frame_height};
 
   Channels() {
     for (const auto& [lo, hi] : {std::pair{Vec2{-0.5, -0.5}, Vec2{219.5, 159.5}},
@@ -125,7 +126,7 @@ struct Channels {
 };
 
 /// Share of the pixels in which two masks agree.
-double agreement(const Mask& a, const Mask& b) {
+double agreement(const formats::Mask& a, const formats::Mask& b) {
   double same = 0;
   for (std::size_t i = 0; i < a.cells.size(); ++i) same += a.cells[i] == b.cells[i];
   return same / static_cast<double>(a.cells.size());
@@ -136,7 +137,7 @@ TEST(Walls, AreFoundUnderUnevenLightThoughTheyAreHalfOfThePicture) {
   for (int k = 0; k < 12; ++k) {
     Rng rng(12, Purpose::test, k);
     const Channels channels;
-    const Image still = channels.frame.expose(160, 0.4, k, 0.2, 6, rng);
+    const formats::Image still = channels.frame.expose(160, 0.4, k, 0.2, 6, rng);
     worst = std::min(worst, agreement(find_walls(still), channels.walls));
   }
   std::printf("walls: %.2f %% of the pixels are right at least\n", 100 * worst);
@@ -146,9 +147,9 @@ TEST(Walls, AreFoundUnderUnevenLightThoughTheyAreHalfOfThePicture) {
 TEST(Walls, NoneWhereThereAreNone) {
   Rng rng(13, Purpose::test);
   for (int k = 0; k < 5; ++k) {
-    const Mask walls = find_walls(
+    const formats::Mask walls = find_walls(
         DrawnFrame(test::frame_width, test::frame_height).expose(150, 0.4, k, 0.2, 8, rng));
-    EXPECT_EQ(walls, Mask(test::frame_width, test::frame_height));
+    EXPECT_EQ(walls, formats::Mask(test::frame_width, test::frame_height));
   }
 }
 
@@ -175,7 +176,7 @@ TEST(Walls, ComeIntoTheWorldWhereTheyAre) {
 TEST(Background, IsWhatStandsStill) {
   Rng rng(14, Purpose::test);
   const Channels channels;
-  std::vector<Image> pictures;
+  std::vector<formats::Image> pictures;
   for (int k = 0; k < 7; ++k) {
     Channels scene;
     scene.frame.swarm({.centre = {60.0 + 90 * k, 240}, .radius = 30}, rng);
@@ -193,7 +194,7 @@ TEST(Background, IsWhatStandsStill) {
 TEST(SceneFinder, TheSceneOfTheDocsIsSeen) {
   Rng rng(15, Purpose::test);
   Channels scene;
-  const Image still = scene.frame.expose(165, 0.3, 0.6, 0.15, 5, rng);
+  const formats::Image still = scene.frame.expose(165, 0.3, 0.6, 0.15, 5, rng);
   scene.frame.swarm({.centre = {120, 236},
                      .radius = 34,
                      .elongation = 1.5,
@@ -206,9 +207,9 @@ TEST(SceneFinder, TheSceneOfTheDocsIsSeen) {
   scene.frame.disc({300, 90}, 26, 0.55);
   scene.frame.disc({520, 262}, 20, 0.55);
   scene.frame.polygon({{270, 395}, {325, 372}, {338, 410}, {290, 436}}, 0.55);
-  const Image picture = scene.frame.expose(165, 0.3, 0.6, 0.15, 5, rng);
+  const formats::Image picture = scene.frame.expose(165, 0.3, 0.6, 0.15, 5, rng);
   SceneParams params;
-  const Mask walls = find_walls(still);
+  const formats::Mask walls = find_walls(still);
   const SeenScene seen = find_scene(picture, params, {}, &walls);
   ASSERT_EQ(seen.swarm.sight, SwarmSight::found);
   EXPECT_LT(distance(seen.swarm.swarm->centre_px, {120, 236}), 2);
@@ -216,12 +217,12 @@ TEST(SceneFinder, TheSceneOfTheDocsIsSeen) {
   int discs = 0;
   for (const SeenObstacle& o : seen.obstacles) discs += o.disc.has_value();
   EXPECT_EQ(discs, 3);
-  const Image drawn = draw_scene(picture, seen, &walls);
+  const formats::Image drawn = draw_scene(picture, seen, &walls);
   if (const char* given = std::getenv("MICROSWARM_PICTURES")) {
     const std::filesystem::path folder = given;
-    write_png(folder / "still.png", still);
-    write_png(folder / "frame.png", picture);
-    write_png(folder / "seen.png", drawn);
+    formats::write_png(folder / "still.png", still);
+    formats::write_png(folder / "frame.png", picture);
+    formats::write_png(folder / "seen.png", drawn);
   }
   EXPECT_EQ(drawn.channels, 3);
 }
@@ -247,4 +248,4 @@ TEST(SceneFinder, ShapesComeIntoTheWorld) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -14,8 +14,8 @@ namespace microswarm::test {
 
 /// Grey ground of 120 with a slope, Gaussian spots that differ by `height` greys in their middle,
 /// and noise.
-inline Image draw_spots(int width, int height_px, const std::vector<Vec2>& at_px, double spread,
-                        double height, double noise, Rng& rng) {
+inline formats::Image draw_spots(int width, int height_px, const std::vector<Vec2>& at_px,
+                                 double spread, double height, double noise, Rng& rng) {
   std::vector<double> grey(static_cast<std::size_t>(width) * height_px);
   for (int y = 0; y < height_px; ++y)
     for (int x = 0; x < width; ++x)
@@ -29,7 +29,7 @@ inline Image draw_spots(int width, int height_px, const std::vector<Vec2>& at_px
            x < std::min(width, static_cast<int>(p.x) + reach + 1); ++x)
         grey[static_cast<std::size_t>(y) * width + x] +=
             height * std::exp(-0.5 * squared_norm(Vec2(x, y) - p) / (spread * spread));
-  Image image{width, height_px, 1, {}};
+  formats::Image image{width, height_px, 1, {}};
   for (const double g : grey)
     image.pixels.push_back(static_cast<std::uint8_t>(std::clamp(std::lround(g), 0L, 255L)));
   return image;

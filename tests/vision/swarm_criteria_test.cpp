@@ -12,7 +12,7 @@
 #include "microswarm/vision/scene/scene_overlay.hpp"
 #include "tests/vision/microscope.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 using test::DrawnFrame;
@@ -26,10 +26,10 @@ struct DrawnScene {
     frame.swarm(
         {.centre = at, .radius = radius, .clumps = 300, .clump_radius = 1.5, .opacity = 0.65}, rng);
   }
-  Image look(double noise = 4) { return frame.expose(165, 0.2, 0.5, 0.1, noise, rng); }
+  formats::Image look(double noise = 4) { return frame.expose(165, 0.2, 0.5, 0.1, noise, rng); }
 };
 
-Image inverted(Image picture) {
+formats::Image inverted(formats::Image picture) {
   for (std::uint8_t& grey : picture.pixels) grey = static_cast<std::uint8_t>(255 - grey);
   return picture;
 }
@@ -44,7 +44,7 @@ std::optional<SwarmCriterion> failed(const std::vector<NotSwarm>& all, Vec2 at) 
 TEST(SmoothSwarm, IsTheOnlySmoothBlobWhereNothingHasTexture) {
   DrawnScene drawn;
   drawn.frame.disc({300, 200}, 30, 0.4);
-  const Image dark = drawn.look();
+  const formats::Image dark = drawn.look();
   for (const ParticleTone tone : {ParticleTone::dark, ParticleTone::bright}) {
     SceneParams params;
     params.swarm.look.tone = params.obstacles.tone = tone;
@@ -70,7 +70,7 @@ TEST(SmoothSwarm, IsNoneBesideTexture) {
     drawn.cloud({450, 250}, 30);
     SceneParams params;
     if (bright) params.swarm.look.tone = params.obstacles.tone = ParticleTone::bright;
-    const Image picture = bright ? inverted(drawn.look()) : drawn.look();
+    const formats::Image picture = bright ? inverted(drawn.look()) : drawn.look();
     const SeenScene scene = find_scene(picture, params);
     ASSERT_EQ(scene.swarm.sight, SwarmSight::found);
     EXPECT_LT(distance(scene.swarm.swarm->centre_px, {450, 250}), 1.5);
@@ -85,7 +85,7 @@ TEST(SmoothSwarm, IsNotGuessedAmongSeveral) {
   DrawnScene drawn;
   drawn.frame.disc({150, 200}, 30, 0.4);
   drawn.frame.disc({450, 250}, 28, 0.4);
-  const Image picture = drawn.look();
+  const formats::Image picture = drawn.look();
   const SeenScene scene = find_scene(picture);
   EXPECT_EQ(scene.swarm.sight, SwarmSight::none);
   EXPECT_EQ(scene.obstacles.size(), 2U);
@@ -99,7 +99,7 @@ TEST(SmoothSwarm, IsKnownByItsPlaceAndSize) {
   drawn.frame.disc({150, 200}, 30, 0.4);
   drawn.frame.disc({220, 220}, 12, 0.4);
   drawn.frame.disc({450, 250}, 30, 0.4);
-  const Image picture = drawn.look();
+  const formats::Image picture = drawn.look();
   const SceneParams params;
   const SwarmPrior prior{.at_px = Vec2{170, 210}, .min_radius_px = 20, .max_radius_px = 40};
   const SeenScene scene = find_scene(picture, params, prior);
@@ -117,7 +117,7 @@ TEST(SmoothSwarm, IsKnownByItsPlaceAndSize) {
 TEST(SmoothSwarm, ThatIsCutIsAnObstacle) {
   DrawnScene drawn;
   drawn.frame.disc({5, 200}, 40, 0.4);
-  const Image picture = drawn.look();
+  const formats::Image picture = drawn.look();
   const SeenScene scene = find_scene(picture);
   EXPECT_EQ(scene.swarm.sight, SwarmSight::none);
   EXPECT_EQ(scene.obstacles.size(), 1U);
@@ -132,7 +132,7 @@ TEST(NotSwarm, EachCriterionIsToldWithValueAndLimit) {
   drawn.frame.disc({320, 120}, 4, 0.3);    // small
   drawn.cloud({320, 350}, 60);             // too large, by a limit of 50
   drawn.frame.disc({520, 120}, 30, 0.97);  // faint
-  const Image picture = drawn.look(2);
+  const formats::Image picture = drawn.look(2);
   SceneParams params;
   params.swarm.look.max_radius = 50;
   params.swarm.jump = 50;
@@ -150,20 +150,20 @@ TEST(NotSwarm, EachCriterionIsToldWithValueAndLimit) {
     EXPECT_EQ(no.value > no.limit, is_limit_of_above) << reason(no);
     EXPECT_NE(reason(no).find(no.key), std::string::npos) << reason(no);
   }
-  const Image shown = [&] {
-    Image drawn_scene = draw_scene(picture, scene);
+  const formats::Image shown = [&] {
+    formats::Image drawn_scene = draw_scene(picture, scene);
     draw_reasons(drawn_scene, reasons);
     return drawn_scene;
   }();
   EXPECT_EQ(shown.channels, 3);
   if (const char* given = std::getenv("MICROSWARM_PICTURES"))
-    write_png(std::filesystem::path(given) / "reasons.png", shown);
+    formats::write_png(std::filesystem::path(given) / "reasons.png", shown);
 }
 
 TEST(NotSwarm, TheOtherToneIsTold) {
   DrawnScene drawn;
   drawn.cloud({120, 120}, 30);
-  const Image picture = inverted(drawn.look());
+  const formats::Image picture = inverted(drawn.look());
   const SeenScene scene = find_scene(picture);
   EXPECT_EQ(scene.swarm.sight, SwarmSight::none);
   EXPECT_EQ(failed(why_not_swarm(scene, picture), {120, 120}), SwarmCriterion::tone);
@@ -173,7 +173,7 @@ TEST(NotSwarm, MoreThanHalfOfTheViewHasAReason) {
   DrawnScene drawn;
   drawn.cloud({320, 240}, 30);
   drawn.frame.disc({320, 240}, 300, 0.4);
-  const Image picture = drawn.look();
+  const formats::Image picture = drawn.look();
   const SeenScene scene = find_scene(picture);
   EXPECT_NE(scene.swarm.sight, SwarmSight::found);
   const auto reasons = why_not_swarm(scene, picture);
@@ -184,7 +184,7 @@ TEST(NotSwarm, StripesHaveAReason) {
   DrawnScene drawn;
   for (int x = 0; x < test::frame_width; x += 80)
     drawn.frame.box({1.0 * x, -1}, {x + 30.0, 481}, 0.6);
-  const Image picture = drawn.look();
+  const formats::Image picture = drawn.look();
   const SeenScene scene = find_scene(picture);
   EXPECT_NE(scene.swarm.sight, SwarmSight::found);
   const auto reasons = why_not_swarm(scene, picture);
@@ -192,4 +192,4 @@ TEST(NotSwarm, StripesHaveAReason) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::vision

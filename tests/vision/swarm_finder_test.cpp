@@ -13,7 +13,7 @@
 #include "tests/files.hpp"
 #include "tests/vision/microscope.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 using test::DrawnFrame;
@@ -24,7 +24,7 @@ int clumps_for(double radius) { return static_cast<int>(0.16 * radius * radius);
 /// A swarm of any size, place and shape, under light uneven by up to 40 %, with noise.
 struct Scene {
   DrawnSwarm swarm;
-  Image picture;
+  formats::Image picture;
 };
 Scene scene(std::uint32_t trial, double max_noise) {
   Rng rng(11, Purpose::test, trial);
@@ -104,7 +104,7 @@ TEST(SwarmFinder, PlaceSizeAndShapeOfHundredsOfSwarms) {
 }
 
 /// A swarm in the middle of an evenly lit picture, and what is put beside it.
-Image lit(const DrawnFrame& frame, double noise = 3) {
+formats::Image lit(const DrawnFrame& frame, double noise = 3) {
   Rng rng(21, Purpose::test);
   return frame.expose(150, 0.2, 0.5, 0.1, noise, rng);
 }
@@ -119,7 +119,8 @@ TEST(SwarmFinder, LightUnevenByFortyPercentAndMuchNoise) {
   for (const double noise : {0.0, 5.0, 10.0})
     for (int k = 0; k < 8; ++k) {
       Rng rng(5, Purpose::test, k);
-      const Image picture = with_swarm({400, 180}, 30).expose(140, 0.4, k * pi / 4, 0, noise, rng);
+      const formats::Image picture =
+          with_swarm({400, 180}, 30).expose(140, 0.4, k * pi / 4, 0, noise, rng);
       const SwarmSighting seen = find_swarm(picture);
       ASSERT_EQ(seen.sight, SwarmSight::found) << noise << " " << k;
       EXPECT_LT(distance(seen.swarm->centre_px, {400, 180}), 1);
@@ -132,7 +133,7 @@ TEST(SwarmFinder, TwoSwarmsAreSeveralAndTheOneSeenBeforeIsFollowed) {
   DrawnFrame frame = with_swarm({150, 200}, 30);
   Rng rng(7, Purpose::test);
   frame.swarm({.centre = {450, 300}, .radius = 25, .clumps = clumps_for(25)}, rng);
-  const Image picture = lit(frame);
+  const formats::Image picture = lit(frame);
   const SwarmSighting both = find_swarm(picture);
   EXPECT_EQ(both.sight, SwarmSight::several);
   EXPECT_FALSE(both.swarm);
@@ -166,7 +167,7 @@ TEST(SwarmFinder, PartlyOutsideOfThePictureIsCut) {
 }
 
 TEST(SwarmFinder, AtAWallWhatTheWallDoesNotHideIsSeen) {
-  Mask walls(test::frame_width, test::frame_height);
+  formats::Mask walls(test::frame_width, test::frame_height);
   for (int y = 0; y < test::frame_height; ++y)
     for (int x = 0; x < test::frame_width; ++x) walls.at(x, y) = x >= 400 && x < 440;
   for (const double x : {330.0, 360.0, 372.0, 385.0}) {
@@ -181,7 +182,7 @@ TEST(SwarmFinder, AtAWallWhatTheWallDoesNotHideIsSeen) {
       find_swarm(lit(DrawnFrame(test::frame_width, test::frame_height)), {}, std::nullopt, &walls)
           .sight,
       SwarmSight::none);
-  const Mask wrong(4, 3);
+  const formats::Mask wrong(4, 3);
   EXPECT_EQ(test::error_of([&] {
               find_swarm(lit(DrawnFrame(test::frame_width, test::frame_height)), {}, std::nullopt,
                          &wrong);
@@ -207,9 +208,9 @@ TEST(SwarmFinder, TinySwarmsDownToTheLeastRadius) {
 
 TEST(SwarmFinder, NothingIsFoundWhereNothingIs) {
   const auto even = [](int w, int h, int channels, int grey) {
-    return Image{w, h, channels,
-                 std::vector<std::uint8_t>(static_cast<std::size_t>(w) * h * channels,
-                                           static_cast<std::uint8_t>(grey))};
+    return formats::Image{w, h, channels,
+                          std::vector<std::uint8_t>(static_cast<std::size_t>(w) * h * channels,
+                                                    static_cast<std::uint8_t>(grey))};
   };
   for (const ParticleTone tone : {ParticleTone::dark, ParticleTone::bright}) {
     SwarmFinderParams params;
@@ -236,7 +237,8 @@ TEST(SwarmFinder, NothingIsFoundWhereNothingIs) {
 TEST(SwarmFinder, AnyPictureGivesFiniteBlobs) {
   for (int k = 0; k < 60; ++k) {
     Rng rng(10, Purpose::test, k);
-    Image image{1 + static_cast<int>(rng.below(90)), 1 + static_cast<int>(rng.below(90)), 1, {}};
+    formats::Image image{
+        1 + static_cast<int>(rng.below(90)), 1 + static_cast<int>(rng.below(90)), 1, {}};
     const auto levels = 1 + rng.below(4);
     for (int i = 0; i < image.width * image.height; ++i)
       image.pixels.push_back(static_cast<std::uint8_t>(rng.below(levels) * 255 / levels));
@@ -258,7 +260,7 @@ TEST(SwarmFinder, AFrozenPictureGivesTheSameBits) {
 
 TEST(SwarmFinder, BrightOnDarkIsAsDarkOnBright) {
   const Scene s = scene(4, 5);
-  Image inverse = s.picture;
+  formats::Image inverse = s.picture;
   for (auto& g : inverse.pixels) g = static_cast<std::uint8_t>(255 - g);
   SwarmFinderParams bright;
   bright.look.tone = ParticleTone::bright;
@@ -283,4 +285,4 @@ TEST(SwarmFinder, AMovedSwarmIsSeenMovedBetweenPixelsToo) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -14,17 +14,17 @@
 #include "tests/cases.hpp"
 #include "tests/files.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 struct Drawn {
-  Image picture;
-  Mask truth;
+  formats::Image picture;
+  formats::Mask truth;
 };
 
 // Dark curved lines of known width under uneven light and noise.
 Drawn drawn(int side, std::uint64_t seed) {
-  Drawn out{{side, side, 3, {}}, Mask(side, side)};
+  Drawn out{{side, side, 3, {}}, formats::Mask(side, side)};
   out.picture.pixels.resize(static_cast<std::size_t>(side) * side * 3);
   Rng rng(seed, Purpose::test);
   for (int row = 0; row < side; ++row)
@@ -63,8 +63,8 @@ TEST(Vessels, TheSamePictureGivesTheSameMaskWithinTheView) {
 
 TEST(Vessels, BlankAndTinyPicturesHaveNone) {
   for (int side : {1, 3, 64}) {
-    const Image blank{side, side, 1,
-                      std::vector<std::uint8_t>(static_cast<std::size_t>(side) * side, 128)};
+    const formats::Image blank{
+        side, side, 1, std::vector<std::uint8_t>(static_cast<std::size_t>(side) * side, 128)};
     const VesselSegmentation found = segment_vessels(blank);
     EXPECT_EQ(found.vessels.width, side);
     for (const std::uint8_t cell : found.vessels.cells) EXPECT_EQ(cell, 0);
@@ -85,7 +85,7 @@ TEST(Outline, KeepsAreaAndPieces) {
 
 TEST(Overlay, HasThePicturesSizeAndColour) {
   const Drawn d = drawn(64, 4);
-  const Image shown = overlay(d.picture, d.truth);
+  const formats::Image shown = overlay(d.picture, d.truth);
   EXPECT_EQ(shown.width, 64);
   EXPECT_EQ(shown.channels, 3);
   EXPECT_NE(shown.pixels, d.picture.pixels);
@@ -101,12 +101,14 @@ TEST(Agreement, OfAMaskWithItselfIsPerfect) {
 
 TEST(VesselsSample, AgreesWithItsMask) {
   const auto folder = test::sample_folder() / "vessels";
-  const Mask drawn_mask = threshold(read_image(folder / "retina_mask.png"), 128, false);
+  const formats::Mask drawn_mask =
+      formats::threshold(formats::read_image(folder / "retina_mask.png"), 128, false);
   for (const VesselMethod method : {VesselMethod::automatic, VesselMethod::lines}) {
     VesselParams params;
     params.method = method;
     params.keep = KeepPieces::all;
-    const VesselSegmentation found = segment_vessels(read_image(folder / "retina.png"), params);
+    const VesselSegmentation found =
+        segment_vessels(formats::read_image(folder / "retina.png"), params);
     const Agreement a = compare(drawn_mask, found.vessels, &found.field_of_view);
     EXPECT_GT(*a.dice(), 0.65);
     EXPECT_GT(*a.sensitivity(), 0.9);
@@ -124,12 +126,13 @@ TEST(Vessels, RetinasAgreeWithTheirObservers) {
   for (const char* name : {"CHASE_01L", "CHASE_05R", "CHASE_09L", "CHASE_12R"}) {
     if (left-- == 0) break;
     const auto read = [&](const char* what) {
-      return threshold(read_image(retinas() / (std::string(name) + what)), 128, false);
+      return formats::threshold(formats::read_image(retinas() / (std::string(name) + what)), 128,
+                                false);
     };
-    const Mask first = read("_mask_obs1.png");
-    const Mask second = read("_mask_obs2.png");
+    const formats::Mask first = read("_mask_obs1.png");
+    const formats::Mask second = read("_mask_obs2.png");
     const VesselSegmentation found =
-        segment_vessels(read_image(retinas() / (std::string(name) + ".jpg")), params);
+        segment_vessels(formats::read_image(retinas() / (std::string(name) + ".jpg")), params);
     const Agreement ours = compare(first, found.vessels, &found.field_of_view);
     const Agreement theirs = compare(first, second, &found.field_of_view);
     std::printf(
@@ -144,7 +147,7 @@ TEST(Vessels, RetinasAgreeWithTheirObservers) {
 }
 
 TEST(Outline, WallsReachTheBorderOfTheMap) {
-  Mask network(40, 30);
+  formats::Mask network(40, 30);
   for (int column = 0; column < 30; ++column)
     for (int row = 10; row < 16; ++row) network.at(column, row) = 1;
   const Map map({{0, 0}, {240, 180}}, walls_around(network, 6, 6));
@@ -155,4 +158,4 @@ TEST(Outline, WallsReachTheBorderOfTheMap) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::vision

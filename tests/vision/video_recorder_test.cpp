@@ -8,7 +8,7 @@
 #include "tests/files.hpp"
 #include "tests/vision/noise.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 using test::noise;
@@ -30,8 +30,8 @@ TEST(RecordedVideo, LosesNothing) {
       VideoFrame frame;
       for (int i = 0; i < count; ++i) {
         ASSERT_TRUE(video->next(frame));
-        const Image sent = noise(i, 96, 64, channels).picture;
-        Image grey;
+        const formats::Image sent = noise(i, 96, 64, channels).picture;
+        formats::Image grey;
         take_channel(frame.picture, VideoChannel::red, grey);
         EXPECT_EQ(channels == 3 ? frame.picture.pixels : grey.pixels, sent.pixels) << name << i;
       }
@@ -49,4 +49,4 @@ TEST(RecordedVideo, LosesNothing) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::vision

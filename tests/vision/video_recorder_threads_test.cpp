@@ -11,7 +11,7 @@
 #include "tests/messages.hpp"
 #include "tests/vision/noise.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 using test::noise;
@@ -86,4 +86,4 @@ TEST(VideoRecorder, WhatCannotBeWrittenIsRefusedAtOnce) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::vision

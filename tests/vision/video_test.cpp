@@ -19,7 +19,7 @@
 #include "tests/files.hpp"
 #include "tests/vision/spots.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 namespace fs = std::filesystem;
@@ -31,7 +31,7 @@ class Videos : public testing::Test {
     fs::create_directories(folder);
   }
   ~Videos() override { fs::remove_all(folder); }
-  static Image flat(int width, int height, int channels, std::uint8_t grey) {
+  static formats::Image flat(int width, int height, int channels, std::uint8_t grey) {
     return {width, height, channels,
             std::vector<std::uint8_t>(static_cast<std::size_t>(width) * height * channels, grey)};
   }
@@ -51,8 +51,8 @@ class Videos : public testing::Test {
 
 TEST_F(Videos, PicturesComeInTheOrderOfTheirNumbers) {
   for (const int i : {1, 2, 10, 9, 100})
-    write_png(folder / ("a" + std::to_string(i) + ".png"),
-              flat(8, 6, 1, static_cast<std::uint8_t>(i)));
+    formats::write_png(folder / ("a" + std::to_string(i) + ".png"),
+                       flat(8, 6, 1, static_cast<std::uint8_t>(i)));
   write_file_atomically(folder / "notes.txt", "none of the pictures");
   const auto frames = open_frames(folder, 4);
   EXPECT_EQ(frames->count(), 5);
@@ -67,7 +67,7 @@ TEST_F(Videos, PicturesComeInTheOrderOfTheirNumbers) {
 }
 
 TEST_F(Videos, AFolderMayHoldEveryKindOfPicture) {
-  for (const std::string_view extension : image_extensions) {
+  for (const std::string_view extension : formats::image_extensions) {
     if (extension.starts_with(".tif")) continue;  // read page by page
     const fs::path file = folder / ("1" + std::string(extension));
     write_file_atomically(file, "P5 2 1 255\n\x05\x06");
@@ -95,10 +95,10 @@ TEST_F(Videos, BadSourcesAreRefused) {
 
 TEST_F(Videos, AnUnreadablePictureEndsAFolder) {
   for (const char* bad : {"3.png", "3.tif"}) {
-    write_png(folder / "1.png", flat(8, 6, 1, 0));
-    write_png(folder / "2.png", flat(8, 6, 1, 0));
+    formats::write_png(folder / "1.png", flat(8, 6, 1, 0));
+    formats::write_png(folder / "2.png", flat(8, 6, 1, 0));
     write_file_atomically(folder / bad, read_file(folder / "2.png").substr(0, 40));
-    write_png(folder / "4.png", flat(8, 6, 1, 0));
+    formats::write_png(folder / "4.png", flat(8, 6, 1, 0));
     const auto frames = open_frames(folder);
     VideoFrame frame;
     EXPECT_TRUE(frames->next(frame));
@@ -109,7 +109,7 @@ TEST_F(Videos, AnUnreadablePictureEndsAFolder) {
     EXPECT_FALSE(frames->next(frame));
     fs::remove(folder / bad);
   }
-  write_png(folder / "3.png", flat(8, 7, 1, 0));
+  formats::write_png(folder / "3.png", flat(8, 7, 1, 0));
   const auto frames = open_frames(folder);
   VideoFrame frame;
   while (frames->next(frame)) {
@@ -193,8 +193,8 @@ TEST_F(Videos, AWriterGivenUpLeavesNothing) {
 }
 
 TEST(Channels, AreTakenOneByOne) {
-  const Image colours{2, 1, 3, {10, 20, 30, 40, 50, 60}};
-  Image grey;
+  const formats::Image colours{2, 1, 3, {10, 20, 30, 40, 50, 60}};
+  formats::Image grey;
   take_channel(colours, VideoChannel::red, grey);
   EXPECT_EQ(grey.pixels, (std::vector<std::uint8_t>{10, 40}));
   take_channel(colours, VideoChannel::green, grey);
@@ -258,7 +258,7 @@ TEST(VideoTracker, PictureAndWorldAreEachOthersInverse) {
 TEST(TrackOverlay, DrawsOnAPictureOfItsSize) {
   TrackOverlay overlay(0.5);
   const VideoFrame frame{0, 0, {120, 90, 1, std::vector<std::uint8_t>(120 * 90, 50)}};
-  const Image shown = overlay.draw(frame, {{.id = 3, .position = {30, 22}, .radius = 2}});
+  const formats::Image shown = overlay.draw(frame, {{.id = 3, .position = {30, 22}, .radius = 2}});
   EXPECT_EQ(shown.width, 120);
   EXPECT_EQ(shown.channels, 3);
   const std::size_t ring = shown.index(59 + 6, 90 - 1 - 44);
@@ -431,4 +431,4 @@ TEST(RealVideos, BrightFieldHasFiveRings) {
 }
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -29,21 +29,21 @@ Descriptor locked(const fs::path& folder) {
   return is_locked ? std::move(open) : Descriptor();
 }
 
-Download recorded(const Session& session) {
+Download recorded(const experiment::Session& session) {
   Download made{.file = std::make_unique<TemporaryFile>("record.h5")};
   session.record_to(made.file->path());
   return made;
 }
 
-Download scenario(const Session& session, const fs::path& folder) {
-  Scenario initial = session.record().scene.scenario;
+Download scenario(const experiment::Session& session, const fs::path& folder) {
+  experiment::Scenario initial = session.record().scene.scenario;
   for (std::string* file : referenced_files(initial))
     if (!file->empty() && !folder.empty()) *file = (folder / *file).lexically_normal().string();
-  return {.bytes = scenario_text(initial)};
+  return {.bytes = experiment::scenario_text(initial)};
 }
 
-Download table(const Session& session, const std::string& name) {
-  return {.bytes = record_csv(session.record(), name)};
+Download table(const experiment::Session& session, const std::string& name) {
+  return {.bytes = sweep::record_csv(session.record(), name)};
 }
 
 }  // namespace
@@ -82,12 +82,15 @@ void throw_renamed(const InputError& error, const fs::path& file, std::string_vi
   throw InputError(what);
 }
 
-std::function<Download(const Session&)> download(std::string_view name, const fs::path& folder) {
+std::function<Download(const experiment::Session&)> download(std::string_view name,
+                                                             const fs::path& folder) {
   if (name == "record.h5") return recorded;
   if (name == "scenario.yaml")
-    return [folder](const Session& session) { return scenario(session, folder); };
-  if (name == "frames.csv") return [](const Session& of) { return table(of, "frames"); };
-  if (name == "events.csv") return [](const Session& of) { return table(of, "events"); };
+    return [folder](const experiment::Session& session) { return scenario(session, folder); };
+  if (name == "frames.csv")
+    return [](const experiment::Session& of) { return table(of, "frames"); };
+  if (name == "events.csv")
+    return [](const experiment::Session& of) { return table(of, "events"); };
   return {};
 }
 

@@ -45,8 +45,8 @@ struct Download {
 /// Function that makes the download of that name from a session: record.h5 (so far), scenario.yaml
 /// (the initial one, with absolute file names), frames.csv, events.csv. `folder` is the scenario's.
 /// Empty for another name.
-std::function<Download(const Session&)> download(std::string_view name,
-                                                 const std::filesystem::path& folder);
+std::function<Download(const experiment::Session&)> download(std::string_view name,
+                                                             const std::filesystem::path& folder);
 std::string_view find_media_type(std::string_view name);
 
 }  // namespace microswarm::lab

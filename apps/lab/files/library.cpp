@@ -48,12 +48,12 @@ bool is_within(const fs::path& file, const fs::path& folder) {
 
 }  // namespace
 
-std::vector<std::string*> referenced_files(Scenario& scenario) {
+std::vector<std::string*> referenced_files(experiment::Scenario& scenario) {
   std::vector<std::string*> files;
-  if (std::string* file = file_name(scenario.map)) files.push_back(file);
+  if (std::string* file = formats::file_name(scenario.map)) files.push_back(file);
   for (Obstacle& obstacle : scenario.obstacles)
     if (Track* track = find_track(obstacle.motion)) files.push_back(&track->file);
-  if (FollowerParams* follower = find_follower(scenario.navigator))
+  if (navigation::FollowerParams* follower = navigation::find_follower(scenario.navigator))
     files.push_back(&follower->model);
   return files;
 }
@@ -104,8 +104,8 @@ fs::path Library::find(std::string_view file) const {
 void Library::check(const fs::path& scenario, const Settings& settings,
                     const Settings& trusted) const {
   if (settings.list == trusted.list || scenario.extension() == ".h5") return;
-  Scenario asked = read_scenario(scenario, settings);
-  Scenario opened = read_scenario(scenario, trusted);
+  experiment::Scenario asked = experiment::read_scenario(scenario, settings);
+  experiment::Scenario opened = experiment::read_scenario(scenario, trusted);
   const auto known = referenced_files(opened);
   for (const std::string* file : referenced_files(asked)) {
     const bool is_known =
@@ -115,7 +115,7 @@ void Library::check(const fs::path& scenario, const Settings& settings,
 }
 
 void Library::check_all(const fs::path& scenario) const {
-  Scenario asked = read_scenario(scenario);
+  experiment::Scenario asked = experiment::read_scenario(scenario);
   for (const std::string* file : referenced_files(asked))
     if (!file->empty()) find((scenario.parent_path() / *file).string());
 }

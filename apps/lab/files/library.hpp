@@ -19,7 +19,7 @@ struct Entry {
 };
 
 /// Names of the files that a scenario reads: map, tracks, model; relative to its own folder.
-std::vector<std::string*> referenced_files(Scenario& scenario);
+std::vector<std::string*> referenced_files(experiment::Scenario& scenario);
 
 /// The folders whose files the lab lists and opens. Other files are not accessible.
 class Library {

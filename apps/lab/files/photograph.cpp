@@ -26,15 +26,15 @@ constexpr double smoothing = 1;  // [px], of the outlines
 constexpr int jpeg_quality = 90;
 constexpr int max_steps = 100'000;
 
-VesselSegmentation searched(const Image& photo, const PhotoRequest& request) {
-  VesselParams params;
+vision::VesselSegmentation searched(const formats::Image& photo, const PhotoRequest& request) {
+  vision::VesselParams params;
   set_values(params, request.settings);
-  return segment_vessels(photo, params);
+  return vision::segment_vessels(photo, params);
 }
 
 /// Nearest position with this clearance. Throws InputError if there is none nearby.
 Vec2 free_place(const Map& map, Vec2 at, double clearance, double width, const char* what) {
-  const auto found = free_goal(Snapshot::of(map), at, 3 * width, clearance);
+  const auto found = planning::free_goal(Snapshot::of(map), at, 3 * width, clearance);
   if (!found)
     throw InputError(fmt::format(
         "the {} ({:.0f}, {:.0f}) µm is not in a vessel that is wide enough", what, at.x, at.y));
@@ -43,17 +43,17 @@ Vec2 free_place(const Map& map, Vec2 at, double clearance, double width, const c
 
 }  // namespace
 
-std::string vessel_schema() { return json_schema<VesselParams>("vessels of a photograph"); }
+std::string vessel_schema() { return json_schema<vision::VesselParams>("vessels of a photograph"); }
 
 std::string to_jpeg(const std::filesystem::path& photograph) {
-  return encode_jpeg(read_photograph(photograph), jpeg_quality);
+  return formats::encode_jpeg(formats::read_photograph(photograph), jpeg_quality);
 }
 
 FoundVessels find_vessels(const std::filesystem::path& photograph, const PhotoRequest& request) {
-  const Image photo = read_photograph(photograph);
-  const VesselSegmentation found = searched(photo, request);
+  const formats::Image photo = formats::read_photograph(photograph);
+  const vision::VesselSegmentation found = searched(photo, request);
   const TemporaryFile picture("overlay.png");
-  write_png(picture.path(), overlay(photo, found.vessels));
+  formats::write_png(picture.path(), vision::overlay(photo, found.vessels));
   const nlohmann::json json{{"view_share", found.view_share},
                             {"pieces", found.pieces},
                             {"kept_share", found.kept_share},
@@ -68,19 +68,19 @@ std::filesystem::path make_photo_scenario(const std::filesystem::path& photograp
   if (!(cell > 0)) throw InputError("the scale is missing: um_per_px");
   if (!request.goal) throw InputError("the goal is missing");
   if (!request.start && request.robots < 1) throw InputError("start or robots are missing");
-  const Image photo = read_photograph(photograph);
-  const VesselSegmentation found = searched(photo, request);
-  const Map map = vessel_map(found, cell, smoothing, "photograph");
+  const formats::Image photo = formats::read_photograph(photograph);
+  const vision::VesselSegmentation found = searched(photo, request);
+  const Map map = vision::vessel_map(found, cell, smoothing, "photograph");
   Rng rng(1, Purpose::planner);
   const double width = channel_width(map, rng);
   const std::filesystem::path file = uploads.new_file(".geojson");
-  write_map(file, map, cell);
+  formats::write_map(file, map, cell);
 
-  Scenario scenario;
+  experiment::Scenario scenario;
   scenario.name = "photograph";
-  scenario.map = GeoJsonMap{.file = file.filename().string()};
+  scenario.map = formats::GeoJsonMap{.file = file.filename().string()};
   if (request.start) {
-    fit_swarm(scenario, width);
+    experiment::fit_swarm(scenario, width);
     const double clearance = 1.4 * swarm_limits(scenario.swarm).radius;
     scenario.start = Pose2{free_place(map, *request.start, clearance, width, "start"), 0};
     scenario.goal = free_place(map, *request.goal, clearance, width, "goal");
@@ -88,12 +88,12 @@ std::filesystem::path make_photo_scenario(const std::filesystem::path& photograp
   } else {
     scenario.robots.emplace().count = request.robots;
     scenario.goal = free_place(map, *request.goal, 0.05 * width, width, "place to gather");
-    scenario.navigator = AggregationParams{};
-    fit_gathering(scenario, width, max_steps);
+    scenario.navigator = navigation::AggregationParams{};
+    experiment::fit_gathering(scenario, width, max_steps);
   }
   const std::filesystem::path made = uploads.new_file(".yaml");
-  write_file_atomically(made, scenario_text(scenario));
-  open_experiment(made);  // reports inconsistent values
+  write_file_atomically(made, experiment::scenario_text(scenario));
+  experiment::open_experiment(made);  // reports inconsistent values
   return made;
 }
 

@@ -22,7 +22,7 @@ constexpr std::size_t max_drawings = 2000;
 constexpr std::size_t max_robots = 500;  // maximum number of robots drawn
 constexpr double mark_radius = 5;        // px
 
-std::string hex(const Colour& colour) {
+std::string hex(const report::Colour& colour) {
   const auto part = [](double share) { return static_cast<int>(std::lround(255 * share)); };
   return fmt::format("#{:02x}{:02x}{:02x}", part(colour.red), part(colour.green),
                      part(colour.blue));
@@ -36,14 +36,14 @@ class Drawing {
         scale_(std::min(max_width / view.width(), max_height / view.height())),
         tolerance_(tolerance) {}
 
-  void polygon(const Polygon& shape, const Colour& colour) {
+  void polygon(const Polygon& shape, const report::Colour& colour) {
     std::string path;
     ring(shape.outer, path);
     for (const auto& hole : shape.holes) ring(hole, path);
     if (!path.empty())
       svg_ += fmt::format("<path fill=\"{}\" fill-rule=\"evenodd\" d=\"{}\"/>", hex(colour), path);
   }
-  void disc(Vec2 centre, double radius_px, const Colour& colour, bool is_ring = false) {
+  void disc(Vec2 centre, double radius_px, const report::Colour& colour, bool is_ring = false) {
     const Vec2 p = at(centre);
     svg_ += fmt::format(
         "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\" {}/>", p.x, p.y, radius_px,
@@ -58,7 +58,7 @@ class Drawing {
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
         "viewBox=\"0 0 {0:.1f} {1:.1f}\"><rect x=\"0.5\" y=\"0.5\" width=\"{3:.1f}\" "
         "height=\"{4:.1f}\" fill=\"none\" stroke=\"{5}\"/>{2}</svg>\n",
-        width, height, svg_, width - 1, height - 1, hex(colours::wall_edge));
+        width, height, svg_, width - 1, height - 1, hex(report::colours::wall_edge));
   }
 
  private:
@@ -85,7 +85,7 @@ class Drawing {
   std::string svg_;
 };
 
-void draw(Drawing& drawing, const Body& body, const Colour& colour) {
+void draw(Drawing& drawing, const Body& body, const report::Colour& colour) {
   std::visit(Overloaded{[&](const Disc& disc) {
                           drawing.disc(disc.centre, drawing.px(disc.radius), colour);
                         },
@@ -93,32 +93,34 @@ void draw(Drawing& drawing, const Body& body, const Colour& colour) {
              body.shape);
 }
 
-std::string drawn(const Scene& scene, double tolerance) {
-  const Scenario& scenario = scene.scenario;
+std::string drawn(const experiment::Scene& scene, double tolerance) {
+  const experiment::Scenario& scenario = scene.scenario;
   Drawing drawing(scene.map.bounds, tolerance);
-  for (const Polygon& wall : scene.map.walls) drawing.polygon(wall, colours::wall_edge);
+  for (const Polygon& wall : scene.map.walls) drawing.polygon(wall, report::colours::wall_edge);
   for (const Disc& disc : scene.map.discs)
-    drawing.disc(disc.centre, drawing.px(disc.radius), colours::wall_edge);
+    drawing.disc(disc.centre, drawing.px(disc.radius), report::colours::wall_edge);
   std::vector<Body> bodies;
   for (const Obstacle& obstacle : scenario.obstacles) append_bodies(obstacle, 0, 0, bodies);
-  for (const Body& body : bodies) draw(drawing, body, colours::obstacle);
+  for (const Body& body : bodies) draw(drawing, body, report::colours::obstacle);
   if (scenario.robots) {
     const auto& robots = *scenario.robots;
     const auto few = [](const auto& list) {
       return std::span(list).first(std::min(list.size(), max_robots));
     };
-    for (const Vec2 start : few(robots.starts)) drawing.disc(start, 2, colours::swarm);
-    for (const Vec2 goal : few(robots.goals)) drawing.disc(goal, mark_radius, colours::goal, true);
+    for (const Vec2 start : few(robots.starts)) drawing.disc(start, 2, report::colours::swarm);
+    for (const Vec2 goal : few(robots.goals))
+      drawing.disc(goal, mark_radius, report::colours::goal, true);
   }
-  if (scenario.start) drawing.disc(scenario.start->position, mark_radius, colours::swarm);
-  if (scenario.goal) drawing.disc(*scenario.goal, mark_radius, colours::goal, true);
+  if (scenario.start) drawing.disc(scenario.start->position, mark_radius, report::colours::swarm);
+  if (scenario.goal) drawing.disc(*scenario.goal, mark_radius, report::colours::goal, true);
   return drawing.text();
 }
 
 }  // namespace
 
 std::string thumbnail(const std::filesystem::path& scenario) {
-  const Scene scene = load_scene(read_scenario(scenario), scenario.parent_path());
+  const experiment::Scene scene =
+      experiment::load_scene(experiment::read_scenario(scenario), scenario.parent_path());
   std::string svg;
   for (double tolerance = finest; tolerance < max_width; tolerance *= 2) {
     svg = drawn(scene, tolerance);

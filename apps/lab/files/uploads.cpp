@@ -46,7 +46,7 @@ Upload Uploads::keep(std::string_view name, const std::string& bytes, const Libr
   const std::string shown = one_line(name.substr(0, 200));
   std::string extension = lower_extension(name);
   if (extension == ".yml") extension = ".yaml";
-  const bool is_picture = has_image_extension(name);
+  const bool is_picture = formats::has_image_extension(name);
   if (!is_picture && extension != ".yaml" && extension != ".h5")
     throw InputError(shown + ": neither a photograph, a scenario (.yaml) nor a record (.h5)");
   if (size_ + bytes.size() > max_total)
@@ -57,16 +57,16 @@ Upload Uploads::keep(std::string_view name, const std::string& bytes, const Libr
   Upload made{.file = file.string()};
   try {
     if (is_picture) {
-      const Image image = read_photograph(file);
+      const formats::Image image = formats::read_photograph(file);
       made.kind = Upload::Kind::photograph;
       made.width = image.width;
       made.height = image.height;
     } else if (extension == ".yaml") {
       library.check_all(file);
-      open_experiment(file);
+      experiment::open_experiment(file);
       made.kind = Upload::Kind::scenario;
     } else {
-      read_record(file);
+      experiment::read_record(file);
     }
   } catch (const InputError& error) {
     throw_renamed(error, file, shown);

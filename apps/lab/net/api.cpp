@@ -39,7 +39,9 @@ void draw_thumbnail(Exchange& e, std::string_view) {
   });
 }
 
-void write_schema(Exchange& e, std::string_view) { e.write(json_text(e, scenario_schema())); }
+void write_schema(Exchange& e, std::string_view) {
+  e.write(json_text(e, experiment::scenario_schema()));
+}
 
 void write_vessel_schema(Exchange& e, std::string_view) { e.write(json_text(e, vessel_schema())); }
 
@@ -143,7 +145,7 @@ void send(Exchange& e, const std::string& name, Outcome<Download> made) {
 
 /// Makes an export in its thread and sends it.
 void make_export(const std::shared_ptr<Exchange>& exchange, const std::string& name,
-                 const RunExport& wanted, std::shared_ptr<const Record> record) {
+                 const RunExport& wanted, std::shared_ptr<const experiment::Record> record) {
   exchange->shared().export_(
       [self = exchange, name, wanted, record = std::move(record)](const Stop& stop) mutable {
         const auto made = std::make_shared<Outcome<Download>>();
@@ -167,11 +169,13 @@ void make_export(const std::shared_ptr<Exchange>& exchange, const std::string& n
 void export_run(Exchange& e, std::uint64_t session, const std::string& name,
                 const RunExport& wanted) {
   e.wait();
-  e.shared().hub.fetch<std::shared_ptr<const Record>>(
+  e.shared().hub.fetch<std::shared_ptr<const experiment::Record>>(
       session,
-      [](const Session& of) { return std::make_shared<const Record>(Record(of.record())); },
+      [](const experiment::Session& of) {
+        return std::make_shared<const experiment::Record>(experiment::Record(of.record()));
+      },
       [self = e.shared_from_this(), name,
-       wanted](const Outcome<std::shared_ptr<const Record>>& copied) {
+       wanted](const Outcome<std::shared_ptr<const experiment::Record>>& copied) {
         if (!copied.trouble.empty())
           self->refuse(http::status::internal_server_error, copied.trouble);
         else
@@ -187,7 +191,7 @@ void send_download(Exchange& e, std::string_view path) {
   const std::string name(path.substr(slash + 1));
   if (e.shared().hub.drives(*number))
     return e.refuse(http::status::conflict, "the coils are driven: stop the run first");
-  const Opening& opening = e.shared().hub.to_opening(*number);
+  const Opening& opening = e.shared().hub.find_opening(*number);
   if (name == "photo.jpg" && opening.photo)
     return e.later([&e, file = opening.photo->file] {
       return respond(e.request(), http::status::ok, "image/jpeg", to_jpeg(file));

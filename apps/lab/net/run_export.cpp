@@ -46,7 +46,7 @@ std::optional<RunExport> read_run_export(std::string_view name, std::string_view
   const auto kind = std::ranges::find_if(kinds, [&](auto k) { return file_name(k) == name; });
   if (kind == kinds.end()) return std::nullopt;
   RunExport wanted{.kind = *kind};
-  RunVideoOptions& options = wanted.options;
+  report::RunVideoOptions& options = wanted.options;
   if (wanted.kind == gif) options.rate = gif_rate;
   options.from = query_number(target, "from", options.from, 0, max_time);
   options.to = query_number(target, "to", options.to, 0, max_time);
@@ -56,20 +56,21 @@ std::optional<RunExport> read_run_export(std::string_view name, std::string_view
   return wanted;
 }
 
-Download make_run_export(const RunExport& wanted, const Record& record, const Stop& stop) {
-  RunVideoOptions options = wanted.options;
+Download make_run_export(const RunExport& wanted, const experiment::Record& record,
+                         const Stop& stop) {
+  report::RunVideoOptions options = wanted.options;
   if (wanted.photo)
-    options.report = {.photo = read_photograph(wanted.photo->file),
+    options.report = {.photo = formats::read_photograph(wanted.photo->file),
                       .um_per_px = wanted.photo->um_per_px};
   const std::string_view name = file_name(wanted.kind);
   Download made{.file = std::make_unique<TemporaryFile>(name)};
   const std::filesystem::path& file = made.file->path();
   try {
     if (wanted.kind == RunExport::Kind::picture) {
-      write_run_picture(record, wanted.t, file, options);
+      report::write_run_picture(record, wanted.t, file, options);
       return made;
     }
-    const RunVideo video = write_run_video(record, file, options, stop);
+    const report::RunVideo video = report::write_run_video(record, file, options, stop);
     if (video.stopped) throw InputError("the video was stopped");
     if (video.file != file) throw InputError("there is no codec for a video here");
     return made;

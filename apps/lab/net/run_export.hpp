@@ -16,7 +16,7 @@ namespace microswarm::lab {
 struct RunExport {
   enum class Kind { video, gif, picture };
   Kind kind = Kind::picture;
-  RunVideoOptions options{};
+  report::RunVideoOptions options{};
   std::optional<BackgroundPhoto> photo{};
   double t = 0;  ///< time of a picture [s]
 };
@@ -26,6 +26,7 @@ struct RunExport {
 std::optional<RunExport> read_run_export(std::string_view name, std::string_view target);
 
 /// Makes the export. Throws InputError if it fails or was stopped.
-Download make_run_export(const RunExport& wanted, const Record& record, const Stop& stop);
+Download make_run_export(const RunExport& wanted, const experiment::Record& record,
+                         const Stop& stop);
 
 }  // namespace microswarm::lab

@@ -42,7 +42,7 @@ void Host::ask(std::uint64_t page, Request request) {
   later([this, page, request = std::move(request)] { answer(page, request); });
 }
 
-void Host::with(std::function<void(Session&)> work) {
+void Host::with(std::function<void(experiment::Session&)> work) {
   later([this, work = std::move(work)] { work(session()); });
 }
 
@@ -107,7 +107,7 @@ void Host::answer(std::uint64_t page, const Request& request) {
 }
 
 void Host::operate(const Request& request, Issues& issues) {
-  Operation* operation = session().operation();
+  experiment::Operation* operation = session().operation();
   if (!operation)
     issues.add({}, "a record is not steered");
   else if (request.ask == Ask::hold)
@@ -131,7 +131,8 @@ void Host::look_back(double frame, Issues& issues) {
     session().seek(number);
     standing.ended = false;
   } else {
-    if (!past_) past_ = std::make_unique<Session>(Record(session().record()));
+    if (!past_)
+      past_ = std::make_unique<experiment::Session>(experiment::Record(session().record()));
     past_->seek(number);
     standing.looks_back = true;
     standing.plays = false;

@@ -32,7 +32,7 @@ struct RigOpening {
 /// Source of a session.
 struct Opening {
   std::filesystem::path file;  ///< scenario or record
-  RigSessionOptions options{};
+  rig::RigSessionOptions options{};
   /// Throws InputError for settings that are not allowed to a page.
   std::function<void(const Settings& settings)> check{};
   std::optional<BackgroundPhoto> photo{};
@@ -68,7 +68,7 @@ class Host {
   /// Sets the coils of its rig to zero, if any.
   virtual void stop(const std::string& why);
   /// Calls `work` with the session between two ticks, in the session's thread.
-  void with(std::function<void(Session&)> work);
+  void with(std::function<void(experiment::Session&)> work);
 
  protected:
   using Clock = Stop::Clock;
@@ -90,7 +90,7 @@ class Host {
   virtual void open() = 0;
   /// Handles requests and the tick that is due.
   virtual void serve() = 0;
-  virtual Session& session() = 0;
+  virtual experiment::Session& session() = 0;
   virtual void welcome(std::uint64_t page) = 0;
   virtual void obey(std::uint64_t page, const Request& request, Issues& issues) = 0;
   /// Handles an exception of a step.
@@ -102,7 +102,7 @@ class Host {
   void look_at_newest();
   bool looks_back() const { return past_ != nullptr; }
   /// Session that is shown.
-  const Session& shown() { return past_ ? *past_ : session(); }
+  const experiment::Session& shown() { return past_ ? *past_ : session(); }
 
   Opening opening_;
   Callbacks callbacks_;
@@ -116,7 +116,7 @@ class Host {
   std::condition_variable wake_;
   std::vector<std::function<void()>> work_;  ///< guarded
   std::atomic<bool> has_ended_ = false;
-  std::unique_ptr<Session>
+  std::unique_ptr<experiment::Session>
       past_;  ///< playback of the record so far, while an earlier frame is shown
   std::thread thread_;
 };

@@ -53,7 +53,7 @@ class Hub {
   /// Calls `make` with the session in its thread, between two ticks, then `done` with the result.
   /// An InputError of `make` and the end of the session are failures.
   template <class T>
-  void fetch(std::uint64_t session, std::function<T(const Session&)> make,
+  void fetch(std::uint64_t session, std::function<T(const experiment::Session&)> make,
              std::function<void(Outcome<T>)> done);
 
   bool is_full() const { return pages_.size() >= limits_.pages; }
@@ -105,7 +105,7 @@ class Hub {
 };
 
 template <class T>
-void Hub::fetch(std::uint64_t session, std::function<T(const Session&)> make,
+void Hub::fetch(std::uint64_t session, std::function<T(const experiment::Session&)> make,
                 std::function<void(Outcome<T>)> done) {
   const auto found = sessions_.find(session);
   if (found == sessions_.end()) return done({.trouble = "there is no such session"});
@@ -114,7 +114,7 @@ void Hub::fetch(std::uint64_t session, std::function<T(const Session&)> make,
       wait(session, [value, done = std::move(done)](const std::string& trouble) {
         done({.value = std::move(*value), .trouble = trouble});
       });
-  found->second.host->with([this, number, value, make = std::move(make)](Session& of) {
+  found->second.host->with([this, number, value, make = std::move(make)](experiment::Session& of) {
     std::string trouble;
     try {
       *value = make(of);

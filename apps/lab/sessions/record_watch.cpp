@@ -31,11 +31,12 @@ bool is_written_to(const fs::path& folder) {
 }  // namespace
 
 fs::path present_record(const fs::path& record) {
-  const fs::path part = part_file(record);
+  const fs::path part = experiment::part_file(record);
   return record.extension() == ".h5" && !is_there(record) && is_there(part) ? part : record;
 }
 
-RecordWatch::RecordWatch(fs::path file) : part_(std::move(file)), whole_(whole_file(part_)) {}
+RecordWatch::RecordWatch(fs::path file)
+    : part_(std::move(file)), whole_(experiment::whole_file(part_)) {}
 
 fs::path RecordWatch::file() const {
   return whole_.empty() || is_there(part_) || !is_there(whole_) ? part_ : whole_;

@@ -39,7 +39,7 @@ std::uint64_t RigGuard::stops() const {
   return stops_;
 }
 
-void RigGuard::watch(std::shared_ptr<LiveSession> session, bool listens, std::uint64_t stops) {
+void RigGuard::watch(std::shared_ptr<rig::LiveSession> session, bool listens, std::uint64_t stops) {
   const std::lock_guard lock(mutex_);
   session_ = std::move(session);
   listens_ = listens;

@@ -37,7 +37,7 @@ class RigGuard {
   std::uint64_t stops() const;
   /// Guards a session whose opening began after `stops` stop requests; a later one stops it. With
   /// `listens` the page must not be silent.
-  void watch(std::shared_ptr<LiveSession> session, bool listens, std::uint64_t stops);
+  void watch(std::shared_ptr<rig::LiveSession> session, bool listens, std::uint64_t stops);
   /// Releases the session, after a stop in progress, if any.
   void release();
 
@@ -46,7 +46,7 @@ class RigGuard {
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::shared_ptr<LiveSession> session_;
+  std::shared_ptr<rig::LiveSession> session_;
   bool listens_ = false;
   bool is_stopping_ = false;
   bool ends_ = false;

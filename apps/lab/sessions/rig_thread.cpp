@@ -21,7 +21,7 @@ constexpr auto rig_period = 100ms;
 constexpr const char* record_name = "run.h5";
 
 /// Relaxes limits for a dry run, so that it continues while light and focus are adjusted.
-void be_patient(SafetyParams& safety) {
+void be_patient(rig::SafetyParams& safety) {
   constexpr double long_time = 100;  // [s]
   safety.lost_swarm = safety.max_frame_age = safety.max_pause = safety.deadman = long_time;
   safety.missed_deadlines = 1'000'000;
@@ -31,7 +31,7 @@ void be_patient(SafetyParams& safety) {
 
 RigThread::RigThread(Opening opening, Callbacks callbacks)
     : Host(std::move(opening), std::move(callbacks)), pictures_(callbacks_.send) {
-  set_picture_threads(1);
+  vision::set_picture_threads(1);
   begin();
 }
 
@@ -92,7 +92,7 @@ void RigThread::ask(std::uint64_t page, Request request) {
 }
 
 /// The current run, or the record of the previous one.
-Session& RigThread::session() {
+experiment::Session& RigThread::session() {
   if (live_) return live_->session();
   if (!last_) throw InputError("the rig is not open");
   return *last_;
@@ -110,30 +110,32 @@ void RigThread::close() {
 
 /// Reopens the rig.
 void RigThread::begin_run(bool dry, std::uint64_t stops) {
-  const RigSessionOptions& o = opening_.options;
+  const rig::RigSessionOptions& o = opening_.options;
   if (opening_.check) opening_.check(o.settings);
-  RigExperiment on = open_rig_experiment(opening_.file, o.settings, o.rig, o.rig_settings);
+  rig::RigExperiment on =
+      rig::open_rig_experiment(opening_.file, o.settings, o.rig, o.rig_settings);
   if (dry) be_patient(on.rig.params.safety);
-  if (!dry && has_coil_device(on.rig) && shows_drawn_swarm(on.rig.params) &&
+  if (!dry && rig::has_coil_device(on.rig) && rig::shows_drawn_swarm(on.rig.params) &&
       !opening_.live->drawn_swarm)
     throw InputError(
         "the camera is simulated and the coil driver is not: real coils would be driven for a "
         "drawn swarm; for a test, start the lab with --drawn-swarm");
-  const LiveOptions options{.dry = dry,
-                            .idle = dry,
-                            .folder = dry ? std::filesystem::path() : new_folder(),
-                            .without_limits = opening_.live->without_limits,
-                            .coils_cold = opening_.live->coils_cold};
+  const rig::LiveOptions options{.dry = dry,
+                                 .idle = dry,
+                                 .folder = dry ? std::filesystem::path() : new_folder(),
+                                 .without_limits = opening_.live->without_limits,
+                                 .coils_cold = opening_.live->coils_cold};
   keep_last();
   standing_ = {.state = RigState::opening, .folder = options.folder.string()};
   tell_rig();
   drives_ = !dry;
-  live_ = std::make_shared<LiveSession>(on, options);
+  live_ = std::make_shared<rig::LiveSession>(on, options);
   guard_.watch(live_, !dry, stops);
   if (!options.folder.empty())
-    growing_ = std::make_unique<GrowingRecord>(live_->session(), options.folder / record_name);
+    growing_ =
+        std::make_unique<experiment::GrowingRecord>(live_->session(), options.folder / record_name);
   warnings_ = live_->warnings();
-  if (const std::string unusual = unusual_field(on.rig, on.scenario()); !unusual.empty())
+  if (const std::string unusual = rig::unusual_field(on.rig, on.scenario()); !unusual.empty())
     warnings_.push_back(unusual);
   standing_.state = dry ? RigState::dry : RigState::armed;
   publisher_.clear();
@@ -148,7 +150,7 @@ void RigThread::keep_last() {
   if (!live_) return;
   if (runs()) end_run();
   guard_.release();
-  last_ = std::make_unique<Session>(Record(live_->session().record()));
+  last_ = std::make_unique<experiment::Session>(experiment::Record(live_->session().record()));
   live_.reset();
 }
 
@@ -177,7 +179,7 @@ void RigThread::serve() {
 }
 
 void RigThread::step() {
-  const Tick* tick = live_->session().step(Stop(&ends_));
+  const experiment::Tick* tick = live_->session().step(Stop(&ends_));
   if (tick) publisher_.take(*tick);
   if (tick && !tick->fault.empty()) standing_.why = tick->fault;
   pictures_.offer(live_->live().picture(), live_->live().scale(), tick ? tick->frame.t : 0);

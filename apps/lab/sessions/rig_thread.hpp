@@ -34,7 +34,7 @@ class RigThread : public Host {
   void open() override;
   void close() override;
   void serve() override;
-  Session& session() override;
+  experiment::Session& session() override;
   void welcome(std::uint64_t page) override;
   void obey(std::uint64_t page, const Request& request, Issues& issues) override;
   void fail(const std::string& why) override;
@@ -56,9 +56,9 @@ class RigThread : public Host {
   std::atomic<bool> drives_ = false;  ///< whether the coils are or will soon be driven
 
   // State of the session's thread.
-  std::shared_ptr<LiveSession> live_;
-  std::unique_ptr<GrowingRecord> growing_;  ///< of a run with a folder
-  std::unique_ptr<Session> last_;           ///< previous run, while none is open
+  std::shared_ptr<rig::LiveSession> live_;
+  std::unique_ptr<experiment::GrowingRecord> growing_;  ///< of a run with a folder
+  std::unique_ptr<experiment::Session> last_;           ///< previous run, while none is open
   RigStanding standing_;
   std::vector<std::string> warnings_;
   std::set<std::uint64_t> welcomed_;  ///< pages that got their hello

@@ -49,7 +49,7 @@ std::optional<Stop::Clock::time_point> SessionThread::next_act(bool is_due) cons
 void SessionThread::open() {
   if (opening_.check) opening_.check(opening_.options.settings);
   watch_.has_changed();
-  session_ = open_on_rig(watch_.file(), opening_.options);
+  session_ = rig::open_on_rig(watch_.file(), opening_.options);
   look_at_newest();
   publisher_.clear();
   if (!session_->is_playback()) return;
@@ -74,7 +74,7 @@ void SessionThread::look_for_more() {
 
 /// Continues with the grown record. A page at the newest frame gets the new one.
 void SessionThread::grow() {
-  auto longer = open_on_rig(watch_.file(), opening_.options);
+  auto longer = rig::open_on_rig(watch_.file(), opening_.options);
   if (longer->record().frames.size() < publisher_.rows()) {  // it belongs to another run
     open();
     welcome(0);
@@ -92,10 +92,10 @@ void SessionThread::grow() {
 
 /// The shown frame. In a simulation the obstacles are those of the current scenario, so that they
 /// are visible before the first tick and after a change.
-SessionView SessionThread::present_view() {
-  SessionView view = shown().view();
+experiment::SessionView SessionThread::present_view() {
+  experiment::SessionView view = shown().view();
   if (looks_back() || session_->is_playback() || !opening_.options.rig.empty()) return view;
-  const Scenario& scenario = session_->scenario();
+  const experiment::Scenario& scenario = session_->scenario();
   view.bodies.clear();
   for (std::size_t i = 0; i < scenario.obstacles.size(); ++i)
     append_bodies(scenario.obstacles[i], static_cast<std::uint32_t>(i), view.frame.t, view.bodies);
@@ -178,7 +178,7 @@ void SessionThread::play(double until) {
 /// Whether the time until which it plays is reached.
 bool SessionThread::is_there() {
   if (until_ <= 0) return false;
-  const SessionView view = session_->view();
+  const experiment::SessionView view = session_->view();
   return view.frame.t >= until_ - 0.5 * session_->scenario().tick;
 }
 
@@ -199,7 +199,7 @@ void SessionThread::advance() {
   const Stop stop(&ends_);
   const auto began = Clock::now();
   do {
-    const Tick* tick = session_->step(stop);
+    const experiment::Tick* tick = session_->step(stop);
     if (tick && session_->is_playback()) publisher_.freshen();
     if (tick && !session_->is_playback()) publisher_.take(*tick);
     standing.ended = !tick || tick->end;

@@ -23,7 +23,7 @@ class SessionThread : public Host {
  private:
   void open() override;
   void serve() override;
-  Session& session() override { return *session_; }
+  experiment::Session& session() override { return *session_; }
   void welcome(std::uint64_t page) override;
   void obey(std::uint64_t page, const Request& request, Issues& issues) override;
 
@@ -31,12 +31,12 @@ class SessionThread : public Host {
   void play(double until);
   bool is_there();
   void restart(const Request& request);
-  SessionView present_view();
+  experiment::SessionView present_view();
   void advance();
   void look_for_more();
   void grow();
 
-  std::unique_ptr<Session> session_;
+  std::unique_ptr<experiment::Session> session_;
   Clock::time_point due_{};  ///< time of the next tick
   double until_ = 0;         ///< time at which it pauses [s]; 0 for the end
   RecordWatch watch_;

@@ -16,7 +16,8 @@ PictureSender::~PictureSender() {
   thread_.join();
 }
 
-void PictureSender::offer(const Image& picture, const CameraScale& scale, double t) {
+void PictureSender::offer(const formats::Image& picture, const vision::CameraScale& scale,
+                          double t) {
   constexpr std::chrono::milliseconds period{66};
   const auto now = std::chrono::steady_clock::now();
   const std::lock_guard lock(mutex_);

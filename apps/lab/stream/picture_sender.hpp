@@ -24,14 +24,14 @@ class PictureSender {
   PictureSender& operator=(const PictureSender&) = delete;
 
   /// Takes a picture, unless the last one was sent too recently or is still being compressed.
-  void offer(const Image& picture, const CameraScale& scale, double t);
+  void offer(const formats::Image& picture, const vision::CameraScale& scale, double t);
   /// Sends the last picture to a page.
   void welcome(std::uint64_t page);
 
  private:
   struct Offer {
-    Image picture;
-    CameraScale scale;
+    formats::Image picture;
+    vision::CameraScale scale;
     double t = 0;
   };
   void run();

@@ -6,7 +6,7 @@
 namespace microswarm::lab {
 namespace {
 
-const AggregationDiagnostics* aggregation_diagnostics(const Session& shown) {
+const AggregationDiagnostics* aggregation_diagnostics(const experiment::Session& shown) {
   return std::get_if<AggregationDiagnostics>(&shown.diagnostics());
 }
 
@@ -22,13 +22,13 @@ void Publisher::clear() {
   is_fresh_ = true;
 }
 
-void Publisher::take(const Record& record) {
+void Publisher::take(const experiment::Record& record) {
   take_more(record);
   told_rows_ = rows_.size();
   told_events_ = events_.size();
 }
 
-void Publisher::take_more(const Record& record) {
+void Publisher::take_more(const experiment::Record& record) {
   const auto& steps = record.result.timing.steps;
   for (std::size_t i = rows_.size(); i < record.frames.size(); ++i)
     rows_.push_back(
@@ -38,15 +38,15 @@ void Publisher::take_more(const Record& record) {
   standing.frames = record.frames.size();
 }
 
-void Publisher::take(const Tick& tick) {
+void Publisher::take(const experiment::Tick& tick) {
   rows_.push_back(to_row(tick));
   events_.insert(events_.end(), tick.events.begin(), tick.events.end());
   standing.frames = rows_.size();
   is_fresh_ = true;
 }
 
-void Publisher::welcome(std::uint64_t page, const MessagePtr& hello, Session& session,
-                        const Session& shown, const SessionView& view) {
+void Publisher::welcome(std::uint64_t page, const MessagePtr& hello, experiment::Session& session,
+                        const experiment::Session& shown, const experiment::SessionView& view) {
   tell_rows();
   send_(page, hello);
   send_(page, rows_message(rows_, events_, true));
@@ -57,7 +57,7 @@ void Publisher::welcome(std::uint64_t page, const MessagePtr& hello, Session& se
   send_(page, standing_message(standing, session.result()));
 }
 
-void Publisher::set(Session& session, const Request& request, Issues& issues) {
+void Publisher::set(experiment::Session& session, const Request& request, Issues& issues) {
   issues = session.set(request.key, request.value);
   if (!issues.empty()) return;
   std::erase_if(standing.changes,
@@ -68,7 +68,7 @@ void Publisher::set(Session& session, const Request& request, Issues& issues) {
   is_fresh_ = true;
 }
 
-void Publisher::tell_frame(const Session& shown, const SessionView& view) {
+void Publisher::tell_frame(const experiment::Session& shown, const experiment::SessionView& view) {
   is_fresh_ = false;
   has_changed_ = true;
   published_ = Stop::Clock::now();
@@ -91,9 +91,10 @@ void Publisher::tell_rows() {
   told_events_ = events_.size();
 }
 
-void Publisher::tell_standing(Session& session) {
+void Publisher::tell_standing(experiment::Session& session) {
   has_changed_ = false;
-  if (const Operation* operation = session.operation()) standing.mode = operation->mode();
+  if (const experiment::Operation* operation = session.operation())
+    standing.mode = operation->mode();
   send_(0, standing_message(standing, session.result()));
 }
 

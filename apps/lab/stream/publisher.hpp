@@ -23,10 +23,10 @@ class Publisher {
   /// Resets everything except the speed, for a reopened session.
   void clear();
   /// Takes the frames and events of an opened record.
-  void take(const Record& record);
+  void take(const experiment::Record& record);
   /// Takes the frames and events added since.
-  void take_more(const Record& record);
-  void take(const Tick& tick);
+  void take_more(const experiment::Record& record);
+  void take(const experiment::Tick& tick);
   /// Marks that a new frame can be sent.
   void freshen() { is_fresh_ = true; }
   bool is_fresh() const { return is_fresh_; }
@@ -38,20 +38,20 @@ class Publisher {
   Stop::Clock::time_point next_frame() const { return published_ + frame_period; }
 
   /// Sends the full state to one page. `shown` is the session itself, or the playback shown.
-  void welcome(std::uint64_t page, const MessagePtr& hello, Session& session, const Session& shown,
-               const SessionView& view);
+  void welcome(std::uint64_t page, const MessagePtr& hello, experiment::Session& session,
+               const experiment::Session& shown, const experiment::SessionView& view);
   /// Sends news to all pages, when due.
   template <class View>
-  void publish(Session& session, const Session& shown, View&& view) {
+  void publish(experiment::Session& session, const experiment::Session& shown, View&& view) {
     if (is_fresh_ && Stop::Clock::now() >= next_frame()) tell_frame(shown, view());
     if (has_changed_) tell_standing(session);
   }
   /// Sets a scenario value and informs all pages.
-  void set(Session& session, const Request& request, Issues& issues);
+  void set(experiment::Session& session, const Request& request, Issues& issues);
 
-  void tell_standing(Session& session);
+  void tell_standing(experiment::Session& session);
   /// Sends the standing and the numbers of every tick so far to all pages.
-  void tell_all(Session& session) {
+  void tell_all(experiment::Session& session) {
     tell_rows();
     tell_standing(session);
   }
@@ -59,12 +59,12 @@ class Publisher {
   Standing standing;
 
  private:
-  void tell_frame(const Session& shown, const SessionView& view);
+  void tell_frame(const experiment::Session& shown, const experiment::SessionView& view);
   void tell_rows();
 
   Send send_;
   std::vector<Row> rows_;
-  std::vector<RunEvent> events_;
+  std::vector<experiment::RunEvent> events_;
   std::size_t told_rows_ = 0;
   std::size_t told_events_ = 0;
   std::uint64_t told_plans_ = 0;

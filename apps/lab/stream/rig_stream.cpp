@@ -26,8 +26,8 @@ Json quantiles_ms(const Durations& d) {
 }
 
 /// Reduces a picture by averaging squares of `factor` pixels.
-Image shrunk(const Image& picture, int factor) {
-  Image small{.width = picture.width / factor, .height = picture.height / factor};
+formats::Image shrunk(const formats::Image& picture, int factor) {
+  formats::Image small{.width = picture.width / factor, .height = picture.height / factor};
   small.pixels.resize(small.index(0, small.height));
   for (int y = 0; y < small.height; ++y)
     for (int x = 0; x < small.width; ++x) {
@@ -40,10 +40,10 @@ Image shrunk(const Image& picture, int factor) {
   return small;
 }
 
-void add_run(Json& json, const LiveSession& run) {
-  const LiveStatus status = run.status();
-  const RigTiming timing = run.live().timing();
-  const CoilOutput& output = status.coils.output;
+void add_run(Json& json, const rig::LiveSession& run) {
+  const rig::LiveStatus status = run.status();
+  const rig::RigTiming timing = run.live().timing();
+  const actuation::CoilOutput& output = status.coils.output;
   json["t_s"] = status.t;
   json["field_mt"] = {output.wanted.x(), output.wanted.y(), output.wanted.z()};
   json["currents_a"] = list(output.acknowledged.size() > 0 ? output.acknowledged : output.currents);
@@ -73,18 +73,18 @@ void add_run(Json& json, const LiveSession& run) {
 
 }  // namespace
 
-MessagePtr rig_hello_message(const Session& session, const Source& source, const Rig& rig,
-                             const std::vector<std::string>& warnings) {
+MessagePtr rig_hello_message(const experiment::Session& session, const Source& source,
+                             const rig::Rig& rig, const std::vector<std::string>& warnings) {
   Json json = hello_json(session, source);
   Json currents = Json::array(), temperatures = Json::array();
-  for (const AmplifierParams& amplifier : rig.system.amplifiers()) {
+  for (const actuation::AmplifierParams& amplifier : rig.system.amplifiers()) {
     currents.push_back(optional(amplifier.max_current));
     temperatures.push_back(optional(amplifier.max_temperature));
   }
-  json["rig_info"] = {{"name", rig_name(rig)},
+  json["rig_info"] = {{"name", rig::rig_name(rig)},
                       {"coils", rig.system.coil_names()},
-                      {"real_coils", has_coil_device(rig)},
-                      {"real_camera", device_camera(rig.params).has_value()},
+                      {"real_coils", rig::has_coil_device(rig)},
+                      {"real_camera", rig::device_camera(rig.params).has_value()},
                       {"max_current_a", std::move(currents)},
                       {"max_temperature_c", std::move(temperatures)},
                       {"field_mt", rig.params.field.amplitude},
@@ -92,7 +92,7 @@ MessagePtr rig_hello_message(const Session& session, const Source& source, const
   return make_message(json, Message::Kind::hello);
 }
 
-MessagePtr rig_message(const RigStanding& standing, const LiveSession* run) {
+MessagePtr rig_message(const RigStanding& standing, const rig::LiveSession* run) {
   Json json{{"type", "rig"},
             {"state", enum_name(standing.state)},
             {"why", standing.why},
@@ -109,11 +109,12 @@ MessagePtr controls_message(bool holds, bool are_free, std::size_t pages) {
       {{"type", "controls"}, {"holds", holds}, {"free", are_free}, {"pages", pages}});
 }
 
-MessagePtr picture_message(const Image& picture, const CameraScale& scale, double t) {
+MessagePtr picture_message(const formats::Image& picture, const vision::CameraScale& scale,
+                           double t) {
   constexpr int widest = 1280;
   constexpr int quality = 80;
   const int factor = (picture.width + widest - 1) / widest;
-  const Image shown = factor > 1 ? shrunk(picture, factor) : picture;
+  const formats::Image shown = factor > 1 ? shrunk(picture, factor) : picture;
   const auto position = [&](int column, int row) {
     const double middle = 0.5 * (factor - 1);
     return scale.to_world({column * factor + middle, row * factor + middle});
@@ -121,7 +122,7 @@ MessagePtr picture_message(const Image& picture, const CameraScale& scale, doubl
   const Vec2 o = position(0, 0);
   const Vec2 u = position(1, 0) - o;
   const Vec2 v = position(0, 1) - o;
-  const std::string jpeg = encode_jpeg(shown, quality);
+  const std::string jpeg = formats::encode_jpeg(shown, quality);
   return make_message({{"type", "picture"},
                        {"t_s", t},
                        {"width", shown.width},

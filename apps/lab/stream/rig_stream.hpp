@@ -28,19 +28,20 @@ constexpr auto enum_names(RigState) {
 /// Standing of a rig, for its pages.
 struct RigStanding {
   RigState state = RigState::opening;
-  std::string why;                 ///< reason of zero currents; empty while the coils are driven
-  std::optional<StopReport> zero;  ///< set after a run that drove the coils
-  std::string folder;              ///< folder of the run's files; empty for none
+  std::string why;  ///< reason of zero currents; empty while the coils are driven
+  std::optional<actuation::StopReport> zero;  ///< set after a run that drove the coils
+  std::string folder;                         ///< folder of the run's files; empty for none
 };
 
 /// Hello of a session on a rig in real time, with the rig's properties.
-MessagePtr rig_hello_message(const Session& session, const Source& source, const Rig& rig,
-                             const std::vector<std::string>& warnings);
+MessagePtr rig_hello_message(const experiment::Session& session, const Source& source,
+                             const rig::Rig& rig, const std::vector<std::string>& warnings);
 /// Current numbers of the rig; without those of a run if none is open.
-MessagePtr rig_message(const RigStanding& standing, const LiveSession* run);
+MessagePtr rig_message(const RigStanding& standing, const rig::LiveSession* run);
 /// Whether a page holds the controls, and whether they are free.
 MessagePtr controls_message(bool holds, bool are_free, std::size_t pages);
 /// A grey picture, at most 1280 pixels wide, as JPEG with its scale and position.
-MessagePtr picture_message(const Image& picture, const CameraScale& scale, double t);
+MessagePtr picture_message(const formats::Image& picture, const vision::CameraScale& scale,
+                           double t);
 
 }  // namespace microswarm::lab

@@ -139,15 +139,15 @@ void add(Json& json, const Diagnostics& diagnostics) {
       diagnostics);
 }
 
-Json event(const RunEvent& happened) { return described(to_json_text(happened)); }
+Json event(const experiment::RunEvent& happened) { return described(to_json_text(happened)); }
 
-std::string_view word(OperatingMode mode) {
+std::string_view word(experiment::OperatingMode mode) {
   switch (mode) {
-    case OperatingMode::autonomous:
+    case experiment::OperatingMode::autonomous:
       return "autonomous";
-    case OperatingMode::manual:
+    case experiment::OperatingMode::manual:
       return "manual";
-    case OperatingMode::paused:
+    case experiment::OperatingMode::paused:
       return "hold";
   }
   return {};
@@ -162,8 +162,8 @@ MessagePtr make_message(const Json& json, Message::Kind kind) {
   return made;
 }
 
-Row to_row(const Tick& tick) {
-  const Frame& frame = tick.frame;
+Row to_row(const experiment::Tick& tick) {
+  const experiment::Frame& frame = tick.frame;
   return {.t = frame.t,
           .position = frame.pose.position,
           .clearance = std::min(frame.wall_clearance, frame.obstacle_clearance),
@@ -190,8 +190,8 @@ std::string command_line(const Source& source, bool is_record) {
   return command;
 }
 
-Json hello_json(const Session& session, const Source& source) {
-  const Scenario& scenario = session.scenario();
+Json hello_json(const experiment::Session& session, const Source& source) {
+  const experiment::Scenario& scenario = session.scenario();
   const Map& map = session.map();
   Json photo;
   if (source.photo)
@@ -205,22 +205,22 @@ Json hello_json(const Session& session, const Source& source) {
           {"photo", std::move(photo)},
           {"playback", session.is_playback()},
           {"scenario", described(to_json_text(scenario))},
-          {"changeable", changeable_keys()},
+          {"changeable", experiment::changeable_keys()},
           {"map",
            {{"lo", point(map.bounds().lo)},
             {"hi", point(map.bounds().hi)},
             {"walls", bodies(map.walls().bodies())}}}};
 }
 
-MessagePtr hello_message(const Session& session, const Source& source) {
+MessagePtr hello_message(const experiment::Session& session, const Source& source) {
   return make_message(hello_json(session, source), Message::Kind::hello);
 }
 
-MessagePtr scenario_message(const Scenario& scenario) {
+MessagePtr scenario_message(const experiment::Scenario& scenario) {
   return make_message({{"type", "scenario"}, {"scenario", described(to_json_text(scenario))}});
 }
 
-MessagePtr frame_message(const SessionView& view, const Diagnostics& diagnostics) {
+MessagePtr frame_message(const experiment::SessionView& view, const Diagnostics& diagnostics) {
   Json json{{"type", "frame"},
             {"number", view.number},
             {"frame", described(to_json_text(view.frame))},
@@ -234,7 +234,7 @@ MessagePtr frame_message(const SessionView& view, const Diagnostics& diagnostics
   return make_message(json, Message::Kind::frame);
 }
 
-MessagePtr plan_message(const SessionView& view) {
+MessagePtr plan_message(const experiment::SessionView& view) {
   Floats nodes;
   Indices parents;
   for (const TreeNode& node : view.tree) {
@@ -297,7 +297,8 @@ MessagePtr clearance_message(const Map& map) {
                        {"values", values.take()}});
 }
 
-MessagePtr rows_message(std::span<const Row> rows, std::span<const RunEvent> events, bool anew) {
+MessagePtr rows_message(std::span<const Row> rows, std::span<const experiment::RunEvent> events,
+                        bool anew) {
   Numbers<double> numbers;
   for (const Row& row : rows)
     for (const double value : {row.t, row.position.x, row.position.y, row.clearance, row.cost,
@@ -305,7 +306,7 @@ MessagePtr rows_message(std::span<const Row> rows, std::span<const RunEvent> eve
                                static_cast<double>(row.state), static_cast<double>(row.planned)})
       numbers.add(value);
   Json list = Json::array();
-  for (const RunEvent& happened : events) list.push_back(event(happened));
+  for (const experiment::RunEvent& happened : events) list.push_back(event(happened));
   return make_message({{"type", "rows"},
                        {"anew", anew},
                        {"columns",
@@ -315,7 +316,7 @@ MessagePtr rows_message(std::span<const Row> rows, std::span<const RunEvent> eve
                        {"events", std::move(list)}});
 }
 
-MessagePtr standing_message(const Standing& standing, const RunResult& result) {
+MessagePtr standing_message(const Standing& standing, const experiment::RunResult& result) {
   return make_message({{"type", "standing"},
                        {"plays", standing.plays},
                        {"speed", standing.speed},

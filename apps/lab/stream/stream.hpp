@@ -28,7 +28,7 @@ struct Row {
   NavigatorState state = NavigatorState::hold;
   bool planned = false;
 };
-Row to_row(const Tick& tick);
+Row to_row(const experiment::Tick& tick);
 
 /// Standing of a session, for its pages.
 struct Standing {
@@ -39,7 +39,7 @@ struct Standing {
   std::uint64_t frames = 0;
   bool ended = false;
   bool growing = false;  ///< whether it is a record that a run still writes
-  OperatingMode mode = OperatingMode::autonomous;
+  experiment::OperatingMode mode = experiment::OperatingMode::autonomous;
   std::vector<std::string> changes;  ///< since the start, KEY=VALUE, one for each key
   std::string trouble;               ///< why it could not continue; empty otherwise
 };
@@ -63,17 +63,18 @@ struct Source {
 std::string command_line(const Source& source, bool is_record);
 
 /// Hello of a session: scenario, map, keys that can be changed during the run.
-MessagePtr hello_message(const Session& session, const Source& source);
-nlohmann::json hello_json(const Session& session, const Source& source);
+MessagePtr hello_message(const experiment::Session& session, const Source& source);
+nlohmann::json hello_json(const experiment::Session& session, const Source& source);
 /// The scenario after a change.
-MessagePtr scenario_message(const Scenario& scenario);
-MessagePtr frame_message(const SessionView& view, const Diagnostics& diagnostics);
-MessagePtr plan_message(const SessionView& view);
+MessagePtr scenario_message(const experiment::Scenario& scenario);
+MessagePtr frame_message(const experiment::SessionView& view, const Diagnostics& diagnostics);
+MessagePtr plan_message(const experiment::SessionView& view);
 MessagePtr aggregation_message(const AggregationDiagnostics& plan);
 /// Clearance of the map at the centres of square cells, row by row from below.
 MessagePtr clearance_message(const Map& map);
-MessagePtr rows_message(std::span<const Row> rows, std::span<const RunEvent> events, bool anew);
-MessagePtr standing_message(const Standing& standing, const RunResult& result);
+MessagePtr rows_message(std::span<const Row> rows, std::span<const experiment::RunEvent> events,
+                        bool anew);
+MessagePtr standing_message(const Standing& standing, const experiment::RunResult& result);
 /// Answer to a request; with issues it was refused.
 MessagePtr answer_message(std::uint64_t id, const Issues& issues);
 

@@ -29,25 +29,25 @@ bool is_hdf5(const std::string& file) {
 void export_record(const ExportOptions& o) {
   if (!o.hdf5.empty()) throw InputError(o.file + ": is HDF5 as it is");
   if (!o.ompl.empty()) throw InputError(o.file + ": --ompl takes the database of a sweep");
-  write_file_atomically(o.csv, record_csv(read_record(o.file), o.table));
+  write_file_atomically(o.csv, sweep::record_csv(experiment::read_record(o.file), o.table));
   print("wrote {}\n", o.csv);
 }
 
 void export_sweep(const ExportOptions& o) {
   if (!o.table.empty() && o.table != "frames")
     throw InputError(o.file + ": --table takes the record of a run");
-  const SweepReader sweep(o.file);
+  const sweep::SweepReader sweep(o.file);
   if (!o.csv.empty()) {
-    write_file_atomically(o.csv, sweep_csv(sweep));
+    write_file_atomically(o.csv, sweep::sweep_csv(sweep));
     print("wrote {}\n", o.csv);
   }
   if (!o.hdf5.empty()) {
-    write_file_atomically(o.hdf5, sweep_hdf5(sweep));
+    write_file_atomically(o.hdf5, sweep::sweep_hdf5(sweep));
     print("wrote {}\n", o.hdf5);
   }
   if (o.ompl.empty()) return;
   const OutFolder hold(o.ompl);
-  const auto logs = ompl_logs(sweep);
+  const auto logs = sweep::ompl_logs(sweep);
   for (const auto& [name, log] : logs)
     write_file_atomically(std::filesystem::path(o.ompl) / name, log);
   print("wrote {} logs into {}\n", logs.size(), o.ompl);

@@ -35,27 +35,27 @@ void note_width(const GatherOptions& o, double measured) {
 }
 
 /// Map specification; the user's --um-per-px belongs to the photograph.
-MapSpec map_spec(const GatherOptions& o) {
-  return guess_map_spec(o.map, o.um_per_px, "--map-um-per-px");
+formats::MapSpec map_spec(const GatherOptions& o) {
+  return formats::guess_map_spec(o.map, o.um_per_px, "--map-um-per-px");
 }
 
 int gather_command(const GatherOptions& o, const Context& context) {
   const std::vector<double> to = numbers(o.goal);
-  const ReportOptions report = report_options(o.photo);
-  MapSpec spec = map_spec(o);
-  MapParts map = read_map_parts(spec);
-  GatherExperiment made = open_gathering(std::move(map), std::move(spec),
-                                         {.goal = {to[0], to[1]},
-                                          .robots = o.robots,
-                                          .channel_width = o.channel_width,
-                                          .max_steps = o.max_steps,
-                                          .settings = o.settings,
-                                          .seed = o.seed},
-                                         o.map);
+  const report::ReportOptions report = report_options(o.photo);
+  formats::MapSpec spec = map_spec(o);
+  formats::MapParts map = formats::read_map_parts(spec);
+  experiment::GatherExperiment made = experiment::open_gathering(std::move(map), std::move(spec),
+                                                                 {.goal = {to[0], to[1]},
+                                                                  .robots = o.robots,
+                                                                  .channel_width = o.channel_width,
+                                                                  .max_steps = o.max_steps,
+                                                                  .settings = o.settings,
+                                                                  .seed = o.seed},
+                                                                 o.map);
   note_width(o, made.measured_width);
   note_each(made.notes);
   const OutFolder hold(o.out);
-  Session session(std::move(made.experiment));
+  experiment::Session session(std::move(made.experiment));
   const auto growing = grow_record(session, o.out);
   finish_run(session, context.stop);
   return tell_run(session, {o.out, false, o.json}, report);
@@ -88,7 +88,7 @@ void add_gather(Command app, Action& action) {
       .type_name("NUMBER")
       .check(whole(1, 100'000'000));
   add_settings(cmd, o->settings, "Override a scenario value, e.g. navigator.method=heuristic",
-               type_of<Scenario>);
+               type_of<experiment::Scenario>);
   cmd.add_option("--seed", o->seed, "Seed of the random streams")
       .type_name("NUMBER")
       .check(whole(0, UINT64_MAX));

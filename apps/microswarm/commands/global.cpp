@@ -52,22 +52,23 @@ Check place_list() {
   return {[](const std::string& text) -> std::string {
     const std::size_t count = places(text).size();
     if (count == 0) return "must be places as 60,300;60,250 in µm, not " + quote(text);
-    if (count <= max_global_robots) return {};
-    return fmt::format("has {} places, allowed are 1 to {}", count, max_global_robots);
+    if (count <= planning::max_global_robots) return {};
+    return fmt::format("has {} places, allowed are 1 to {}", count, planning::max_global_robots);
   }};
 }
 
 /// Parameters with which a tree was grown; --set must not change them.
-GlobalRrtParams search_parameters(const GlobalOptions& o, const GlobalTree& tree) {
-  GlobalChoice choice;
-  GlobalRrtParams grown;
+planning::GlobalRrtParams search_parameters(const GlobalOptions& o,
+                                            const planning::GlobalTree& tree) {
+  experiment::GlobalChoice choice;
+  planning::GlobalRrtParams grown;
   grown.robostep = tree.robostep;
   grown.directions = static_cast<int>(tree.moves.size());
   grown.contact = tree.contact;
   grown.separation = tree.separation;
   choice.planner = grown;
   note_each(set_values(choice, o.settings));
-  const auto* set = std::get_if<GlobalRrtParams>(&choice.planner);
+  const auto* set = std::get_if<planning::GlobalRrtParams>(&choice.planner);
   const auto differs = [&](const char* key, const auto& was, const auto& is) {
     if (was != is)
       throw InputError(fmt::format("{}: was grown with {} {}, not {}", o.tree, key, was, is));
@@ -91,7 +92,7 @@ Json to_runs(const std::vector<Vec2>& inputs) {
   return runs;
 }
 
-Json to_paths(const GlobalPlan& plan) {
+Json to_paths(const planning::GlobalPlan& plan) {
   Json paths = Json::array();
   for (std::size_t robot = 0; robot < plan.configurations.at(0).size(); ++robot) {
     Json path = Json::array();
@@ -102,7 +103,7 @@ Json to_paths(const GlobalPlan& plan) {
   return paths;
 }
 
-void show_json(const GlobalAnswer& found, bool has_goals) {
+void show_json(const experiment::GlobalAnswer& found, bool has_goals) {
   Json json{
       {"status", to_string(found.plan.status)}, {"nodes", found.nodes}, {"time_s", found.seconds}};
   if (has_goals) {
@@ -115,8 +116,8 @@ void show_json(const GlobalAnswer& found, bool has_goals) {
   print("{}\n", json.dump(2));
 }
 
-void show(const GlobalOptions& o, const GlobalAnswer& found) {
-  const GlobalPlan& plan = found.plan;
+void show(const GlobalOptions& o, const experiment::GlobalAnswer& found) {
+  const planning::GlobalPlan& plan = found.plan;
   if (o.goals.empty()) {
     print("tree of {} nodes, {:.2f} s\n", found.nodes, found.seconds);
   } else {
@@ -146,36 +147,37 @@ void check_options(const GlobalOptions& o) {
 }
 
 /// Plans with a stored tree.
-GlobalAnswer ask_tree(const GlobalOptions& o, const LoadedMap& map, std::span<const Vec2> goals,
-                      const Stop& stop) {
-  const GlobalTree tree = read_global_tree(o.tree, map);
-  const GlobalRrtParams params = search_parameters(o, tree);
-  const GlobalPlay play = to_play(params);
-  check_ends(*map.map, tree.positions(0), goals, play, o.map);
+experiment::GlobalAnswer ask_tree(const GlobalOptions& o, const formats::LoadedMap& map,
+                                  std::span<const Vec2> goals, const Stop& stop) {
+  const planning::GlobalTree tree = experiment::read_global_tree(o.tree, map);
+  const planning::GlobalRrtParams params = search_parameters(o, tree);
+  const planning::GlobalPlay play = experiment::to_play(params);
+  experiment::check_ends(*map.map, tree.positions(0), goals, play, o.map);
   const auto began = Stop::Clock::now();
-  GlobalAnswer found{.plan = plan_to(tree, ask(tree, goals, params.goal_tolerance)),
-                     .planner = params,
-                     .nodes = tree.size()};
+  experiment::GlobalAnswer found{
+      .plan = planning::plan_to(tree, planning::ask(tree, goals, params.goal_tolerance)),
+      .planner = params,
+      .nodes = tree.size()};
   found.seconds = seconds_since(began);
   found.inputs_found = found.plan.inputs.size();
-  if (!o.as_found) found.plan = shortened(*map.map, found.plan, goals, play, stop);
+  if (!o.as_found) found.plan = planning::shortened(*map.map, found.plan, goals, play, stop);
   return found;
 }
 
 /// Plans with a planner, which grows a tree; saves the tree if requested.
-GlobalAnswer found_plan(const GlobalOptions& o, const LoadedMap& map, std::vector<Vec2> goals,
-                        const Stop& stop) {
+experiment::GlobalAnswer found_plan(const GlobalOptions& o, const formats::LoadedMap& map,
+                                    std::vector<Vec2> goals, const Stop& stop) {
   if (!o.tree.empty()) return ask_tree(o, map, goals, stop);
-  GlobalAnswer found = answer(*map.map,
-                              {.starts = places(o.robots),
-                               .goals = std::move(goals),
-                               .settings = o.settings,
-                               .seed = o.seed,
-                               .shorten = !o.as_found,
-                               .keep_tree = !o.save_tree.empty()},
-                              o.map, stop);
+  experiment::GlobalAnswer found = experiment::answer(*map.map,
+                                                      {.starts = places(o.robots),
+                                                       .goals = std::move(goals),
+                                                       .settings = o.settings,
+                                                       .seed = o.seed,
+                                                       .shorten = !o.as_found,
+                                                       .keep_tree = !o.save_tree.empty()},
+                                                      o.map, stop);
   note_each(found.notes);
-  if (found.tree) write_global_tree(*found.tree, map, o.save_tree);
+  if (found.tree) experiment::write_global_tree(*found.tree, map, o.save_tree);
   return found;
 }
 
@@ -184,14 +186,16 @@ int global_command(const GlobalOptions& o, const Context& context) {
   for (const std::string& out : {o.save_tree, o.picture})
     for (const std::string& in : {o.map, o.tree}) keep_input(out, in);
   const Stop stop = o.time_limit ? context.within(*o.time_limit) : context.stop;
-  const LoadedMap map = reading([&] { return load_map(guess_map_spec(o.map, o.um_per_px)); });
+  const formats::LoadedMap map =
+      reading([&] { return formats::load_map(formats::guess_map_spec(o.map, o.um_per_px)); });
   const std::vector<Vec2> goals = places(o.goals);
-  const GlobalAnswer found = found_plan(o, map, goals, stop);
+  const experiment::GlobalAnswer found = found_plan(o, map, goals, stop);
   if (!o.picture.empty())
-    draw_robots(*map.map, found.plan, goals, to_play(found.planner).goal_tolerance,
-                fmt::format("{}: {}, {} inputs", o.map, to_string(found.plan.status),
-                            found.plan.inputs.size()),
-                o.picture);
+    report::draw_robots(*map.map, found.plan, goals,
+                        experiment::to_play(found.planner).goal_tolerance,
+                        fmt::format("{}: {}, {} inputs", o.map, to_string(found.plan.status),
+                                    found.plan.inputs.size()),
+                        o.picture);
   if (o.json)
     show_json(found, !goals.empty());
   else
@@ -225,7 +229,7 @@ void add_global(Command app, Action& action) {
   save.type_name("FILE").excludes("--tree");
   add_settings(cmd, o->settings,
                "Select planner.type (global_search or global_rrt) and override its values",
-               type_of<GlobalChoice>);
+               type_of<experiment::GlobalChoice>);
   cmd.add_option("--time-limit", o->time_limit, "Time limit")
       .type_name("SECONDS")
       .default_text("no limit")

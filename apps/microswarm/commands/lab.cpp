@@ -66,11 +66,11 @@ std::optional<lab::Opening> to_opening(const LabOptions& o) {
   if (report_options(o.photo).photo)  // reports an unreadable photograph
     opening.photo = lab::BackgroundPhoto{.file = o.photo.file, .um_per_px = *o.photo.um_per_px};
   if (o.rig.empty() || o.simulate) {
-    note_each(reading([&] { return open_on_rig(opening.file, opening.options); })->notes());
+    note_each(reading([&] { return rig::open_on_rig(opening.file, opening.options); })->notes());
     return opening;
   }
-  const RigExperiment on =
-      reading([&] { return open_rig_experiment(o.file, o.settings, o.rig, o.rig_settings); });
+  const rig::RigExperiment on =
+      reading([&] { return rig::open_rig_experiment(o.file, o.settings, o.rig, o.rig_settings); });
   note_each(on.experiment.keys.notes());
   note_field(on.rig, on.scenario());
   std::error_code error;
@@ -118,7 +118,7 @@ void add_lab(Command app, Action& action) {
                                 "lab scenarios/papers/radar/twelve.yaml");
   cmd.add_option("file", o->file, "Scenario (YAML) or record (run.h5) to begin with")
       .type_name("FILE");
-  add_settings(cmd, o->settings, "Override a scenario value", type_of<Scenario>);
+  add_settings(cmd, o->settings, "Override a scenario value", type_of<experiment::Scenario>);
   const Option rig =
       cmd.add_option("--rig", o->rig, "Run the scenario on this rig (YAML), in real time")
           .type_name("FILE");

@@ -28,8 +28,8 @@ struct LearnOptions {
 constexpr int tasks = 200;
 constexpr int quick_tasks = 40;
 
-FollowerTrainingParams training_params(const LearnOptions& o) {
-  FollowerTrainingParams params;
+learning::FollowerTrainingParams training_params(const LearnOptions& o) {
+  learning::FollowerTrainingParams params;
   if (o.quick) {
     params.runs = 20;
     params.rounds = 1;
@@ -46,8 +46,8 @@ std::string hash_text(const std::string& text) {
 }
 
 /// The model card.
-std::string card(const TrainedFollower& trained, const std::string& model, const LearnOptions& o,
-                 const std::vector<ReproduceRow>& rows) {
+std::string card(const learning::TrainedFollower& trained, const std::string& model,
+                 const LearnOptions& o, const std::vector<report::ReproduceRow>& rows) {
   std::string command = "microswarm learn follower --out DIR";
   if (o.quick) command += " --quick";
   for (const std::string& setting : o.settings) command += " --set " + setting;
@@ -70,17 +70,17 @@ std::string card(const TrainedFollower& trained, const std::string& model, const
       command, std::string(version), model.size(), hash_text(model), trained.model.seed,
       fmt::join(trained.model.network.layers, "-"), trained.demonstrations, trained.training_error,
       trained.held_out_error, trained.model.training, o.quick ? quick_tasks : tasks,
-      rows_table(rows));
+      report::rows_table(rows));
 }
 
 int learn_command(const LearnOptions& o, const Context& context) {
-  const FollowerTrainingParams params = training_params(o);
+  const learning::FollowerTrainingParams params = training_params(o);
   const OutFolder hold(o.out);
   const std::filesystem::path folder = o.out;
-  TrainedFollower trained;
+  learning::TrainedFollower trained;
   {
     ProgressBar bar("learn");
-    trained = train_follower(
+    trained = learning::train_follower(
         params,
         {.jobs = o.jobs,
          .progress = [&](double share, const std::string& what) { bar.update(share, what); }},
@@ -90,14 +90,15 @@ int learn_command(const LearnOptions& o, const Context& context) {
     note("interrupted: nothing is written\n");
     return not_reached;
   }
-  const std::string model = follower_model_text(trained.model);
+  const std::string model = navigation::follower_model_text(trained.model);
   write_file_atomically(folder / "follower.yaml", model);
-  const ComparisonOptions comparison{.tasks = o.quick ? quick_tasks : tasks,
-                                     .params = params.tasks,
-                                     .seed = params.seed,
-                                     .model = std::make_shared<const FollowerModel>(trained.model),
-                                     .jobs = o.jobs,
-                                     .progress = {}};
+  const learning::ComparisonOptions comparison{
+      .tasks = o.quick ? quick_tasks : tasks,
+      .params = params.tasks,
+      .seed = params.seed,
+      .model = std::make_shared<const navigation::FollowerModel>(trained.model),
+      .jobs = o.jobs,
+      .progress = {}};
   const auto outcomes = reproduce::compare_with_progress(comparison, progress_bars(), context.stop);
   if (context.stop.requested()) {
     note("interrupted: follower.yaml is written, and not compared\n");
@@ -107,8 +108,8 @@ int learn_command(const LearnOptions& o, const Context& context) {
   reproduce::write_follower_figures(outcomes, comparison, folder);
   write_file_atomically(folder / "follower.md", card(trained, model, o, rows));
   if (o.quick) note("quick: less training, fewer paths\n");
-  put(o.json ? rows_json(rows) : rows_table(rows) + aims_met(rows));
-  return all_ok(rows) ? ok : not_reached;
+  put(o.json ? report::rows_json(rows) : report::rows_table(rows) + aims_met(rows));
+  return report::all_ok(rows) ? ok : not_reached;
 }
 
 }  // namespace
@@ -125,7 +126,7 @@ void add_learn(Command app, Action& action) {
       .required()
       .type_name("FOLDER");
   add_settings(follower, o->settings, "Override a training parameter, e.g. runs=300",
-               type_of<FollowerTrainingParams>);
+               type_of<learning::FollowerTrainingParams>);
   follower.add_option("--jobs", o->jobs, "Number of threads")
       .type_name("NUMBER")
       .default_text("one per core")

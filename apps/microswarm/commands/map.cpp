@@ -33,12 +33,12 @@ void add_input(Command cmd, const std::shared_ptr<MapOptions>& o) {
   add_um_per_px(cmd, o->um_per_px, "µm per pixel or cell of the map, 1e-6..1e6");
 }
 
-LoadedMap load(const MapOptions& o) {
-  return reading([&] { return load_map(guess_map_spec(o.map, o.um_per_px)); });
+formats::LoadedMap load(const MapOptions& o) {
+  return reading([&] { return formats::load_map(formats::guess_map_spec(o.map, o.um_per_px)); });
 }
 
 int info(const MapOptions& o) {
-  const LoadedMap loaded = load(o);
+  const formats::LoadedMap loaded = load(o);
   const Box& b = loaded.map->bounds();
   const auto bodies = loaded.map->walls().bodies();
   std::size_t vertices = 0;
@@ -98,7 +98,7 @@ int check(const MapOptions& o, double resolution) {
 }
 
 int convert(const MapOptions& o, const std::string& out, const std::optional<double>& cell) {
-  write_map(out, *load(o).map, cell ? *cell : o.um_per_px.value_or(0));
+  formats::write_map(out, *load(o).map, cell ? *cell : o.um_per_px.value_or(0));
   print("wrote {}\n", out);
   return ok;
 }
@@ -118,9 +118,9 @@ std::string share(const std::optional<double>& v) { return v ? fmt::format("{:.3
 Json json_share(const std::optional<double>& v) { return v ? Json(*v) : Json(nullptr); }
 
 /// The ground-truth mask; empty without a file.
-std::optional<Mask> read_truth(const std::string& file, const Image& photo) {
+std::optional<formats::Mask> read_truth(const std::string& file, const formats::Image& photo) {
   if (file.empty()) return std::nullopt;
-  Mask mask = threshold(read_image(file), 128, false);
+  formats::Mask mask = formats::threshold(formats::read_image(file), 128, false);
   if (mask.width != photo.width || mask.height != photo.height)
     throw InputError(fmt::format("{}: {}x{} pixels, the photograph has {}x{}", file, mask.width,
                                  mask.height, photo.width, photo.height));
@@ -128,28 +128,28 @@ std::optional<Mask> read_truth(const std::string& file, const Image& photo) {
 }
 
 int segment(const SegmentOptions& o, const Context& context) {
-  VesselParams params;
+  vision::VesselParams params;
   note_each(set_values(params, o.settings));
   if (!o.um_per_px && is_camera(o.photo))
     throw InputError(o.photo + ": µm per px is missing: give --um-per-px");
-  const Image photo = take_picture(o.photo, find_camera(o.photo, o.rig));
+  const formats::Image photo = take_picture(o.photo, find_camera(o.photo, o.rig));
   if (!o.um_per_px) throw InputError(o.photo + ": µm per px is missing: give --um-per-px");
-  const std::optional<Mask> truth = read_truth(o.truth, photo);
+  const std::optional<formats::Mask> truth = read_truth(o.truth, photo);
   const double cell = *o.um_per_px;
   const auto interrupted = [&] {
     if (context.stop()) note("interrupted: nothing was written\n");
     return context.stop();
   };
-  const VesselSegmentation found = segment_vessels(photo, params, context.stop);
+  const vision::VesselSegmentation found = vision::segment_vessels(photo, params, context.stop);
   if (interrupted()) return not_reached;
-  const Map map = vessel_map(found, cell, o.smooth, o.photo, context.stop);
+  const Map map = vision::vessel_map(found, cell, o.smooth, o.photo, context.stop);
   if (interrupted()) return not_reached;
   const std::filesystem::path out = o.out;
   std::filesystem::path picture = out;
   picture.replace_filename(out.stem().string() + "-overlay.png");
   if (!out.parent_path().empty()) make_folder(out.parent_path().string());
-  write_map(out, map, cell);
-  write_png(picture, overlay(photo, found.vessels));
+  formats::write_map(out, map, cell);
+  formats::write_png(picture, vision::overlay(photo, found.vessels));
 
   Json json{{"vessel_share", found.view_share},
             {"pieces", found.pieces},
@@ -165,7 +165,7 @@ int segment(const SegmentOptions& o, const Context& context) {
       100 * found.view_share, found.wide_width_px * cell, found.bridges, 100 * found.kept_share,
       found.pieces);
   if (truth) {
-    const Agreement a = compare(*truth, found.vessels, &found.field_of_view);
+    const vision::Agreement a = vision::compare(*truth, found.vessels, &found.field_of_view);
     json["sensitivity"] = json_share(a.sensitivity());
     json["specificity"] = json_share(a.specificity());
     json["dice"] = json_share(a.dice());
@@ -200,7 +200,8 @@ void add_segment(Command map, Action& action) {
       .check(number(0, 100));
   cmd.add_option("--truth", o->truth, "Ground-truth mask (white vessels) to compare with")
       .type_name("FILE");
-  add_settings(cmd, o->settings, "Override a value, e.g. min_width_px=6", type_of<VesselParams>);
+  add_settings(cmd, o->settings, "Override a value, e.g. min_width_px=6",
+               type_of<vision::VesselParams>);
   add_json(cmd, o->json);
   cmd.callback(
       [o, &action] { action = [o](const Context& context) { return segment(*o, context); }; });
@@ -236,7 +237,9 @@ void add_map(Command app, Action& action) {
   Command convert_cmd = map.add_command("convert", "Convert a map to another format",
                                         "map convert vessels.geojson vessels.png --cell 5");
   add_input(convert_cmd, o);
-  convert_cmd.add_option("out", *out, fmt::format("File to write: {}", written_map_formats).c_str())
+  convert_cmd
+      .add_option("out", *out,
+                  fmt::format("File to write: {}", formats::written_map_formats).c_str())
       .required()
       .type_name("FILE");
   convert_cmd.add_option("--cell", *cell, "Pixel or cell size to write in µm")

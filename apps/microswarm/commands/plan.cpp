@@ -29,16 +29,16 @@ struct PlanOptions {
   bool json = false;
 };
 
-void draw(const PlanOptions& o, const Snapshot& world, const PathQuery& query,
-          const PathAnswer& answer) {
+void draw(const PlanOptions& o, const Snapshot& world, const experiment::PathQuery& query,
+          const experiment::PathAnswer& answer) {
   const Plan& plan = answer.plan;
-  draw_plan(world.map(), plan, query.start.position,
-            {query.goal, swarm_limits(answer.planner).goal_tolerance},
-            fmt::format("{}: {}", o.map, to_string(plan.status)))
+  report::draw_plan(world.map(), plan, query.start.position,
+                    {query.goal, experiment::path_limits(answer.planner).goal_tolerance},
+                    fmt::format("{}: {}", o.map, to_string(plan.status)))
       ->write(o.picture);
 }
 
-void show(const PathAnswer& answer, double start_heading, bool json) {
+void show(const experiment::PathAnswer& answer, double start_heading, bool json) {
   const Plan& made = answer.plan;
   const double length = path_length(made);
   const double turning = degrees(path_turning(made.path, start_heading));
@@ -52,7 +52,7 @@ void show(const PathAnswer& answer, double start_heading, bool json) {
                        {"time_ms", ms},
                        {"iterations", made.counts.iterations},
                        {"nodes", made.tree.size()},
-                       {"planner", Json::parse(planner_json(answer.planner))},
+                       {"planner", Json::parse(experiment::planner_json(answer.planner))},
                        {"path_um", path}}
                       .dump(2));
     return;
@@ -70,12 +70,14 @@ int plan_command(const PlanOptions& o, const Context& context) {
   keep_input(o.picture, o.map);
   const std::vector<double> from = numbers(o.start);
   const std::vector<double> to = numbers(o.goal);
-  const PathQuery query{.start = {{from[0], from[1]}, from.size() > 2 ? radians(from[2]) : 0.0},
-                        .goal = {to[0], to[1]},
-                        .settings = o.settings,
-                        .seed = o.seed};
-  const Snapshot world(reading([&] { return load_map(guess_map_spec(o.map, o.um_per_px)).map; }));
-  const PathAnswer made = answer(world, query, o.map, context.stop);
+  const experiment::PathQuery query{
+      .start = {{from[0], from[1]}, from.size() > 2 ? radians(from[2]) : 0.0},
+      .goal = {to[0], to[1]},
+      .settings = o.settings,
+      .seed = o.seed};
+  const Snapshot world(
+      reading([&] { return formats::load_map(formats::guess_map_spec(o.map, o.um_per_px)).map; }));
+  const experiment::PathAnswer made = answer(world, query, o.map, context.stop);
   note_each(made.notes);
   if (!o.picture.empty()) draw(o, world, query, made);
   show(made, query.start.heading, o.json);
@@ -91,7 +93,7 @@ void add_plan(Command app, Action& action) {
       "plan",
       fmt::format("Plan a path on a map, the shortest one by default. Planners: {}. What is not "
                   "set follows from the map",
-                  fmt::join(type_of<PlannerParams>().words, ", "))
+                  fmt::join(type_of<planning::PlannerParams>().words, ", "))
           .c_str(),
       "plan map.png --um-per-px 5 --start 200,700,-90 --goal 1750,300 \\\n"
       "      --set planner.type=a_star --set planner.clearance_um=40 --picture path.svg");
@@ -106,7 +108,8 @@ void add_plan(Command app, Action& action) {
       .required()
       .type_name("X,Y")
       .check(place(2, "x,y in µm"));
-  add_settings(cmd, o->settings, "Select planner.type and override its values", path_settings);
+  add_settings(cmd, o->settings, "Select planner.type and override its values",
+               experiment::path_settings);
   cmd.add_option("--seed", o->seed, "Seed of the random stream")
       .type_name("NUMBER")
       .check(whole(0, UINT64_MAX));

@@ -11,8 +11,8 @@ namespace microswarm::cli {
 namespace {
 
 int replay_command(const std::string& file, bool json, const Context& context) {
-  const Record record = read_record(file);
-  const ReplayResult result = replay(record, context.stop);
+  const experiment::Record record = experiment::read_record(file);
+  const experiment::ReplayResult result = experiment::replay(record, context.stop);
   if (json)
     print("{}\n", nlohmann::ordered_json{{"identical", result.identical},
                                          {"stopped", result.stopped},
@@ -38,29 +38,29 @@ struct ReportCommand {
   PhotoOptions photo;
 };
 
-int write_video(const ReportCommand& o, const Record& record, const ReportOptions& options,
-                const Context& context) {
-  const RunVideo video = write_run_video(record, o.video,
-                                         {.from = o.from,
-                                          .to = o.to.value_or(infinity),
-                                          .speed = o.speed,
-                                          .rate = o.fps,
-                                          .width = o.width,
-                                          .report = options,
-                                          .progress = progress_bars()},
-                                         context.stop);
+int write_video(const ReportCommand& o, const experiment::Record& record,
+                const report::ReportOptions& options, const Context& context) {
+  const report::RunVideo video = report::write_run_video(record, o.video,
+                                                         {.from = o.from,
+                                                          .to = o.to.value_or(infinity),
+                                                          .speed = o.speed,
+                                                          .rate = o.fps,
+                                                          .width = o.width,
+                                                          .report = options,
+                                                          .progress = progress_bars()},
+                                                         context.stop);
   if (video.pictures > 0) print("wrote {}: {} pictures\n", video.file.string(), video.pictures);
   return video.stopped ? ok : complete;
 }
 
 /// Writes the report, and the video if requested; with --video alone only the video.
 int report_command(const ReportCommand& o, const Context& context) {
-  const Record record = read_record(o.file);
-  const ReportOptions options = report_options(o.photo);
+  const experiment::Record record = experiment::read_record(o.file);
+  const report::ReportOptions options = report_options(o.photo);
   if (o.video.empty() || !o.out.empty()) {
     const std::string out = o.out.empty() ? "report" : o.out;
     const OutFolder hold(out);
-    write_run_report(record, out, options);
+    report::write_run_report(record, out, options);
     print("wrote {}/index.html\n", out);
   }
   return o.video.empty() ? ok : write_video(o, record, options, context);

@@ -12,9 +12,9 @@
 namespace microswarm::cli {
 namespace {
 
-using Reproduce = std::vector<ReproduceRow> (*)(const std::string& figure,
-                                                const reproduce::ReproduceOptions& options,
-                                                const Stop& stop);
+using Reproduce = std::vector<report::ReproduceRow> (*)(const std::string& figure,
+                                                        const reproduce::ReproduceOptions& options,
+                                                        const Stop& stop);
 
 constexpr std::array<std::pair<std::string_view, Reproduce>, 4> reproduced_papers{
     {{"drrt", reproduce::drrt_figures},
@@ -44,11 +44,11 @@ int reproduce_command(const std::string& key, reproduce::ReproduceOptions option
     throw InputError(
         fmt::format("reproduce: '{}' names no figure; all of them are '{}'", key, paper));
   const OutFolder hold(options.out);
-  const std::vector<ReproduceRow> rows = figures(figure, options, context.stop);
+  const std::vector<report::ReproduceRow> rows = figures(figure, options, context.stop);
   if (options.quick) note("quick: fewer seeds\n");
-  put(json ? rows_json(rows) : rows_table(rows) + aims_met(rows));
+  put(json ? report::rows_json(rows) : report::rows_table(rows) + aims_met(rows));
   if (context.stop.requested()) return not_reached;
-  return all_ok(rows) ? ok : not_reached;
+  return report::all_ok(rows) ? ok : not_reached;
 }
 
 }  // namespace

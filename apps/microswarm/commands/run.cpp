@@ -37,7 +37,7 @@ struct RunOptions {
 struct TrialRow {
   int trial = 0;
   Status status = Status::stopped;
-  Metrics metrics;
+  experiment::Metrics metrics;
   double planning_mean = 0;
   double planning_max = 0;
   std::string record_hash;
@@ -45,19 +45,19 @@ struct TrialRow {
   static void fields(Self& self, V&& visit) {
     visit(self.trial, plain("trial", "Number of the trial."));
     visit(self.status, plain("status", "How it ended."));
-    Metrics::fields(self.metrics, visit);
+    experiment::Metrics::fields(self.metrics, visit);
     visit(self.planning_mean, s("planning_mean", "Mean time of a plan."));
     visit(self.planning_max, s("planning_max", "Longest time of a plan."));
     visit(self.record_hash, plain("record_hash", "Hash of the record."));
   }
 };
 
-std::string trials_csv(const std::vector<TrialResult>& trials) {
+std::string trials_csv(const std::vector<experiment::TrialResult>& trials) {
   std::vector<TrialRow> rows;
   for (std::size_t i = 0; i < trials.size(); ++i) {
     if (!trials[i].ran) continue;
-    const RunResult& r = trials[i].result;
-    const TimeSummary p = summarise(r.timing.planning);
+    const experiment::RunResult& r = trials[i].result;
+    const experiment::TimeSummary p = experiment::summarise(r.timing.planning);
     rows.push_back({.trial = static_cast<int>(i),
                     .status = r.status,
                     .metrics = r.metrics,
@@ -65,14 +65,15 @@ std::string trials_csv(const std::vector<TrialResult>& trials) {
                     .planning_max = p.max,
                     .record_hash = trials[i].hash});
   }
-  return csv_table(rows);
+  return io::csv_table(rows);
 }
 
-int many_runs(const RunOptions& o, const Scene& scene, const World& world, const Stop& stop) {
-  std::vector<TrialResult> results;
+int many_runs(const RunOptions& o, const experiment::Scene& scene, const World& world,
+              const Stop& stop) {
+  std::vector<experiment::TrialResult> results;
   {
     ProgressBar bar("trials");
-    results = run_trials(
+    results = experiment::run_trials(
         scene.scenario, world,
         {.trials = o.trials,
          .jobs = o.jobs,
@@ -86,11 +87,11 @@ int many_runs(const RunOptions& o, const Scene& scene, const World& world, const
   int ran = 0;
   for (std::size_t i = 0; i < results.size(); ++i) {
     if (!results[i].ran) continue;
-    const RunResult& r = results[i].result;
+    const experiment::RunResult& r = results[i].result;
     ++ran;
     solved += r.status == Status::solved;
     Json row{{"trial", i}};
-    row.update(to_json(r, results[i].hash));
+    row.update(run_json(r, results[i].hash));
     list.push_back(std::move(row));
     if (!o.json)
       print("trial {:3}: {} after {:.1f} s, {:.0f} µm long, record {}\n", i, ending(r),
@@ -106,26 +107,28 @@ int many_runs(const RunOptions& o, const Scene& scene, const World& world, const
 }
 
 /// Opens the scenario on a simulated rig: camera, coils and field.
-std::unique_ptr<Session> open_on_rig(const RunOptions& o) {
+std::unique_ptr<experiment::Session> open_on_rig(const RunOptions& o) {
   if (o.rig.empty()) return nullptr;
-  const RigExperiment on = reading(
-      [&] { return open_rig_experiment(o.scenario, o.settings, o.rig, o.rig_settings, o.seed); });
+  const rig::RigExperiment on = reading([&] {
+    return rig::open_rig_experiment(o.scenario, o.settings, o.rig, o.rig_settings, o.seed);
+  });
   note_each(on.experiment.keys.notes());
   note_field(on.rig, on.scenario());
-  return microswarm::open_on_rig(on);
+  return microswarm::rig::open_on_rig(on);
 }
 
 int run_command(const RunOptions& o, const Context& context) {
-  std::unique_ptr<Session> session = open_on_rig(o);
-  std::optional<Experiment> experiment;
+  std::unique_ptr<experiment::Session> session = open_on_rig(o);
+  std::optional<experiment::Experiment> experiment;
   if (!session) {
-    experiment = reading([&] { return open_experiment(o.scenario, o.settings, o.seed); });
+    experiment =
+        reading([&] { return experiment::open_experiment(o.scenario, o.settings, o.seed); });
     note_each(experiment->keys.notes());
   }
-  const ReportOptions report = report_options(o.photo);
+  const report::ReportOptions report = report_options(o.photo);
   const OutFolder hold(o.out);
   if (o.trials > 1) return many_runs(o, experiment->scene, experiment->world, context.stop);
-  if (!session) session = std::make_unique<Session>(std::move(*experiment));
+  if (!session) session = std::make_unique<experiment::Session>(std::move(*experiment));
   const auto growing = grow_record(*session, o.out);
   finish_run(*session, context.stop);
   return tell_run(*session, {o.out, o.no_report, o.json}, report);
@@ -144,7 +147,7 @@ void add_run(Command app, Action& action) {
   cmd.add_option("--out", o->out,
                  "Folder for run.h5, pictures and index.html, or with --trials for trials.csv")
       .type_name("FOLDER");
-  add_settings(cmd, o->settings, "Override a scenario value", type_of<Scenario>);
+  add_settings(cmd, o->settings, "Override a scenario value", type_of<experiment::Scenario>);
   cmd.add_option("--rig", o->rig,
                  "Rig file (YAML); runs through its simulated camera, coils and field")
       .type_name("FILE");

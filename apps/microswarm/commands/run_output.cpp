@@ -16,13 +16,13 @@
 
 namespace microswarm::cli {
 
-nlohmann::ordered_json to_json(const RunResult& result, const std::string& hash) {
-  return {
-      {"status", to_string(result.status)},
-      {"state", result.state},
-      {"metrics", nlohmann::ordered_json::parse(to_json_text(result.metrics))},
-      {"planning", nlohmann::ordered_json::parse(to_json_text(summarise(result.timing.planning)))},
-      {"record_hash", hash}};
+nlohmann::ordered_json run_json(const experiment::RunResult& result, const std::string& hash) {
+  return {{"status", to_string(result.status)},
+          {"state", result.state},
+          {"metrics", nlohmann::ordered_json::parse(to_json_text(result.metrics))},
+          {"planning", nlohmann::ordered_json::parse(
+                           to_json_text(experiment::summarise(result.timing.planning)))},
+          {"record_hash", hash}};
 }
 
 namespace {
@@ -39,7 +39,7 @@ std::string reason(std::string_view state) {
 
 }  // namespace
 
-std::string ending(const RunResult& result) {
+std::string ending(const experiment::RunResult& result) {
   switch (result.status) {
     case Status::solved:
       return "goal reached";
@@ -62,8 +62,8 @@ std::string um(double length) {
   return std::isfinite(length) ? fmt::format("{:.1f} µm", length) : "–";
 }
 
-std::string robots_summary(const RunResult& result, const RobotSwarmParams& robots) {
-  const Metrics& m = result.metrics;
+std::string robots_summary(const experiment::RunResult& result, const RobotSwarmParams& robots) {
+  const experiment::Metrics& m = result.metrics;
   const bool gathered = result.status == Status::solved && robots.goals.empty();
   const std::string planning =
       robots.goals.empty() ? "" : fmt::format("  planning  {} times\n", m.planning_events);
@@ -74,7 +74,7 @@ std::string robots_summary(const RunResult& result, const RobotSwarmParams& robo
                      m.goal_distance, planning);
 }
 
-std::string avoidance_text(const Avoidance& a) {
+std::string avoidance_text(const experiment::Avoidance& a) {
   if (!std::isfinite(a.min_gap)) return {};
   const std::string mean = a.time > 0 ? fmt::format(", {} on average", um(a.mean_gap)) : "";
   return fmt::format(
@@ -82,9 +82,9 @@ std::string avoidance_text(const Avoidance& a) {
       a.mean_cost, um(a.min_gap), mean);
 }
 
-std::string summary(const RunResult& result) {
-  const Metrics& m = result.metrics;
-  const TimeSummary p = summarise(result.timing.planning);
+std::string summary(const experiment::RunResult& result) {
+  const experiment::Metrics& m = result.metrics;
+  const experiment::TimeSummary p = experiment::summarise(result.timing.planning);
   std::string text = fmt::format("{} after {:.1f} s", ending(result), m.time);
   if (result.status != Status::solved)
     text += fmt::format(", {} from the goal", um(m.goal_distance));
@@ -99,7 +99,7 @@ std::string summary(const RunResult& result) {
 }
 
 /// Warns on stderr if a swarm moves far within a tick.
-void note_tick(const Scenario& scenario) {
+void note_tick(const experiment::Scenario& scenario) {
   if (scenario.robots) return;
   const SwarmLimits swarm = swarm_limits(scenario.swarm);
   const double travel = swarm.max_speed * scenario.tick;
@@ -111,7 +111,7 @@ void note_tick(const Scenario& scenario) {
 }
 
 /// Line with the time of the hold at the goal; empty without a hold.
-std::string hold_text(const Record& record) {
+std::string hold_text(const experiment::Record& record) {
   if (record.result.status != Status::solved || record.frames.empty()) return {};
   const double held = record.frames.back().t - record.result.metrics.time;
   return held > 1e-3 ? fmt::format("  at goal   held there for {:.1f} s\n", held) : "";
@@ -119,48 +119,53 @@ std::string hold_text(const Record& record) {
 
 std::filesystem::path record_in(const std::filesystem::path& folder) { return folder / "run.h5"; }
 
-void keep(const Record& record, const RunOutput& o, const ReportOptions& report) {
-  write_record(record, record_in(o.out));
-  if (!o.no_report) write_run_report(record, o.out, report);
+void keep(const experiment::Record& record, const RunOutput& o,
+          const report::ReportOptions& report) {
+  experiment::write_record(record, record_in(o.out));
+  if (!o.no_report) report::write_run_report(record, o.out, report);
 }
 
 }  // namespace
 
-void note_oddities(const Session& session) {
+void note_oddities(const experiment::Session& session) {
   note_tick(session.scenario());
   for (const std::string& unmet : unmet_assumptions(session.scenario(), session.map()))
     note("note: {}\n", unmet);
 }
 
-void note_regions(const Session& session) {
-  const auto* params = std::get_if<AggregationParams>(&session.scenario().navigator);
-  if (!params || params->method != Aggregation::divide_and_conquer) return;
+void note_regions(const experiment::Session& session) {
+  const auto* params = std::get_if<navigation::AggregationParams>(&session.scenario().navigator);
+  if (!params || params->method != navigation::Aggregation::divide_and_conquer) return;
   const auto* aggregation = std::get_if<AggregationDiagnostics>(&session.diagnostics());
-  const std::string few = aggregation ? too_few_regions(aggregation->regions.size()) : "";
+  const std::string few =
+      aggregation ? navigation::too_few_regions(aggregation->regions.size()) : "";
   if (!few.empty()) note("note: {}\n", few);
 }
 
-std::unique_ptr<GrowingRecord> grow_record(Session& session, const std::string& folder) {
+std::unique_ptr<experiment::GrowingRecord> grow_record(experiment::Session& session,
+                                                       const std::string& folder) {
   if (folder.empty()) return nullptr;
-  return std::make_unique<GrowingRecord>(session, record_in(folder));
+  return std::make_unique<experiment::GrowingRecord>(session, record_in(folder));
 }
 
-void finish_run(Session& session, const Stop& stop) {
+void finish_run(experiment::Session& session, const Stop& stop) {
   note_oddities(session);
-  const Scenario& scenario = session.scenario();
+  const experiment::Scenario& scenario = session.scenario();
   ProgressBar bar(scenario.name.empty() ? "run" : scenario.name);
-  ProgressListener progress(
-      scenario, [&](const RunProgress& p) { bar.update(std::max(p.distance_done, p.time_spent)); });
+  experiment::ProgressListener progress(scenario, [&](const experiment::RunProgress& p) {
+    bar.update(std::max(p.distance_done, p.time_spent));
+  });
   bool began = false;
-  while (const Tick* tick = session.step(stop)) {
+  while (const experiment::Tick* tick = session.step(stop)) {
     if (!std::exchange(began, true)) note_regions(session);
     progress.on_tick(*tick);
   }
 }
 
-int tell_run(const Session& session, const RunOutput& o, const ReportOptions& report) {
-  const Record& record = session.record();
-  const RunResult& result = session.result();
+int tell_run(const experiment::Session& session, const RunOutput& o,
+             const report::ReportOptions& report) {
+  const experiment::Record& record = session.record();
+  const experiment::RunResult& result = session.result();
   const std::string hash = record.hash();
   // Print a result even if it cannot be saved, and save it even if it cannot be printed.
   std::optional<InputError> lost;
@@ -170,7 +175,7 @@ int tell_run(const Session& session, const RunOutput& o, const ReportOptions& re
     lost = e;
   }
   if (o.json) {
-    nlohmann::ordered_json json = to_json(result, hash);
+    nlohmann::ordered_json json = run_json(result, hash);
     if (o.rig_timing) json["rig_timing"] = o.rig_timing();
     print("{}\n", json.dump(2));
   } else {

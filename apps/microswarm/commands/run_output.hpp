@@ -24,24 +24,26 @@ struct RunOutput {
 };
 
 /// Warns on stderr of unusual settings before a session runs.
-void note_oddities(const Session& session);
+void note_oddities(const experiment::Session& session);
 /// Warns on stderr, after the first tick, if the method divides a map with few regions.
-void note_regions(const Session& session);
+void note_regions(const experiment::Session& session);
 
 /// Writes the record so far into `folder` while the session is stepped, so that `microswarm lab`
 /// can follow it; null without a folder.
-std::unique_ptr<GrowingRecord> grow_record(Session& session, const std::string& folder);
+std::unique_ptr<experiment::GrowingRecord> grow_record(experiment::Session& session,
+                                                       const std::string& folder);
 
 /// Steps a session to its end with a progress bar.
-void finish_run(Session& session, const Stop& stop);
+void finish_run(experiment::Session& session, const Stop& stop);
 
 /// Writes the record and report of a finished session and prints its result. Returns the exit code.
-int tell_run(const Session& session, const RunOutput& output, const ReportOptions& report);
+int tell_run(const experiment::Session& session, const RunOutput& output,
+             const report::ReportOptions& report);
 
 /// Result of a run for --json, with the record's hash.
-nlohmann::ordered_json to_json(const RunResult& result, const std::string& hash);
+nlohmann::ordered_json run_json(const experiment::RunResult& result, const std::string& hash);
 
 /// Describes the end of a run: "goal reached", "held: waited for a valve,".
-std::string ending(const RunResult& result);
+std::string ending(const experiment::RunResult& result);
 
 }  // namespace microswarm::cli

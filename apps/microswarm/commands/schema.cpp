@@ -25,12 +25,12 @@ struct Kind {
 };
 
 std::array<Kind, 6> kinds() {
-  return {{{"scenario", type_of<Scenario>()},
-           {"sweep", type_of<Sweep>()},
-           {"rig", type_of<RigParams>()},
-           {"coils", type_of<CoilSystemParams>()},
-           {"track", type_of<TrackSettings>()},
-           {"global", type_of<GlobalChoice>()}}};
+  return {{{"scenario", type_of<experiment::Scenario>()},
+           {"sweep", type_of<sweep::Sweep>()},
+           {"rig", type_of<rig::RigParams>()},
+           {"coils", type_of<actuation::CoilSystemParams>()},
+           {"track", type_of<vision::TrackSettings>()},
+           {"global", type_of<experiment::GlobalChoice>()}}};
 }
 
 void show(std::string_view name, bool keys) {

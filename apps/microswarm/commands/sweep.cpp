@@ -35,7 +35,7 @@ class Meter {
  public:
   explicit Meter(bool lines) : lines_(lines), bar_("sweep") {}
 
-  void show(const SweepProgress& p) {
+  void show(const sweep::SweepProgress& p) {
     const auto now = Stop::Clock::now();
     if (now - shown_ < std::chrono::milliseconds(500) && p.left > 0) return;
     shown_ = now;
@@ -57,13 +57,13 @@ class Meter {
   Stop::Clock::time_point began_ = Stop::Clock::now(), shown_{}, written_ = began_;
 };
 
-SweepOrigin origin() {
+sweep::SweepOrigin origin() {
   std::array<char, 256> host{};
   ::gethostname(host.data(), host.size() - 1);
   return {host.data(), fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::gmtime(std::time(nullptr)))};
 }
 
-Json to_json(const SqlValue& value) {
+Json to_json(const sweep::SqlValue& value) {
   return std::visit(Overloaded{[](std::monostate) { return Json(nullptr); },
                                [](const OneOf<std::int64_t, double, std::string> auto& held) {
                                  return Json(held);
@@ -71,11 +71,11 @@ Json to_json(const SqlValue& value) {
                     value);
 }
 
-Json to_json(const SweepReader& sweep, const CellSummary& cell) {
+Json to_json(const sweep::SweepReader& sweep, const sweep::CellSummary& cell) {
   Json parameters = Json::object(), medians = Json::object();
   std::size_t next = 0;
-  for (const SweepColumn& column : sweep.columns()) {
-    if (column.role == SweepColumn::Role::parameter && next < cell.parameters.size())
+  for (const sweep::SweepColumn& column : sweep.columns()) {
+    if (column.role == sweep::SweepColumn::Role::parameter && next < cell.parameters.size())
       parameters[column.name] = to_json(cell.parameters[next++]);
     if (const auto found = cell.medians.find(column.name); found != cell.medians.end())
       medians[column.name] = found->second;
@@ -105,17 +105,17 @@ std::string aligned(const Lines& lines) {
   return text;
 }
 
-std::string table(const SweepReader& sweep, const std::vector<CellSummary>& cells) {
+std::string table(const sweep::SweepReader& sweep, const std::vector<sweep::CellSummary>& cells) {
   Lines lines(1);
-  for (const SweepColumn& column : sweep.columns())
-    if (column.role == SweepColumn::Role::parameter) lines[0].push_back(column.name);
+  for (const sweep::SweepColumn& column : sweep.columns())
+    if (column.role == sweep::SweepColumn::Role::parameter) lines[0].push_back(column.name);
   for (const char* name :
        {"method", "trials", "arrived_%", "time_s", "length_um", "planning_mean_ms"})
     lines[0].emplace_back(name);
-  for (const CellSummary& cell : cells) {
+  for (const sweep::CellSummary& cell : cells) {
     if (cell.trials == 0) continue;
     std::vector<std::string> line;
-    for (const SqlValue& value : cell.parameters) {
+    for (const sweep::SqlValue& value : cell.parameters) {
       const auto* text = std::get_if<std::string>(&value);
       line.push_back(text ? *text : to_json(value).dump());
     }
@@ -132,14 +132,14 @@ std::string table(const SweepReader& sweep, const std::vector<CellSummary>& cell
   return aligned(lines);
 }
 
-void tell(const SweepOptions& o, const SweepProgress& progress) {
-  const SweepReader sweep(o.out);
-  const std::vector<CellSummary> cells = summarise(sweep);
-  if (!o.csv.empty()) write_file_atomically(o.csv, sweep_csv(sweep));
+void tell(const SweepOptions& o, const sweep::SweepProgress& progress) {
+  const sweep::SweepReader sweep(o.out);
+  const std::vector<sweep::CellSummary> cells = summarise(sweep);
+  if (!o.csv.empty()) write_file_atomically(o.csv, sweep::sweep_csv(sweep));
   const std::size_t there = progress.before + progress.added;
   if (o.json) {
     Json list = Json::array();
-    for (const CellSummary& cell : cells) list.push_back(to_json(sweep, cell));
+    for (const sweep::CellSummary& cell : cells) list.push_back(to_json(sweep, cell));
     print("{}\n", Json{{"database", o.out},
                        {"trials", there},
                        {"added", progress.added},
@@ -154,15 +154,15 @@ void tell(const SweepOptions& o, const SweepProgress& progress) {
 }
 
 int sweep_command(SweepOptions o, const Context& context) {
-  const Ranks ranks;
+  const sweep::Ranks ranks;
   if (o.jobs == 0 && ranks.count() > 1) o.jobs = 1;
   if (ranks.rank() > 0) {
-    run_sweep_worker(ranks, o.sweep, o.jobs, context.stop);
+    sweep::run_sweep_worker(ranks, o.sweep, o.jobs, context.stop);
     return ok;  // mpirun ends all if one fails; rank 0 reports the result
   }
-  RemoteWorkers workers(ranks);
+  sweep::RemoteWorkers workers(ranks);
   const std::filesystem::path file = o.sweep;
-  const SweepPlan plan = load_sweep(file, o.jobs, context.stop);
+  const sweep::SweepPlan plan = sweep::load_sweep(file, o.jobs, context.stop);
   note_each(plan.notes);
   check(plan, o.jobs, context.stop);
   if (context.stop()) return not_reached;
@@ -172,13 +172,14 @@ int sweep_command(SweepOptions o, const Context& context) {
   keep_input(o.csv, o.out);
   const std::filesystem::path folder = std::filesystem::path(o.out).parent_path();
   if (!folder.empty()) make_folder(folder.string());
-  SweepProgress progress;
+  sweep::SweepProgress progress;
   {
-    SweepDatabase database(o.out, plan, origin());
+    sweep::SweepDatabase database(o.out, plan, origin());
     Meter meter(ranks.count() > 1);
-    progress = run_sweep(
+    progress = sweep::run_sweep(
         plan, database, workers,
-        {.jobs = o.jobs, .progress = [&](const SweepProgress& p) { meter.show(p); }}, context.stop);
+        {.jobs = o.jobs, .progress = [&](const sweep::SweepProgress& p) { meter.show(p); }},
+        context.stop);
   }
   tell(o, progress);
   flush_output();

@@ -28,13 +28,13 @@ struct TrackOptions {
   bool json = false;
 };
 
-TrackSettings to_settings(const TrackOptions& o) {
-  TrackSettings settings;
+vision::TrackSettings to_settings(const TrackOptions& o) {
+  vision::TrackSettings settings;
   if (o.config.empty()) {
     note_each(set_values(settings, o.settings));
   } else {
     KeyLocations keys;
-    settings = read_yaml_file<TrackSettings>(o.config, o.settings, keys);
+    settings = read_yaml_file<vision::TrackSettings>(o.config, o.settings, keys);
     note_each(keys.notes());
   }
   if (o.um_per_px) settings.um_per_px = o.um_per_px;
@@ -45,22 +45,24 @@ TrackSettings to_settings(const TrackOptions& o) {
 }
 
 /// Tracks the video with a progress bar; `overlay` may be null.
-TrackResult follow(FrameSource& source, const std::string& name, const TrackSettings& settings,
-                   VideoFileWriter* overlay, const Stop& stop) {
-  TrackOverlay drawing(*settings.um_per_px);
+vision::TrackResult follow(vision::FrameSource& source, const std::string& name,
+                           const vision::TrackSettings& settings, vision::VideoFileWriter* overlay,
+                           const Stop& stop) {
+  vision::TrackOverlay drawing(*settings.um_per_px);
   ProgressBar bar("track");
   const double all = source.count().value_or(0);
-  const auto show = [&](const VideoFrame& frame, const std::vector<TrackRow>& rows) {
+  const auto show = [&](const vision::VideoFrame& frame,
+                        const std::vector<vision::TrackRow>& rows) {
     if (overlay) overlay->add(drawing.draw(frame, rows));
     bar.update(all > 0 ? (frame.index + 1) / all : 0, fmt::format("{} robots", rows.size()));
   };
-  return track_video(source, name, settings, show, stop);
+  return vision::track_video(source, name, settings, show, stop);
 }
 
 /// Notes on stderr if the features look like noise rather than robots.
-void note_noise(const TrackResult& result) {
-  const TrackSummary s = summarise(result.rows, result.frames);
-  if (looks_like_noise(s))
+void note_noise(const vision::TrackResult& result) {
+  const vision::TrackSummary s = summarise(result.rows, result.frames);
+  if (vision::looks_like_noise(s))
     note(
         "note: {} of {} tracks are a frame long: noise may be taken for robots; see `microswarm "
         "track {} --suggest`\n",
@@ -70,17 +72,18 @@ void note_noise(const TrackResult& result) {
 int track(const TrackOptions& o, const Context& context) {
   if (o.suggest) return suggest_tracking(o.video, to_settings(o), o.out, o.json, context.stop);
   if (o.out.empty()) throw InputError("track: --out is missing");
-  const TrackSettings settings = to_settings(o);
-  const std::unique_ptr<FrameSource> source = open_frames(o.video, settings.rate, settings.depth);
+  const vision::TrackSettings settings = to_settings(o);
+  const std::unique_ptr<vision::FrameSource> source =
+      vision::open_frames(o.video, settings.rate, settings.depth);
   if (!source->rate())
     note("note: {} has no times, one picture a second is assumed: give --rate\n", o.video);
   const OutFolder hold(o.out);
   const std::filesystem::path folder = o.out;
   keep_track_input(folder, o.video);
   keep_track_input(folder, o.config);
-  std::optional<VideoFileWriter> overlay;
+  std::optional<vision::VideoFileWriter> overlay;
   if (!o.no_overlay) overlay.emplace(folder / "overlay.mp4", source->rate().value_or(1));
-  const TrackResult result =
+  const vision::TrackResult result =
       follow(*source, o.video, settings, overlay ? &*overlay : nullptr, context.stop);
   if (const std::string why = source->why_ended(); !why.empty())
     note("note: the tracks end at picture {}: {}\n", result.frames, why);
@@ -94,7 +97,7 @@ int track(const TrackOptions& o, const Context& context) {
   std::error_code none;  // remove an outdated overlay
   if (!shown || shown->extension() != ".mp4") std::filesystem::remove(folder / "overlay.mp4", none);
   if (o.json)
-    print("{}\n", to_json(result).dump(2));
+    print("{}\n", tracks_json(result).dump(2));
   else
     print("{}{}wrote {}{}\n", context.stop.requested() ? "stopped after " : "",
           track_summary(result), (folder / "tracks.csv").string(),
@@ -124,7 +127,8 @@ void add_track(Command app, Action& action) {
       .check(number(1e-6, 1e6));
   cmd.add_option("--config", o->config, "Settings file (YAML); other options override it")
       .type_name("FILE");
-  add_settings(cmd, o->settings, "Override a value, e.g. find.tone=bright", type_of<TrackSettings>);
+  add_settings(cmd, o->settings, "Override a value, e.g. find.tone=bright",
+               type_of<vision::TrackSettings>);
   cmd.add_flag("--suggest", o->suggest,
                "Suggest find.min_mass, find.diameter_px and find.tone for a video or picture");
   cmd.add_flag("--no-overlay", o->no_overlay, "Do not write overlay.mp4");

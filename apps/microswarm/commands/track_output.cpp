@@ -22,7 +22,7 @@ namespace {
 struct EventRow {
   int frame = 0;
   double t = 0;
-  TrackChange event = TrackChange::birth;
+  vision::TrackChange event = vision::TrackChange::birth;
   int id = 0;
   std::optional<int> other;
   template <class Self, class V>
@@ -35,28 +35,28 @@ struct EventRow {
   }
 };
 
-std::string events_csv(const TrackResult& result) {
+std::string events_csv(const vision::TrackResult& result) {
   std::vector<EventRow> rows;
-  for (const TrackEvent& e : result.events)
+  for (const vision::TrackEvent& e : result.events)
     rows.push_back({e.frame, e.frame * result.frame_time, e.change, e.id, e.other});
-  return csv_table(rows);
+  return io::csv_table(rows);
 }
 
-std::ptrdiff_t count_changes(const TrackResult& result, TrackChange change) {
+std::ptrdiff_t count_changes(const vision::TrackResult& result, vision::TrackChange change) {
   return std::count_if(result.events.begin(), result.events.end(),
-                       [&](const TrackEvent& e) { return e.change == change; });
+                       [&](const vision::TrackEvent& e) { return e.change == change; });
 }
 
-void put_integers(Hdf5Writer& file, const std::string& path,
+void put_integers(io::Hdf5Writer& file, const std::string& path,
                   const std::vector<std::int64_t>& values, const char* doc) {
   file.dataset(path, values);
   file.attribute(path, "unit", "");
   file.attribute(path, "description", doc);
 }
 
-std::string tracks_h5(const TrackResult& result) {
-  const auto made = write_hdf5();
-  Hdf5Writer& file = *made;
+std::string tracks_h5(const vision::TrackResult& result) {
+  const auto made = io::write_hdf5();
+  io::Hdf5Writer& file = *made;
   file.attribute("/", "format", "microswarm tracks");
   file.attribute("/", "format_version", std::int64_t{1});
   file.attribute("/", "version", version);
@@ -65,17 +65,17 @@ std::string tracks_h5(const TrackResult& result) {
   file.attribute("/", "um_per_px", result.settings.um_per_px.value_or(0));
   file.attribute("/", "frame_time_s", result.frame_time);
   file.text("/settings", to_yaml(result.settings));
-  for (const Column& column : to_columns<TrackRow>(ColumnUnits::shown)) {
+  for (const io::Column& column : io::to_columns<vision::TrackRow>(io::ColumnUnits::shown)) {
     const std::string path = "/tracks/" + column.key;
-    if (column.kind == ColumnKind::integer) {
+    if (column.kind == io::ColumnKind::integer) {
       std::vector<std::int64_t> values;
-      for (const TrackRow& row : result.rows)
+      for (const vision::TrackRow& row : result.rows)
         values.push_back(static_cast<std::int64_t>(column.number(&row)));
       put_integers(file, path, values, column.doc.c_str());
       continue;
     }
     std::vector<double> values;
-    for (const TrackRow& row : result.rows) values.push_back(column.number(&row));
+    for (const vision::TrackRow& row : result.rows) values.push_back(column.number(&row));
     file.dataset(path, values);
     file.attribute(path, "unit", std::string(unit_symbol(column.unit)));
     file.attribute(path, "description", column.doc);
@@ -84,7 +84,7 @@ std::string tracks_h5(const TrackResult& result) {
   std::vector<std::int64_t> changes;
   std::vector<std::int64_t> event_ids;
   std::vector<std::int64_t> others;
-  for (const TrackEvent& e : result.events) {
+  for (const vision::TrackEvent& e : result.events) {
     event_frames.push_back(e.frame);
     changes.push_back(static_cast<std::int64_t>(e.change));
     event_ids.push_back(e.id);
@@ -106,14 +106,14 @@ void keep_track_input(const std::filesystem::path& folder, const std::string& in
     keep_input((folder / name).string(), input);
 }
 
-void write_tracks(const TrackResult& result, const std::filesystem::path& folder) {
-  write_file_atomically(folder / "tracks.csv", csv_table(result.rows));
+void write_tracks(const vision::TrackResult& result, const std::filesystem::path& folder) {
+  write_file_atomically(folder / "tracks.csv", io::csv_table(result.rows));
   write_file_atomically(folder / "events.csv", events_csv(result));
   write_file_atomically(folder / "tracks.h5", tracks_h5(result));
 }
 
-nlohmann::ordered_json to_json(const TrackResult& result) {
-  const TrackSummary s = summarise(result.rows, result.frames);
+nlohmann::ordered_json tracks_json(const vision::TrackResult& result) {
+  const vision::TrackSummary s = vision::summarise(result.rows, result.frames);
   const double scale = result.settings.um_per_px.value_or(1);
   using Json = nlohmann::ordered_json;
   const auto pair = [&](double by_x, double by_y) {
@@ -127,20 +127,20 @@ nlohmann::ordered_json to_json(const TrackResult& result) {
           {"drift_um", pair(1, 1)},
           {"drift_px", pair(1 / scale, -1 / scale)},
           {"mean_speed_um_per_s", s.mean_speed ? Json(*s.mean_speed) : Json(nullptr)},
-          {"merges", count_changes(result, TrackChange::merge)},
-          {"splits", count_changes(result, TrackChange::split)}};
+          {"merges", count_changes(result, vision::TrackChange::merge)},
+          {"splits", count_changes(result, vision::TrackChange::split)}};
 }
 
-std::string track_summary(const TrackResult& result) {
-  const TrackSummary s = summarise(result.rows, result.frames);
+std::string track_summary(const vision::TrackResult& result) {
+  const vision::TrackSummary s = vision::summarise(result.rows, result.frames);
   std::string text = fmt::format(
       "{} frames, {:.1f} robots in each\n"
       "  tracks    {}, of which {} have {} frames or more\n",
       s.frames, s.frames > 0 ? static_cast<double>(s.features) / s.frames : 0, s.tracks,
-      s.long_tracks, TrackSummary::long_track);
-  text +=
-      fmt::format("  events    {} merges, {} splits\n", count_changes(result, TrackChange::merge),
-                  count_changes(result, TrackChange::split));
+      s.long_tracks, vision::TrackSummary::long_track);
+  text += fmt::format("  events    {} merges, {} splits\n",
+                      count_changes(result, vision::TrackChange::merge),
+                      count_changes(result, vision::TrackChange::split));
   if (!s.drift || !s.mean_speed) return text + "  drift     –, speed –: no track is long enough\n";
   return text + fmt::format(
                     "  drift     ({:.3f}, {:.3f}) µm from the first frame to the last\n"

@@ -11,14 +11,14 @@ namespace microswarm::cli {
 
 /// Writes tracks.csv, events.csv and tracks.h5 into the folder. tracks.csv can be read as recorded
 /// tracks of maps and obstacles. Throws InputError "FILE: cannot write: REASON".
-void write_tracks(const TrackResult& result, const std::filesystem::path& folder);
+void write_tracks(const vision::TrackResult& result, const std::filesystem::path& folder);
 
 /// Throws InputError if a file to be written is the input.
 void keep_track_input(const std::filesystem::path& folder, const std::string& input);
 
 /// Result for --json.
-nlohmann::ordered_json to_json(const TrackResult& result);
+nlohmann::ordered_json tracks_json(const vision::TrackResult& result);
 /// Summary in a few lines.
-std::string track_summary(const TrackResult& result);
+std::string track_summary(const vision::TrackResult& result);
 
 }  // namespace microswarm::cli

@@ -20,14 +20,16 @@ namespace {
 constexpr int max_read = 200;         // pictures read from the beginning of a video
 constexpr std::size_t max_used = 20;  // of these, evenly spread
 
-std::vector<Image> sample(FrameSource& source, VideoChannel channel, const Stop& stop) {
+std::vector<formats::Image> sample(vision::FrameSource& source, vision::VideoChannel channel,
+                                   const Stop& stop) {
   const int all = std::min(source.count().value_or(max_read), max_read);
   const int step = std::max(1, all / static_cast<int>(max_used));
-  std::vector<Image> pictures;
-  VideoFrame frame;
+  std::vector<formats::Image> pictures;
+  vision::VideoFrame frame;
   int read = 0;
   for (; !stop() && pictures.size() < max_used && source.next(frame); ++read)
-    if (frame.index % step == 0) take_channel(frame.picture, channel, pictures.emplace_back());
+    if (frame.index % step == 0)
+      vision::take_channel(frame.picture, channel, pictures.emplace_back());
   if (const std::string why = source.why_ended(); !why.empty())
     note("note: the pictures end at picture {}: {}\n", read, why);
   return pictures;
@@ -40,7 +42,7 @@ std::string typed(double mass) {
 }
 
 /// The suggested options; empty if the given settings are kept.
-std::string to_options(const ParticleSuggestion& s, const ParticleParams& given) {
+std::string to_options(const vision::ParticleSuggestion& s, const vision::ParticleParams& given) {
   std::string text;
   const auto add = [&](const std::string& setting) {
     text += (text.empty() ? "--set find." : " --set find.") + setting;
@@ -51,7 +53,7 @@ std::string to_options(const ParticleSuggestion& s, const ParticleParams& given)
   return text;
 }
 
-void tell(const ParticleSuggestion& s, const ParticleParams& given) {
+void tell(const vision::ParticleSuggestion& s, const vision::ParticleParams& given) {
   print("{} picture{}, {:.1f} features in each without a minimum mass\n", s.pictures,
         s.pictures == 1 ? "" : "s", s.heavier_than(0));
   if (s.kinds.gap) {
@@ -73,7 +75,8 @@ void tell(const ParticleSuggestion& s, const ParticleParams& given) {
   print("{}\n", options.empty() ? "nothing better is suggested" : options);
 }
 
-nlohmann::ordered_json to_json(const ParticleSuggestion& s, const ParticleParams& given) {
+nlohmann::ordered_json to_json(const vision::ParticleSuggestion& s,
+                               const vision::ParticleParams& given) {
   nlohmann::ordered_json json{
       {"pictures", s.pictures},
       {"features", s.heavier_than(0)},
@@ -89,12 +92,13 @@ nlohmann::ordered_json to_json(const ParticleSuggestion& s, const ParticleParams
 }
 
 /// Histogram of the logarithms of masses, as a line of steps.
-Series histogram(const std::string& label, const std::vector<double>& masses, int pictures) {
+report::Series histogram(const std::string& label, const std::vector<double>& masses,
+                         int pictures) {
   constexpr double bin = 0.05;  // [decades]
   std::map<int, double> counts;
   for (const double mass : masses)
     if (mass > 0) counts[static_cast<int>(std::floor(maths::log10(mass) / bin))] += 1.0 / pictures;
-  Series series{.label = label, .x = {}, .y = {}};
+  report::Series series{.label = label, .x = {}, .y = {}};
   if (counts.empty()) return series;
   for (int k = counts.begin()->first - 1; k <= counts.rbegin()->first + 1; ++k)
     for (const int edge : {k, k + 1}) {
@@ -104,45 +108,46 @@ Series histogram(const std::string& label, const std::vector<double>& masses, in
   return series;
 }
 
-void draw(const ParticleSuggestion& s, const std::filesystem::path& file) {
-  const ParticleTone other =
-      s.params.tone == ParticleTone::dark ? ParticleTone::bright : ParticleTone::dark;
-  Plot plot{.title = fmt::format("masses of features, diameter {} px", s.params.diameter),
-            .x_label = "mass [sum of greys]",
-            .y_label = "features in a picture",
-            .series = {histogram(fmt::format("{} features", enum_name(s.params.tone)), s.masses,
-                                 s.pictures),
-                       histogram(fmt::format("{} features", enum_name(other)), s.other_masses,
-                                 s.pictures)},
-            .levels = {},
-            .marks = {},
-            .bands = {},
-            .band_label = {},
-            .x_ticks = {},
-            .y_ticks = {},
-            .log_x = true,
-            .key_below = true,
-            .x_min = {},
-            .x_max = {},
-            .y_min = 0,
-            .y_max = {}};
+void draw(const vision::ParticleSuggestion& s, const std::filesystem::path& file) {
+  const vision::ParticleTone other = s.params.tone == vision::ParticleTone::dark
+                                         ? vision::ParticleTone::bright
+                                         : vision::ParticleTone::dark;
+  report::Plot plot{.title = fmt::format("masses of features, diameter {} px", s.params.diameter),
+                    .x_label = "mass [sum of greys]",
+                    .y_label = "features in a picture",
+                    .series = {histogram(fmt::format("{} features", enum_name(s.params.tone)),
+                                         s.masses, s.pictures),
+                               histogram(fmt::format("{} features", enum_name(other)),
+                                         s.other_masses, s.pictures)},
+                    .levels = {},
+                    .marks = {},
+                    .bands = {},
+                    .band_label = {},
+                    .x_ticks = {},
+                    .y_ticks = {},
+                    .log_x = true,
+                    .key_below = true,
+                    .x_min = {},
+                    .x_max = {},
+                    .y_min = 0,
+                    .y_max = {}};
   plot.marks.push_back({s.kinds.gap ? "suggested" : "find.min_mass", s.params.min_mass});
   if (s.kinds.gap) {
     plot.bands.push_back({s.kinds.gap->noise_to, s.kinds.gap->robots_from});
     plot.band_label = "gap";
   }
-  write_plots({plot}, file);
+  report::write_plots({plot}, file);
 }
 
 }  // namespace
 
-int suggest_tracking(const std::string& source, const TrackSettings& settings,
+int suggest_tracking(const std::string& source, const vision::TrackSettings& settings,
                      const std::filesystem::path& out, bool json, const Stop& stop) {
-  const auto frames = open_frames(source, settings.rate, settings.depth);
-  const std::vector<Image> pictures = sample(*frames, settings.channel, stop);
+  const auto frames = vision::open_frames(source, settings.rate, settings.depth);
+  const std::vector<formats::Image> pictures = sample(*frames, settings.channel, stop);
   if (stop.requested()) return not_reached;
   if (pictures.empty()) throw InputError(source + ": has no pictures");
-  const ParticleSuggestion s = suggest_particles(pictures, settings.find);
+  const vision::ParticleSuggestion s = vision::suggest_particles(pictures, settings.find);
   std::string wrote;
   if (!out.empty()) {
     keep_track_input(out, source);

@@ -31,17 +31,18 @@ void note_how_to_stop(bool has_keys, const char* keys) {
     note("to stop: `kill -INT {}`, or the emergency stop of the device\n", ::getpid());
 }
 
-Bench::Bench(const Rig& of, const CoilOptions& o) : rig(of) {
-  const bool real = has_coil_device(rig);
+Bench::Bench(const rig::Rig& of, const CoilOptions& o) : rig(of) {
+  const bool real = rig::has_coil_device(rig);
   if (real) require_emergency_stop(o);
-  if (real && !o.without_limits) rig.keys.require_none(missing_limits(rig));
-  driver = open_coils(rig);
+  if (real && !o.without_limits) rig.keys.require_none(rig::missing_limits(rig));
+  driver = rig::open_coils(rig);
   if (real) kept.emplace(rig, o.coils_cold);
-  temperatures = kept ? kept->at_start() : Amplifiers(rig.system.amplifiers()).temperatures();
+  temperatures =
+      kept ? kept->at_start() : actuation::Amplifiers(rig.system.amplifiers()).temperatures();
   if (kept && !kept->known()) note("note: {}\n", kept->why_hot());
 }
 
-bool note_zero(const StopReport& zero) {
+bool note_zero(const actuation::StopReport& zero) {
   if (!zero.confirmed)
     note(
         "microswarm: the coil driver did not confirm that the coils are at zero; its own watchdog "

@@ -31,17 +31,17 @@ void note_how_to_stop(bool has_keys, const char* keys);
 /// The coils of a rig for manual driving. Throws InputError if nobody can stop them or limits are
 /// missing, HardwareError if the device fails.
 struct Bench {
-  Bench(const Rig& of, const CoilOptions& o);
+  Bench(const rig::Rig& of, const CoilOptions& o);
 
-  const Rig& rig;
-  std::unique_ptr<CoilDriver> driver;
-  std::optional<CoilTemperatures> kept;
+  const rig::Rig& rig;
+  std::unique_ptr<actuation::CoilDriver> driver;
+  std::optional<rig::CoilTemperatures> kept;
   Eigen::VectorXd temperatures;  ///< [°C]
   bool said_how_to_stop = false;
 };
 
 /// Warns on stderr if zero currents are not confirmed, or a fallback driver confirmed them. Returns
 /// whether there was no reason to warn.
-bool note_zero(const StopReport& zero);
+bool note_zero(const actuation::StopReport& zero);
 
 }  // namespace microswarm::cli

@@ -32,7 +32,7 @@ Eigen::Vector3d parse_triple(const std::string& text) {
   return {v[0], v[1], v[2]};
 }
 
-Eigen::VectorXd parse_currents(const std::string& text, const CoilSystem& system) {
+Eigen::VectorXd parse_currents(const std::string& text, const actuation::CoilSystem& system) {
   const std::vector<double> given = numbers(text);
   if (given.empty()) throw InputError("--currents: must be A,A,…, not " + quote(text));
   if (given.size() != system.size())
@@ -64,8 +64,8 @@ Json to_json(const Eigen::VectorXd& v) {
   return list;
 }
 
-std::string to_text(const LimitHit& hit, const CoilSystem& system) {
-  const std::string_view unit = unit_symbol(limit_unit(hit.limit));
+std::string to_text(const actuation::LimitHit& hit, const actuation::CoilSystem& system) {
+  const std::string_view unit = unit_symbol(actuation::limit_unit(hit.limit));
   if (!std::isfinite(hit.asked))
     return fmt::format("{} of coil {}: rises without end, allowed {:.6g} {}", enum_name(hit.limit),
                        system.coil_names()[hit.coil], hit.allowed, unit);
@@ -74,15 +74,15 @@ std::string to_text(const LimitHit& hit, const CoilSystem& system) {
                      hit.allowed, unit, hit.asked - hit.allowed, unit);
 }
 
-Json to_json(const LimitHit& hit, const CoilSystem& system) {
+Json to_json(const actuation::LimitHit& hit, const actuation::CoilSystem& system) {
   return {{"limit", enum_name(hit.limit)},
           {"coil", system.coil_names()[hit.coil]},
-          {"unit", unit_suffix(limit_unit(hit.limit))},
+          {"unit", unit_suffix(actuation::limit_unit(hit.limit))},
           {"asked", hit.asked},
           {"allowed", hit.allowed}};
 }
 
-std::string why_not(const CurrentsForField& found) {
+std::string why_not(const actuation::CurrentsForField& found) {
   if (found.rank == 0) return "the coils make no field there";
   std::string directions;
   for (const Eigen::Vector3d direction : found.missing.colwise())
@@ -94,20 +94,20 @@ std::string why_not(const CurrentsForField& found) {
 int field(const FieldOptions& o) {
   if (o.currents.empty() == o.field.empty())
     throw InputError("rig field: give either --currents or --field");
-  const CoilSystem system = read_coil_system(o.system);
+  const actuation::CoilSystem system = actuation::read_coil_system(o.system);
   const Eigen::Vector3d position = o.at.empty() ? system.centre() : parse_triple(o.at);
-  const Actuation at = system.at(position);
-  std::optional<CurrentsForField> found;
-  if (!o.field.empty()) found = currents_for(at, parse_triple(o.field));
+  const actuation::Actuation at = system.at(position);
+  std::optional<actuation::CurrentsForField> found;
+  if (!o.field.empty()) found = actuation::currents_for(at, parse_triple(o.field));
   const Eigen::VectorXd wanted = found ? found->currents : parse_currents(o.currents, system);
-  const LimitedCurrents held = Amplifiers(system.amplifiers()).steady(wanted);
+  const actuation::LimitedCurrents held = actuation::Amplifiers(system.amplifiers()).steady(wanted);
   const Eigen::Vector3d made = at.total_field(held.currents);
-  const FiveGradients slope =
-      five_gradients(at.total_gradient(held.currents)) / mt_per_um_of_t_per_m;
+  const actuation::FiveGradients slope =
+      actuation::five_gradients(at.total_gradient(held.currents)) / actuation::mt_per_um_of_t_per_m;
   const bool unmade = found && !found->reached;
   if (o.json) {
     Json hits = Json::array();
-    for (const LimitHit& hit : held.hits) hits.push_back(to_json(hit, system));
+    for (const actuation::LimitHit& hit : held.hits) hits.push_back(to_json(hit, system));
     Json json{{"system", system.name()},
               {"at_um", to_json(position)},
               {"in_workspace", system.in_workspace(position)},
@@ -140,7 +140,7 @@ int field(const FieldOptions& o) {
       print("  {:<10} {:12.6g} A\n", system.coil_names()[i],
             held.currents[static_cast<Eigen::Index>(i)]);
     if (unmade) print("{}\n", why_not(*found));
-    for (const LimitHit& hit : held.hits) print("{}\n", to_text(hit, system));
+    for (const actuation::LimitHit& hit : held.hits) print("{}\n", to_text(hit, system));
     if (!held.hits.empty()) print("scaled to {:.1f} % of what was asked for\n", 100 * held.scale);
   }
   return unmade || !held.hits.empty() ? not_reached : ok;

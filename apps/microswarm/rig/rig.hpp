@@ -23,7 +23,7 @@ Eigen::Vector3d parse_triple(const std::string& text);
 std::string triple_text(const Eigen::Vector3d& v);
 
 /// Parses "1,0,0", one current for each coil. Throws InputError.
-Eigen::VectorXd parse_currents(const std::string& text, const CoilSystem& system);
+Eigen::VectorXd parse_currents(const std::string& text, const actuation::CoilSystem& system);
 
 /// Adds `rig map`.
 void add_rig_map(Command rig, Action& action);

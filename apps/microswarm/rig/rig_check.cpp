@@ -49,18 +49,18 @@ class Answers {
   Json list_ = Json::array();
 };
 
-void answer(Answers& answers, const std::vector<RigCheck>& checks) {
-  for (const RigCheck& check : checks) answers.say(check.good, check.what, check.answer);
+void answer(Answers& answers, const std::vector<rig::RigCheck>& checks) {
+  for (const rig::RigCheck& check : checks) answers.say(check.good, check.what, check.answer);
 }
 
-void ask_camera(const Rig& rig, const CheckOptions& o, const Stop& stop, Answers& answers) {
-  if (camera_kind(rig.params) == CameraKind::simulated)
+void ask_camera(const rig::Rig& rig, const CheckOptions& o, const Stop& stop, Answers& answers) {
+  if (rig::camera_kind(rig.params) == rig::CameraKind::simulated)
     return answers.say(true, "camera", "simulated");
   try {
-    std::unique_ptr<FrameSource> source = open_rig_camera(rig);
+    std::unique_ptr<vision::FrameSource> source = rig::open_rig_camera(rig);
     const std::optional<double> rate = source->rate();
-    NewestFrame camera(std::move(source), "camera", camera_watch(rig.params));
-    answer(answers, check_camera(camera, rig, rate, o.seconds, stop));
+    vision::NewestFrame camera(std::move(source), "camera", rig::camera_watch(rig.params));
+    answer(answers, rig::check_camera(camera, rig, rate, o.seconds, stop));
   } catch (const std::runtime_error& e) {
     answers.say(false, "camera", e.what());
   }
@@ -69,23 +69,23 @@ void ask_camera(const Rig& rig, const CheckOptions& o, const Stop& stop, Answers
                                : "missing, see `microswarm rig scale`");
 }
 
-void ask_driver(const Rig& rig, const CheckOptions& o, const Stop& stop, Answers& answers) {
-  if (!has_coil_device(rig)) return answers.say(true, "driver", "simulated");
+void ask_driver(const rig::Rig& rig, const CheckOptions& o, const Stop& stop, Answers& answers) {
+  if (!rig::has_coil_device(rig)) return answers.say(true, "driver", "simulated");
   try {
-    const std::unique_ptr<CoilDriver> driver = open_coils(rig);
-    answer(answers, check_driver(*driver, rig, o.seconds, stop));
+    const std::unique_ptr<actuation::CoilDriver> driver = rig::open_coils(rig);
+    answer(answers, rig::check_driver(*driver, rig, o.seconds, stop));
   } catch (const std::runtime_error& e) {
     answers.say(false, "driver", e.what());
   }
 }
 
 int rig_check(const CheckOptions& o, const Stop& stop) {
-  const Rig rig = read_rig(o.rig, o.settings);
+  const rig::Rig rig = rig::read_rig(o.rig, o.settings);
   Answers answers(o.json);
   answers.say(true, "coils", fmt::format("{}: {} coils", rig.system.name(), rig.system.size()));
-  answer(answers, {check_field(rig)});
-  if (has_coil_device(rig))
-    for (const Issue& issue : missing_limits(rig)) answers.say(false, "limits", issue.text);
+  answer(answers, {rig::check_field(rig)});
+  if (rig::has_coil_device(rig))
+    for (const Issue& issue : rig::missing_limits(rig)) answers.say(false, "limits", issue.text);
   ask_camera(rig, o, stop, answers);
   ask_driver(rig, o, stop, answers);
   if (stop()) return not_reached;

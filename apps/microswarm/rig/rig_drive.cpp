@@ -46,7 +46,8 @@ std::string field_text(const Eigen::Vector3d& field) {
 }
 
 /// Warns of currents reduced by the device's own limits; names the field unless it turns.
-void note_device_limits(const Rig& rig, const ManualCommand& command, const ManualResult& result) {
+void note_device_limits(const rig::Rig& rig, const rig::ManualCommand& command,
+                        const rig::ManualResult& result) {
   const std::string left =
       std::visit(Overloaded{[](const microswarm::Command&) { return std::string(); },
                             [&](const OneOf<Eigen::VectorXd, Eigen::Vector3d> auto&) {
@@ -61,14 +62,14 @@ void note_device_limits(const Rig& rig, const ManualCommand& command, const Manu
 }
 
 /// Throws InputError for currents that the amplifiers cannot make at any coil temperature.
-void require_possible(const Eigen::VectorXd& currents, const CoilSystem& system,
+void require_possible(const Eigen::VectorXd& currents, const actuation::CoilSystem& system,
                       std::string_view option) {
   constexpr double unlimited = 1e9;  // [A]
-  std::vector<AmplifierParams> cold = system.amplifiers();
-  for (AmplifierParams& amplifier : cold) amplifier.max_temperature.reset();
+  std::vector<actuation::AmplifierParams> cold = system.amplifiers();
+  for (actuation::AmplifierParams& amplifier : cold) amplifier.max_temperature.reset();
   for (Eigen::Index k = 0; k < currents.size(); ++k) {
     const Eigen::VectorXd alone = unlimited * Eigen::VectorXd::Unit(currents.size(), k);
-    const double most = Amplifiers(cold).steady(alone).currents[k];
+    const double most = actuation::Amplifiers(cold).steady(alone).currents[k];
     if (std::abs(currents[k]) > most * (1 + 1e-9))
       throw InputError(fmt::format("{}: coil {} can carry {:.4g} A, not {:.6g} A", option,
                                    quote(system.coil_names()[static_cast<std::size_t>(k)]), most,
@@ -77,13 +78,13 @@ void require_possible(const Eigen::VectorXd& currents, const CoilSystem& system,
 }
 
 /// Throws InputError for a command that the rig cannot execute.
-void require_possible(const ManualCommand& command, const RigParams& rig,
-                      const CoilSystem& system) {
+void require_possible(const rig::ManualCommand& command, const rig::RigParams& rig,
+                      const actuation::CoilSystem& system) {
   const auto check_currents = [&](const Eigen::VectorXd& currents) {
     require_possible(currents, system, "--currents");
   };
   const auto check_field = [&](const Eigen::Vector3d& field) {
-    if (!currents_for(system.at(system.centre()), field).reached)
+    if (!actuation::currents_for(system.at(system.centre()), field).reached)
       throw InputError("--field: the coils cannot make this field, see `microswarm rig field`");
   };
   const auto check_steering = [&](const microswarm::Command& steering) {
@@ -98,21 +99,21 @@ void require_possible(const ManualCommand& command, const RigParams& rig,
 }
 
 /// Drives the coils and reports the result. Returns the exit code.
-int drive(Bench& bench, const ManualCommand& command, const Context& context) {
+int drive(Bench& bench, const rig::ManualCommand& command, const Context& context) {
   std::atomic<bool> pressed = false;
   const RigKeys keys([&] { pressed = true; }, {}, context.stop);
   if (bench.kept && !std::exchange(bench.said_how_to_stop, true))
     note_how_to_stop(keys.are_there(), "");
   std::optional<ProgressBar> bar("drive");
-  const auto heard = [&](const ManualMoment& moment) {
+  const auto heard = [&](const rig::ManualMoment& moment) {
     bench.temperatures = moment.output.temperatures;
     if (bench.kept) bench.kept->take(bench.temperatures);
     if (pressed) throw HardwareError("the emergency key was pressed");
     bar->update(moment.t / command.seconds,
                 fmt::format("{:.3g} A", fmt::join(moment.output.acknowledged, ", ")));
   };
-  const ManualResult result =
-      drive_by_hand(bench.rig, *bench.driver, command, bench.temperatures, heard, context.stop);
+  const rig::ManualResult result = rig::drive_by_hand(bench.rig, *bench.driver, command,
+                                                      bench.temperatures, heard, context.stop);
   bar.reset();
   if (!result.why.empty()) note("microswarm: {}\n", result.why);
   const bool at_zero = note_zero(result.zero);
@@ -125,7 +126,7 @@ int drive(Bench& bench, const ManualCommand& command, const Context& context) {
 
 /// Drives one coil after the other, so that a compass or a probe shows polarity and channel.
 int drive_each(Bench& bench, const DriveOptions& o, const Context& context) {
-  const Actuation actuation = bench.rig.system.at(bench.rig.system.centre());
+  const actuation::Actuation actuation = bench.rig.system.at(bench.rig.system.centre());
   for (std::size_t k = 0; k < bench.rig.system.size(); ++k) {
     Eigen::VectorXd currents = Eigen::VectorXd::Zero(bench.temperatures.size());
     currents[static_cast<Eigen::Index>(k)] = *o.each;
@@ -138,8 +139,8 @@ int drive_each(Bench& bench, const DriveOptions& o, const Context& context) {
   return ok;
 }
 
-ManualCommand to_command(const DriveOptions& o, const CoilSystem& system) {
-  ManualCommand command{.wanted = {}, .seconds = o.seconds, .ramp = o.ramp};
+rig::ManualCommand to_command(const DriveOptions& o, const actuation::CoilSystem& system) {
+  rig::ManualCommand command{.wanted = {}, .seconds = o.seconds, .ramp = o.ramp};
   if (!o.currents.empty())
     command.wanted = parse_currents(o.currents, system);
   else if (!o.field.empty())
@@ -156,8 +157,8 @@ int rig_drive(const DriveOptions& o, const Context& context) {
   if (2 * o.ramp > o.seconds)
     throw InputError(fmt::format("--ramp: two ramps of {:.6g} s are longer than --seconds {:.6g}",
                                  o.ramp, o.seconds));
-  const Rig rig = reading([&] { return read_rig(o.rig, {o.settings, "--set"}); });
-  if (coil_input(rig.params) == CoilInput::field && (o.each || !o.currents.empty()))
+  const rig::Rig rig = reading([&] { return rig::read_rig(o.rig, {o.settings, "--set"}); });
+  if (coil_input(rig.params) == actuation::CoilInput::field && (o.each || !o.currents.empty()))
     throw InputError("--currents and --each are for a driver that is sent currents: give --field");
   if (o.each) {
     if (*o.each == 0) throw InputError("--each: 0 A shows nothing of a coil");
@@ -166,7 +167,7 @@ int rig_drive(const DriveOptions& o, const Context& context) {
     Bench bench(rig, o.coils);
     return drive_each(bench, o, context);
   }
-  const ManualCommand command = to_command(o, rig.system);
+  const rig::ManualCommand command = to_command(o, rig.system);
   require_possible(command, rig.params, rig.system);
   Bench bench(rig, o.coils);
   return drive(bench, command, context);

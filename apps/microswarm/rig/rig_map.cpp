@@ -36,36 +36,38 @@ struct RigMapOptions {
 
 int map_field(const RigMapOptions& o, const Stop& stop) {
   keep_input(o.out, o.system);
-  const CoilSystem system = read_coil_system(o.system);
-  UniformityGrid grid{.centre = o.at.empty() ? system.centre() : parse_triple(o.at),
-                      .plane = *enum_value<Plane>(o.plane),
-                      .points = static_cast<int>(o.points)};
-  grid.half_width = o.half_width ? *o.half_width : fitting_half_width(system, grid);
+  const actuation::CoilSystem system = actuation::read_coil_system(o.system);
+  actuation::UniformityGrid grid{.centre = o.at.empty() ? system.centre() : parse_triple(o.at),
+                                 .plane = *enum_value<actuation::Plane>(o.plane),
+                                 .points = static_cast<int>(o.points)};
+  grid.half_width = o.half_width ? *o.half_width : actuation::fitting_half_width(system, grid);
   const Eigen::VectorXd currents =
-      o.currents.empty() ? currents_for(system.at(grid.centre), parse_triple(o.field)).currents
-                         : parse_currents(o.currents, system);
-  const std::optional<UniformityMap> made = [&] {
+      o.currents.empty()
+          ? actuation::currents_for(system.at(grid.centre), parse_triple(o.field)).currents
+          : parse_currents(o.currents, system);
+  const std::optional<actuation::UniformityMap> made = [&] {
     ProgressBar bar("map");
-    return uniformity(system, currents, grid, [&](double share) {
+    return actuation::uniformity(system, currents, grid, [&](double share) {
       bar.update(share);
       return !stop();
     });
   }();
   if (!made) return not_reached;
-  UniformityMap map = *made;
+  actuation::UniformityMap map = *made;
   Eigen::Vector3d& b = map.centre_field;
   const double strength = b.norm();
   for (double& component : b) component = tidy(component, strength);
   const double largest = tidy(map.largest(), 1);
-  const bool inside = in_workspace(system, grid);
-  if (const double share = Amplifiers(system.amplifiers()).steady(currents).scale; share < 1)
+  const bool inside = actuation::in_workspace(system, grid);
+  if (const double share = actuation::Amplifiers(system.amplifiers()).steady(currents).scale;
+      share < 1)
     note("note: the coils' limits allow {:.3g} % of these currents\n", 100 * share);
   if (!o.out.empty()) {
     const std::filesystem::path out = o.out;
     if (out.extension() == ".csv")
-      write_file_atomically(out, uniformity_table(map));
+      write_file_atomically(out, report::uniformity_table(map));
     else
-      draw_uniformity(map, !o.at.empty(), out);
+      report::draw_uniformity(map, !o.at.empty(), out);
   }
   const std::array<double, 3> shares{0.01, 0.05, 0.1};
   if (o.json) {

@@ -5,9 +5,9 @@
 
 namespace microswarm::cli {
 
-void note_field(const Rig& rig, const Scenario& scenario) {
-  const std::string unusual = unusual_field(rig, scenario);
-  if (!unusual.empty()) note("note: {}: {}\n", rig_name(rig), unusual);
+void note_field(const rig::Rig& rig, const experiment::Scenario& scenario) {
+  const std::string unusual = rig::unusual_field(rig, scenario);
+  if (!unusual.empty()) note("note: {}: {}\n", rig::rig_name(rig), unusual);
 }
 
 }  // namespace microswarm::cli

@@ -8,6 +8,6 @@
 namespace microswarm::cli {
 
 /// Warns on stderr if the rig's kind of field is not the swarm's usual one.
-void note_field(const Rig& rig, const Scenario& scenario);
+void note_field(const rig::Rig& rig, const experiment::Scenario& scenario);
 
 }  // namespace microswarm::cli

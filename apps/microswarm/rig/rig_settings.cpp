@@ -10,7 +10,7 @@ Option add_rig_settings(Command command, const char* name, std::vector<std::stri
   return command.add_option(name, values, "Override a rig value")
       .type_name("KEY=VALUE")
       .repeatable()
-      .suggest(suggest_settings(type_of<RigParams>));
+      .suggest(suggest_settings(type_of<rig::RigParams>));
 }
 
 }  // namespace microswarm::cli

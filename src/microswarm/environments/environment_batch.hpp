@@ -13,7 +13,7 @@
 #include "microswarm/core/execution/stop.hpp"
 #include "microswarm/environments/environment_step.hpp"
 
-namespace microswarm {
+namespace microswarm::environments {
 
 /// Environments of the same task, stepped together on several threads. Results do not depend on the
 /// number of threads: environment i of a batch with seed s equals a batch of one with seed s + i.
@@ -93,4 +93,4 @@ class EnvironmentBatch {
   ThreadTeam threads_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::environments

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-namespace microswarm {
+namespace microswarm::environments {
 
 /// Result of a step of an environment for learning.
 struct EnvironmentStep {
@@ -10,4 +10,4 @@ struct EnvironmentStep {
   bool truncated = false;   ///< whether its time limit is reached
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::environments

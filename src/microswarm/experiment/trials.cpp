@@ -7,7 +7,7 @@
 #include "microswarm/core/execution/parallel.hpp"
 #include "microswarm/experiment/session/session.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 TrialResult trial_result(Scenario scenario, World world, std::uint32_t trial, const Stop& stop) {
   Session session({{std::move(scenario), {}}, std::move(world), {}}, {.trial = trial});
@@ -39,4 +39,4 @@ std::vector<TrialResult> run_trials(const Scenario& scenario, const World& world
   return results;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -11,7 +11,7 @@
 #include "microswarm/experiment/scenario/scenario.hpp"
 #include "microswarm/world/world.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// Result of one trial.
 struct TrialResult {
@@ -40,4 +40,4 @@ struct TrialOptions {
 std::vector<TrialResult> run_trials(const Scenario& scenario, const World& world,
                                     const TrialOptions& options, const Stop& stop = {});
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -13,7 +13,7 @@
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/formats/json_place.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 namespace {
 
 using Json = nlohmann::json;
@@ -276,4 +276,4 @@ std::string geojson_text(const MapParts& parts) {
   return text + "\n]}\n";
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

@@ -7,7 +7,7 @@
 
 #include "microswarm/formats/map_parts.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 
 /// Reads a GeoJSON text (RFC 7946, in plane coordinates, y up): a FeatureCollection, Feature or
 /// geometry. Polygon and MultiPolygon are walls with holes; Point and MultiPoint with a property
@@ -21,4 +21,4 @@ MapParts parse_geojson(std::string_view text, std::string_view name, double um_p
 /// GeoJSON text in µm, which reads back to the same bits.
 std::string geojson_text(const MapParts& parts);
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace microswarm {
+namespace microswarm::formats {
 namespace {
 
 /// Scans valid JSON without building a tree.
@@ -93,4 +93,4 @@ int line_number(std::string_view json, const JsonPlace& place) {
                  std::count(json.begin(), json.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace microswarm {
+namespace microswarm::formats {
 
 /// Position in a JSON document, as a path from the root; each step is a member or an entry. A step
 /// refers to its parent, so the path lives on the stack of the functions that descend it.
@@ -24,4 +24,4 @@ struct JsonPlace {
 /// not exist, it is the line of its nearest existing ancestor.
 int line_number(std::string_view json, const JsonPlace& place);
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

@@ -21,7 +21,7 @@
 #include "microswarm/world/obstacles/channel.hpp"
 #include "microswarm/world/obstacles/obstacle.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 namespace {
 
 namespace fs = std::filesystem;
@@ -239,4 +239,4 @@ MapSpec guess_map_spec(const fs::path& path, std::optional<double> um_per_px,
   throw InputError(fmt::format("{}: no map that is known, expected: {}", file, map_formats()));
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

@@ -14,7 +14,7 @@
 #include "microswarm/formats/map_spec.hpp"
 #include "microswarm/world/map/map.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 
 /// Reads the map given by `spec`; file names are relative to the folder `base`. Mistakes go into
 /// `issues` with the keys of a scenario; a mistake in a file has no key and begins with the file's
@@ -47,4 +47,4 @@ MapSpec guess_map_spec(const std::filesystem::path& path,
                        std::optional<double> um_per_px = std::nullopt,
                        std::string_view option = "--um-per-px");
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

@@ -7,7 +7,7 @@
 #include "microswarm/core/maths/hash.hpp"
 #include "microswarm/core/text/text.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 namespace {
 
 void check_coordinate(double value, const std::string& name, const char* what) {
@@ -72,4 +72,4 @@ void check(const MapParts& parts, const std::string& name) {
   }
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

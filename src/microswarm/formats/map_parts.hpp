@@ -8,7 +8,7 @@
 #include "microswarm/geometry/shapes.hpp"
 #include "microswarm/world/obstacles/motion.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 
 /// Output of map readers: everything that a Map is built from.
 struct MapParts {
@@ -27,4 +27,4 @@ std::uint64_t fingerprint(const MapParts& parts);
 /// max_coordinate.
 void check(const MapParts& parts, const std::string& name);
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

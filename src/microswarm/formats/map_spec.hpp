@@ -12,7 +12,7 @@
 #include "microswarm/core/fields/fields.hpp"
 #include "microswarm/geometry/vec2.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 
 /// Which pixels of an image are free.
 enum class FreePixels { bright, dark };
@@ -146,4 +146,4 @@ struct ChannelMap {
 using MapSpec =
     std::variant<PolygonsMap, RectanglesMap, ChannelMap, ImageMap, RosMap, MovingAiMap, GeoJsonMap>;
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

@@ -8,7 +8,7 @@
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/formats/images/image.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 namespace {
 
 constexpr std::uint64_t max_map_bytes = 160ULL << 20;
@@ -126,4 +126,4 @@ std::vector<GridQuery> read_scenarios(const std::filesystem::path& path) {
   return parse_scenarios(read_file(path, max_scenario_bytes), path.string());
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

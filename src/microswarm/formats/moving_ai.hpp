@@ -8,7 +8,7 @@
 
 #include "microswarm/formats/images/mask.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 
 /// Reads a grid map of the MovingAI benchmarks (Sturtevant, "Benchmarks for grid-based
 /// pathfinding", 2012): `type octile` or `tile`, height, width, then one letter per cell. '.', 'G'
@@ -42,4 +42,4 @@ struct GridQuery {
 std::vector<GridQuery> read_scenarios(const std::filesystem::path& path);
 std::vector<GridQuery> parse_scenarios(std::string_view text, std::string_view name);
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

@@ -8,7 +8,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/formats/images/mask.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 namespace {
 
 /// A map of this size takes some seconds and a few GB.
@@ -47,4 +47,4 @@ Map map_of_pixels(std::span<const std::uint8_t> pixels, std::size_t width, std::
   return Map(cell_bounds(blocked, um_per_px), std::move(walls));
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

@@ -7,7 +7,7 @@
 
 #include "microswarm/world/map/map.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 
 /// Map of `width` × `height` pixels in memory, row by row from the top; free where a pixel is not
 /// 0. `um_per_px` [µm] is a pixel's side, 1e-6 to 1e6; the lower left corner is at 0.
@@ -17,4 +17,4 @@ namespace microswarm {
 Map map_of_pixels(std::span<const std::uint8_t> pixels, std::size_t width, std::size_t height,
                   double um_per_px, double simplify = 0);
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

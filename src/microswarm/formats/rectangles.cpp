@@ -9,7 +9,7 @@
 #include "microswarm/core/text/lines.hpp"
 #include "microswarm/core/text/text.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 namespace {
 
 constexpr std::uint64_t max_rectangles_bytes = 64ULL << 20;
@@ -59,4 +59,4 @@ std::vector<Polygon> read_rectangles(const std::filesystem::path& path) {
   return parse_rectangles(read_file(path, max_rectangles_bytes), path.string());
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

@@ -9,7 +9,7 @@
 
 #include "microswarm/geometry/shapes.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 
 /// Reads rectangles, one per line: lower left x, y, width, height [µm], separated by commas or
 /// blanks. A first line without numbers is a header. Blank lines and lines that start with '#' are
@@ -21,4 +21,4 @@ std::vector<Polygon> parse_rectangles(std::string_view text, std::string_view na
 /// four numbers, the last two above 0.
 Polygon rectangle(std::span<const double> numbers, const std::string& where);
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

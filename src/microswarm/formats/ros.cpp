@@ -6,7 +6,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/text.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 namespace {
 
 /// Occupancy of a cell from its pixel value [0, 255].
@@ -62,4 +62,4 @@ Mask ros_walls(const Image& image, const RosHeader& header, bool unknown_free,
 
 std::string ros_header_text(const RosHeader& header) { return to_yaml(header); }
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

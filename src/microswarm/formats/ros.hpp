@@ -13,7 +13,7 @@
 #include "microswarm/core/fields/fields.hpp"
 #include "microswarm/formats/images/mask.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 
 /// Encoding of the occupancy probability in the pixels of a ROS map.
 enum class RosMode {
@@ -65,4 +65,4 @@ Mask ros_walls(const Image& image, const RosHeader& header, bool unknown_free = 
 /// The YAML file of a header.
 std::string ros_header_text(const RosHeader& header);
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

@@ -11,7 +11,7 @@
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/formats/map_parts.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 namespace {
 
 constexpr std::uint64_t max_tracks_bytes = 256ULL << 20;
@@ -118,4 +118,4 @@ Tracks read_ucy_obsmat(const std::filesystem::path& path, double um_per_m, doubl
   return tracks;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

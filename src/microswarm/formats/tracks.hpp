@@ -8,7 +8,7 @@
 
 #include "microswarm/world/obstacles/motion.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 
 /// Recorded positions of bodies, by id.
 using Tracks = std::map<std::string, Samples>;
@@ -25,4 +25,4 @@ Tracks parse_tracks(std::string_view text, std::string_view name);
 /// times by `time_scale`. Throws InputError "NAME:LINE: WHY".
 Tracks read_ucy_obsmat(const std::filesystem::path& path, double um_per_m, double time_scale = 1);
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

@@ -15,7 +15,7 @@
 #include "microswarm/formats/moving_ai.hpp"
 #include "microswarm/formats/ros.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 namespace {
 
 constexpr double um_per_m = 1e6;
@@ -65,4 +65,4 @@ void write_map(const std::filesystem::path& path, const Map& map, double cell) {
     write_ros(path, walls, cell, map.bounds().lo);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

@@ -7,7 +7,7 @@
 #include "microswarm/formats/map_parts.hpp"
 #include "microswarm/world/map/map.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 
 /// The map's bounds and wall pieces, after overlapping walls were united.
 MapParts to_parts(const Map& map);
@@ -23,4 +23,4 @@ inline constexpr std::string_view written_map_formats =
 /// (0) or gives too many cells, and "PATH: cannot write: REASON".
 void write_map(const std::filesystem::path& path, const Map& map, double cell = 0);
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

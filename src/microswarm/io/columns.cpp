@@ -7,7 +7,7 @@
 
 #include "microswarm/core/text/text.hpp"
 
-namespace microswarm {
+namespace microswarm::io {
 namespace {
 
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
@@ -224,4 +224,4 @@ std::string csv_line(const std::vector<Column>& columns, const void* row) {
   return line;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::io

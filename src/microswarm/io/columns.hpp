@@ -10,7 +10,7 @@
 
 #include "microswarm/config/type.hpp"
 
-namespace microswarm {
+namespace microswarm::io {
 
 /// Type of a column. Reals are NaN where there is no value.
 enum class ColumnKind { real, integer, word };
@@ -84,4 +84,4 @@ std::string csv_table(const Rows& rows) {
   return csv;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::io

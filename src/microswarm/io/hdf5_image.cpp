@@ -5,7 +5,7 @@
 
 #include "microswarm/core/execution/module.hpp"
 
-namespace microswarm {
+namespace microswarm::io {
 namespace {
 
 const Hdf5& hdf5() {
@@ -22,4 +22,4 @@ std::unique_ptr<Hdf5Reader> read_hdf5(std::string bytes, std::string name) {
   return hdf5().read(std::move(bytes), std::move(name));
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::io

@@ -11,7 +11,7 @@
 
 #include "microswarm/core/errors/error.hpp"
 
-namespace microswarm {
+namespace microswarm::io {
 
 // HDF5 brings some 30 shared libraries for files in the network, a quarter of a program's start, so
 // it is in a module that is loaded at the first use.
@@ -84,4 +84,4 @@ std::unique_ptr<Hdf5Writer> write_hdf5();
 /// cannot be loaded.
 std::unique_ptr<Hdf5Reader> read_hdf5(std::string bytes, std::string name);
 
-}  // namespace microswarm
+}  // namespace microswarm::io

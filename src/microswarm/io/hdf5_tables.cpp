@@ -9,7 +9,7 @@
 #include "microswarm/io/columns.hpp"
 #include "microswarm/io/tables.hpp"
 
-namespace microswarm {
+namespace microswarm::io {
 namespace {
 
 constexpr const char* words_attribute = "words";  // joined by spaces, indexed from 0
@@ -193,4 +193,4 @@ void read_attributes(const Hdf5Reader& in, const std::string& group, const Type&
   }
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::io

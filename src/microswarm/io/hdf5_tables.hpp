@@ -7,7 +7,7 @@
 #include "microswarm/config/type.hpp"
 #include "microswarm/io/hdf5_image.hpp"
 
-namespace microswarm {
+namespace microswarm::io {
 
 /// Writes the tables of a described value (see visit_tables): one group per table and one dataset
 /// per column, with the attributes `unit` and `description`. An integer without a value is -1.
@@ -29,4 +29,4 @@ void write_attributes(Hdf5Writer& out, const std::string& group, const Type& typ
 /// Reads the attributes back; errors as above.
 void read_attributes(const Hdf5Reader& in, const std::string& group, const Type& type, void* value);
 
-}  // namespace microswarm
+}  // namespace microswarm::io

@@ -9,7 +9,7 @@
 #include "microswarm/config/type.hpp"
 #include "microswarm/io/columns.hpp"
 
-namespace microswarm {
+namespace microswarm::io {
 
 /// Reference to a described list. `Pointer` is void* or const void*.
 template <class Pointer>
@@ -52,4 +52,4 @@ void visit_tables(const Type& type, Pointer value, Visitor&& visit, std::string_
     if (field.type->kind == TypeKind::list) visit_table(field, value, visit, parent);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::io

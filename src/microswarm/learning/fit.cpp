@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace microswarm {
+namespace microswarm::learning {
 namespace {
 
 using Column = dlib::matrix<double, 0, 1>;
@@ -20,7 +20,8 @@ using Column = dlib::matrix<double, 0, 1>;
 /// separately.
 class Objective {
  public:
-  Objective(MultilayerPerceptron& network, const Examples& examples, const FitOptions& options)
+  Objective(navigation::MultilayerPerceptron& network, const Examples& examples,
+            const FitOptions& options)
       : network_(network), examples_(examples), options_(options) {}
 
   double value(const Column& weights) {
@@ -45,7 +46,7 @@ class Objective {
   }
 
  private:
-  MultilayerPerceptron& network_;
+  navigation::MultilayerPerceptron& network_;
   const Examples& examples_;
   const FitOptions& options_;
   Column at_;
@@ -71,7 +72,7 @@ class Limit {
 };
 
 /// Initialises each layer with weights that preserve the variance (Glorot 2010).
-void randomise(MultilayerPerceptron& network, Rng& rng) {
+void randomise(navigation::MultilayerPerceptron& network, Rng& rng) {
   auto w = network.weights.begin();
   for (std::size_t k = 0; k + 1 < network.layers.size(); ++k) {
     const std::size_t ins = network.layers[k], outs = network.layers[k + 1];
@@ -85,10 +86,10 @@ void randomise(MultilayerPerceptron& network, Rng& rng) {
 
 }  // namespace
 
-MultilayerPerceptron fit(std::vector<std::size_t> layers, const Examples& examples,
-                         const FitOptions& options, Rng& rng, const Stop& stop) {
-  MultilayerPerceptron network{.layers = std::move(layers), .weights = {}};
-  network.weights.resize(MultilayerPerceptron::weight_count(network.layers));
+navigation::MultilayerPerceptron fit(std::vector<std::size_t> layers, const Examples& examples,
+                                     const FitOptions& options, Rng& rng, const Stop& stop) {
+  navigation::MultilayerPerceptron network{.layers = std::move(layers), .weights = {}};
+  network.weights.resize(navigation::MultilayerPerceptron::weight_count(network.layers));
   randomise(network, rng);
   Objective objective(network, examples, options);
   Column weights(static_cast<long>(network.weights.size()));
@@ -101,4 +102,4 @@ MultilayerPerceptron fit(std::vector<std::size_t> layers, const Examples& exampl
   return network;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::learning

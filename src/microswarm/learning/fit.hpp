@@ -9,7 +9,7 @@
 #include "microswarm/core/maths/rng.hpp"
 #include "microswarm/navigation/following/multilayer_perceptron.hpp"
 
-namespace microswarm {
+namespace microswarm::learning {
 
 /// Training examples: `inputs` and `answers` one after the other.
 struct Examples {
@@ -31,12 +31,12 @@ struct FitOptions {
 
 /// Mean squared distance between answer and network output over the examples, and its gradient with
 /// respect to the weights (back-propagation). The order of summation does not depend on `jobs`.
-double loss_with_gradient(const MultilayerPerceptron& network, const Examples& examples,
+double loss_with_gradient(const navigation::MultilayerPerceptron& network, const Examples& examples,
                           std::vector<double>& gradient, int jobs);
 
 /// Fits a network with these layers to all examples by dlib's L-BFGS from random weights. The
 /// result is bit-identical for equal examples and random stream, with any number of threads.
-MultilayerPerceptron fit(std::vector<std::size_t> layers, const Examples& examples,
-                         const FitOptions& options, Rng& rng, const Stop& stop = {});
+navigation::MultilayerPerceptron fit(std::vector<std::size_t> layers, const Examples& examples,
+                                     const FitOptions& options, Rng& rng, const Stop& stop = {});
 
-}  // namespace microswarm
+}  // namespace microswarm::learning

@@ -14,7 +14,7 @@
 #include "microswarm/learning/follower_expert.hpp"
 #include "microswarm/navigation/make.hpp"
 
-namespace microswarm {
+namespace microswarm::learning {
 namespace {
 
 constexpr std::array<double, 8> compared_lookaheads{0.15, 0.2, 0.25, 0.3,
@@ -45,15 +45,15 @@ class ExpertNavigator : public Navigator {
 };
 
 /// Measures the true distance from the path at every tick.
-class Gauge : public RunListener {
+class Gauge : public experiment::RunListener {
  public:
   explicit Gauge(const std::vector<Vec2>& path) : path_(path) {}
 
-  void on_tick(const Tick& tick) override {
+  void on_tick(const experiment::Tick& tick) override {
     if (tick.end) return;
-    const Frame& frame = tick.frame;
-    position_ = nearest_position(path_, frame.pose.position, position_);
-    const double off = distance(frame.pose.position, point_ahead(path_, position_, 0));
+    const experiment::Frame& frame = tick.frame;
+    position_ = navigation::nearest_position(path_, frame.pose.position, position_);
+    const double off = distance(frame.pose.position, navigation::point_ahead(path_, position_, 0));
     sum_ += off * off;
     trace.push_back(off);
     most_ = std::max(most_, off);
@@ -67,11 +67,11 @@ class Gauge : public RunListener {
 
   std::vector<double> trace;
 
-  FollowedPath path(const RunResult& result, double speed) const {
+  FollowedPath path(const experiment::RunResult& result, double speed) const {
     const double ticks = std::max(1, ticks_);
     return {.arrived = result.status == Status::solved,
             .time = result.metrics.time,
-            .fair_time = remaining(path_, {}) / speed,
+            .fair_time = navigation::remaining(path_, {}) / speed,
             .rms_off = std::sqrt(sum_ / ticks),
             .max_off = most_,
             .field_turning = turning_ / std::max(1e-9, result.metrics.time),
@@ -80,7 +80,7 @@ class Gauge : public RunListener {
 
  private:
   const std::vector<Vec2>& path_;
-  PathPosition position_;
+  navigation::PathPosition position_;
   double sum_ = 0, most_ = 0, turning_ = 0, heading_ = 0;
   int ticks_ = 0, fallbacks_ = 0;
   bool driven_ = false;
@@ -89,29 +89,32 @@ class Gauge : public RunListener {
 /// A follower in the comparison.
 struct Method {
   const char* name;
-  FollowerParams follower;
+  navigation::FollowerParams follower;
   double lookahead = 0;  ///< [s]
   bool expert = false;
 };
 
 FollowedPath follow(const FollowerTask& task, const Method& method, const Stop& stop,
                     std::vector<double>* trace = nullptr) {
-  const Scenario scenario = with_follower(task, method.follower, method.lookahead);
-  const auto plant = std::make_shared<KinematicPlant>(scenario, task.world, task.number);
-  SessionParts parts{.trial = task.number, .plant = plant};
+  const experiment::Scenario scenario = with_follower(task, method.follower, method.lookahead);
+  const auto plant =
+      std::make_shared<experiment::KinematicPlant>(scenario, task.world, task.number);
+  experiment::SessionParts parts{.trial = task.number, .plant = plant};
   if (method.expert) parts.navigator = std::make_shared<ExpertNavigator>(task, *plant);
   Gauge gauge(task.path);
-  RunListener* const listeners[] = {&gauge};
-  const RunResult result = simulate(scenario, task.world, std::move(parts), listeners, stop);
+  experiment::RunListener* const listeners[] = {&gauge};
+  const experiment::RunResult result =
+      experiment::simulate(scenario, task.world, std::move(parts), listeners, stop);
   if (trace) *trace = std::move(gauge.trace);
   return gauge.path(result, std::get<RibbonParams>(scenario.swarm).max_speed);
 }
 
 /// The four followers, with tuned pure pursuits.
 std::array<Method, 4> methods(const ComparisonOptions& options, const Stop& stop) {
-  const FollowerParams plain;
-  const FollowerParams against_flow{.correct_flow = true};
-  const FollowerParams learned{.kind = FollowerKind::learned, .loaded = options.model};
+  const navigation::FollowerParams plain;
+  const navigation::FollowerParams against_flow{.correct_flow = true};
+  const navigation::FollowerParams learned{.kind = navigation::FollowerKind::learned,
+                                           .loaded = options.model};
   const double lookahead = tune_lookahead(options, plain, stop).best();
   const double in_flow = tune_lookahead(options, against_flow, stop).best();
   return {{{"pure pursuit", plain, lookahead},
@@ -133,8 +136,8 @@ double LookaheadTuning::best() const {
   return lookahead[static_cast<std::size_t>(least - rms_off.begin())];
 }
 
-LookaheadTuning tune_lookahead(const ComparisonOptions& options, const FollowerParams& follower,
-                               const Stop& stop) {
+LookaheadTuning tune_lookahead(const ComparisonOptions& options,
+                               const navigation::FollowerParams& follower, const Stop& stop) {
   LookaheadTuning tuning;
   std::vector<std::array<double, compared_lookaheads.size()>> off(tuning_tasks);
   for_each_index(tuning_tasks, options.jobs, [&](std::size_t i) {
@@ -181,4 +184,4 @@ std::vector<FollowerTrace> follow_one(const ComparisonOptions& options, std::uin
   return traces;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::learning

@@ -11,7 +11,7 @@
 #include "microswarm/learning/follower_tasks.hpp"
 #include "microswarm/navigation/following/follower_model.hpp"
 
-namespace microswarm {
+namespace microswarm::learning {
 
 /// Result of one follower on one task.
 struct FollowedPath {
@@ -47,8 +47,8 @@ struct ComparisonOptions {
   int tasks = 200;
   FollowerTaskParams params;
   std::uint64_t seed = 1;
-  std::shared_ptr<const FollowerModel> model;  ///< null: the built-in one
-  int jobs = 0;                                ///< threads; 0: one per core
+  std::shared_ptr<const navigation::FollowerModel> model;  ///< null: the built-in one
+  int jobs = 0;                                            ///< threads; 0: one per core
   std::function<void(double share)> progress;
 };
 
@@ -82,7 +82,7 @@ struct LookaheadTuning {
   /// Lookahead with the smallest distance [s].
   double best() const;
 };
-LookaheadTuning tune_lookahead(const ComparisonOptions& options, const FollowerParams& follower,
-                               const Stop& stop = {});
+LookaheadTuning tune_lookahead(const ComparisonOptions& options,
+                               const navigation::FollowerParams& follower, const Stop& stop = {});
 
-}  // namespace microswarm
+}  // namespace microswarm::learning

@@ -9,7 +9,7 @@
 #include "microswarm/core/maths/maths.hpp"
 #include "microswarm/navigation/following/path_follower.hpp"
 
-namespace microswarm {
+namespace microswarm::learning {
 namespace {
 
 constexpr double tick = 0.1;  // [s]
@@ -44,7 +44,7 @@ Command FollowerExpert::command(const Pose2& pose, double now) {
   Pose2 at_effect = compensator_.at_effect(
       {.now = now, .seen = now, .swarm = SwarmPose{pose, swarm_.radius}, .robots = {}});
   at_effect.position += swarm_.response_lag * swarm_.drift;
-  position_ = nearest_position(path_, at_effect.position, position_);
+  position_ = navigation::nearest_position(path_, at_effect.position, position_);
   std::array<Trial, tried_lookaheads.size() * shares.size()> trials;
   auto trial = trials.begin();
   for (const double lookahead : tried_lookaheads)
@@ -68,26 +68,27 @@ Pose2 FollowerExpert::moved(const Pose2& pose, const Command& command) const {
   return next;
 }
 
-FollowerExpert::Trial FollowerExpert::play(Pose2 pose, PathPosition position, double lookahead,
-                                           double share) const {
+FollowerExpert::Trial FollowerExpert::play(Pose2 pose, navigation::PathPosition position,
+                                           double lookahead, double share) const {
   const double speed = share * speed_;
   const double unit = speed_ * speed_;
   Trial trial{.cost = slow_weight * (1 - share) * (1 - share)};
   double heading = last_.heading;
   for (int k = 0; k < ticks; ++k) {
-    Command command = pursue_in_flow(path_, position, pose, lookahead * speed_,
-                                     swarm_.speed_factor * speed, swarm_.drift);
+    Command command = navigation::pursue_in_flow(path_, position, pose, lookahead * speed_,
+                                                 swarm_.speed_factor * speed, swarm_.drift);
     command.speed = speed;
     if (k == 0) trial.first = command;
     const double turn = wrap(command.heading - heading);
     heading = command.heading;
     pose = moved(pose, command);
-    if (remaining(path_, position) < tick * speed_) break;
-    const PathPosition now = nearest_position(path_, pose.position, position);
-    const double off2 = squared_norm(pose.position - point_ahead(path_, now, 0));
+    if (navigation::remaining(path_, position) < tick * speed_) break;
+    const navigation::PathPosition now =
+        navigation::nearest_position(path_, pose.position, position);
+    const double off2 = squared_norm(pose.position - navigation::point_ahead(path_, now, 0));
     trial.cost += (off2 / unit + turn_weight * turn * turn) / ticks;
   }
   return trial;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::learning

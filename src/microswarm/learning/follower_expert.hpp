@@ -7,7 +7,7 @@
 #include "microswarm/navigation/steering/delay_compensator.hpp"
 #include "microswarm/swarm/body/ribbon.hpp"
 
-namespace microswarm {
+namespace microswarm::learning {
 
 /// The expert imitated by a learned follower: a preview controller with access to the ground truth
 /// of pose, flow and speed. At every tick it simulates pure pursuits with several lookaheads and
@@ -29,15 +29,15 @@ class FollowerExpert {
     Command first;
     double cost = 0;
   };
-  Trial play(Pose2 pose, PathPosition position, double lookahead, double share) const;
+  Trial play(Pose2 pose, navigation::PathPosition position, double lookahead, double share) const;
   Pose2 moved(const Pose2& pose, const Command& command) const;
 
   RibbonParams swarm_;
   std::span<const Vec2> path_;
   double speed_;
-  DelayCompensator compensator_;  ///< of the swarm's true response to commands
-  PathPosition position_;
+  navigation::DelayCompensator compensator_;  ///< of the swarm's true response to commands
+  navigation::PathPosition position_;
   Command last_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::learning

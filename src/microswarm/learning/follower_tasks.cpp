@@ -10,7 +10,7 @@
 #include "microswarm/world/map/map.hpp"
 #include "microswarm/world/world.hpp"
 
-namespace microswarm {
+namespace microswarm::learning {
 namespace {
 
 /// One step of Chaikin's corner cutting: two points replace each inner point, a quarter of an edge
@@ -52,7 +52,7 @@ Box around(const std::vector<Vec2>& path, double margin) {
   return {box.lo - Vec2{margin, margin}, box.hi + Vec2{margin, margin}};
 }
 
-double total_length(const std::vector<Vec2>& path) { return remaining(path, {}); }
+double total_length(const std::vector<Vec2>& path) { return navigation::remaining(path, {}); }
 
 }  // namespace
 
@@ -62,7 +62,7 @@ FollowerTask follower_task(const FollowerTaskParams& params, std::uint64_t seed,
   Rng rng(seed, Purpose::learning, number);
   const double speed = rng.uniform(params.min_speed, params.max_speed);
   std::vector<Vec2> path = random_path(speed, rng);
-  Scenario s;
+  experiment::Scenario s;
   s.name = "follow";
   RibbonParams swarm{.radius = 20, .max_speed = speed};
   swarm.max_turn_rate = rng.uniform(params.min_turn_rate, params.max_turn_rate);
@@ -92,10 +92,11 @@ FollowerTask follower_task(const FollowerTaskParams& params, std::uint64_t seed,
   return task;
 }
 
-Scenario with_follower(const FollowerTask& task, const FollowerParams& follower,
-                       double lookahead_time) {
-  Scenario scenario = task.scenario;
-  PathNavigatorParams params;
+experiment::Scenario with_follower(const FollowerTask& task,
+                                   const navigation::FollowerParams& follower,
+                                   double lookahead_time) {
+  experiment::Scenario scenario = task.scenario;
+  navigation::PathNavigatorParams params;
   params.path.assign(task.path.begin(), task.path.end() - 1);
   params.speed = std::get<RibbonParams>(scenario.swarm).max_speed;
   params.lookahead = lookahead_time * params.speed;
@@ -104,4 +105,4 @@ Scenario with_follower(const FollowerTask& task, const FollowerParams& follower,
   return scenario;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::learning

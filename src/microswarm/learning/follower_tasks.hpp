@@ -7,7 +7,7 @@
 #include "microswarm/experiment/scenario/scenario.hpp"
 #include "microswarm/world/world.hpp"
 
-namespace microswarm {
+namespace microswarm::learning {
 
 /// Ranges of random path-following tasks and their disturbances. Each task draws its own values.
 /// Path lengths are in seconds at the task's speed.
@@ -59,7 +59,7 @@ struct FollowerTaskParams {
 struct FollowerTask {
   std::uint32_t number = 0;  ///< also selects the noise of its plant
   std::vector<Vec2> path;
-  Scenario scenario;  ///< with pure pursuit as navigator
+  experiment::Scenario scenario;  ///< with pure pursuit as navigator
   World world;
 };
 
@@ -68,7 +68,8 @@ FollowerTask follower_task(const FollowerTaskParams& params, std::uint64_t seed,
                            std::uint32_t number);
 
 /// The task's scenario with this follower and lookahead.
-Scenario with_follower(const FollowerTask& task, const FollowerParams& follower,
-                       double lookahead_time);
+experiment::Scenario with_follower(const FollowerTask& task,
+                                   const navigation::FollowerParams& follower,
+                                   double lookahead_time);
 
-}  // namespace microswarm
+}  // namespace microswarm::learning

@@ -13,7 +13,7 @@
 #include "microswarm/learning/fit.hpp"
 #include "microswarm/navigation/following/follower_model.hpp"
 
-namespace microswarm {
+namespace microswarm::learning {
 namespace {
 
 constexpr std::uint32_t held_out = 10;  // every tenth run
@@ -51,8 +51,8 @@ class Work {
 };
 
 void collect(const FollowerTrainingParams& p, int round,
-             const std::shared_ptr<const FollowerModel>& student, const TrainingOptions& options,
-             Work& work, const Stop& stop, Collected& all) {
+             const std::shared_ptr<const navigation::FollowerModel>& student,
+             const TrainingOptions& options, Work& work, const Stop& stop, Collected& all) {
   std::vector<std::vector<Demonstration>> runs(static_cast<std::size_t>(p.runs));
   const auto first = static_cast<std::uint32_t>(round * p.runs);
   std::mutex telling;
@@ -71,11 +71,11 @@ void collect(const FollowerTrainingParams& p, int round,
 }
 
 /// Sets the range of each feature: between two extreme quantiles, slightly extended.
-void set_ranges(FollowerModel& model, const std::vector<Demonstration>& shown) {
+void set_ranges(navigation::FollowerModel& model, const std::vector<Demonstration>& shown) {
   constexpr double rare = 5e-4;
   constexpr double beyond = 0.05;
   std::vector<double> values(shown.size());
-  for (std::size_t f = 0; f < feature_count; ++f) {
+  for (std::size_t f = 0; f < navigation::feature_count; ++f) {
     std::transform(shown.begin(), shown.end(), values.begin(),
                    [f](const Demonstration& d) { return d.features[f]; });
     const double lo = quantile(values, rare), hi = quantile(values, 1 - rare);
@@ -86,9 +86,10 @@ void set_ranges(FollowerModel& model, const std::vector<Demonstration>& shown) {
 }
 
 /// The demonstrations within the ranges, scaled for the network.
-Examples to_examples(const FollowerModel& model, const std::vector<Demonstration>& shown) {
-  Examples examples{.in = feature_count, .out = 2, .inputs = {}, .answers = {}};
-  examples.inputs.reserve(shown.size() * feature_count);
+Examples to_examples(const navigation::FollowerModel& model,
+                     const std::vector<Demonstration>& shown) {
+  Examples examples{.in = navigation::feature_count, .out = 2, .inputs = {}, .answers = {}};
+  examples.inputs.reserve(shown.size() * navigation::feature_count);
   examples.answers.reserve(shown.size() * 2);
   for (const Demonstration& d : shown) {
     const auto scaled = model.scaled(d.features);
@@ -99,7 +100,8 @@ Examples to_examples(const FollowerModel& model, const std::vector<Demonstration
   return examples;
 }
 
-double mean_error(const MultilayerPerceptron& network, const Examples& examples, int jobs) {
+double mean_error(const navigation::MultilayerPerceptron& network, const Examples& examples,
+                  int jobs) {
   std::vector<double> unused;
   return std::sqrt(loss_with_gradient(network, examples, unused, jobs) / 2);
 }
@@ -111,11 +113,11 @@ TrainedFollower train_follower(const FollowerTrainingParams& p, const TrainingOp
   Work work(p, options);
   Collected all;
   TrainedFollower trained;
-  std::shared_ptr<const FollowerModel> student;
+  std::shared_ptr<const navigation::FollowerModel> student;
   for (int round = 0; round <= p.rounds && !stop(); ++round) {
     collect(p, round, student, options, work, stop, all);
-    FollowerModel model{.seed = p.seed,
-                        .training = json_line(type_of<FollowerTrainingParams>(), Unit::none, &p)};
+    navigation::FollowerModel model{
+        .seed = p.seed, .training = json_line(type_of<FollowerTrainingParams>(), Unit::none, &p)};
     set_ranges(model, all.learned);
     const Examples examples = to_examples(model, all.learned);
     const auto hidden = static_cast<std::size_t>(p.hidden);
@@ -124,7 +126,7 @@ TrainedFollower train_follower(const FollowerTrainingParams& p, const TrainingOp
       work.add(Work::fit_cost(p, round),
                fmt::format("round {}: fits {} ticks", round, examples.count()));
     };
-    model.network = fit({feature_count, hidden, hidden, 2}, examples,
+    model.network = fit({navigation::feature_count, hidden, hidden, 2}, examples,
                         {.iterations = Work::iterations(p, round),
                          .decay = p.decay,
                          .jobs = options.jobs,
@@ -134,11 +136,11 @@ TrainedFollower train_follower(const FollowerTrainingParams& p, const TrainingOp
     trained.training_error = mean_error(model.network, examples, options.jobs);
     trained.held_out_error =
         mean_error(model.network, to_examples(model, all.held_out), options.jobs);
-    student = std::make_shared<const FollowerModel>(std::move(model));
+    student = std::make_shared<const navigation::FollowerModel>(std::move(model));
   }
   if (student) trained.model = *student;
   trained.finished = !stop();
   return trained;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::learning

@@ -8,7 +8,7 @@
 #include "microswarm/learning/demonstrations.hpp"
 #include "microswarm/navigation/following/follower_model.hpp"
 
-namespace microswarm {
+namespace microswarm::learning {
 
 /// Settings of `train_follower`.
 struct FollowerTrainingParams {
@@ -39,7 +39,7 @@ struct FollowerTrainingParams {
 /// data and on every tenth run, which is held out.
 struct TrainedFollower {
   bool finished = false;  ///< false if stopped; the model is then unusable
-  FollowerModel model;
+  navigation::FollowerModel model;
   std::size_t demonstrations = 0;
   double training_error = 0;
   double held_out_error = 0;
@@ -58,4 +58,4 @@ struct TrainingOptions {
 TrainedFollower train_follower(const FollowerTrainingParams& params,
                                const TrainingOptions& options = {}, const Stop& stop = {});
 
-}  // namespace microswarm
+}  // namespace microswarm::learning

@@ -7,7 +7,7 @@
 #include "microswarm/core/maths/maths.hpp"
 #include "microswarm/learning/fit.hpp"
 
-namespace microswarm {
+namespace microswarm::learning {
 namespace {
 
 constexpr std::size_t lanes = 32;  // examples processed in parallel
@@ -26,7 +26,7 @@ double dot(const Lanes& a, const Lanes& b) {
 /// Loss and gradient of a subset of examples, `lanes` at a time.
 class Shard {
  public:
-  explicit Shard(const MultilayerPerceptron& network)
+  explicit Shard(const navigation::MultilayerPerceptron& network)
       : gradient(network.weights.size()), net_(network), values_(net_.layers.size()) {
     for (std::size_t k = 0; k < values_.size(); ++k) values_[k].resize(net_.layers[k]);
     errors_ = values_;
@@ -97,14 +97,14 @@ class Shard {
     }
   }
 
-  const MultilayerPerceptron& net_;
+  const navigation::MultilayerPerceptron& net_;
   std::vector<Layer> values_;
   std::vector<Layer> errors_;  // derivatives of the loss with respect to the values
 };
 
 }  // namespace
 
-double loss_with_gradient(const MultilayerPerceptron& network, const Examples& examples,
+double loss_with_gradient(const navigation::MultilayerPerceptron& network, const Examples& examples,
                           std::vector<double>& gradient, int jobs) {
   const std::size_t count = examples.count();
   std::vector<Shard> shards((count + per_shard - 1) / per_shard, Shard(network));
@@ -124,4 +124,4 @@ double loss_with_gradient(const MultilayerPerceptron& network, const Examples& e
   return loss / n;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::learning

@@ -12,7 +12,7 @@
 #include "microswarm/navigation/predictive/predictive.hpp"
 #include "microswarm/navigation/radar/radar.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 /// Calls visit.operator()<N>(p) with the navigator N that takes these parameters.
@@ -57,4 +57,4 @@ std::unique_ptr<Navigator> make_navigator(const NavigatorParams& params, const T
       params, [&]<class N>(const auto& p) { return std::make_unique<N>(p, task, rng); });
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

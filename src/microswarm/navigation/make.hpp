@@ -10,7 +10,7 @@
 #include "microswarm/navigation/params.hpp"
 #include "microswarm/navigation/steering/task.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Why the navigator cannot perform the task; empty if it can.
 std::string_view unsupported_reason(const NavigatorParams& params, const Task& task);
@@ -22,4 +22,4 @@ Issues validate(const NavigatorParams& params, const Task& task, const Map& map,
 /// Creates the navigator with these parameters, which must support the task.
 std::unique_ptr<Navigator> make_navigator(const NavigatorParams& params, const Task& task, Rng rng);
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -3,7 +3,7 @@
 
 #include "microswarm/core/fields/overloaded.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 constexpr double range_of_others = 50;  // [µm]; see required_detection_range
@@ -53,4 +53,4 @@ const FollowerParams* find_follower(const NavigatorParams& params) {
   return find_follower(const_cast<NavigatorParams&>(params));
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

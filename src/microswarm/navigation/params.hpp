@@ -13,7 +13,7 @@
 #include "microswarm/navigation/predictive/predictive_params.hpp"
 #include "microswarm/navigation/radar/radar_params.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Any navigator, selected at run time by its `type`.
 using NavigatorParams = std::variant<HierarchicalParams, PlanExecutorParams, AggregationParams,
@@ -35,4 +35,4 @@ double required_detection_range(const NavigatorParams& params);
 const FollowerParams* find_follower(const NavigatorParams& params);
 FollowerParams* find_follower(NavigatorParams& params);
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -7,7 +7,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/file.hpp"
 
-namespace microswarm {
+namespace microswarm::report {
 namespace {
 
 cairo_status_t append(void* out, const unsigned char* data, unsigned int length) {
@@ -50,4 +50,4 @@ void write_drawing(const std::filesystem::path& path, Vec2 size, const DrawOn& d
   write_file_atomically(path, bytes);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::report

@@ -10,7 +10,7 @@
 
 #include "microswarm/geometry/vec2.hpp"
 
-namespace microswarm {
+namespace microswarm::report {
 
 /// A function that draws on a page.
 using DrawOn = std::function<void(cairo_t*)>;
@@ -26,4 +26,4 @@ std::string drawing_bytes(std::string_view kind, Vec2 size, const DrawOn& draw);
 /// file cannot be written.
 void write_drawing(const std::filesystem::path& path, Vec2 size, const DrawOn& draw);
 
-}  // namespace microswarm
+}  // namespace microswarm::report

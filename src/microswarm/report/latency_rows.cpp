@@ -3,9 +3,10 @@
 
 #include <fmt/format.h>
 
-namespace microswarm {
+namespace microswarm::report {
 
-void add_latency_rows(std::vector<std::vector<std::string>>& table, const Record& record) {
+void add_latency_rows(std::vector<std::vector<std::string>>& table,
+                      const experiment::Record& record) {
   const auto& latency = record.rig_log.latency;
   if (!latency) return;
   table.push_back({"camera to current: median, p99, longest",
@@ -17,4 +18,4 @@ void add_latency_rows(std::vector<std::vector<std::string>>& table, const Record
                    fmt::format("{} of {} ticks", latency->missed_deadlines, latency->ticks)});
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::report

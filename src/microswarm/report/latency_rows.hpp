@@ -6,10 +6,11 @@
 
 #include "microswarm/experiment/record/record.hpp"
 
-namespace microswarm {
+namespace microswarm::report {
 
 /// Adds the latency from picture to currents to a table of quantities and values; does nothing for
 /// a record without a rig.
-void add_latency_rows(std::vector<std::vector<std::string>>& table, const Record& record);
+void add_latency_rows(std::vector<std::vector<std::string>>& table,
+                      const experiment::Record& record);
 
-}  // namespace microswarm
+}  // namespace microswarm::report

@@ -3,20 +3,21 @@
 
 #include <algorithm>
 
-namespace microswarm {
+namespace microswarm::report {
 
-std::string default_title(const Record& record) {
+std::string default_title(const experiment::Record& record) {
   const std::string& name = record.scene.scenario.name;
   return name.empty() ? "run" : name;
 }
 
-const Frame& frame_at(const Record& record, double t) {
-  const auto after = std::upper_bound(record.frames.begin(), record.frames.end(), t,
-                                      [](double time, const Frame& f) { return time < f.t; });
+const experiment::Frame& frame_at(const experiment::Record& record, double t) {
+  const auto after =
+      std::upper_bound(record.frames.begin(), record.frames.end(), t,
+                       [](double time, const experiment::Frame& f) { return time < f.t; });
   return after == record.frames.begin() ? *after : *(after - 1);
 }
 
-void draw_ends(Picture& picture, const Scenario& scenario) {
+void draw_ends(Picture& picture, const experiment::Scenario& scenario) {
   picture.mark(scenario.start->position, "start");
   picture.circle({*scenario.goal, scenario.goal_tolerance}, colours::goal, 2);
   picture.mark(*scenario.goal, "goal", colours::goal);
@@ -28,4 +29,4 @@ void draw_ground(Picture& picture, const Map& map, const ReportOptions& options)
   picture.walls(map, {1, 1, 1, 0.55}, colours::wall_edge);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::report

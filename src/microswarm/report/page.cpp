@@ -6,7 +6,7 @@
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/text.hpp"
 
-namespace microswarm {
+namespace microswarm::report {
 namespace {
 
 constexpr const char* style = R"(
@@ -66,4 +66,4 @@ void write_page(const std::filesystem::path& path, const std::string& title,
   write_file_atomically(path, html + "</body></html>\n");
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::report

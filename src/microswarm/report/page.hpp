@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace microswarm {
+namespace microswarm::report {
 
 /// One section of a page: a heading, text, a table with two or more columns, and pictures.
 struct PageSection {
@@ -21,4 +21,4 @@ struct PageSection {
 void write_page(const std::filesystem::path& path, const std::string& title,
                 const std::vector<PageSection>& sections);
 
-}  // namespace microswarm
+}  // namespace microswarm::report

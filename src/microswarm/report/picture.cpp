@@ -12,7 +12,7 @@
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/report/drawing_file.hpp"
 
-namespace microswarm {
+namespace microswarm::report {
 namespace {
 
 constexpr double picture_margin = 24;
@@ -218,7 +218,7 @@ Picture::~Picture() = default;
 
 double Picture::um_per_px() const { return 1 / impl_->scale; }
 
-void Picture::photo(const Image& image, double um_per_px, double fade) {
+void Picture::photo(const formats::Image& image, double um_per_px, double fade) {
   cairo_surface_t* surface =
       cairo_image_surface_create(CAIRO_FORMAT_RGB24, image.width, image.height);
   unsigned char* data = cairo_image_surface_get_data(surface);
@@ -352,10 +352,10 @@ void Picture::legend(std::string_view label, Colour colour, bool round) {
   impl_->add_to_key(label, colour, round);
 }
 
-Image Picture::raster() const {
+formats::Image Picture::raster() const {
   const Vec2 size = impl_->size();
   const auto even = [](double side) { return (static_cast<int>(side) + 1) / 2 * 2; };
-  Image image{even(size.x), even(size.y), 3, {}};
+  formats::Image image{even(size.x), even(size.y), 3, {}};
   cairo_surface_t* surface =
       cairo_image_surface_create(CAIRO_FORMAT_RGB24, image.width, image.height);
   draw_on_white(surface, [&](cairo_t* out) { impl_->finish(out); });
@@ -408,4 +408,4 @@ void Picture::write_everywhere(const std::filesystem::path& stem) const {
   for (const char* kind : {".png", ".svg", ".pdf"}) write(stem.string() + kind);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::report

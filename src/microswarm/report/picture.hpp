@@ -13,7 +13,7 @@
 #include "microswarm/formats/images/image.hpp"
 #include "microswarm/world/snapshot.hpp"
 
-namespace microswarm {
+namespace microswarm::report {
 
 /// Colour with components in [0, 1].
 struct Colour {
@@ -63,7 +63,7 @@ class Picture {
 
   /// Draws a photograph as background, `um_per_px` µm per pixel, its lower left corner at the
   /// origin; `fade` in [0, 1] whitens it.
-  void photo(const Image& image, double um_per_px, double fade = 0);
+  void photo(const formats::Image& image, double um_per_px, double fade = 0);
   /// Draws another picture of the same view and size as pixels, which are cached in it.
   void ground(const Picture& other);
   void walls(const Map& map, Colour fill = colours::wall, Colour edge = colours::wall_edge);
@@ -82,7 +82,7 @@ class Picture {
   void legend(std::string_view label, Colour colour, bool round = false);
 
   /// The finished picture as pixels, its sides rounded up to even numbers, as videos need.
-  Image raster() const;
+  formats::Image raster() const;
   /// The finished picture as the bytes of a PNG file.
   std::string png() const;
   /// Writes the finished picture; throws InputError unless the extension is .png, .svg or .pdf. Can
@@ -103,4 +103,4 @@ class Picture {
 void write_sheet(std::span<const std::unique_ptr<Picture>> pictures, int columns,
                  const std::filesystem::path& path);
 
-}  // namespace microswarm
+}  // namespace microswarm::report

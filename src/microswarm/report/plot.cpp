@@ -22,7 +22,7 @@
 
 extern char** environ;
 
-namespace microswarm {
+namespace microswarm::report {
 namespace {
 
 constexpr std::array<const char*, 8> palette{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
@@ -265,4 +265,4 @@ void write_plots_everywhere(const std::vector<Plot>& plots, const std::filesyste
   for (const char* kind : {".png", ".svg", ".pdf"}) write_plots(plots, stem.string() + kind);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::report

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace microswarm {
+namespace microswarm::report {
 
 /// Style of a series: joined; joined with a marker at each point; points; rings; bars from 0; one
 /// box with whiskers over all y, at the x of the first point; filled outlines (violins); or hollow
@@ -89,4 +89,4 @@ void write_plots(const std::vector<Plot>& plots, const std::filesystem::path& pa
 /// Writes stem.png, stem.svg and stem.pdf.
 void write_plots_everywhere(const std::vector<Plot>& plots, const std::filesystem::path& stem);
 
-}  // namespace microswarm
+}  // namespace microswarm::report

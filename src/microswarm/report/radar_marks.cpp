@@ -11,19 +11,19 @@
 #include "microswarm/navigation/radar/safety_radius.hpp"
 #include "microswarm/report/radar_view.hpp"
 
-namespace microswarm {
+namespace microswarm::report {
 namespace {
 
 constexpr Colour then_there{0.35, 0.35, 0.35, 1};
 
 /// The frame with the minimum gap to an obstacle, or to a wall without obstacles.
-const Frame& tightest(const Record& record) {
-  const auto gap = [](const Frame& f) {
+const experiment::Frame& tightest(const experiment::Record& record) {
+  const auto gap = [](const experiment::Frame& f) {
     const bool among = std::isfinite(f.obstacle_clearance);
     return (among ? f.obstacle_clearance : f.wall_clearance) - f.radius;
   };
   return *std::min_element(record.frames.begin(), record.frames.end(),
-                           [&](const Frame& a, const Frame& b) {
+                           [&](const experiment::Frame& a, const experiment::Frame& b) {
                              const bool a_among = std::isfinite(a.obstacle_clearance);
                              const bool b_among = std::isfinite(b.obstacle_clearance);
                              return a_among != b_among ? a_among : gap(a) < gap(b);
@@ -40,11 +40,11 @@ void draw_outline(Picture& picture, const Body& body) {
              body.shape);
 }
 
-void draw_circles(Picture& picture, const Frame& frame, const RadarParams& params,
-                  const Diagnostics& kept) {
-  RadarCircles circles = make_circles(params, frame.radius);
+void draw_circles(Picture& picture, const experiment::Frame& frame,
+                  const navigation::RadarParams& params, const Diagnostics& kept) {
+  RadarCircles circles = navigation::make_circles(params, frame.radius);
   circles.safety =
-      SafetyRadius(params.safety_radius)
+      navigation::SafetyRadius(params.safety_radius)
           .radius(circles.safety, circles.prediction, frame.obstacle_clearance - frame.radius);
   if (const auto* scan = std::get_if<RadarDiagnostics>(&kept)) circles = scan->circles;
   const Vec2 at = frame.pose.position;
@@ -60,18 +60,18 @@ void draw_circles(Picture& picture, const Frame& frame, const RadarParams& param
 
 }  // namespace
 
-void draw_radar_marks(Picture& picture, const Record& record, const World& world) {
-  const auto* params = std::get_if<RadarParams>(&record.scene.scenario.navigator);
+void draw_radar_marks(Picture& picture, const experiment::Record& record, const World& world) {
+  const auto* params = std::get_if<navigation::RadarParams>(&record.scene.scenario.navigator);
   if (!params || record.frames.empty()) return;
   draw_wait_zones(picture, *params, 2);
   for (std::size_t i = 0; i < params->waypoints.size(); ++i)
     picture.mark(params->waypoints[i], fmt::format("waypoint {}", i + 1), colours::wait_zone);
   if (!params->wait_zones.empty()) picture.legend("wait zones", colours::wait_zone);
-  const Frame& frame = tightest(record);
+  const experiment::Frame& frame = tightest(record);
   const Snapshot then = world.at(frame.t);
   for (const Body& body : then.moving().bodies()) draw_outline(picture, body);
   draw_circles(picture, frame, *params, record.diagnostics.at(frame.t));
   if (!then.moving().bodies().empty()) picture.legend("obstacles then", then_there);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::report

@@ -8,7 +8,7 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/navigation/radar/wait_zone.hpp"
 
-namespace microswarm {
+namespace microswarm::report {
 namespace {
 
 constexpr Colour detected_colour{0.97, 0.72, 0.66, 0.95};
@@ -29,7 +29,7 @@ void draw_obstacles(Picture& picture, const Snapshot& world, Disc circle) {
                                                                              : colours::obstacle);
 }
 
-void draw_plan(Picture& picture, const Record& record) {
+void draw_plan(Picture& picture, const experiment::Record& record) {
   if (record.plans.empty()) return;
   const Plan& plan = record.plans.front().plan;
   picture.tree(plan.tree, tree_colour);
@@ -48,15 +48,16 @@ void arrow(Picture& picture, Vec2 from, Vec2 offset, Colour colour, double head)
 }
 
 /// Time [s] over which velocity arrows extend.
-double arrow_time(const Scenario& scenario) {
+double arrow_time(const experiment::Scenario& scenario) {
   const SwarmLimits swarm = swarm_limits(scenario.swarm);
   return arrow_length * swarm.radius / swarm.max_speed;
 }
 
 /// Draws velocities of the obstacles and the swarm, and the direction v_t from which it deviates by
 /// α.
-void draw_velocities(Picture& picture, const Record& record, const World& world, const Frame& frame,
-                     const std::optional<RadarLook>& look) {
+void draw_velocities(Picture& picture, const experiment::Record& record, const World& world,
+                     const experiment::Frame& frame,
+                     const std::optional<navigation::RadarLook>& look) {
   const double head = head_px * picture.um_per_px();
   const double seconds = arrow_time(record.scene.scenario);
   for (const Obstacle& obstacle : world.obstacles)
@@ -77,7 +78,8 @@ void draw_velocities(Picture& picture, const Record& record, const World& world,
       deviation);
 }
 
-void add_legend(Picture& picture, const RadarParams& params, const Record& record) {
+void add_legend(Picture& picture, const navigation::RadarParams& params,
+                const experiment::Record& record) {
   picture.legend("swarm", colours::swarm, true);
   picture.legend("travelled path", colours::path);
   picture.legend("obstacle", colours::obstacle, true);
@@ -95,9 +97,9 @@ void add_legend(Picture& picture, const RadarParams& params, const Record& recor
 
 }  // namespace
 
-void draw_wait_zones(Picture& picture, const RadarParams& params, double width_px) {
-  for (const WaitZone& zone : params.wait_zones) {
-    std::vector<Vec2> outline = zone_outline(zone).outer;
+void draw_wait_zones(Picture& picture, const navigation::RadarParams& params, double width_px) {
+  for (const navigation::WaitZone& zone : params.wait_zones) {
+    std::vector<Vec2> outline = navigation::zone_outline(zone).outer;
     outline.push_back(outline.front());
     picture.line(outline, colours::wait_zone, width_px, true);
   }
@@ -109,17 +111,17 @@ void draw_radar_circles(Picture& picture, const RadarCircles& circles, Vec2 p) {
   picture.circle({p, circles.prediction}, colours::prediction_circle, 2, false);
 }
 
-RadarCircles radar_circles(const Record& record, std::size_t number,
-                           const std::optional<RadarLook>& look) {
+RadarCircles radar_circles(const experiment::Record& record, std::size_t number,
+                           const std::optional<navigation::RadarLook>& look) {
   if (look) return look->circles;
-  return make_circles(std::get<RadarParams>(record.scene.scenario.navigator),
+  return make_circles(std::get<navigation::RadarParams>(record.scene.scenario.navigator),
                       record.frames[number].radius);
 }
 
-void draw_radar_view(Picture& picture, const Record& record, const World& world, std::size_t number,
-                     const std::optional<RadarLook>& look) {
-  const auto& params = std::get<RadarParams>(record.scene.scenario.navigator);
-  const Frame& frame = record.frames[number];
+void draw_radar_view(Picture& picture, const experiment::Record& record, const World& world,
+                     std::size_t number, const std::optional<navigation::RadarLook>& look) {
+  const auto& params = std::get<navigation::RadarParams>(record.scene.scenario.navigator);
+  const experiment::Frame& frame = record.frames[number];
   const RadarCircles circles = radar_circles(record, number, look);
   const Vec2 p = frame.pose.position;
   picture.walls(*world.map);
@@ -136,4 +138,4 @@ void draw_radar_view(Picture& picture, const Record& record, const World& world,
   add_legend(picture, params, record);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::report

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace microswarm {
+namespace microswarm::report {
 namespace {
 
 constexpr std::size_t max_coloured = 8;
@@ -40,7 +40,7 @@ Colour robot_colour(const RobotSwarmParams& robots, std::size_t robot) {
   return are_few(robots) ? colours::robots[robot % colours::robots.size()] : colours::swarm;
 }
 
-void draw_robot_marks(Picture& picture, const Scenario& scenario, const Box& bounds,
+void draw_robot_marks(Picture& picture, const experiment::Scenario& scenario, const Box& bounds,
                       std::span<const Vec2> positions) {
   if (are_few(*scenario.robots)) {
     for (std::size_t i = 0; i < positions.size(); ++i)
@@ -53,11 +53,11 @@ void draw_robot_marks(Picture& picture, const Scenario& scenario, const Box& bou
   picture.legend("robots; a larger spot is a pile of them", colours::swarm, true);
 }
 
-void draw_robot_goals(Picture& picture, const Scenario& scenario) {
+void draw_robot_goals(Picture& picture, const experiment::Scenario& scenario) {
   for (std::size_t i = 0; i < scenario.robots->goals.size(); ++i)
     picture.circle({scenario.robots->goals[i], scenario.goal_tolerance},
                    robot_colour(*scenario.robots, i), 2);
   if (scenario.goal) picture.mark(*scenario.goal, "goal", colours::goal);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::report

@@ -7,9 +7,9 @@
 
 #include "microswarm/report/picture.hpp"
 
-namespace microswarm {
+namespace microswarm::report {
 
-void draw_robots(const Map& map, const GlobalPlan& plan, std::span<const Vec2> goals,
+void draw_robots(const Map& map, const planning::GlobalPlan& plan, std::span<const Vec2> goals,
                  double tolerance, const std::string& title, const std::filesystem::path& file) {
   Picture picture(map.bounds(), title);
   picture.walls(map);
@@ -29,4 +29,4 @@ void draw_robots(const Map& map, const GlobalPlan& plan, std::span<const Vec2> g
   picture.write(file);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::report

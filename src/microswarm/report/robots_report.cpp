@@ -18,14 +18,14 @@
 #include "microswarm/report/plot.hpp"
 #include "microswarm/report/robot_marks.hpp"
 
-namespace microswarm {
+namespace microswarm::report {
 namespace {
 
 struct RobotsSubject {
-  const Record& record;
+  const experiment::Record& record;
   const ReportOptions& options;
   World world;
-  const Scenario& scenario() const { return record.scene.scenario; }
+  const experiment::Scenario& scenario() const { return record.scene.scenario; }
   std::string title() const { return default_title(record); }
   bool few() const { return are_few(*scenario().robots); }
 };
@@ -35,13 +35,13 @@ void draw_paths(Picture& picture, const RobotsSubject& s, double until) {
   if (!s.few()) return;
   for (std::size_t i = 0; i < s.record.robots.front().positions.size(); ++i) {
     std::vector<Vec2> path;
-    for (const RobotMoment& m : s.record.robots)
+    for (const experiment::RobotMoment& m : s.record.robots)
       if (m.t <= until) path.push_back(m.positions[i]);
     picture.line(path, robot_colour(*s.scenario().robots, i), 1.5);
   }
 }
 
-std::string moment_text(const RobotMoment& moment) {
+std::string moment_text(const experiment::RobotMoment& moment) {
   return fmt::format("{} robots at {:.1f} s", moment.positions.size(), moment.t);
 }
 
@@ -51,7 +51,7 @@ Plot left_over_time(const RobotsSubject& s) {
             .x_label = "time (s)",
             .y_label = "distance (µm)"};
   Series left{.label = each ? "worst robot" : "F"};
-  for (const Frame& f : s.record.frames) {
+  for (const experiment::Frame& f : s.record.frames) {
     left.x.push_back(f.t);
     left.y.push_back(f.goal_distance);
   }
@@ -61,8 +61,8 @@ Plot left_over_time(const RobotsSubject& s) {
   return plot;
 }
 
-std::vector<std::vector<std::string>> robots_numbers(const Record& record) {
-  const Metrics& m = record.result.metrics;
+std::vector<std::vector<std::string>> robots_numbers(const experiment::Record& record) {
+  const experiment::Metrics& m = record.result.metrics;
   return {{"quantity", "value"},
           {"ended", std::string(to_string(record.result.status))},
           {"robots", fmt::format("{}", record.robots.front().positions.size())},
@@ -80,10 +80,11 @@ std::vector<std::vector<std::string>> robots_numbers(const Record& record) {
 
 }  // namespace
 
-std::unique_ptr<Picture> draw_robots_at(const Record& record, const ReportOptions& options,
-                                        std::size_t moment) {
-  const RobotsSubject s{record, options, build_world(record.scene)};
-  const RobotMoment* const at = moment < record.robots.size() ? &record.robots[moment] : nullptr;
+std::unique_ptr<Picture> draw_robots_at(const experiment::Record& record,
+                                        const ReportOptions& options, std::size_t moment) {
+  const RobotsSubject s{record, options, experiment::build_world(record.scene)};
+  const experiment::RobotMoment* const at =
+      moment < record.robots.size() ? &record.robots[moment] : nullptr;
   auto picture = std::make_unique<Picture>(
       s.world.map->bounds(), fmt::format("{}: {}", s.title(), at ? moment_text(*at) : "start"));
   draw_ground(*picture, *s.world.map, options);
@@ -91,16 +92,16 @@ std::unique_ptr<Picture> draw_robots_at(const Record& record, const ReportOption
     draw_paths(*picture, s, at->t);
     draw_robot_marks(*picture, s.scenario(), s.world.map->bounds(), at->positions);
   }
-  draw_robot_goals(*picture, scenario_at(record, at ? at->t : 0));
+  draw_robot_goals(*picture, experiment::scenario_at(record, at ? at->t : 0));
   return picture;
 }
 
-void write_robots_report(const Record& record, const std::filesystem::path& folder,
+void write_robots_report(const experiment::Record& record, const std::filesystem::path& folder,
                          const ReportOptions& options) {
   if (record.frames.empty() || record.robots.empty())
     throw InputError("the record has no frames to report");
-  const RobotsSubject s{record, options, build_world(record.scene)};
-  const std::vector<RobotMoment>& moments = record.robots;
+  const RobotsSubject s{record, options, experiment::build_world(record.scene)};
+  const std::vector<experiment::RobotMoment>& moments = record.robots;
   PageSection stills{.heading = "Moments"};
   const std::array<std::pair<const char*, std::size_t>, 3> shown{
       {{"before.png", 0},
@@ -120,4 +121,4 @@ void write_robots_report(const Record& record, const std::filesystem::path& fold
               {.heading = "Over time", .pictures = {{"plots.png", ""}}}});
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::report

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace microswarm {
+namespace microswarm::report {
 namespace {
 
 using Cells = std::vector<std::string>;
@@ -141,4 +141,4 @@ std::string rows_csv(const std::vector<BenchRow>& rows) {
   return csv(lines);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::report

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace microswarm {
+namespace microswarm::report {
 
 /// One value of a paper and ours. `paper` is empty if the paper gives no value, `ours` if it is
 /// undefined (a median over no trials), `aim` if there is none, for which `note` gives the reason.
@@ -69,4 +69,4 @@ bool all_ok(const std::vector<Row>& rows) {
   return true;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::report

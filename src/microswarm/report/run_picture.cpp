@@ -13,26 +13,27 @@
 #include "microswarm/report/radar_marks.hpp"
 #include "microswarm/report/robots_report.hpp"
 
-namespace microswarm {
+namespace microswarm::report {
 namespace {
 
 constexpr int ghosts = 6;  // earlier obstacle positions
 constexpr double faint = 0.18;
 
-std::string run_title(const Record& record) {
+std::string run_title(const experiment::Record& record) {
   if (record.frames.empty()) return default_title(record) + ": start";
-  const Metrics& m = record.result.metrics;
+  const experiment::Metrics& m = record.result.metrics;
   return fmt::format("{}: {} after {:.1f} s, {:.0f} µm", default_title(record),
                      to_string(record.result.status), m.time, m.length);
 }
 
 /// Draws the obstacles of a time [s], with the changes until then.
-void draw_obstacles(Picture& picture, const Record& record, World& world, double t, Colour fill) {
-  if (!record.changes.empty()) world.obstacles = scenario_at(record, t).obstacles;
+void draw_obstacles(Picture& picture, const experiment::Record& record, World& world, double t,
+                    Colour fill) {
+  if (!record.changes.empty()) world.obstacles = experiment::scenario_at(record, t).obstacles;
   picture.bodies(world.at(t).moving().bodies(), fill);
 }
 
-void draw_obstacles(Picture& picture, const Record& record, World& world) {
+void draw_obstacles(Picture& picture, const experiment::Record& record, World& world) {
   const double end = record.frames.empty() ? 0 : record.frames.back().t;
   Colour earlier = colours::obstacle;
   earlier.alpha = faint;
@@ -43,11 +44,11 @@ void draw_obstacles(Picture& picture, const Record& record, World& world) {
 
 }  // namespace
 
-std::unique_ptr<Picture> draw_run(const Record& record, const ReportOptions& options,
-                                  std::span<const PlanEvent* const> numbered) {
+std::unique_ptr<Picture> draw_run(const experiment::Record& record, const ReportOptions& options,
+                                  std::span<const experiment::PlanEvent* const> numbered) {
   if (record.scene.scenario.robots)
     return draw_robots_at(record, options, record.robots.empty() ? 0 : record.robots.size() - 1);
-  World world = build_world(record.scene);
+  World world = experiment::build_world(record.scene);
   auto picture = std::make_unique<Picture>(world.map->bounds(), run_title(record));
   draw_ground(*picture, *world.map, options);
   draw_obstacles(*picture, record, world);
@@ -55,13 +56,13 @@ std::unique_ptr<Picture> draw_run(const Record& record, const ReportOptions& opt
   if (!record.frames.empty()) {
     std::vector<Vec2> trail;
     trail.reserve(record.frames.size());
-    for (const Frame& frame : record.frames) trail.push_back(frame.pose.position);
+    for (const experiment::Frame& frame : record.frames) trail.push_back(frame.pose.position);
     picture->line(trail, colours::path, 3);
     if (is_going_on) picture->line(record.paths.back().path, colours::path, 2, true);
     draw_radar_marks(*picture, record, world);
     picture->swarm(record.frames.back().pose, record.frames.back().radius);
   }
-  draw_ends(*picture, scenario_at(record, infinity));
+  draw_ends(*picture, experiment::scenario_at(record, infinity));
   for (std::size_t k = 0; k < numbered.size(); ++k)
     picture->mark(frame_at(record, numbered[k]->t).pose.position, fmt::format("{}", k + 1),
                   colours::path);
@@ -95,4 +96,4 @@ std::unique_ptr<Picture> draw_plan(const Map& map, const Plan& plan, Vec2 start,
   return picture;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::report

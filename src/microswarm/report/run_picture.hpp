@@ -8,14 +8,15 @@
 #include "microswarm/report/picture.hpp"
 #include "microswarm/report/run_report.hpp"
 
-namespace microswarm {
+namespace microswarm::report {
 
 /// Draws a whole run: the travelled path with the swarm at its end, the last positions of obstacles
 /// and, faint, earlier ones; of individually tracked robots the last recorded positions. The
 /// planning events of `numbered` are marked on the path. A run in progress shows the path that is
 /// followed, a record without frames the start.
-std::unique_ptr<Picture> draw_run(const Record& record, const ReportOptions& options = {},
-                                  std::span<const PlanEvent* const> numbered = {});
+std::unique_ptr<Picture> draw_run(const experiment::Record& record,
+                                  const ReportOptions& options = {},
+                                  std::span<const experiment::PlanEvent* const> numbered = {});
 
 /// Draws a map with its walls.
 std::unique_ptr<Picture> draw_map(const Map& map, std::string_view title = {});
@@ -24,4 +25,4 @@ std::unique_ptr<Picture> draw_map(const Map& map, std::string_view title = {});
 std::unique_ptr<Picture> draw_plan(const Map& map, const Plan& plan, Vec2 start, const Disc& goal,
                                    std::string_view title = {});
 
-}  // namespace microswarm
+}  // namespace microswarm::report

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace microswarm {
+namespace microswarm::report {
 namespace {
 
 constexpr double max_ticks = 8;
@@ -31,7 +31,7 @@ void number_events(Plot& plot, double count) {
 }
 
 Plot planning_times(const std::vector<double>& planning) {
-  const TimeSummary sum = summarise(planning);
+  const experiment::TimeSummary sum = experiment::summarise(planning);
   Plot plot{.title = "Planning events",
             .x_label = "event",
             .y_label = "planning time (ms)",
@@ -50,15 +50,15 @@ Plot planning_times(const std::vector<double>& planning) {
   return plot;
 }
 
-Plot clearances(const Record& record) {
-  const Scenario& scenario = record.scene.scenario;
+Plot clearances(const experiment::Record& record) {
+  const experiment::Scenario& scenario = record.scene.scenario;
   Plot plot{.title = "Clearance of the swarm's centre",
             .x_label = "time (s)",
             .y_label = "distance (µm)",
             .key_below = true};
   Series walls{.label = "walls and border"};
   Series bodies{.label = "moving obstacles"};
-  for (const Frame& f : record.frames) {
+  for (const experiment::Frame& f : record.frames) {
     if (!std::isfinite(f.wall_clearance)) continue;  // the swarm has not been detected yet
     walls.x.push_back(f.t);
     walls.y.push_back(f.wall_clearance);
@@ -66,13 +66,13 @@ Plot clearances(const Record& record) {
     bodies.x.push_back(f.t);
     bodies.y.push_back(f.obstacle_clearance);
   }
-  const double margin = required_clearance(scenario.navigator);
+  const double margin = navigation::required_clearance(scenario.navigator);
   const double radius = swarm_limits(scenario.swarm).radius;
   plot.levels = {{"swarm's radius", radius}};
   if (margin > 0) plot.levels.push_back({"navigator's margin", margin});
   plot.y_min = 0;
   // Limit the range to short distances; a run without any shows at least its minimum.
-  const Metrics& m = record.result.metrics;
+  const experiment::Metrics& m = record.result.metrics;
   const double nearest = std::min(m.walls.clearance, m.obstacles.clearance);
   plot.y_max = 5 * std::max(margin, radius);
   if (std::isfinite(nearest)) plot.y_max = std::max(*plot.y_max, 1.5 * nearest);
@@ -82,14 +82,14 @@ Plot clearances(const Record& record) {
   return plot;
 }
 
-Plot avoidance_costs(const Record& record) {
+Plot avoidance_costs(const experiment::Record& record) {
   const double mean = record.result.metrics.avoidance.mean_cost;
   Plot plot{.title = "Avoidance cost",
             .x_label = "time (s)",
             .y_label = "δ (0: nothing avoided)",
             .key_below = true};
   Series cost{.label = "δ"};
-  for (const Frame& f : record.frames) {
+  for (const experiment::Frame& f : record.frames) {
     cost.x.push_back(f.t);
     cost.y.push_back(f.avoidance_cost);
   }
@@ -103,7 +103,7 @@ Plot avoidance_costs(const Record& record) {
 
 }  // namespace
 
-std::vector<Plot> run_plots(const Record& record) {
+std::vector<Plot> run_plots(const experiment::Record& record) {
   std::vector<Plot> plots;
   if (!record.result.timing.planning.empty())
     plots.push_back(planning_times(record.result.timing.planning));
@@ -112,4 +112,4 @@ std::vector<Plot> run_plots(const Record& record) {
   return plots;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::report

@@ -19,28 +19,29 @@
 #include "microswarm/report/run_picture.hpp"
 #include "microswarm/report/run_plots.hpp"
 
-namespace microswarm {
+namespace microswarm::report {
 namespace {
 
 constexpr int moments = 3;  // planning events with a picture
 
 struct RunSubject {
-  const Record& record;
+  const experiment::Record& record;
   const ReportOptions& options;
   World world;
-  const Scenario& scenario() const { return record.scene.scenario; }
+  const experiment::Scenario& scenario() const { return record.scene.scenario; }
   std::string title() const { return default_title(record); }
 };
 
-std::vector<Vec2> trail(const Record& record, double until) {
+std::vector<Vec2> trail(const experiment::Record& record, double until) {
   std::vector<Vec2> points;
-  for (const Frame& f : record.frames)
+  for (const experiment::Frame& f : record.frames)
     if (f.t <= until) points.push_back(f.pose.position);
   return points;
 }
 
 /// The whole map, or the surroundings of the swarm if the map is much larger.
-Box around(const RunSubject& s, const Frame& frame, const PlanEvent& event) {
+Box around(const RunSubject& s, const experiment::Frame& frame,
+           const experiment::PlanEvent& event) {
   const Box map = s.world.map->bounds();
   double reach = 25 * frame.radius;
   for (const Vec2 p : event.plan.path)
@@ -50,8 +51,9 @@ Box around(const RunSubject& s, const Frame& frame, const PlanEvent& event) {
   return {frame.pose.position - half, frame.pose.position + half};
 }
 
-void moment(const RunSubject& s, const PlanEvent& event, const std::filesystem::path& stem) {
-  const Frame& frame = frame_at(s.record, event.t);
+void moment(const RunSubject& s, const experiment::PlanEvent& event,
+            const std::filesystem::path& stem) {
+  const experiment::Frame& frame = frame_at(s.record, event.t);
   Picture picture(around(s, frame, event),
                   fmt::format("{} at {:.1f} s: local target, tree and path", s.title(), event.t));
   draw_ground(picture, *s.world.map, s.options);
@@ -62,7 +64,7 @@ void moment(const RunSubject& s, const PlanEvent& event, const std::filesystem::
   picture.line(event.plan.path, colours::path, 3);
   picture.swarm(frame.pose, frame.radius);
   if (frame.target) picture.mark(*frame.target, "local target", colours::circle);
-  draw_ends(picture, scenario_at(s.record, event.t));
+  draw_ends(picture, experiment::scenario_at(s.record, event.t));
   picture.legend("swarm", colours::swarm, true);
   picture.legend("planned path", colours::path);
   picture.legend("tree", colours::tree);
@@ -71,8 +73,9 @@ void moment(const RunSubject& s, const PlanEvent& event, const std::filesystem::
   picture.write_everywhere(stem);
 }
 
-std::string moment_caption(const RunSubject& s, std::size_t number, const PlanEvent& event) {
-  const Frame& frame = frame_at(s.record, event.t);
+std::string moment_caption(const RunSubject& s, std::size_t number,
+                           const experiment::PlanEvent& event) {
+  const experiment::Frame& frame = frame_at(s.record, event.t);
   std::string text = fmt::format("{}: at {:.1f} s", number, event.t);
   if (std::isfinite(frame.obstacle_clearance))
     text += fmt::format(", {:.0f} µm from the nearest obstacle", frame.obstacle_clearance);
@@ -81,18 +84,20 @@ std::string moment_caption(const RunSubject& s, std::size_t number, const PlanEv
 }
 
 /// The planning event in a range at which an obstacle is nearest.
-const PlanEvent& tightest(const Record& record, std::size_t first, std::size_t end) {
-  const auto clearance = [&](const PlanEvent& e) {
+const experiment::PlanEvent& tightest(const experiment::Record& record, std::size_t first,
+                                      std::size_t end) {
+  const auto clearance = [&](const experiment::PlanEvent& e) {
     return frame_at(record, e.t).obstacle_clearance;
   };
-  return *std::min_element(
-      record.plans.begin() + static_cast<std::ptrdiff_t>(first),
-      record.plans.begin() + static_cast<std::ptrdiff_t>(end),
-      [&](const PlanEvent& a, const PlanEvent& b) { return clearance(a) < clearance(b); });
+  return *std::min_element(record.plans.begin() + static_cast<std::ptrdiff_t>(first),
+                           record.plans.begin() + static_cast<std::ptrdiff_t>(end),
+                           [&](const experiment::PlanEvent& a, const experiment::PlanEvent& b) {
+                             return clearance(a) < clearance(b);
+                           });
 }
 
 /// The status; for a run that ended while holding, also the navigator's last state.
-std::string ended(const Record& record) {
+std::string ended(const experiment::Record& record) {
   std::string text(to_string(record.result.status));
   const std::size_t frames = record.frames.size();
   if (record.result.status == Status::held && frames > 1)
@@ -100,9 +105,9 @@ std::string ended(const Record& record) {
   return text;
 }
 
-std::vector<std::vector<std::string>> run_numbers(const Record& record) {
-  const Metrics& m = record.result.metrics;
-  const TimeSummary p = summarise(record.result.timing.planning);
+std::vector<std::vector<std::string>> run_numbers(const experiment::Record& record) {
+  const experiment::Metrics& m = record.result.metrics;
+  const experiment::TimeSummary p = experiment::summarise(record.result.timing.planning);
   const auto um = [](double v) { return std::isfinite(v) ? fmt::format("{:.1f} µm", v) : "–"; };
   return {{"quantity", "value"},
           {"ended", ended(record)},
@@ -130,18 +135,18 @@ std::vector<std::vector<std::string>> run_numbers(const Record& record) {
 
 }  // namespace
 
-void write_run_report(const Record& record, const std::filesystem::path& folder,
+void write_run_report(const experiment::Record& record, const std::filesystem::path& folder,
                       const ReportOptions& options) {
   if (record.frames.empty()) throw InputError("the record has no frames to report");
   if (record.scene.scenario.robots) return write_robots_report(record, folder, options);
-  const RunSubject s{record, options, build_world(record.scene)};
+  const RunSubject s{record, options, experiment::build_world(record.scene)};
   PageSection stills{.heading = "Moments",
                      .text =
                          "In each third of the run the planning event at which an obstacle was "
                          "nearest; numbered in the picture above. Also as .svg and .pdf."};
   const std::size_t events = record.plans.size();
   const std::size_t shown = std::min<std::size_t>(moments, events);
-  std::vector<const PlanEvent*> chosen;
+  std::vector<const experiment::PlanEvent*> chosen;
   for (std::size_t k = 0; k < shown; ++k)
     chosen.push_back(&tightest(record, k * events / shown, (k + 1) * events / shown));
   draw_run(record, options, chosen)->write_everywhere(folder / "overview");
@@ -166,4 +171,4 @@ void write_run_report(const Record& record, const std::filesystem::path& folder,
   write_page(folder / "index.html", s.title(), sections);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::report

@@ -7,12 +7,13 @@
 #include "microswarm/experiment/record/record.hpp"
 #include "microswarm/formats/images/image.hpp"
 
-namespace microswarm {
+namespace microswarm::report {
 
 /// Options of a report.
 struct ReportOptions {
-  std::optional<Image> photo;  ///< background of the pictures, its lower left corner at the origin
-  double um_per_px = 1;        ///< of the photo
+  std::optional<formats::Image>
+      photo;             ///< background of the pictures, its lower left corner at the origin
+  double um_per_px = 1;  ///< of the photo
 };
 
 /// Writes a report into `folder`: overview.png, .svg and .pdf (the whole run); moment-1…3.png
@@ -20,7 +21,7 @@ struct ReportOptions {
 /// clearance and avoidance cost over time); and index.html with all of them and the metrics.
 /// Individually tracked robots have before.png, half-way.png and after.png instead of overview and
 /// moments. Throws InputError if the folder cannot be written.
-void write_run_report(const Record& record, const std::filesystem::path& folder,
+void write_run_report(const experiment::Record& record, const std::filesystem::path& folder,
                       const ReportOptions& options = {});
 
-}  // namespace microswarm
+}  // namespace microswarm::report

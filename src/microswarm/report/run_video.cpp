@@ -13,7 +13,7 @@
 #include "microswarm/report/robot_marks.hpp"
 #include "microswarm/vision/camera/video_file_writer.hpp"
 
-namespace microswarm {
+namespace microswarm::report {
 namespace {
 
 constexpr double margins = 48;  // around the drawing [px]; see Picture
@@ -27,7 +27,7 @@ double longer_side(const Box& view, int width) {
 
 class Film {
  public:
-  Film(const Record& record, const RunVideoOptions& options)
+  Film(const experiment::Record& record, const RunVideoOptions& options)
       : playback_(record),
         options_(options),
         view_(playback_.world().map->bounds()),
@@ -36,10 +36,10 @@ class Film {
     draw_ground(ground_, *playback_.world().map, options.report);
   }
 
-  const std::vector<Frame>& frames() const { return playback_.record()->frames; }
+  const std::vector<experiment::Frame>& frames() const { return playback_.record()->frames; }
 
   /// The run at time t, which must not decrease; the background is drawn once as pixels.
-  Image at(double t) {
+  formats::Image at(double t) {
     Picture picture(view_, title(t), size_);
     picture.ground(ground_);
     draw(picture, t);
@@ -67,7 +67,7 @@ class Film {
     if (!playback_.world().obstacles.empty()) picture.legend("obstacles", colours::obstacle, true);
   }
 
-  const Scenario& scenario() const { return playback_.scenario(); }
+  const experiment::Scenario& scenario() const { return playback_.scenario(); }
 
   std::string title(double t) const {
     const std::string speed = options_.speed == 1 ? "" : fmt::format(" (×{:g})", options_.speed);
@@ -82,9 +82,9 @@ class Film {
 
   /// Pose at `t`, interpolated linearly between two frames.
   Pose2 pose(double t) const {
-    const Frame& from = frames()[next_ - 1];
+    const experiment::Frame& from = frames()[next_ - 1];
     if (next_ == frames().size()) return from.pose;
-    const Frame& to = frames()[next_];
+    const experiment::Frame& to = frames()[next_];
     const double share = std::clamp((t - from.t) / (to.t - from.t), 0.0, 1.0);
     return {from.pose.position + share * (to.pose.position - from.pose.position),
             wrap(from.pose.heading + share * wrap(to.pose.heading - from.pose.heading))};
@@ -107,29 +107,29 @@ class Film {
     draw_robot_goals(picture, scenario());
   }
 
-  Playback playback_;
+  experiment::Playback playback_;
   const RunVideoOptions& options_;
   Box view_;
   double size_;
   Picture ground_;
   std::size_t next_ = 0;  ///< frame after the current one
-  const Tick* tick_ = nullptr;
+  const experiment::Tick* tick_ = nullptr;
   std::vector<Vec2> trail_;
 };
 
-void require_frames(const Record& record) {
+void require_frames(const experiment::Record& record) {
   if (record.frames.empty()) throw InputError("the record has no frames to show");
 }
 
 }  // namespace
 
-void write_run_picture(const Record& record, double t, const std::filesystem::path& file,
-                       const RunVideoOptions& options) {
+void write_run_picture(const experiment::Record& record, double t,
+                       const std::filesystem::path& file, const RunVideoOptions& options) {
   require_frames(record);
   Film(record, options).write(std::max(t, record.frames.front().t), file);
 }
 
-RunVideo write_run_video(const Record& record, const std::filesystem::path& file,
+RunVideo write_run_video(const experiment::Record& record, const std::filesystem::path& file,
                          const RunVideoOptions& options, const Stop& stop) {
   require_frames(record);
   const double begin = std::max(options.from, record.frames.front().t);
@@ -145,7 +145,7 @@ RunVideo write_run_video(const Record& record, const std::filesystem::path& file
                     "speed or lower the rate",
                     file.string(), pictures, max_video_pictures));
   Film film(record, options);
-  VideoFileWriter writer(file, options.rate);
+  vision::VideoFileWriter writer(file, options.rate);
   const Progress progress(options.progress, "video");
   RunVideo result;
   for (; result.pictures < static_cast<int>(pictures); ++result.pictures) {
@@ -160,4 +160,4 @@ RunVideo write_run_video(const Record& record, const std::filesystem::path& file
   return result;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::report

@@ -9,7 +9,7 @@
 #include "microswarm/experiment/record/record.hpp"
 #include "microswarm/report/run_report.hpp"
 
-namespace microswarm {
+namespace microswarm::report {
 
 /// Options of a video of a run.
 struct RunVideoOptions {
@@ -34,15 +34,15 @@ struct RunVideo {
 
 /// Writes the picture that a video of the run shows at time `t` [s], not before the first frame, as
 /// .svg, .pdf or .png. Throws InputError if the record has no frames or the file cannot be written.
-void write_run_picture(const Record& record, double t, const std::filesystem::path& file,
-                       const RunVideoOptions& options = {});
+void write_run_picture(const experiment::Record& record, double t,
+                       const std::filesystem::path& file, const RunVideoOptions& options = {});
 
 /// Writes a run as video (.mp4, .mkv, .avi, .gif), with scale bar and time: walls, obstacles, the
 /// path travelled and planned, the swarm or the robots. Between two frames of the record the swarm
 /// moves on a straight line and obstacles by their motion; robots stay at their last recorded
 /// positions. Throws InputError if the record has no frames in the time shown, the video would
 /// have more than max_video_pictures pictures, or the file cannot be written.
-RunVideo write_run_video(const Record& record, const std::filesystem::path& file,
+RunVideo write_run_video(const experiment::Record& record, const std::filesystem::path& file,
                          const RunVideoOptions& options = {}, const Stop& stop = {});
 
-}  // namespace microswarm
+}  // namespace microswarm::report

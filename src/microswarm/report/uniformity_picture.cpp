@@ -10,7 +10,7 @@
 #include "microswarm/io/columns.hpp"
 #include "microswarm/report/picture.hpp"
 
-namespace microswarm {
+namespace microswarm::report {
 namespace {
 
 /// Bands of increasing deviation.
@@ -32,9 +32,9 @@ const DeviationBand& deviation_band(double of) {
 }
 
 /// One pixel per point, the highest row on top.
-Image to_image(const UniformityMap& map) {
+formats::Image to_image(const actuation::UniformityMap& map) {
   const int n = map.grid.points;
-  Image image{n, n, 3, std::vector<std::uint8_t>(static_cast<std::size_t>(n) * n * 3)};
+  formats::Image image{n, n, 3, std::vector<std::uint8_t>(static_cast<std::size_t>(n) * n * 3)};
   for (int row = 0; row < n; ++row)
     for (int column = 0; column < n; ++column) {
       const Colour c = deviation_band(map.at(column, row)).colour;
@@ -63,7 +63,7 @@ struct FieldRow {
 };
 
 /// Title: axes, with `centre` the centre, and the field there.
-std::string default_title(const UniformityMap& map, bool centre) {
+std::string default_title(const actuation::UniformityMap& map, bool centre) {
   const std::string_view plane = enum_name(map.grid.plane);
   const Eigen::Vector3d& c = map.grid.centre;
   const Eigen::Vector3d& b = map.centre_field;
@@ -75,7 +75,8 @@ std::string default_title(const UniformityMap& map, bool centre) {
 
 }  // namespace
 
-void draw_uniformity(const UniformityMap& map, bool centre, const std::filesystem::path& file) {
+void draw_uniformity(const actuation::UniformityMap& map, bool centre,
+                     const std::filesystem::path& file) {
   // Each point is the centre of its pixel.
   const double step = 2 * map.grid.half_width / (map.grid.points - 1);
   const double side = step * map.grid.points;
@@ -86,7 +87,7 @@ void draw_uniformity(const UniformityMap& map, bool centre, const std::filesyste
   picture.write(file);
 }
 
-std::string uniformity_table(const UniformityMap& map) {
+std::string uniformity_table(const actuation::UniformityMap& map) {
   std::vector<FieldRow> rows;
   for (int row = 0; row < map.grid.points; ++row)
     for (int column = 0; column < map.grid.points; ++column) {
@@ -95,7 +96,7 @@ std::string uniformity_table(const UniformityMap& map) {
       const Eigen::Vector3d& b = map.field[i];
       rows.push_back({{p[0], p[1], p[2]}, {b[0], b[1], b[2]}, map.deviation[i]});
     }
-  return csv_table(rows);
+  return io::csv_table(rows);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::report

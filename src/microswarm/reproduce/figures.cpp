@@ -12,18 +12,21 @@
 namespace microswarm::reproduce {
 namespace {
 
-std::vector<ReproduceRow> interrupted(std::string_view figure, std::vector<ReproduceRow> rows) {
+std::vector<report::ReproduceRow> interrupted(std::string_view figure,
+                                              std::vector<report::ReproduceRow> rows) {
   if (rows.empty()) rows.push_back({.figure = std::string(figure), .quantity = "interrupted"});
-  for (ReproduceRow& row : rows) row = unjudged(std::move(row), "interrupted");
+  for (report::ReproduceRow& row : rows) row = unjudged(std::move(row), "interrupted");
   return rows;
 }
 
 }  // namespace
 
-std::vector<ReproduceRow> reproduce_figures(std::string_view paper, std::span<const Figure> figures,
-                                            const std::string& figure,
-                                            const ReproduceOptions& options, const Stop& stop) {
-  std::vector<ReproduceRow> rows;
+std::vector<report::ReproduceRow> reproduce_figures(std::string_view paper,
+                                                    std::span<const Figure> figures,
+                                                    const std::string& figure,
+                                                    const ReproduceOptions& options,
+                                                    const Stop& stop) {
+  std::vector<report::ReproduceRow> rows;
   std::vector<std::string_view> names;
   bool known = figure.empty();
   for (const auto& [name, make] : figures) {
@@ -33,7 +36,7 @@ std::vector<ReproduceRow> reproduce_figures(std::string_view paper, std::span<co
     if (stop()) continue;
     auto more = make(options, stop);
     if (stop()) more = interrupted(name, std::move(more));
-    for (ReproduceRow& row : more)
+    for (report::ReproduceRow& row : more)
       if (!row.aim && !row.paper && row.note.empty()) row.note = "not in the paper";
     rows.insert(rows.end(), more.begin(), more.end());
   }
@@ -42,7 +45,7 @@ std::vector<ReproduceRow> reproduce_figures(std::string_view paper, std::span<co
                                  fmt::join(names, ", ")));
   if (!options.out.empty())
     write_file_atomically(std::filesystem::path(options.out) / fmt::format("{}.csv", paper),
-                          rows_csv(rows));
+                          report::rows_csv(rows));
   return rows;
 }
 

@@ -37,41 +37,43 @@ struct ReproduceOptions {
 // aim gives the reason in its note.
 
 /// A plain row.
-inline ReproduceRow make_row(std::string figure, std::string quantity, std::string unit,
-                             std::optional<double> paper, std::optional<double> ours,
-                             std::optional<double> aim = {}, bool at_most = true) {
+inline report::ReproduceRow make_row(std::string figure, std::string quantity, std::string unit,
+                                     std::optional<double> paper, std::optional<double> ours,
+                                     std::optional<double> aim = {}, bool at_most = true) {
   return {std::move(figure), std::move(quantity), std::move(unit), paper, ours, aim, at_most, {}};
 }
 
 /// The row with an additional note.
-inline ReproduceRow noted(ReproduceRow row, std::string_view note) {
+inline report::ReproduceRow noted(report::ReproduceRow row, std::string_view note) {
   row.note += (row.note.empty() || note.empty() ? "" : "; ") + std::string(note);
   return row;
 }
 
 /// The row with its aim but without a verdict; `why` is the reason.
-inline ReproduceRow unjudged(ReproduceRow row, std::string_view why) {
+inline report::ReproduceRow unjudged(report::ReproduceRow row, std::string_view why) {
   row.judged = false;
   return noted(std::move(row), why);
 }
 
 /// The row without a verdict under --quick, which has too few trials.
-inline ReproduceRow unjudged_if_quick(ReproduceRow row, const ReproduceOptions& options) {
+inline report::ReproduceRow unjudged_if_quick(report::ReproduceRow row,
+                                              const ReproduceOptions& options) {
   return options.quick ? unjudged(std::move(row), "too few trials") : row;
 }
 
 /// A row without an aim; `why` is the reason.
-inline ReproduceRow row_without_aim(std::string_view why, std::string figure, std::string quantity,
-                                    std::string unit, std::optional<double> paper,
-                                    std::optional<double> ours) {
+inline report::ReproduceRow row_without_aim(std::string_view why, std::string figure,
+                                            std::string quantity, std::string unit,
+                                            std::optional<double> paper,
+                                            std::optional<double> ours) {
   return noted(make_row(std::move(figure), std::move(quantity), std::move(unit), paper, ours), why);
 }
 
 /// A row whose aim is the paper's value ± `share`. The stated bound is the one on our side. Without
 /// a published value there is no aim.
-inline ReproduceRow row_within(double share, std::string figure, std::string quantity,
-                               std::string unit, std::optional<double> paper,
-                               std::optional<double> ours) {
+inline report::ReproduceRow row_within(double share, std::string figure, std::string quantity,
+                                       std::string unit, std::optional<double> paper,
+                                       std::optional<double> ours) {
   const bool above = !paper || !ours || *ours >= *paper;
   const auto aim = paper ? std::optional(*paper * (above ? 1 + share : 1 - share)) : std::nullopt;
   return noted(
@@ -81,14 +83,16 @@ inline ReproduceRow row_within(double share, std::string figure, std::string qua
 
 /// A row with a one-sided aim: at most the paper's value plus `share` of it, or at least the value
 /// minus `share` of it.
-inline ReproduceRow row_at_most(double share, std::string figure, std::string quantity,
-                                std::string unit, double paper, std::optional<double> ours) {
+inline report::ReproduceRow row_at_most(double share, std::string figure, std::string quantity,
+                                        std::string unit, double paper,
+                                        std::optional<double> ours) {
   return noted(make_row(std::move(figure), std::move(quantity), std::move(unit), paper, ours,
                         paper + share * std::abs(paper)),
                share == 0 ? "" : fmt::format("paper + {:.3g} %", 100 * share));
 }
-inline ReproduceRow row_at_least(double share, std::string figure, std::string quantity,
-                                 std::string unit, double paper, std::optional<double> ours) {
+inline report::ReproduceRow row_at_least(double share, std::string figure, std::string quantity,
+                                         std::string unit, double paper,
+                                         std::optional<double> ours) {
   return noted(make_row(std::move(figure), std::move(quantity), std::move(unit), paper, ours,
                         paper - share * std::abs(paper), false),
                share == 0 ? "" : fmt::format("paper − {:.3g} %", 100 * share));
@@ -97,15 +101,15 @@ inline ReproduceRow row_at_least(double share, std::string figure, std::string q
 /// Figures of [drrt]: fig3 (S-channel), fig5a (deforming channel), fig5b (moving obstacles),
 /// comparison (with the radar among moving obstacles), follower (learned follower, pure pursuit and
 /// expert), or all if empty.
-std::vector<ReproduceRow> drrt_figures(const std::string& figure, const ReproduceOptions& options,
-                                       const Stop& stop);
+std::vector<report::ReproduceRow> drrt_figures(const std::string& figure,
+                                               const ReproduceOptions& options, const Stop& stop);
 
 /// Figures of [global]: fig1 (vascular network), fig3-5 (step lengths), fig6 (hypercubes), fig7
 /// (distance between the starts), fig8 (digestive system), fig9-10 (four robots, reused tree),
 /// fig12 (two magnets), beyond (the search that uses walls), beyond-6 (six robots), or all if
 /// empty.
-std::vector<ReproduceRow> global_figures(const std::string& figure, const ReproduceOptions& options,
-                                         const Stop& stop);
+std::vector<report::ReproduceRow> global_figures(const std::string& figure,
+                                                 const ReproduceOptions& options, const Stop& stop);
 
 /// Figures of [gather]: fig3-6 (pictures of the tree, its regions and DCA), fig7 (recurrence models
 /// and steps on maps with fewer regions), fig9 (steps of the paper's three methods and two of ours
@@ -113,14 +117,14 @@ std::vector<ReproduceRow> global_figures(const std::string& figure, const Reprod
 /// frames for robots with the faults of a real rig), fig10-rig (the same through camera and coils;
 /// with --quick only on request), fig10-frames (with a command per camera frame; only on request),
 /// or all if empty.
-std::vector<ReproduceRow> gather_figures(const std::string& figure, const ReproduceOptions& options,
-                                         const Stop& stop);
+std::vector<report::ReproduceRow> gather_figures(const std::string& figure,
+                                                 const ReproduceOptions& options, const Stop& stop);
 
 /// Figures of [radar]: fig1 (avoidance cost), fig5-6 (three cases of one obstacle), fig7 (series of
 /// radii), fig8 (twelve obstacles), fig10 (the cases as an experiment), fig11-12 (twelve obstacles
 /// as an experiment), fig13 (micromaze), safety (generated worlds), safety-noisy (noisy
 /// detections), fast (obstacles faster than the swarm), or all if empty.
-std::vector<ReproduceRow> radar_figures(const std::string& figure, const ReproduceOptions& options,
-                                        const Stop& stop);
+std::vector<report::ReproduceRow> radar_figures(const std::string& figure,
+                                                const ReproduceOptions& options, const Stop& stop);
 
 }  // namespace microswarm::reproduce

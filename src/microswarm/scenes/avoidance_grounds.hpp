@@ -11,7 +11,7 @@ namespace microswarm::scenes {
 
 /// Environment of an avoidance scenario: walls and their fixtures, start and goal.
 struct Ground {
-  PolygonsMap map;
+  formats::PolygonsMap map;
   std::vector<Obstacle> fixtures;        ///< valves in gates, or the deforming channel
   std::vector<std::vector<Vec2>> lanes;  ///< paths of movers between walls; empty in the open
   double extent = 90;                    ///< maximum radius of a mover [µm]

@@ -31,8 +31,8 @@ VortexParams random_swarm(Rng& rng) {
   return swarm;
 }
 
-SensingParams random_sensing(Rng& rng) {
-  SensingParams sensing;
+experiment::SensingParams random_sensing(Rng& rng) {
+  experiment::SensingParams sensing;
   sensing.position_noise = rng.uniform(0, 2);
   sensing.heading_noise = rng.uniform(0, 0.05);
   sensing.missed_share = rng.uniform(0, 0.05);
@@ -131,9 +131,9 @@ Ground random_ground(const AvoidanceOptions& options, const Crosser& swarm, int 
 
 }  // namespace
 
-Scenario avoidance_scenario(std::uint64_t seed, const AvoidanceOptions& options) {
+experiment::Scenario avoidance_scenario(std::uint64_t seed, const AvoidanceOptions& options) {
   Rng rng(seed, Purpose::scene);
-  Scenario s;
+  experiment::Scenario s;
   const VortexParams swarm = random_swarm(rng);
   s.swarm = swarm;
   s.sensing = random_sensing(rng);
@@ -155,7 +155,7 @@ Scenario avoidance_scenario(std::uint64_t seed, const AvoidanceOptions& options)
 
   // A coarse field suffices for the few queries here.
   constexpr double field_cell = 50;
-  const MapParts parts = read_map_parts(s.map);
+  const formats::MapParts parts = formats::read_map_parts(s.map);
   const Map walls(parts.bounds, parts.walls, parts.discs, field_cell);
   Referee referee(ground, walls, crosser, radius);
   for (int i = 0; i < asked; ++i) {
@@ -171,15 +171,15 @@ Scenario avoidance_scenario(std::uint64_t seed, const AvoidanceOptions& options)
   return s;
 }
 
-void see_obstacles_with_noise(Scenario& scenario) {
+void see_obstacles_with_noise(experiment::Scenario& scenario) {
   constexpr std::uint32_t sight = 1;  // separate from the world's stream
   Rng rng(scenario.seed, Purpose::scene, sight);
   scenario.sensing.obstacle_noise = rng.uniform(0, 2);
   scenario.sensing.obstacle_missed_share = rng.uniform(0, 0.05);
 }
 
-World avoidance_world(const Scenario& scenario) {
-  return build_world({scenario, read_map_parts(scenario.map)});
+World avoidance_world(const experiment::Scenario& scenario) {
+  return experiment::build_world({scenario, formats::read_map_parts(scenario.map)});
 }
 
 }  // namespace microswarm::scenes

@@ -40,13 +40,13 @@ inline constexpr double avoidance_detection_range = 70;
 /// leave passages for the swarm, so a path from start to goal always exists. Crossing obstacles
 /// meet the swarm near its expected position. Tracks contain their samples; the caller must still
 /// write their files.
-Scenario avoidance_scenario(std::uint64_t seed, const AvoidanceOptions& options = {});
+experiment::Scenario avoidance_scenario(std::uint64_t seed, const AvoidanceOptions& options = {});
 
 /// Adds observation noise of up to 2 µm to the obstacles and misses up to 5 % of them per frame;
 /// the world is unchanged. Pure function of the scenario.
-void see_obstacles_with_noise(Scenario& scenario);
+void see_obstacles_with_noise(experiment::Scenario& scenario);
 
 /// The scenario's world; its map is inline.
-World avoidance_world(const Scenario& scenario);
+World avoidance_world(const experiment::Scenario& scenario);
 
 }  // namespace microswarm::scenes

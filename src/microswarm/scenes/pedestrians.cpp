@@ -23,7 +23,7 @@ Samples begun_at(const Samples& samples, double t) {
   return out;
 }
 
-bool starts_apart(const Scenario& s) {
+bool starts_apart(const experiment::Scenario& s) {
   const double radius = swarm_limits(s.swarm).radius;
   return std::all_of(s.obstacles.begin(), s.obstacles.end(), [&](const Obstacle& walker) {
     const Placement at = placement(walker.motion, 0);
@@ -32,7 +32,7 @@ bool starts_apart(const Scenario& s) {
   });
 }
 
-void place_ends(Scenario& s, Rng& rng) {
+void place_ends(experiment::Scenario& s, Rng& rng) {
   constexpr int max_tries = 1000;
   for (int i = 0; i < max_tries; ++i) {
     s.start = Pose2{uniform_in(inner, rng), 0};
@@ -49,16 +49,16 @@ std::filesystem::path street_file(const std::filesystem::path& data) {
 }
 
 Street read_street(const std::filesystem::path& file, double slower) {
-  Street out{read_ucy_obsmat(file, um_per_m, slower)};
+  Street out{formats::read_ucy_obsmat(file, um_per_m, slower)};
   for (const auto& [id, samples] : out.tracks)
     out.recording = std::max(out.recording, samples.times.back());
   return out;
 }
 
-Scenario street_scenario(const Street& recorded, std::uint64_t seed) {
+experiment::Scenario street_scenario(const Street& recorded, std::uint64_t seed) {
   Rng rng(seed, Purpose::start_goal);
-  Scenario s;
-  s.map = PolygonsMap{.lo = street.lo, .hi = street.hi, .walls = {}, .discs = {}};
+  experiment::Scenario s;
+  s.map = formats::PolygonsMap{.lo = street.lo, .hi = street.hi, .walls = {}, .discs = {}};
   s.swarm = VortexParams{.radius = 40,
                          .moving_radius = 40,
                          .radius_ripple = 0.5,

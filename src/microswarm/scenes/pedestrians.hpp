@@ -11,8 +11,8 @@ namespace microswarm::scenes {
 
 /// Recorded pedestrians of the UCY set (zara01), as disc obstacles for a swarm of 60 µm/s.
 struct Street {
-  Tracks tracks;         ///< at 150 µm per metre
-  double recording = 0;  ///< [s]
+  formats::Tracks tracks;  ///< at 150 µm per metre
+  double recording = 0;    ///< [s]
 };
 
 /// Path of the recording in a data folder.
@@ -25,6 +25,6 @@ Street read_street(const std::filesystem::path& file, double slower);
 /// Scenario at a time of the recording chosen by the seed, with a start and a goal far apart. At t
 /// = 0 every pedestrian is farther from the swarm's edge than avoidance_start_gap plus its motion
 /// in one second. Pure function of its arguments.
-Scenario street_scenario(const Street& street, std::uint64_t seed);
+experiment::Scenario street_scenario(const Street& street, std::uint64_t seed);
 
 }  // namespace microswarm::scenes

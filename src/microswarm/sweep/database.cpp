@@ -15,7 +15,7 @@
 #include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/text/text.hpp"
 
-namespace microswarm {
+namespace microswarm::sweep {
 namespace {
 
 constexpr int busy_timeout_ms = 60'000;  // for a reader that locks the file
@@ -191,4 +191,4 @@ void Database::transaction(const std::function<void()>& statements) try {
   fail(error);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::sweep

@@ -17,7 +17,7 @@ class Database;
 class Exception;
 }  // namespace SQLite
 
-namespace microswarm {
+namespace microswarm::sweep {
 
 /// A value in a table; std::monostate is NULL. A stored NaN becomes NULL.
 using SqlValue = std::variant<std::monostate, std::int64_t, double, std::string>;
@@ -81,4 +81,4 @@ class Database {
   std::unique_ptr<SQLite::Database> connection_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::sweep

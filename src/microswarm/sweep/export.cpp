@@ -14,14 +14,14 @@
 #include "microswarm/io/hdf5_image.hpp"
 #include "microswarm/io/tables.hpp"
 
-namespace microswarm {
+namespace microswarm::sweep {
 namespace {
 
 std::string csv_value(const SqlValue& value) {
   return std::visit(Overloaded{[](std::monostate) { return std::string(); },
                                [](std::int64_t whole) { return std::to_string(whole); },
                                [](double real) { return number_text(real); },
-                               [](const std::string& text) { return csv_text(text); }},
+                               [](const std::string& text) { return io::csv_text(text); }},
                     value);
 }
 
@@ -55,20 +55,20 @@ struct RecordTables {
   std::vector<std::string> names;
   std::string csv;
 
-  void table(const std::string& group, const ListRef<const void*>& list) {
+  void table(const std::string& group, const io::ListRef<const void*>& list) {
     if (!is_wanted(group)) return;
-    const std::vector<Column> columns = to_columns(list.row_type());
-    csv += csv_head(columns) + "\n";
-    for (std::size_t i = 0; i < list.size(); ++i) csv += csv_line(columns, list.row(i)) + "\n";
+    const std::vector<io::Column> columns = io::to_columns(list.row_type());
+    csv += io::csv_head(columns) + "\n";
+    for (std::size_t i = 0; i < list.size(); ++i) csv += io::csv_line(columns, list.row(i)) + "\n";
   }
-  void parts(const std::string& group, const ListRef<const void*>& outer, const Field& field) {
+  void parts(const std::string& group, const io::ListRef<const void*>& outer, const Field& field) {
     if (!is_wanted(group)) return;
-    const std::vector<Column> columns = to_columns(*field.type->parts[0]);
-    csv += "row," + csv_head(columns) + "\n";
+    const std::vector<io::Column> columns = io::to_columns(*field.type->parts[0]);
+    csv += "row," + io::csv_head(columns) + "\n";
     for (std::size_t i = 0; i < outer.size(); ++i) {
-      const ListRef<const void*> part = outer.part(i, field);
+      const io::ListRef<const void*> part = outer.part(i, field);
       for (std::size_t k = 0; k < part.size(); ++k)
-        csv += fmt::format("{},{}\n", i, csv_line(columns, part.row(k)));
+        csv += fmt::format("{},{}\n", i, io::csv_line(columns, part.row(k)));
     }
   }
 
@@ -94,8 +94,8 @@ std::string sweep_csv(const SweepReader& sweep) {
 }
 
 std::string sweep_hdf5(const SweepReader& sweep) {
-  const auto made = write_hdf5();
-  Hdf5Writer& out = *made;
+  const auto made = io::write_hdf5();
+  io::Hdf5Writer& out = *made;
   out.attribute("/", "format", "microswarm sweep");
   for (const char* key : {"version", "name", "seed", "host", "begun", "hash"})
     out.attribute("/", key, sweep.about(key));
@@ -121,13 +121,13 @@ std::string sweep_hdf5(const SweepReader& sweep) {
   return out.finish();
 }
 
-std::string record_csv(const Record& record, const std::string& table) {
+std::string record_csv(const experiment::Record& record, const std::string& table) {
   RecordTables tables{.wanted = table, .names = {}, .csv = {}};
-  visit_tables(type_of<Record>(), static_cast<const void*>(&record), tables);
+  io::visit_tables(type_of<experiment::Record>(), static_cast<const void*>(&record), tables);
   if (tables.csv.empty())
     throw InputError(fmt::format("the record has no table {}, only {}", quote(table),
                                  fmt::join(tables.names, ", ")));
   return std::move(tables.csv);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::sweep

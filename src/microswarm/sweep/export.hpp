@@ -8,7 +8,7 @@
 #include "microswarm/experiment/record/record.hpp"
 #include "microswarm/sweep/sweep_database.hpp"
 
-namespace microswarm {
+namespace microswarm::sweep {
 
 /// The trials table as CSV (RFC 4180): a header line, then one line per trial; NULL is empty.
 std::string sweep_csv(const SweepReader& sweep);
@@ -24,6 +24,6 @@ std::vector<std::pair<std::string, std::string>> ompl_logs(const SweepReader& sw
 /// One table of a record as CSV (frames, paths, paths/points, ...), units in the names. In a table
 /// of parts, such as the points of all paths, the column `row` is the index of the owner. Throws
 /// InputError for an unknown table.
-std::string record_csv(const Record& record, const std::string& table);
+std::string record_csv(const experiment::Record& record, const std::string& table);
 
-}  // namespace microswarm
+}  // namespace microswarm::sweep

@@ -11,7 +11,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/fields/overloaded.hpp"
 
-namespace microswarm {
+namespace microswarm::sweep {
 namespace {
 
 using Json = nlohmann::json;
@@ -83,4 +83,4 @@ SweepMessage parse_message(std::string_view bytes) try {
   throw InputError(fmt::format("mpirun: malformed message of {} bytes", bytes.size()));
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::sweep

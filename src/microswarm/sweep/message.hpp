@@ -7,7 +7,7 @@
 
 #include "microswarm/sweep/table.hpp"
 
-namespace microswarm {
+namespace microswarm::sweep {
 
 /// A message between the processes of a sweep. Workers report `ready` or `failed` and send rows;
 /// rank 0 sends tasks and finally `over`, which workers answer with `done`.
@@ -26,4 +26,4 @@ std::string to_bytes(const SweepMessage& message);
 /// Decodes a message. Throws InputError "mpirun: malformed message of … bytes".
 SweepMessage parse_message(std::string_view bytes);
 
-}  // namespace microswarm
+}  // namespace microswarm::sweep

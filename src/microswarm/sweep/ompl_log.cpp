@@ -12,7 +12,7 @@
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/sweep/export.hpp"
 
-namespace microswarm {
+namespace microswarm::sweep {
 namespace {
 
 using Role = SweepColumn::Role;
@@ -128,8 +128,8 @@ class LogWriter {
  private:
   std::string head(std::size_t cell, double total) const {
     const Sweep& sweep = sweep_.sweep();
-    const Scenario scenario =
-        read_yaml_text<Scenario>(sweep_.scenario(cell), sweep_.name() + ", cell's scenario");
+    const experiment::Scenario scenario = read_yaml_text<experiment::Scenario>(
+        sweep_.scenario(cell), sweep_.name() + ", cell's scenario");
     std::string text = fmt::format("microswarm version {}\nExperiment {}\n",
                                    sweep_.about("version"), one_word(sweep.name, "sweep"));
     text += properties_text(cell / sweep.methods.size());
@@ -228,4 +228,4 @@ std::vector<std::pair<std::string, std::string>> ompl_logs(const SweepReader& sw
   return logs;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::sweep

@@ -17,7 +17,7 @@
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/experiment/scenario/validate.hpp"
 
-namespace microswarm {
+namespace microswarm::sweep {
 namespace {
 
 /// Calls body(i) for all i, until stopped, on several threads and rethrows the exception of the
@@ -40,14 +40,14 @@ void for_each_in_order(std::size_t count, int jobs, const Stop& stop, Body body)
 /// Maps by fingerprint, each built once.
 class MapCache {
  public:
-  World find_world(const Scene& scene) {
-    const std::uint64_t key = fingerprint(scene.map);
+  World find_world(const experiment::Scene& scene) {
+    const std::uint64_t key = formats::fingerprint(scene.map);
     {
       const std::lock_guard lock(mutex_);
       if (const auto found = maps_.find(key); found != maps_.end())
         return {found->second, scene.scenario.obstacles};
     }
-    World world = build_world(scene);
+    World world = experiment::build_world(scene);
     const std::lock_guard lock(mutex_);
     world.map = maps_.emplace(key, world.map).first->second;
     return world;
@@ -78,7 +78,7 @@ KeyLocations find_locations(const SweepPlan& plan, const SweepCell& cell) {
 
 struct Loader {
   const SweepPlan& plan;
-  const Scenario& base;
+  const experiment::Scenario& base;
   std::filesystem::path folder;
   MapCache& maps;
 
@@ -142,7 +142,8 @@ struct Loader {
     } catch (const InputError& error) {
       throw InputError(error.issues().placed_in(plan.file));
     }
-    const Scene scene = load_scene(cell.scenario, folder, cell_name(plan, cell));
+    const experiment::Scene scene =
+        experiment::load_scene(cell.scenario, folder, cell_name(plan, cell));
     cell.input_hash = scene.hash();
     cell.world = maps.find_world(scene);
     cell.scenario = scene.scenario;
@@ -163,10 +164,10 @@ std::string SweepPlan::hash() const {
 SweepPlan plan_sweep(Sweep sweep, const std::string& name, const SweepBase& base, int jobs,
                      const Stop& stop) {
   SweepPlan plan{.sweep = std::move(sweep), .file = name};
-  const auto scenario = read_yaml_text<Scenario>(base.text, base.name);
+  const auto scenario = read_yaml_text<experiment::Scenario>(base.text, base.name);
   plan.scenario_document = parse_yaml(base.text, base.name);
-  use_present_keys(type_of<Scenario>(), plan.scenario_document, base.name, Scenario::moved_keys,
-                   plan.notes);
+  use_present_keys(type_of<experiment::Scenario>(), plan.scenario_document, base.name,
+                   experiment::Scenario::moved_keys, plan.notes);
   plan.scenario_text = scenario_text(scenario);
   MapCache maps;
   const Loader loader{plan, scenario, base.folder, maps};
@@ -198,4 +199,4 @@ void check(const SweepPlan& plan, int jobs, const Stop& stop) {
   });
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::sweep

@@ -12,14 +12,14 @@
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/sweep/sweep_file.hpp"
 
-namespace microswarm {
+namespace microswarm::sweep {
 
 /// One combination of grid values and method, shared by its trials.
 struct SweepCell {
   std::vector<std::string> values;  ///< one per grid parameter
   std::string method;
   std::vector<Setting> settings;  ///< all, in order of application
-  Scenario scenario;              ///< with the samples of its tracks
+  experiment::Scenario scenario;  ///< with the samples of its tracks
   World world;                    ///< cells with the same walls share their map
   Notes notes;                    ///< about former keys in the settings
   std::string input_hash;         ///< of scenario, map and tracks, as Scene::hash()
@@ -66,4 +66,4 @@ struct SweepTask {
   std::uint32_t trial = 0;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::sweep

@@ -6,7 +6,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/execution/module.hpp"
 
-namespace microswarm {
+namespace microswarm::sweep {
 namespace {
 
 /// Whether Open MPI's mpirun or a launcher with a compatible interface started this process.
@@ -37,4 +37,4 @@ std::optional<RankMessage> Ranks::receive() const {
   return count() == 1 ? std::nullopt : messages_->receive();
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::sweep

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-namespace microswarm {
+namespace microswarm::sweep {
 
 /// A message and the rank that sent it.
 struct RankMessage {
@@ -47,4 +47,4 @@ class Ranks {
   std::unique_ptr<RankMessages> messages_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::sweep

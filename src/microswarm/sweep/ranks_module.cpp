@@ -5,7 +5,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/sweep/ranks.hpp"
 
-namespace microswarm {
+namespace microswarm::sweep {
 namespace {
 
 class MpiMessages : public RankMessages {
@@ -47,7 +47,9 @@ class MpiMessages : public RankMessages {
 };
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::sweep
 
 /// Symbol that Ranks looks up; the caller owns the object. Throws InputError.
-extern "C" microswarm::RankMessages* microswarm_mpi() { return new microswarm::MpiMessages; }
+extern "C" microswarm::sweep::RankMessages* microswarm_mpi() {
+  return new microswarm::sweep::MpiMessages;
+}

@@ -4,7 +4,7 @@
 
 #include "microswarm/core/maths/statistics.hpp"
 
-namespace microswarm {
+namespace microswarm::sweep {
 namespace {
 
 using Role = SweepColumn::Role;
@@ -58,4 +58,4 @@ std::vector<CellSummary> summarise(const SweepReader& sweep) {
   return summaries;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::sweep

@@ -3,7 +3,7 @@
 
 #include "microswarm/sweep/sweep_database.hpp"
 
-namespace microswarm {
+namespace microswarm::sweep {
 
 /// Summary of the trials of one cell.
 struct CellSummary {
@@ -26,4 +26,4 @@ struct CellSummary {
 /// Summary of every cell, in order; zeros for a cell without trials.
 std::vector<CellSummary> summarise(const SweepReader& sweep);
 
-}  // namespace microswarm
+}  // namespace microswarm::sweep

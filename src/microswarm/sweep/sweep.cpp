@@ -10,7 +10,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/sweep/worker_pool.hpp"
 
-namespace microswarm {
+namespace microswarm::sweep {
 namespace {
 
 using MessageKind = SweepMessage::Kind;
@@ -201,4 +201,4 @@ void run_sweep_worker(const Ranks& ranks, const std::filesystem::path& file, int
   send_kind(MessageKind::done, "");
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::sweep

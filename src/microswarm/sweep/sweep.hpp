@@ -8,7 +8,7 @@
 #include "microswarm/sweep/ranks.hpp"
 #include "microswarm/sweep/sweep_database.hpp"
 
-namespace microswarm {
+namespace microswarm::sweep {
 
 /// Progress of a sweep, in trials.
 struct SweepProgress {
@@ -65,4 +65,4 @@ SweepProgress run_sweep(const SweepPlan& plan, SweepStore& store, RemoteWorkers&
 void run_sweep_worker(const Ranks& ranks, const std::filesystem::path& file, int jobs,
                       const Stop& stop = {});
 
-}  // namespace microswarm
+}  // namespace microswarm::sweep

@@ -12,7 +12,7 @@
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/core/version.hpp"
 
-namespace microswarm {
+namespace microswarm::sweep {
 namespace {
 
 constexpr std::int64_t application_id = 0x6d737770;  // "mswp"
@@ -155,7 +155,7 @@ void SweepDatabase::make(const SweepOrigin& origin) {
     const SweepCell& cell = plan_.cells[i];
     database_.run("INSERT INTO cells VALUES(?, ?, ?, ?)",
                   std::vector<SqlValue>{static_cast<std::int64_t>(i), cell.method, cell.input_hash,
-                                        scenario_text(cell.scenario)});
+                                        experiment::scenario_text(cell.scenario)});
   }
   database_.run(trials_sql(columns_));
 }
@@ -260,4 +260,4 @@ void SweepReader::each_value(std::size_t column,
       {}, [&](std::span<const SqlValue> row) { value(row[0]); });
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::sweep

@@ -6,7 +6,7 @@
 
 #include "microswarm/sweep/table.hpp"
 
-namespace microswarm {
+namespace microswarm::sweep {
 
 /// Host and time of the start of a sweep, for reports and logs.
 struct SweepOrigin {
@@ -72,4 +72,4 @@ class SweepReader {
   Sweep sweep_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::sweep

@@ -10,7 +10,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/text.hpp"
 
-namespace microswarm {
+namespace microswarm::sweep {
 namespace {
 
 /// The first duplicate text, or nothing.
@@ -102,4 +102,4 @@ Sweep read_sweep(const std::filesystem::path& file) {
   return read_sweep_text(read_file(file, max_yaml_bytes), file.string());
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::sweep

@@ -9,7 +9,7 @@
 
 #include "microswarm/core/fields/fields.hpp"
 
-namespace microswarm {
+namespace microswarm::sweep {
 
 /// A scenario key and the values it takes, written as for `--set KEY=`.
 struct SweepParameter {
@@ -75,4 +75,4 @@ Sweep checked_sweep(Sweep sweep, const std::string& name);
 /// Number of combinations of a sweep's values and methods.
 std::size_t cell_count(const Sweep& sweep);
 
-}  // namespace microswarm
+}  // namespace microswarm::sweep

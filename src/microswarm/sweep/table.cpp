@@ -13,7 +13,7 @@
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/io/columns.hpp"
 
-namespace microswarm {
+namespace microswarm::sweep {
 namespace {
 
 using Role = SweepColumn::Role;
@@ -32,23 +32,23 @@ struct Results {
   }
 };
 
-Results to_results(const TrialResult& trial) {
+Results to_results(const experiment::TrialResult& trial) {
   Results r;
-  const RunResult& run = trial.result;
+  const experiment::RunResult& run = trial.result;
   r.add({"status", SweepColumnKind::text, "", "How it ended.", Role::result},
         std::string(to_string(run.status)));
   r.add(
       {"arrived", SweepColumnKind::whole, "", "1 when the goal was reached, else 0.", Role::result},
       std::int64_t{run.status == Status::solved});
-  for (const Column& column : to_columns<Metrics>(ColumnUnits::shown)) {
+  for (const io::Column& column : io::to_columns<experiment::Metrics>(io::ColumnUnits::shown)) {
     const double value = column.number(&run.metrics);
-    const bool real = column.kind == ColumnKind::real;
+    const bool real = column.kind == io::ColumnKind::real;
     r.add({column.key, real ? SweepColumnKind::real : SweepColumnKind::whole,
            std::string(unit_symbol(column.unit)), column.doc, Role::metric},
           real ? SqlValue{value} : SqlValue{static_cast<std::int64_t>(value)});
   }
-  const TimeSummary planning = summarise(run.timing.planning);
-  const TimeSummary steps = summarise(run.timing.steps);
+  const experiment::TimeSummary planning = experiment::summarise(run.timing.planning);
+  const experiment::TimeSummary steps = experiment::summarise(run.timing.steps);
   r.add_seconds("planning_mean_s", "Wall clock: a step in which it planned, on average.",
                 planning.mean);
   r.add_seconds("planning_max_s", "Wall clock: the longest of these.", planning.max);
@@ -119,7 +119,9 @@ std::vector<SqlValue> task_values(const SweepPlan& plan, const std::vector<Sweep
   return values;
 }
 
-std::vector<SqlValue> result_values(const TrialResult& trial) { return to_results(trial).values; }
+std::vector<SqlValue> result_values(const experiment::TrialResult& trial) {
+  return to_results(trial).values;
+}
 
 SweepTable::SweepTable(const SweepPlan& plan)
     : plan_(plan),
@@ -152,4 +154,4 @@ std::vector<std::span<const SqlValue>> SweepTable::rows() const {
   return all;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::sweep

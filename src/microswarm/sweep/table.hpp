@@ -9,7 +9,7 @@
 #include "microswarm/sweep/database.hpp"
 #include "microswarm/sweep/plan.hpp"
 
-namespace microswarm {
+namespace microswarm::sweep {
 
 /// Type of a column of the trials table.
 enum class SweepColumnKind { whole, real, text };
@@ -47,7 +47,7 @@ std::vector<SqlValue> task_values(const SweepPlan& plan, const std::vector<Sweep
                                   const SweepTask& task);
 
 /// Values of the remaining columns.
-std::vector<SqlValue> result_values(const TrialResult& trial);
+std::vector<SqlValue> result_values(const experiment::TrialResult& trial);
 
 /// A finished trial and its `result_values`.
 struct SweepRow {
@@ -82,4 +82,4 @@ class SweepTable : public SweepStore {
   std::vector<std::vector<SqlValue>> rows_;  ///< empty without a row
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::sweep

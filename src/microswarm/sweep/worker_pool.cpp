@@ -6,15 +6,15 @@
 
 #include "microswarm/core/execution/parallel.hpp"
 
-namespace microswarm {
+namespace microswarm::sweep {
 
 namespace {
 constexpr std::size_t max_ahead = 64;  // trials a thread
 }  // namespace
 
-TrialResult run_task(const SweepPlan& plan, const SweepTask& task, const Stop& stop) {
+experiment::TrialResult run_task(const SweepPlan& plan, const SweepTask& task, const Stop& stop) {
   const SweepCell& cell = plan.cells[task.cell];
-  return trial_result(cell.scenario, cell.world, task.trial, stop);
+  return experiment::trial_result(cell.scenario, cell.world, task.trial, stop);
 }
 
 WorkerPool::WorkerPool(const SweepPlan& plan, int jobs)
@@ -77,4 +77,4 @@ void WorkerPool::work() {
   }
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::sweep

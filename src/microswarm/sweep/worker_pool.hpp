@@ -13,10 +13,11 @@
 
 #include "microswarm/sweep/table.hpp"
 
-namespace microswarm {
+namespace microswarm::sweep {
 
 /// Runs one trial of a sweep; identical to the trial of that number in `run_trials`.
-TrialResult run_task(const SweepPlan& plan, const SweepTask& task, const Stop& stop = {});
+experiment::TrialResult run_task(const SweepPlan& plan, const SweepTask& task,
+                                 const Stop& stop = {});
 
 /// Threads of one process that run queued trials. The destructor cancels running trials and joins
 /// the threads.
@@ -53,4 +54,4 @@ class WorkerPool {
   std::jthread runner_;  // last: it uses the other members
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::sweep

@@ -8,7 +8,7 @@
 int main(int argc, char** argv) {
   try {
     if (argc != 2) return 2;
-    const auto session = microswarm::open_session(argv[1]);
+    const auto session = microswarm::experiment::open_session(argv[1]);
     const auto& result = session->finish();
     std::printf("%s after %g s, record %s\n", to_string(result.status).data(), result.metrics.time,
                 session->record().hash().c_str());

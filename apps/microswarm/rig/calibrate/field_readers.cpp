@@ -38,7 +38,7 @@ std::optional<Eigen::Vector3d> field_in(std::string line, std::string& why) {
 }
 
 /// Notes the currents that the device limits.
-void tell_limits(const SettledCurrents& settled, const std::vector<std::string>& coils) {
+void tell_limits(const rig::SettledCurrents& settled, const std::vector<std::string>& coils) {
   std::vector<std::string> limited;
   for (const Eigen::Index k : settled.limited)
     limited.push_back(fmt::format("{} to {:.4g} A of {:.4g} A", coils[static_cast<std::size_t>(k)],
@@ -51,7 +51,7 @@ void tell_limits(const SettledCurrents& settled, const std::vector<std::string>&
 TypedField::TypedField(AnswerLine& answers, const std::vector<std::string>& coils, std::string what)
     : answers_(answers), coils_(coils), question_(std::move(what)) {}
 
-void TypedField::begin(const SettledCurrents& settled) {
+void TypedField::begin(const rig::SettledCurrents& settled) {
   tell_limits(settled, coils_);
   if (const auto& b = settled.expected) {
     const auto shown = [&](Eigen::Index k) { return tidy((*b)[k], 1e3 * b->norm()); };
@@ -62,31 +62,32 @@ void TypedField::begin(const SettledCurrents& settled) {
   answers_.ask(question_);
 }
 
-std::optional<FieldAnswer> TypedField::poll(double) {
-  using enum MeasurementOutcome;
+std::optional<rig::FieldAnswer> TypedField::poll(double) {
+  using enum rig::MeasurementOutcome;
   const auto line = answers_.poll();
-  if (!line) return answers_.ended() ? std::optional(FieldAnswer{ended}) : std::nullopt;
+  if (!line) return answers_.ended() ? std::optional(rig::FieldAnswer{ended}) : std::nullopt;
   const std::string_view text = trimmed(*line);
-  if (text == "q") return FieldAnswer{ended};
-  if (text == "r") return FieldAnswer{repeat};
-  if (text == "b") return FieldAnswer{back};
+  if (text == "q") return rig::FieldAnswer{ended};
+  if (text == "r") return rig::FieldAnswer{repeat};
+  if (text == "b") return rig::FieldAnswer{back};
   std::string why;
-  if (const auto field = field_in(std::string(text), why)) return FieldAnswer{measured, {*field}};
+  if (const auto field = field_in(std::string(text), why))
+    return rig::FieldAnswer{measured, {*field}};
   note("{}\n", why);
   answers_.ask(question_);
   return std::nullopt;
 }
 
 LoggedField::LoggedField(AnswerLine& answers, const std::vector<std::string>& coils,
-                         ProbeFile& probe, double dwell)
+                         actuation::ProbeFile& probe, double dwell)
     : answers_(answers), coils_(coils), probe_(probe), dwell_(dwell) {}
 
-void LoggedField::begin(const SettledCurrents& settled) {
+void LoggedField::begin(const rig::SettledCurrents& settled) {
   tell_limits(settled, coils_);
   probe_.skip_to_end();
 }
 
-std::optional<FieldAnswer> LoggedField::poll(double t) {
+std::optional<rig::FieldAnswer> LoggedField::poll(double t) {
   watch();
   const std::size_t before = readings_.size();
   probe_.read(readings_);
@@ -95,7 +96,7 @@ std::optional<FieldAnswer> LoggedField::poll(double t) {
     throw HardwareError(fmt::format("{}: no new row in {:.6g} s after {}", probe_.name(),
                                     probe_silence, quote(probe_.last_row())));
   if (readings_.empty() || t < dwell_) return std::nullopt;
-  return FieldAnswer{MeasurementOutcome::measured, readings_};
+  return rig::FieldAnswer{rig::MeasurementOutcome::measured, readings_};
 }
 
 }  // namespace microswarm::cli

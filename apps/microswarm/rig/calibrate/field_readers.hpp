@@ -13,13 +13,13 @@
 namespace microswarm::cli {
 
 /// Fields that an operator types. Notes the currents that the device limits.
-class TypedField : public FieldReader {
+class TypedField : public rig::FieldReader {
  public:
   /// `what` begins the question; `coils` are the coils' names.
   TypedField(AnswerLine& answers, const std::vector<std::string>& coils, std::string what);
 
-  void begin(const SettledCurrents& settled) override;
-  std::optional<FieldAnswer> poll(double t) override;
+  void begin(const rig::SettledCurrents& settled) override;
+  std::optional<rig::FieldAnswer> poll(double t) override;
   void watch() override { answers_.watch(); }
 
  private:
@@ -30,19 +30,19 @@ class TypedField : public FieldReader {
 
 /// Fields that the logger of a probe writes, over `dwell` s. Notes the currents that the device
 /// limits.
-class LoggedField : public FieldReader {
+class LoggedField : public rig::FieldReader {
  public:
-  LoggedField(AnswerLine& answers, const std::vector<std::string>& coils, ProbeFile& probe,
-              double dwell);
+  LoggedField(AnswerLine& answers, const std::vector<std::string>& coils,
+              actuation::ProbeFile& probe, double dwell);
 
-  void begin(const SettledCurrents& settled) override;
-  std::optional<FieldAnswer> poll(double t) override;
+  void begin(const rig::SettledCurrents& settled) override;
+  std::optional<rig::FieldAnswer> poll(double t) override;
   void watch() override { answers_.watch(); }
 
  private:
   AnswerLine& answers_;
   const std::vector<std::string>& coils_;
-  ProbeFile& probe_;
+  actuation::ProbeFile& probe_;
   double dwell_;
   std::vector<Eigen::Vector3d> readings_;
   double newest_ = 0;  ///< when the newest row came [s]

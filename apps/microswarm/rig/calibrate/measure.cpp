@@ -25,17 +25,18 @@ namespace microswarm::cli {
 namespace {
 
 /// Throws InputError if the planned measurements would not determine the fit.
-void require_determined(const std::vector<MeasurementStep>& steps, const CoilSystem& system,
-                        const FitOptions& fit) {
-  FieldMeasurements planned{.file = "--positions", .coils = system.coil_names()};
-  for (const MeasurementStep& step : steps)
+void require_determined(const std::vector<actuation::MeasurementStep>& steps,
+                        const actuation::CoilSystem& system, const actuation::FitOptions& fit) {
+  actuation::FieldMeasurements planned{.file = "--positions", .coils = system.coil_names()};
+  for (const actuation::MeasurementStep& step : steps)
     planned.rows.push_back({step.currents, step.position, Eigen::Vector3d::Zero(), 0});
-  fit_matrix(planned, fit);
+  actuation::fit_matrix(planned, fit);
 }
 
 class Dialogue {
  public:
-  Dialogue(const Rig& rig, const MeasureOptions& o, MeasurementRun& run, const Context& context)
+  Dialogue(const rig::Rig& rig, const MeasureOptions& o, rig::MeasurementRun& run,
+           const Context& context)
       : rig_(rig), o_(o), run_(run), stop_(context.stop), answers_(!o.probe.empty()) {
     if (!o.probe.empty()) probe_.emplace(o.probe);
   }
@@ -44,23 +45,23 @@ class Dialogue {
 
  private:
   std::optional<std::string> wait_for_line();
-  std::optional<MeasurementOutcome> move_to(const Eigen::Vector3d& position);
-  Measurement measure(const MeasurementStep& step);
-  bool goes_on_after(const Measurement& made, const MeasurementStep& step);
-  std::string words_for(const MeasurementStep& step) const;
+  std::optional<rig::MeasurementOutcome> move_to(const Eigen::Vector3d& position);
+  rig::Measurement measure(const actuation::MeasurementStep& step);
+  bool goes_on_after(const rig::Measurement& made, const actuation::MeasurementStep& step);
+  std::string words_for(const actuation::MeasurementStep& step) const;
 
-  const Rig& rig_;
+  const rig::Rig& rig_;
   const MeasureOptions& o_;
-  MeasurementRun& run_;
+  rig::MeasurementRun& run_;
   Stop stop_;
   AnswerLine answers_;
-  std::optional<ProbeFile> probe_;
+  std::optional<actuation::ProbeFile> probe_;
   std::unique_ptr<Bench> bench_;
   std::optional<Eigen::Vector3d> position_;  // of the probe
 };
 
 /// "no current" or "2 A in coil x".
-std::string Dialogue::words_for(const MeasurementStep& step) const {
+std::string Dialogue::words_for(const actuation::MeasurementStep& step) const {
   std::vector<std::string> parts;
   for (Eigen::Index k = 0; k < step.currents.size(); ++k)
     if (step.currents[k] != 0)
@@ -80,17 +81,17 @@ std::optional<std::string> Dialogue::wait_for_line() {
 }
 
 /// Has the probe moved; how the step ends if it is not.
-std::optional<MeasurementOutcome> Dialogue::move_to(const Eigen::Vector3d& position) {
+std::optional<rig::MeasurementOutcome> Dialogue::move_to(const Eigen::Vector3d& position) {
   if (position_ && *position_ == position) return std::nullopt;
   const bool asks = answers_.is_terminal() || position_ || position != rig_.system.centre();
   for (int attempt = 0; asks; ++attempt) {
-    if (attempt == MeasurementRun::max_attempts && !answers_.is_terminal())
-      return MeasurementOutcome::ended;
+    if (attempt == rig::MeasurementRun::max_attempts && !answers_.is_terminal())
+      return rig::MeasurementOutcome::ended;
     answers_.ask(
         fmt::format("probe to {} µm, then Enter (b: back, q: end): ", triple_text(position)));
     const auto line = wait_for_line();
-    if (!line || *line == "q") return MeasurementOutcome::ended;
-    if (*line == "b") return MeasurementOutcome::back;
+    if (!line || *line == "q") return rig::MeasurementOutcome::ended;
+    if (*line == "b") return rig::MeasurementOutcome::back;
     if (line->empty()) break;
     note("Enter, b or q is needed, not {}\n", quote(*line));
   }
@@ -98,7 +99,7 @@ std::optional<MeasurementOutcome> Dialogue::move_to(const Eigen::Vector3d& posit
   return std::nullopt;
 }
 
-Measurement Dialogue::measure(const MeasurementStep& step) {
+rig::Measurement Dialogue::measure(const actuation::MeasurementStep& step) {
   if (const auto end = move_to(step.position)) return {.outcome = *end};
   const std::string what = fmt::format("{}/{}: {}", run_.made() + 1, run_.size(), words_for(step));
   if (probe_) note("{}\n", what);
@@ -106,19 +107,19 @@ Measurement Dialogue::measure(const MeasurementStep& step) {
   TypedField typed(answers_, coils, what);
   std::optional<LoggedField> logged;
   if (probe_) logged.emplace(answers_, coils, *probe_, o_.dwell);
-  return measure_field(
+  return rig::measure_field(
       rig_, *bench_->driver, step, {o_.ramp, o_.settle, o_.hold},
-      logged ? static_cast<FieldReader&>(*logged) : typed, bench_->temperatures,
-      [this](const CoilOutput& output) {
+      logged ? static_cast<rig::FieldReader&>(*logged) : typed, bench_->temperatures,
+      [this](const actuation::CoilOutput& output) {
         bench_->temperatures = output.temperatures;
         if (bench_->kept) bench_->kept->take(bench_->temperatures);
       },
       stop_);
 }
 
-/// Tells what came of a step, and asks where that needs an answer.
-bool Dialogue::goes_on_after(const Measurement& made, const MeasurementStep& step) {
-  using enum MeasurementOutcome;
+/// Reports the outcome of a step, and asks where that needs an answer. False ends the measurement.
+bool Dialogue::goes_on_after(const rig::Measurement& made, const actuation::MeasurementStep& step) {
+  using enum rig::MeasurementOutcome;
   switch (made.outcome) {
     case measured:
     case repeat:
@@ -153,19 +154,19 @@ int Dialogue::make() {
        run_.size() - run_.made(), run_.size(), probe_ ? "Space, e or Esc" : "Esc");
   if (!probe_) note("b: back, r: again, q: end; what was measured is kept\n");
   while (run_.next()) {
-    const MeasurementStep step = *run_.next();
-    const Measurement made = measure(step);
-    if (const auto axis = reversed_axis(made, step))
+    const actuation::MeasurementStep step = *run_.next();
+    const rig::Measurement made = measure(step);
+    if (const auto axis = rig::reversed_axis(made, step))
       note("note: B{} expected {:+.4g} mT, got {:.4g} mT: a reversed coil or probe?\n",
            "xyz"[*axis], (*made.expected)[*axis], made.reading->mean[*axis]);
     run_.take(made, answers_.is_terminal());
     bool goes_on = goes_on_after(made, step) && !stop_();
-    if (run_.attempts() == MeasurementRun::max_attempts) {
+    if (run_.attempts() == rig::MeasurementRun::max_attempts) {
       note("\n{} attempts without a measurement, the last with {}\n", run_.attempts(),
            words_for(step));
       goes_on = false;
     }
-    const bool failed = made.outcome == MeasurementOutcome::failed;
+    const bool failed = made.outcome == rig::MeasurementOutcome::failed;
     if (!failed && (goes_on || !run_.next())) continue;
     note("\n{} of {} measurements are made; the same command goes on\n", run_.made(), run_.size());
     return failed ? hardware : not_reached;
@@ -217,17 +218,17 @@ void add_measure_options(Command cmd, MeasureOptions& o) {
   add_rig_settings(cmd, "--set", o.settings).needs(measure);
 }
 
-int measure(const Rig& rig, const MeasureOptions& o, const FitOptions& fit, const std::string& file,
-            const Context& context) {
+int measure(const rig::Rig& rig, const MeasureOptions& o, const actuation::FitOptions& fit,
+            const std::string& file, const Context& context) {
   if (!o.probe.empty() && o.dwell > o.hold) throw InputError("--dwell: is longer than --hold");
-  const std::vector<MeasurementStep> steps =
-      measurement_plan(rig.system, {.positions = probe_positions(o.positions, rig.system),
-                                    .current = o.current,
-                                    .levels = o.levels,
-                                    .pairs = o.pairs});
+  const std::vector<actuation::MeasurementStep> steps = actuation::measurement_plan(
+      rig.system, {.positions = probe_positions(o.positions, rig.system),
+                   .current = o.current,
+                   .levels = o.levels,
+                   .pairs = o.pairs});
   require_determined(steps, rig.system, fit);
-  MeasurementLog log(file, rig.system.coil_names());
-  MeasurementRun run(steps, log);
+  actuation::MeasurementLog log(file, rig.system.coil_names());
+  rig::MeasurementRun run(steps, log);
   return Dialogue(rig, o, run, context).make();
 }
 

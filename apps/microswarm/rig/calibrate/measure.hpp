@@ -33,7 +33,7 @@ void add_measure_options(Command cmd, MeasureOptions& o);
 /// Makes the measurements missing in the file: drives each current and holds it until the operator
 /// has typed the field or a probe's file has it. `fit` is refused before the first current if the
 /// positions would not determine it. Returns an exit code, `ok` if all measurements are made.
-int measure(const Rig& rig, const MeasureOptions& o, const FitOptions& fit, const std::string& file,
-            const Context& context);
+int measure(const rig::Rig& rig, const MeasureOptions& o, const actuation::FitOptions& fit,
+            const std::string& file, const Context& context);
 
 }  // namespace microswarm::cli

@@ -21,7 +21,7 @@ constexpr std::size_t max_positions = 1000;
 
 std::vector<Eigen::Vector3d> positions_in(const std::string& file) {
   const std::string text = read_file(file, 1U << 20);
-  TextRows rows(text, file);
+  actuation::TextRows rows(text, file);
   if (!rows.next() || rows.pieces(',') != std::vector<std::string_view>{"x_um", "y_um", "z_um"})
     rows.fail("the header must be x_um,y_um,z_um");
   std::vector<Eigen::Vector3d> positions;
@@ -41,7 +41,8 @@ std::vector<Eigen::Vector3d> positions_in(const std::string& file) {
 
 }  // namespace
 
-std::vector<Eigen::Vector3d> probe_positions(const std::string& given, const CoilSystem& system) {
+std::vector<Eigen::Vector3d> probe_positions(const std::string& given,
+                                             const actuation::CoilSystem& system) {
   if (given.empty()) return {system.centre()};
   std::vector<Eigen::Vector3d> positions;
   for (const std::string_view one : split(given, ';')) {

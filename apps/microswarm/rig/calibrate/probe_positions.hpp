@@ -11,6 +11,7 @@ namespace microswarm::cli {
 
 /// Positions of a probe [µm] in "X,Y,Z;X,Y,Z" or in a CSV file; the system's centre without any.
 /// Throws InputError.
-std::vector<Eigen::Vector3d> probe_positions(const std::string& given, const CoilSystem& system);
+std::vector<Eigen::Vector3d> probe_positions(const std::string& given,
+                                             const actuation::CoilSystem& system);
 
 }  // namespace microswarm::cli

@@ -31,9 +31,9 @@ struct CalibrateOptions {
 
 /// A fit and the fits for comparison.
 struct Calibration {
-  FieldMeasurements measured;
-  FittedMatrix fit;
-  std::optional<FittedMatrix> uniform;       ///< fit without gradients, if `fit` has them
+  actuation::FieldMeasurements measured;
+  actuation::FittedMatrix fit;
+  std::optional<actuation::FittedMatrix> uniform;  ///< fit without gradients, if `fit` has them
   std::optional<double> rms_with_gradients;  ///< [mT], if `fit` has none and they are determined
 };
 
@@ -43,36 +43,36 @@ Json to_rows(const Eigen::MatrixXd& m) {
   return rows;
 }
 
-Json to_json(const Eigen::Vector3d& v) { return std::vector<double>(v.begin(), v.end()); }
+Json to_list(const Eigen::Vector3d& v) { return std::vector<double>(v.begin(), v.end()); }
 
 void tell_json(const Calibration& of) {
-  const FittedMatrix& fit = of.fit;
-  const FieldMeasurement& worst = of.measured.rows[fit.worst_row];
+  const actuation::FittedMatrix& fit = of.fit;
+  const actuation::FieldMeasurement& worst = of.measured.rows[fit.worst_row];
   Json json{{"measurements", of.measured.rows.size()},
             {"coils", fit.coils.names},
             {"field_mt_per_a", fit.coils.field},
             {"offset_mt", fit.coils.offset},
-            {"rms_mt", to_json(fit.rms)},
+            {"rms_mt", to_list(fit.rms)},
             {"rms_abs_mt", fit.total_rms},
             {"worst_mt", fit.worst},
             {"worst_line", worst.line},
-            {"worst_at_um", to_json(worst.position)},
+            {"worst_at_um", to_list(worst.position)},
             {"field_error_mt_per_a", to_rows(fit.field_errors)},
             {"largest_error", nullptr}};
-  if (const auto error = largest_error(fit)) json["largest_error"] = error->share;
+  if (const auto error = actuation::largest_error(fit)) json["largest_error"] = error->share;
   if (of.uniform) {
     json["centre_um"] = fit.coils.centre;
     json["gradient_t_per_m_per_a"] = fit.coils.gradient;
     json["gradient_error_t_per_m_per_a"] = to_rows(fit.gradient_errors);
     json["offset_gradient_t_per_m"] = fit.coils.offset_gradient;
-    json["rms_without_gradients_mt"] = to_json(of.uniform->rms);
+    json["rms_without_gradients_mt"] = to_list(of.uniform->rms);
   }
   cli::print("{}\n", json.dump(2));
 }
 
 void tell_gradients(const Calibration& of) {
   constexpr std::array<const char*, 5> names{"dBx/dx", "dBx/dy", "dBx/dz", "dBy/dy", "dBy/dz"};
-  const FittedMatrix& fit = of.fit;
+  const actuation::FittedMatrix& fit = of.fit;
   cli::print("fields and gradients are those at ({:.6g}) µm\n", fmt::join(fit.coils.centre, ", "));
   for (std::size_t k = 0; k < 5; ++k)
     cli::print("  {} = {:.6g} T/m/A, without current {:.6g} T/m\n", names[k],
@@ -82,8 +82,8 @@ void tell_gradients(const Calibration& of) {
 }
 
 void tell(const Calibration& of) {
-  const FittedMatrix& fit = of.fit;
-  const FieldMeasurement& worst = of.measured.rows[fit.worst_row];
+  const actuation::FittedMatrix& fit = of.fit;
+  const actuation::FieldMeasurement& worst = of.measured.rows[fit.worst_row];
   cli::print("{} measurements of {} coils: {}\n", of.measured.rows.size(), of.measured.coils.size(),
              fmt::join(of.measured.coils, ", "));
   for (std::size_t k = 0; k < 3; ++k)
@@ -94,7 +94,7 @@ void tell(const Calibration& of) {
   cli::print("RMS residual {:.4g} mT; the worst is {:.4g} mT, line {}, at {} µm\n", fit.total_rms,
              fit.worst, worst.line, triple_text(worst.position));
   if (fit.freedom == 0) return;
-  if (const auto error = largest_error(fit))
+  if (const auto error = actuation::largest_error(fit))
     cli::print("standard errors of the fields: at most {:.2g} % of a coil's, that of {}\n",
                100 * error->share, fit.coils.names[error->coil]);
   if (of.uniform)
@@ -102,20 +102,24 @@ void tell(const Calibration& of) {
                fit.gradient_errors.maxCoeff());
 }
 
-Calibration fit_file(const std::string& file, const FitOptions& options) {
-  Calibration of{
-      .measured = read_measurements(file), .fit = {}, .uniform = {}, .rms_with_gradients = {}};
-  of.fit = fit_matrix(of.measured, options);
-  require_effects(of.measured, of.fit);
-  const FitOptions other{.offset = options.offset, .gradients = !options.gradients, .centre = {}};
+Calibration fit_file(const std::string& file, const actuation::FitOptions& options) {
+  Calibration of{.measured = actuation::read_measurements(file),
+                 .fit = {},
+                 .uniform = {},
+                 .rms_with_gradients = {}};
+  of.fit = actuation::fit_matrix(of.measured, options);
+  actuation::require_effects(of.measured, of.fit);
+  const actuation::FitOptions other{
+      .offset = options.offset, .gradients = !options.gradients, .centre = {}};
   if (options.gradients)
-    of.uniform = fit_matrix(of.measured, other);
-  else if (determines_gradients(of.measured, options))
-    of.rms_with_gradients = fit_matrix(of.measured, other).total_rms;
+    of.uniform = actuation::fit_matrix(of.measured, other);
+  else if (actuation::determines_gradients(of.measured, options))
+    of.rms_with_gradients = actuation::fit_matrix(of.measured, other).total_rms;
   return of;
 }
 
-int fit_and_tell(const CalibrateOptions& o, const FitOptions& options, CoilSystemParams system) {
+int fit_and_tell(const CalibrateOptions& o, const actuation::FitOptions& options,
+                 actuation::CoilSystemParams system) {
   const Calibration of = reading([&] { return fit_file(o.measured, options); });
   system.coils = of.fit.coils;
   if (!o.out.empty()) {
@@ -139,12 +143,14 @@ int fit_and_tell(const CalibrateOptions& o, const FitOptions& options, CoilSyste
 
 int calibrate(const CalibrateOptions& o, const Context& context) {
   keep_input(o.out, o.measured);
-  CoilSystemParams system;
+  actuation::CoilSystemParams system;
   system.name = std::filesystem::path(o.measured).stem().string();
-  FitOptions options{.offset = o.offset, .gradients = o.gradients, .centre = {}};
+  actuation::FitOptions options{.offset = o.offset, .gradients = o.gradients, .centre = {}};
   if (!o.centre.empty()) options.centre = parse_triple(o.centre);
   if (!o.measure.rig.empty()) {
-    const Rig rig = reading([&] { return read_rig(o.measure.rig, {o.measure.settings, "--set"}); });
+    const rig::Rig rig = reading([&] {
+      return rig::read_rig(o.measure.rig, {o.measure.settings, "--set"});
+    });
     keep_input(o.out, o.measure.rig);
     const std::filesystem::path coils = rig.folder / rig.params.coils;
     keep_input(o.out, coils.string());
@@ -153,7 +159,7 @@ int calibrate(const CalibrateOptions& o, const Context& context) {
       return code;
     if (!rig.system.name().empty()) system.name = rig.system.name();
     // Drives of the file, since the rig's are limited by the driver's full scale too.
-    system.amplifiers = read_coil_system(coils).amplifiers();
+    system.amplifiers = actuation::read_coil_system(coils).amplifiers();
   }
   return fit_and_tell(o, options, std::move(system));
 }

@@ -13,33 +13,33 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json to_json(const ListedCamera& camera) {
+Json to_json(const vision::ListedCamera& camera) {
   Json json{{"device", camera.device}, {"model", camera.model}, {"formats", Json::array()}};
-  for (const ListedFormat& format : camera.formats)
+  for (const vision::ListedFormat& format : camera.formats)
     json["formats"].push_back(
         {{"name", format.name}, {"readable", format.readable}, {"sizes", format.sizes}});
   if (!camera.trouble.empty()) json["trouble"] = camera.trouble;
   return json;
 }
 
-void tell(const ListedCamera& camera) {
+void tell(const vision::ListedCamera& camera) {
   print("{}  {}\n", camera.device, camera.model);
   if (!camera.trouble.empty()) print("  {}\n", camera.trouble);
-  for (const ListedFormat& format : camera.formats)
+  for (const vision::ListedFormat& format : camera.formats)
     print("  {:<10} {}{}\n", format.name, format.sizes, format.readable ? "" : "  (not read)");
 }
 
 int cameras(bool as_json) {
-  const std::vector<ListedCamera> list = list_cameras();
+  const std::vector<vision::ListedCamera> list = vision::list_cameras();
   if (as_json) {
-    Json json{{"genicam", has_genicam()}, {"cameras", Json::array()}};
-    for (const ListedCamera& camera : list) json["cameras"].push_back(to_json(camera));
+    Json json{{"genicam", vision::has_genicam()}, {"cameras", Json::array()}};
+    for (const vision::ListedCamera& camera : list) json["cameras"].push_back(to_json(camera));
     print("{}\n", json.dump(2));
     return ok;
   }
-  for (const ListedCamera& camera : list) tell(camera);
+  for (const vision::ListedCamera& camera : list) tell(camera);
   if (list.empty()) print("no camera was found\n");
-  if (!has_genicam()) note("note: this build has no GenICam cameras\n");
+  if (!vision::has_genicam()) note("note: this build has no GenICam cameras\n");
   return ok;
 }
 

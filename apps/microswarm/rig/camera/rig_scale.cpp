@@ -38,7 +38,7 @@ struct ScaleOptions {
 
 /// The key `scale` of a rig file.
 struct ScalePiece {
-  CameraScale scale;
+  vision::CameraScale scale;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.scale, plain("scale", "Position and scale of the camera in the world."));
@@ -58,11 +58,11 @@ std::optional<Vec2> chosen_origin(const ScaleOptions& o) {
 
 /// A scale and, from a grid, the lens distortion.
 struct FoundScale {
-  FittedScale fit;
-  std::optional<LensDistortion> lens;
+  vision::FittedScale fit;
+  std::optional<vision::LensDistortion> lens;
 };
 
-FoundScale from_points(const ScaleOptions& o, const Image& picture) {
+FoundScale from_points(const ScaleOptions& o, const formats::Image& picture) {
   if (!o.distance) throw InputError("rig scale: --points needs --distance");
   const std::vector<double> v = numbers(o.points);
   const Vec2 a{v[0], v[1]}, b{v[2], v[3]};
@@ -70,36 +70,38 @@ FoundScale from_points(const ScaleOptions& o, const Image& picture) {
     if (p.x < -0.5 || p.y < -0.5 || p.x > picture.width - 0.5 || p.y > picture.height - 0.5)
       throw InputError(fmt::format("--points: {:.6g},{:.6g} is outside {}, which is {} × {} px",
                                    p.x, p.y, o.picture, picture.width, picture.height));
-  const CameraScale scale =
-      scale_of_distance(a, b, *o.distance, picture.height, chosen_origin(o), !o.mirrored);
+  const vision::CameraScale scale =
+      vision::scale_of_distance(a, b, *o.distance, picture.height, chosen_origin(o), !o.mirrored);
   return {.fit = {.scale = scale, .residuals = {}}, .lens = {}};
 }
 
-FoundScale from_grid(const ScaleOptions& o, const Image& picture) {
+FoundScale from_grid(const ScaleOptions& o, const formats::Image& picture) {
   if (!o.pitch) throw InputError("rig scale: --grid needs --pitch");
-  GridParams params{.pattern = *enum_value<GridPattern>(o.pattern), .pitch = *o.pitch};
+  vision::GridParams params{.pattern = *enum_value<vision::GridPattern>(o.pattern),
+                            .pitch = *o.pitch};
   int used = 0;
   if (std::sscanf(o.grid.c_str(), "%dx%d%n", &params.columns, &params.rows, &used) != 2 ||
       used != std::ssize(o.grid) || params.columns < 2 || params.rows < 2 ||
       params.columns > 1000 || params.rows > 1000)
     throw InputError("--grid: must be COLUMNSxROWS, 2 to 1000 each, not " + quote(o.grid));
-  std::vector<ScalePoint> points;
+  std::vector<vision::ScalePoint> points;
   try {
-    points = find_grid(picture, params);
+    points = vision::find_grid(picture, params);
   } catch (const InputError& error) {
     throw InputError(error.issues().placed_in(o.picture));
   }
   if (o.mirrored)  // the grid is mirrored, too
-    for (ScalePoint& p : points) p.position.y = (params.rows - 1) * params.pitch - p.position.y;
-  FittedScale fit = fit_scale(points, !o.mirrored);
+    for (vision::ScalePoint& p : points)
+      p.position.y = (params.rows - 1) * params.pitch - p.position.y;
+  vision::FittedScale fit = vision::fit_scale(points, !o.mirrored);
   if (fit.worst > 0.25 * params.pitch)
     throw InputError(fmt::format("{}: a point is {:.3g} µm off a grid of {:.6g} µm", o.picture,
                                  fit.worst, params.pitch));
   if (const auto origin = chosen_origin(o)) fit.scale.origin_px = *origin;
-  return {fit, fit_distortion(points, !o.mirrored, picture.width, picture.height)};
+  return {fit, vision::fit_distortion(points, !o.mirrored, picture.width, picture.height)};
 }
 
-Json json_of_lens(const LensDistortion& lens) {
+Json json_of_lens(const vision::LensDistortion& lens) {
   return {{"k1", lens.k1},
           {"corner_shift_px", lens.shift_px},
           {"standard_deviation_px", lens.deviation_px},
@@ -108,7 +110,7 @@ Json json_of_lens(const LensDistortion& lens) {
           {"found", lens.is_found()}};
 }
 
-void tell_lens(const LensDistortion& lens) {
+void tell_lens(const vision::LensDistortion& lens) {
   if (!lens.is_found()) {
     print("# no lens distortion stands out: {:.2g} ± {:.2g} px in the corners\n", lens.shift_px,
           lens.deviation_px);
@@ -122,7 +124,7 @@ void tell_lens(const LensDistortion& lens) {
       lens.error_px, lens.rms);
 }
 
-Image picture_for(const ScaleOptions& o) {
+formats::Image picture_for(const ScaleOptions& o) {
   return take_picture(o.picture, find_camera(o.picture, o.rig, o.settings));
 }
 
@@ -130,9 +132,9 @@ int scale(const ScaleOptions& o) {
   for (const std::string& input : {o.picture, o.rig}) keep_input(o.out, input);
   if (o.points.empty() == o.grid.empty())
     throw InputError("rig scale: give either --points or --grid");
-  const Image picture = picture_for(o);
+  const formats::Image picture = picture_for(o);
   const auto [fit, lens] = o.grid.empty() ? from_points(o, picture) : from_grid(o, picture);
-  const CameraScale& s = fit.scale;
+  const vision::CameraScale& s = fit.scale;
   const std::string yaml = to_yaml(ScalePiece{s});
   if (!o.out.empty()) write_file_atomically(o.out, yaml);
   if (o.json) {
@@ -174,7 +176,7 @@ void add_rig_scale(Command rig, Action& action) {
       .type_name("FILE");
   cmd.add_option("--rig", o->rig, "Use the camera's settings of this rig (YAML)").type_name("FILE");
   add_settings(cmd, o->settings, "Override a setting of the camera, e.g. width_px=1280",
-               type_of<CameraParams>);
+               type_of<vision::CameraParams>);
   const Option points =
       cmd.add_option("--points", o->points, "Two points in the picture in px, y down")
           .type_name("X1,Y1,X2,Y2")

@@ -25,9 +25,9 @@ using Json = nlohmann::ordered_json;
 
 /// Keys of `--config` and `--set`.
 struct SeeSettings {
-  AnyCameraParams camera;
-  SceneParams scene;
-  WallParams walls;
+  vision::AnyCameraParams camera;
+  vision::SceneParams scene;
+  vision::WallParams walls;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.camera, plain("camera", "Camera from which a picture is taken."));
@@ -48,15 +48,15 @@ struct SeeOptions {
 };
 
 /// Reads a picture of the same scene. Throws InputError if its size differs.
-Image read_still(const std::string& file, const Image& picture) {
-  Image still = read_photograph(file);
+formats::Image read_still(const std::string& file, const formats::Image& picture) {
+  formats::Image still = formats::read_photograph(file);
   if (still.width != picture.width || still.height != picture.height)
     throw InputError(fmt::format("{}: is {} × {} px, the picture is {} × {} px", file, still.width,
                                  still.height, picture.width, picture.height));
   return still;
 }
 
-Json to_json(const Blob& b) {
+Json to_json(const vision::Blob& b) {
   return {{"centre_px", {b.centre_px.x, b.centre_px.y}},
           {"radius_px", b.radius_px},
           {"semi_axes_px", {b.semi_major_px, b.semi_minor_px}},
@@ -66,7 +66,7 @@ Json to_json(const Blob& b) {
           {"is_cut", b.is_cut}};
 }
 
-std::string to_text(const Blob& b) {
+std::string to_text(const vision::Blob& b) {
   return fmt::format(
       "({:.2f}, {:.2f}) px, radius {:.2f} px, axes {:.1f} and {:.1f} px, contrast "
       "{:.0f}, texture {:.1f}{}",
@@ -74,15 +74,15 @@ std::string to_text(const Blob& b) {
       b.texture, b.is_cut ? ", cut" : "");
 }
 
-Json to_json(const NotSwarm& no) {
+Json to_json(const vision::NotSwarm& no) {
   Json json = to_json(no.blob);
   json["criterion"] = enum_name(no.criterion);
-  if (no.criterion != SwarmCriterion::tone) {
+  if (no.criterion != vision::SwarmCriterion::tone) {
     json["value"] = no.value;
     json["limit"] = no.limit;
   }
   json["key"] = no.key;
-  json["reason"] = reason(no);
+  json["reason"] = vision::reason(no);
   return json;
 }
 
@@ -90,9 +90,9 @@ Json to_json(const NotSwarm& no) {
 SeeSettings to_settings(const SeeOptions& o) {
   SeeSettings settings;
   if (!o.rig.empty()) {
-    const Rig rig = read_rig(o.rig);
+    const rig::Rig rig = rig::read_rig(o.rig);
     settings.scene = rig.params.perception.scene;
-    settings.camera = device_camera(rig.params).value_or(settings.camera);
+    settings.camera = rig::device_camera(rig.params).value_or(settings.camera);
   }
   settings.camera = camera_for(o.picture, settings.camera);
   if (o.config.empty()) {
@@ -107,26 +107,26 @@ SeeSettings to_settings(const SeeOptions& o) {
 
 /// A scenario and its position in the camera's picture.
 struct Overlay {
-  Experiment experiment;
-  CameraScale scale;
-  PerceptionParams perception;
+  experiment::Experiment experiment;
+  vision::CameraScale scale;
+  rig::PerceptionParams perception;
 };
 
 std::optional<Overlay> read_overlay(const SeeOptions& o) {
   if (o.scenario.empty()) return std::nullopt;
   if (o.out.empty() || o.rig.empty())
     throw InputError("rig see: --scenario needs --rig, whose scale it takes, and --out");
-  const Rig rig = read_rig(o.rig);
+  const rig::Rig rig = rig::read_rig(o.rig);
   if (!rig.params.scale)
     throw rig.keys.error("scale", "`scale` is missing, see `microswarm rig scale`");
-  return Overlay{reading([&] { return open_experiment(o.scenario); }), *rig.params.scale,
-                 rig.params.perception};
+  return Overlay{reading([&] { return experiment::open_experiment(o.scenario); }),
+                 *rig.params.scale, rig.params.perception};
 }
 
-void draw_overlay(Image& shown, const Overlay& over) {
-  const Scenario& scenario = over.experiment.scenario();
-  draw_scenario(shown, scenario, *over.experiment.world.map, over.scale);
-  const std::vector<Vec2> positions = robot_positions(scenario);
+void draw_overlay(formats::Image& shown, const Overlay& over) {
+  const experiment::Scenario& scenario = over.experiment.scenario();
+  rig::draw_scenario(shown, scenario, *over.experiment.world.map, over.scale);
+  const std::vector<Vec2> positions = rig::robot_positions(scenario);
   const auto outside = std::ranges::count_if(positions, [&](Vec2 position) {
     const Vec2 at = over.scale.to_picture(position);
     return at.x < -0.5 || at.y < -0.5 || at.x > shown.width - 0.5 || at.y > shown.height - 0.5;
@@ -142,27 +142,27 @@ std::optional<Vec2> start_position(const std::optional<Overlay>& over) {
 }
 
 /// Size that a smooth swarm must have.
-SwarmPrior swarm_prior(const std::optional<Overlay>& over) {
+vision::SwarmPrior swarm_prior(const std::optional<Overlay>& over) {
   if (!start_position(over)) return {};
-  return expected_swarm(swarm_limits(over->experiment.scenario().swarm), over->perception,
-                        over->scale);
+  return rig::expected_swarm(swarm_limits(over->experiment.scenario().swarm), over->perception,
+                             over->scale);
 }
 
 /// Description of a picture's detections.
 struct Told {
-  SeenScene scene;
-  std::vector<NotSwarm> not_swarm;
+  vision::SeenScene scene;
+  std::vector<vision::NotSwarm> not_swarm;
   std::optional<Vec2> start_px;
   double um_per_px = 1;
   double contrast_limit = 0;
 
   /// Distance from the start, as text.
-  std::string off(const Blob& b) const {
+  std::string off(const vision::Blob& b) const {
     if (!start_px) return {};
     const double off = distance(b.centre_px, *start_px);
     return fmt::format(", {:.0f} px ({:.4g} µm) from the start", off, off * um_per_px);
   }
-  Json with_distance(Json json, const Blob& b) const {
+  Json with_distance(Json json, const vision::Blob& b) const {
     if (start_px) json["distance_from_start_um"] = distance(b.centre_px, *start_px) * um_per_px;
     return json;
   }
@@ -174,11 +174,11 @@ std::string json_text(const Told& told) {
             {"candidates", Json::array()},
             {"not_swarm", Json::array()},
             {"obstacles", Json::array()}};
-  for (const Blob& b : told.scene.swarm.candidates)
+  for (const vision::Blob& b : told.scene.swarm.candidates)
     json["candidates"].push_back(told.with_distance(to_json(b), b));
-  for (const NotSwarm& no : told.not_swarm)
+  for (const vision::NotSwarm& no : told.not_swarm)
     json["not_swarm"].push_back(told.with_distance(to_json(no), no.blob));
-  for (const SeenObstacle& b : told.scene.obstacles) {
+  for (const vision::SeenObstacle& b : told.scene.obstacles) {
     json["obstacles"].push_back(to_json(b.blob));
     json["obstacles"].back()["shape"] = b.disc ? "disc" : "polygon";
   }
@@ -187,10 +187,11 @@ std::string json_text(const Told& told) {
 
 void tell(const Told& told) {
   print("swarm: {}\n", enum_name(told.scene.swarm.sight));
-  for (const Blob& b : told.scene.swarm.candidates) print("  {}{}\n", to_text(b), told.off(b));
+  for (const vision::Blob& b : told.scene.swarm.candidates)
+    print("  {}{}\n", to_text(b), told.off(b));
   print("not the swarm: {}\n", told.not_swarm.size());
-  for (const NotSwarm& no : told.not_swarm)
-    print("  {}: {}{}\n", reason(no), to_text(no.blob), told.off(no.blob));
+  for (const vision::NotSwarm& no : told.not_swarm)
+    print("  {}: {}{}\n", vision::reason(no), to_text(no.blob), told.off(no.blob));
   if (told.not_swarm.empty() && told.scene.swarm.candidates.empty())
     print(
         "  nothing has a contrast above {:.1f}: `min_contrast` or five times the background's "
@@ -198,7 +199,7 @@ void tell(const Told& told) {
         "(stripes, or a swarm on half of the view or more, widen it)\n",
         told.contrast_limit);
   print("obstacles: {}\n", told.scene.obstacles.size());
-  for (const SeenObstacle& b : told.scene.obstacles)
+  for (const vision::SeenObstacle& b : told.scene.obstacles)
     print("  {} {}\n", b.disc ? "disc" : "polygon", to_text(b.blob));
 }
 
@@ -221,23 +222,23 @@ int see(const SeeOptions& o) {
   issues.add(validate(settings.scene.obstacles));
   KeyLocations().require_none(issues);
   const std::optional<Overlay> over = read_overlay(o);
-  const Image picture = take_picture(o.picture, settings.camera);
-  std::optional<Mask> walls;
-  if (!o.still.empty()) walls = find_walls(read_still(o.still, picture), settings.walls);
-  const Mask* hidden = walls ? &*walls : nullptr;
-  const SceneParams& params = settings.scene;
-  const SwarmPrior prior = swarm_prior(over);
-  Told told{.scene = find_scene(picture, params, prior, hidden),
+  const formats::Image picture = take_picture(o.picture, settings.camera);
+  std::optional<formats::Mask> walls;
+  if (!o.still.empty()) walls = vision::find_walls(read_still(o.still, picture), settings.walls);
+  const formats::Mask* hidden = walls ? &*walls : nullptr;
+  const vision::SceneParams& params = settings.scene;
+  const vision::SwarmPrior prior = swarm_prior(over);
+  Told told{.scene = vision::find_scene(picture, params, prior, hidden),
             .not_swarm = {},
             .start_px = start_position(over),
             .um_per_px = over ? over->scale.um_per_px : 1,
             .contrast_limit = contrast_limit(picture, params.swarm.look, hidden)};
-  told.not_swarm = why_not_swarm(told.scene, picture, params, prior, hidden);
+  told.not_swarm = vision::why_not_swarm(told.scene, picture, params, prior, hidden);
   if (!o.out.empty()) {
-    Image shown = draw_scene(picture, told.scene, hidden);
-    draw_reasons(shown, told.not_swarm);
+    formats::Image shown = vision::draw_scene(picture, told.scene, hidden);
+    vision::draw_reasons(shown, told.not_swarm);
     if (over) draw_overlay(shown, *over);
-    write_png(o.out, shown);
+    formats::write_png(o.out, shown);
   }
   note_far(told, params.swarm.jump);
   if (o.json) {
@@ -246,7 +247,7 @@ int see(const SeeOptions& o) {
     tell(told);
     if (!o.out.empty()) print("wrote {}\n", o.out);
   }
-  return told.scene.swarm.sight == SwarmSight::found ? ok : not_reached;
+  return told.scene.swarm.sight == vision::SwarmSight::found ? ok : not_reached;
 }
 
 }  // namespace

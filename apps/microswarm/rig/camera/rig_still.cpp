@@ -20,8 +20,8 @@ struct StillOptions {
 int still(const StillOptions& o) {
   if (!is_camera(o.camera)) throw InputError(o.camera + ": is no " + camera_names);
   keep_input(o.out, o.rig);
-  const Image picture = take_picture(o.camera, find_camera(o.camera, o.rig, o.settings));
-  write_png(o.out, picture);
+  const formats::Image picture = take_picture(o.camera, find_camera(o.camera, o.rig, o.settings));
+  formats::write_png(o.out, picture);
   print("wrote {}: {} × {} px, {}\n", o.out, picture.width, picture.height,
         picture.channels == 1 ? "grey" : "in colours");
   return ok;
@@ -37,7 +37,8 @@ void add_rig_still(Command rig, Action& action) {
       .required()
       .type_name("FILE");
   cmd.add_option("--rig", o->rig, "Use the camera's settings of this rig (YAML)").type_name("FILE");
-  add_settings(cmd, o->settings, "Override a setting, e.g. exposure_ms=5", type_of<CameraParams>);
+  add_settings(cmd, o->settings, "Override a setting, e.g. exposure_ms=5",
+               type_of<vision::CameraParams>);
   cmd.add_option("--out", o->out, "File to write (PNG)")
       .type_name("FILE")
       .check(file_kind({".png"}));

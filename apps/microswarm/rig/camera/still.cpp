@@ -22,32 +22,33 @@ bool is_camera(const std::string& source) {
   return source.starts_with("/dev/") || is_genicam(source);
 }
 
-AnyCameraParams camera_for(const std::string& source, const AnyCameraParams& given) {
+vision::AnyCameraParams camera_for(const std::string& source,
+                                   const vision::AnyCameraParams& given) {
   if (!is_camera(source)) return given;
-  AnyCameraParams camera = given;
+  vision::AnyCameraParams camera = given;
   if (is_genicam(source)) {
-    if (!std::holds_alternative<GenicamParams>(camera)) camera = GenicamParams{};
-    std::get<GenicamParams>(camera).device = source.substr(genicam.size());
+    if (!std::holds_alternative<vision::GenicamParams>(camera)) camera = vision::GenicamParams{};
+    std::get<vision::GenicamParams>(camera).device = source.substr(genicam.size());
   } else {
-    if (!std::holds_alternative<CameraParams>(camera)) camera = CameraParams{};
-    std::get<CameraParams>(camera).device = source;
+    if (!std::holds_alternative<vision::CameraParams>(camera)) camera = vision::CameraParams{};
+    std::get<vision::CameraParams>(camera).device = source;
   }
   return camera;
 }
 
-AnyCameraParams find_camera(const std::string& source, const std::string& rig,
-                            const std::vector<std::string>& settings) {
-  AnyCameraParams given;
-  if (!rig.empty()) given = device_camera(read_rig(rig).params).value_or(given);
-  AnyCameraParams camera = camera_for(source, given);
+vision::AnyCameraParams find_camera(const std::string& source, const std::string& rig,
+                                    const std::vector<std::string>& settings) {
+  vision::AnyCameraParams given;
+  if (!rig.empty()) given = rig::device_camera(rig::read_rig(rig).params).value_or(given);
+  vision::AnyCameraParams camera = camera_for(source, given);
   std::visit([&](auto& params) { note_each(set_values(params, settings)); }, camera);
   return camera;
 }
 
-Image take_picture(const std::string& source, const AnyCameraParams& camera) {
-  if (!is_camera(source)) return read_photograph(source);
-  NewestFrame live = live_camera(camera_for(source, camera));
-  LiveFrame frame;
+formats::Image take_picture(const std::string& source, const vision::AnyCameraParams& camera) {
+  if (!is_camera(source)) return formats::read_photograph(source);
+  vision::NewestFrame live = vision::live_camera(camera_for(source, camera));
+  vision::LiveFrame frame;
   const double began = steady_seconds();
   while (live.wait(frame, 0.5) || steady_seconds() < began + 10)
     if (frame.frame.index > 0 && steady_seconds() > began + 1) return frame.frame.picture;

@@ -18,14 +18,14 @@ bool is_camera(const std::string& source);
 
 /// Settings to open a source: `given` if they are for its kind of camera or the source is a file,
 /// otherwise the defaults of its kind.
-AnyCameraParams camera_for(const std::string& source, const AnyCameraParams& given);
+vision::AnyCameraParams camera_for(const std::string& source, const vision::AnyCameraParams& given);
 
 /// The same with the camera of a rig file, if one is named, and settings by --set.
-AnyCameraParams find_camera(const std::string& source, const std::string& rig,
-                            const std::vector<std::string>& settings = {});
+vision::AnyCameraParams find_camera(const std::string& source, const std::string& rig,
+                                    const std::vector<std::string>& settings = {});
 
 /// Picture from a file, or from a camera with these settings after settling for one second. Throws
 /// InputError or HardwareError.
-Image take_picture(const std::string& source, const AnyCameraParams& camera);
+formats::Image take_picture(const std::string& source, const vision::AnyCameraParams& camera);
 
 }  // namespace microswarm::cli

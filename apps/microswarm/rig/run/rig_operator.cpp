@@ -8,7 +8,7 @@
 
 namespace microswarm::cli {
 
-RigOperator::RigOperator(LiveSession& session) : operation_(*session.session().operation()) {}
+RigOperator::RigOperator(rig::LiveSession& session) : operation_(*session.session().operation()) {}
 
 void RigOperator::press(const Key& key) {
   switch (key.kind) {

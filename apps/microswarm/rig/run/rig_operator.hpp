@@ -15,7 +15,7 @@ class RigOperator {
       "; q: end, p: pause, m: by hand with the arrow keys, + and -: speed";
 
   /// The session must outlive the operator.
-  explicit RigOperator(LiveSession& session);
+  explicit RigOperator(rig::LiveSession& session);
   /// To be called from one thread.
   void press(const Key& key);
 
@@ -23,7 +23,7 @@ class RigOperator {
   void press(char key);
   void steer(double degrees);
 
-  Operation& operation_;
+  experiment::Operation& operation_;
   double share_ = 0.5;  // share of the swarm's maximum speed
 };
 

@@ -20,15 +20,15 @@
 namespace microswarm::cli {
 namespace {
 
-void tell(const RigTiming& t) {
+void tell(const rig::RigTiming& t) {
   print("  latency   p50 / p95 / p99\n");
-  print("    age of a frame   {}\n", quantiles(t.frame_age));
-  print("    vision           {}\n", quantiles(t.vision));
-  print("    tick             {} (vision and navigator)\n", quantiles(t.tick));
-  print("    currents late    {}\n", quantiles(t.coil_late));
-  print("    camera to current {}, longest {:.1f} ms\n", quantiles(t.camera_to_current),
+  print("    age of a frame   {}\n", rig::quantiles(t.frame_age));
+  print("    vision           {}\n", rig::quantiles(t.vision));
+  print("    tick             {} (vision and navigator)\n", rig::quantiles(t.tick));
+  print("    currents late    {}\n", rig::quantiles(t.coil_late));
+  print("    camera to current {}, longest {:.1f} ms\n", rig::quantiles(t.camera_to_current),
         1e3 * t.camera_to_current.longest());
-  print("    coil driver      {}\n", quantiles(t.round_trip));
+  print("    coil driver      {}\n", rig::quantiles(t.round_trip));
   print("  {} ticks, {} missed their deadline; {} frames read, {} dropped\n", t.tick.count(),
         t.missed_deadlines, t.frames, t.dropped_frames);
   if (t.late_currents > 0)
@@ -44,7 +44,8 @@ void tell(const RigTiming& t) {
   if (t.resumed > 0) print("  the coils had switched off by themselves {} times\n", t.resumed);
 }
 
-nlohmann::ordered_json timing_json(const RigTiming& t, const std::optional<RecordedVideo>& video) {
+nlohmann::ordered_json timing_json(const rig::RigTiming& t,
+                                   const std::optional<vision::RecordedVideo>& video) {
   const auto ms = [](const Durations& d) {
     return nlohmann::ordered_json{{"p50_ms", 1e3 * d.quantile(0.5)},
                                   {"p95_ms", 1e3 * d.quantile(0.95)},
@@ -82,7 +83,7 @@ nlohmann::ordered_json timing_json(const RigTiming& t, const std::optional<Recor
 }
 
 /// Warns on stderr if the connection or the computer is too slow for the field.
-void note_pace(const RigTiming& t, double seconds, const RigParams& rig) {
+void note_pace(const rig::RigTiming& t, double seconds, const rig::RigParams& rig) {
   const double rate = static_cast<double>(t.round_trip.count()) / std::max(seconds, 1e-3);
   if (seconds < 1 || rate >= 0.8 * rig.drive_rate) return;
   note(
@@ -92,7 +93,7 @@ void note_pace(const RigTiming& t, double seconds, const RigParams& rig) {
 }
 
 /// Warns on stderr if the swarm moves in another direction than commanded.
-void note_direction(const RigTiming& t) {
+void note_direction(const rig::RigTiming& t) {
   constexpr double turned = 8 * pi / 180;  // smaller angles are corrected by the navigator
   constexpr double certain = 3;            // standard deviations
   if (!t.direction || std::abs(t.direction->angle) < turned ||
@@ -106,7 +107,7 @@ void note_direction(const RigTiming& t) {
 }
 
 /// Warns on stderr if the limits of the coils or of the device weakened the field.
-void note_limits(const RigTiming& t) {
+void note_limits(const rig::RigTiming& t) {
   if (t.unmade > 0)
     note(
         "note: these coils cannot make the field in {} of {} outputs, see `microswarm rig "
@@ -124,11 +125,11 @@ void note_limits(const RigTiming& t) {
 
 /// Reports during the run that the coils had switched off by themselves or that the device weakens
 /// their currents; the latter once as long as it lasts or soon recurs.
-class DeviceNotes : public RunListener {
+class DeviceNotes : public experiment::RunListener {
  public:
-  explicit DeviceNotes(const LiveRig& rig) : rig_(rig) {}
-  void on_tick(const Tick& tick) override {
-    const DeviceEvents device = rig_.device_events();
+  explicit DeviceNotes(const rig::LiveRig& rig) : rig_(rig) {}
+  void on_tick(const experiment::Tick& tick) override {
+    const rig::DeviceEvents device = rig_.device_events();
     if (device.resumed > resumed_)
       note("note: the coils had switched off by themselves; armed again\n");
     resumed_ = device.resumed;
@@ -143,7 +144,7 @@ class DeviceNotes : public RunListener {
  private:
   static constexpr double quiet = 10;  // [s] without weakening, after which it is reported again
 
-  const LiveRig& rig_;
+  const rig::LiveRig& rig_;
   int resumed_ = 0;
   int weakened_ = 0;
   double weakened_at_ = -infinity;  // [s]
@@ -155,7 +156,7 @@ void require_new(const std::filesystem::path& folder, const std::filesystem::pat
   if (!folder.empty())
     for (const char* name : {"run.h5", "commands.csv", "commands.csv.part"})
       files.push_back(folder / name);
-  if (!video.empty()) files.insert(files.end(), {video, VideoRecorder::times_file(video)});
+  if (!video.empty()) files.insert(files.end(), {video, vision::VideoRecorder::times_file(video)});
   for (const std::filesystem::path& file : files)
     if (std::error_code none; std::filesystem::exists(file, none))
       throw InputError(
@@ -164,13 +165,13 @@ void require_new(const std::filesystem::path& folder, const std::filesystem::pat
                       file.string()));
 }
 
-void tell(const RecordedVideo& video) {
+void tell(const vision::RecordedVideo& video) {
   print("  video: {} frames in {}, {} dropped\n", video.frames, video.file.string(), video.dropped);
 }
 
-void note_virtual_obstacles(const RigExperiment& on) {
+void note_virtual_obstacles(const rig::RigExperiment& on) {
   const std::size_t count = on.scenario().obstacles.size();
-  if (count == 0 || camera_kind(on.rig.params) == CameraKind::simulated) return;
+  if (count == 0 || rig::camera_kind(on.rig.params) == rig::CameraKind::simulated) return;
   if (on.rig.params.virtual_obstacles)
     note("note: {} obstacles of the scenario are virtual: avoided and recorded\n", count);
   else
@@ -178,8 +179,8 @@ void note_virtual_obstacles(const RigExperiment& on) {
 }
 
 /// Steps a session to its end with a status line.
-void drive(LiveSession& live, const Stop& stop) {
-  Session& session = live.session();
+void drive(rig::LiveSession& live, const Stop& stop) {
+  experiment::Session& session = live.session();
   DeviceNotes notes(live.live());
   session.listen(notes);
   note_oddities(session);
@@ -209,10 +210,10 @@ struct RigRunOptions {
 };
 
 /// Throws InputError unless driving the coils is intended and somebody can stop them.
-void require_person(const Rig& rig, const RigRunOptions& o) {
-  if (o.dry_run || !has_coil_device(rig)) return;
+void require_person(const rig::Rig& rig, const RigRunOptions& o) {
+  if (o.dry_run || !rig::has_coil_device(rig)) return;
   require_emergency_stop(o.coils);
-  if (shows_drawn_swarm(rig.params) && !o.drawn_swarm)
+  if (rig::shows_drawn_swarm(rig.params) && !o.drawn_swarm)
     throw rig.keys.error("camera",
                          "the camera is simulated and the coil driver is not: real coils would be "
                          "driven for a drawn swarm; for a test, run with --drawn-swarm");
@@ -220,7 +221,7 @@ void require_person(const Rig& rig, const RigRunOptions& o) {
 
 /// Runs a session to its end, operated by keys. Returns which data was lost, see
 /// LiveSession::close().
-std::string operate(LiveSession& session, bool drives_coils, std::optional<double> seconds,
+std::string operate(rig::LiveSession& session, bool drives_coils, std::optional<double> seconds,
                     const Context& context) {
   RigOperator person(session);
   const RigKeys keys([&] { session.stop("the emergency key was pressed"); },
@@ -233,28 +234,28 @@ std::string operate(LiveSession& session, bool drives_coils, std::optional<doubl
 int rig_run(const RigRunOptions& o, const Context& context) {
   std::vector<std::string> settings = o.settings;
   if (o.hold) settings.push_back("hold_at_goal_s=" + number_text(*o.hold));
-  const RigExperiment on =
-      reading([&] { return open_rig_experiment(o.scenario, settings, o.rig, o.rig_settings); });
+  const rig::RigExperiment on = reading(
+      [&] { return rig::open_rig_experiment(o.scenario, settings, o.rig, o.rig_settings); });
   note_each(on.experiment.keys.notes());
   note_field(on.rig, on.scenario());
   require_person(on.rig, o);
   if (!o.overwrite) require_new(o.out, o.video);
   const OutFolder hold(o.out);
-  set_picture_threads(1);
-  LiveSession live(on, {.dry = o.dry_run,
-                        .folder = o.out,
-                        .video = o.video,
-                        .without_limits = o.coils.without_limits,
-                        .coils_cold = o.coils.coils_cold,
-                        .note = o.note});
-  Session& session = live.session();
+  vision::set_picture_threads(1);
+  rig::LiveSession live(on, {.dry = o.dry_run,
+                             .folder = o.out,
+                             .video = o.video,
+                             .without_limits = o.coils.without_limits,
+                             .coils_cold = o.coils.coils_cold,
+                             .note = o.note});
+  experiment::Session& session = live.session();
   note_each(live.warnings());
   note_virtual_obstacles(on);
   if (o.dry_run) note("dry run: no current is sent to the coils\n");
   const auto growing = grow_record(session, o.out);
-  std::string lost = operate(live, has_coil_device(on.rig) && !o.dry_run, o.seconds, context);
-  const std::optional<RecordedVideo> video = live.video();
-  const RigTiming timing = live.live().timing();
+  std::string lost = operate(live, rig::has_coil_device(on.rig) && !o.dry_run, o.seconds, context);
+  const std::optional<vision::RecordedVideo> video = live.video();
+  const rig::RigTiming timing = live.live().timing();
   if (!lost.empty()) note("microswarm: {}\n", lost);
   if (video && !video->trouble.empty()) note("microswarm: {}\n", lost = video->trouble);
   const bool at_zero = note_zero(live.stop("the run has ended"));
@@ -290,7 +291,7 @@ void add_rig_run(Command rig, Action& action) {
   cmd.add_flag("--drawn-swarm", o->drawn_swarm, "Drive coils for a simulated camera's swarm");
   add_coil_options(cmd, o->coils);
   cmd.add_flag("--overwrite", o->overwrite, "Replace the experiment in the folder, or the video");
-  add_settings(cmd, o->settings, "Override a scenario value", type_of<Scenario>);
+  add_settings(cmd, o->settings, "Override a scenario value", type_of<experiment::Scenario>);
   add_rig_settings(cmd, "--set-rig", o->rig_settings);
   cmd.add_option("--seconds", o->seconds, "End so long after the first command")
       .type_name("SECONDS")

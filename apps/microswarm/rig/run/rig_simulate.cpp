@@ -61,7 +61,7 @@ std::vector<Pair> paired_values(const SimulateOptions& o) {
   return {{o.scenario, o.rig, o.settings, o.rig_settings}};
 }
 
-std::string time_text(const RunSummary& of) {
+std::string time_text(const rig::RunSummary& of) {
   return std::isnan(of.time) ? "–" : fmt::format("{:.1f}", of.time);
 }
 
@@ -69,17 +69,18 @@ int simulate_trials(const SimulateOptions& o, const Context& context) {
   if (o.scenario.empty() != o.rig.empty())
     throw InputError("rig simulate: a scenario and --rig go together");
   const std::vector<Pair> pairs = paired_values(o);
-  std::vector<RigExperiment> scenes;  // open all first, so that errors are reported before any run
+  std::vector<rig::RigExperiment>
+      scenes;  // open all first, so that errors are reported before any run
   scenes.reserve(pairs.size());
   for (const Pair& pair : pairs)
     scenes.push_back(
-        open_rig_experiment(pair.scenario, pair.settings, pair.rig, pair.rig_settings));
-  for (const RigExperiment& on : scenes) {
+        rig::open_rig_experiment(pair.scenario, pair.settings, pair.rig, pair.rig_settings));
+  for (const rig::RigExperiment& on : scenes) {
     note_field(on.rig, on.scenario());
-    simulated_camera(on.rig);
+    rig::simulated_camera(on.rig);
   }
   const OutFolder hold(o.out);
-  std::vector<ComparisonRow> rows;
+  std::vector<rig::ComparisonRow> rows;
   print("{:<42} {:>7}  {:^24}  {:^24}\n", "", "", "without a rig", "through the rig");
   print("{:<42} {:>7}  {:>7} {:>8} {:>7}  {:>7} {:>8} {:>7}\n", "scenario", "trials", "arrived",
         "contacts", "time s", "arrived", "contacts", "time s");
@@ -87,18 +88,18 @@ int simulate_trials(const SimulateOptions& o, const Context& context) {
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const Pair& pair = pairs[k];
     const std::filesystem::path file = pair.scenario;
-    std::vector<ComparedTrial> trials;
+    std::vector<rig::ComparedTrial> trials;
     {
       ProgressBar bar(file.stem().string());
-      trials = compare_with_rig(
+      trials = rig::compare_with_rig(
           scenes[k], o.trials, o.jobs, [&](double share) { bar.update(share); }, context.stop);
     }
     if (trials.empty()) break;  // interrupted
-    for (ComparisonRow& row : comparison_rows(trials, file.stem().string(),
-                                              fmt::format("{}", fmt::join(pair.settings, " "))))
+    for (rig::ComparisonRow& row : rig::comparison_rows(
+             trials, file.stem().string(), fmt::format("{}", fmt::join(pair.settings, " "))))
       rows.push_back(std::move(row));
-    const RunSummary kinematic = summarise(trials, &ComparedTrial::kinematic);
-    const RunSummary rig = summarise(trials, &ComparedTrial::rig);
+    const rig::RunSummary kinematic = summarise(trials, &rig::ComparedTrial::kinematic);
+    const rig::RunSummary rig = summarise(trials, &rig::ComparedTrial::rig);
     std::string name = file.stem().string();
     for (const std::string& setting : pair.settings)
       name += " " + setting.substr(setting.find('=') + 1);
@@ -110,7 +111,7 @@ int simulate_trials(const SimulateOptions& o, const Context& context) {
   }
   if (!o.out.empty()) {
     const std::filesystem::path table = std::filesystem::path(o.out) / "simulation.csv";
-    write_file_atomically(table, csv_table(rows));
+    write_file_atomically(table, io::csv_table(rows));
     print("wrote {}\n", table.string());
   }
   if (context.stop()) print("interrupted\n");
@@ -129,7 +130,7 @@ void add_rig_simulate(Command rig, Action& action) {
       .type_name("FILE")
       .default_text("a selection from the papers");
   cmd.add_option("--rig", o->rig, "Rig file (YAML)").type_name("FILE");
-  add_settings(cmd, o->settings, "Override a scenario value", type_of<Scenario>);
+  add_settings(cmd, o->settings, "Override a scenario value", type_of<experiment::Scenario>);
   add_rig_settings(cmd, "--set-rig", o->rig_settings);
   cmd.add_option("--trials", o->trials,
                  "Number of trials per scenario, each with its own random streams")

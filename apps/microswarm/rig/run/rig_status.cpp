@@ -19,7 +19,7 @@ struct Part {
   std::string text;
 };
 
-std::string state_text(const LiveStatus& s) {
+std::string state_text(const rig::LiveStatus& s) {
   const std::string state(enum_name(s.state));
   if (s.state == NavigatorState::manual)
     return s.command_speed > 0 ? fmt::format("manual {:.0f} µm/s", s.command_speed) : state;
@@ -27,20 +27,20 @@ std::string state_text(const LiveStatus& s) {
   return s.state == NavigatorState::arrived ? "at goal" : "at goal, " + state;
 }
 
-std::string swarm_text(const LiveStatus& s) {
+std::string swarm_text(const rig::LiveStatus& s) {
   if (s.unseen > 0) return fmt::format("{} of {} unseen", s.unseen, s.robots);
   if (!s.not_found) return "seen";
   switch (*s.not_found) {
-    case NotFound::several:
+    case rig::NotFound::several:
       return "unseen: several";
-    case NotFound::far:
+    case rig::NotFound::far:
       return "unseen: too far";
-    case NotFound::size:
+    case rig::NotFound::size:
       return "unseen: other size";
-    case NotFound::none:
-    case NotFound::split:
-    case NotFound::merged:
-    case NotFound::robots:
+    case rig::NotFound::none:
+    case rig::NotFound::split:
+    case rig::NotFound::merged:
+    case rig::NotFound::robots:
       break;
   }
   return "unseen";
@@ -61,7 +61,7 @@ std::string joined(const std::vector<Part>& parts, std::string_view between) {
   return line;
 }
 
-std::vector<Part> status_parts(const LiveStatus& s) {
+std::vector<Part> status_parts(const rig::LiveStatus& s) {
   std::vector<Part> parts{{1, fmt::format("{:.1f} s", s.t)}, {0, state_text(s)}};
   if (std::isfinite(s.goal_distance))
     parts.push_back({4, fmt::format("goal {:.0f} µm", s.goal_distance)});
@@ -79,7 +79,7 @@ std::vector<Part> status_parts(const LiveStatus& s) {
 
 }  // namespace
 
-std::string status_text(const LiveStatus& status, std::size_t columns) {
+std::string status_text(const rig::LiveStatus& status, std::size_t columns) {
   std::vector<Part> parts = status_parts(status);
   while (true) {
     for (const std::string_view between : {"  ", " "}) {

@@ -5,7 +5,7 @@
 
 #include "microswarm/core/fields/fields.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 
 /// One coil as a load of its amplifier, a resistance and an inductance in series, with its limits.
 /// Its resistance grows with its temperature. It heats as a first-order system: at constant power
@@ -40,4 +40,4 @@ struct AmplifierParams {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -11,7 +11,7 @@
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/core/maths/maths.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 constexpr double bound_rounding = 1e-12;
@@ -345,4 +345,4 @@ double Amplifiers::share_of_change(const TurningCurrents& to, double dt) const {
   return share;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

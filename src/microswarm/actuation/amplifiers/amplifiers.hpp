@@ -10,7 +10,7 @@
 
 #include "microswarm/actuation/amplifiers/amplifier_params.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 
 /// Limits of a coil and its amplifier.
 enum class AmplifierLimit { current, voltage, slew, temperature };
@@ -105,4 +105,4 @@ class Amplifiers {
   TurningCurrents turning_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

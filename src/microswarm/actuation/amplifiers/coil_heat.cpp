@@ -7,7 +7,7 @@
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/core/maths/maths.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 /// Resistance of a coil at a temperature [Ω].
@@ -90,4 +90,4 @@ Eigen::VectorXd cooled(const std::vector<AmplifierParams>& amplifiers,
   return now;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -7,7 +7,7 @@
 
 #include "microswarm/actuation/amplifiers/amplifier_params.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 
 /// Resistance for the voltage limit: that at the maximum temperature [Ω].
 double hot_resistance(const AmplifierParams& d);
@@ -40,4 +40,4 @@ Eigen::VectorXd heated(const std::vector<AmplifierParams>& amplifiers,
 Eigen::VectorXd cooled(const std::vector<AmplifierParams>& amplifiers,
                        const Eigen::VectorXd& temperatures, double seconds);
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -13,7 +13,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/text.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 constexpr double min_current = 1e-9;   // [A] smaller currents count as zero
@@ -337,4 +337,4 @@ void require_effects(const FieldMeasurements& measured, const FittedMatrix& fit)
       measured.file, fmt::join(without, ", ")));
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

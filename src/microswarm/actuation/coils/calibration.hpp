@@ -7,7 +7,7 @@
 #include "microswarm/actuation/coils/coil_system.hpp"
 #include "microswarm/actuation/coils/field_measurements.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 
 /// Quantities to fit besides the actuation matrix.
 struct FitOptions {
@@ -53,4 +53,4 @@ FittedMatrix fit_matrix(const FieldMeasurements& measured, const FitOptions& opt
 /// Whether the positions determine the gradients, too.
 bool determines_gradients(const FieldMeasurements& measured, const FitOptions& options);
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -12,7 +12,7 @@
 #include "microswarm/core/execution/clock.hpp"
 #include "microswarm/core/fields/overloaded.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 /// Sends turning currents to a driver that makes waveforms; channels without a coil get no current.
@@ -135,4 +135,4 @@ StopReport CoilController::stop() noexcept {
   return report;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

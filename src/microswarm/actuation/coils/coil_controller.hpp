@@ -11,7 +11,7 @@
 #include "microswarm/actuation/drivers/coil_driver.hpp"
 #include "microswarm/actuation/field/field_generator.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 
 /// The last output to the coils.
 struct CoilOutput {
@@ -89,4 +89,4 @@ class CoilController {
   bool at_zero_ = false;  // confirmed after the last output
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -10,7 +10,7 @@
 #include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/text/text.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 constexpr std::array<const char*, 3> axis_names{"x", "y", "z"};
@@ -197,8 +197,9 @@ void CoilSystem::add(const MatrixCoils& params, Issues& issues) {
                fmt::format("offset_gradient_t_per_m has {} numbers, must have 5",
                            params.offset_gradient.size()));
   else
-    offset_.gradient = microswarm::gradient_matrix(FiveGradients(params.offset_gradient.data())) *
-                       mt_per_um_of_t_per_m;
+    offset_.gradient =
+        microswarm::actuation::gradient_matrix(FiveGradients(params.offset_gradient.data())) *
+        mt_per_um_of_t_per_m;
   LinearField linear;
   linear.field = to_matrix(params.field, 3, size(), "field_mt_per_a", issues);
   linear.gradients = Eigen::MatrixXd::Zero(5, static_cast<Eigen::Index>(size()));
@@ -232,8 +233,8 @@ Actuation CoilSystem::at(const Eigen::Vector3d& position) const {
   };
   const auto of_sources = [&](const MpemSystem& mpem) {
     for (std::size_t i = 0; i < size(); ++i)
-      put(i, microswarm::field_at(mpem.coils[i].sources, position));
-    result.offset += microswarm::field_at(mpem.offset, position);
+      put(i, microswarm::actuation::field_at(mpem.coils[i].sources, position));
+    result.offset += microswarm::actuation::field_at(mpem.offset, position);
   };
   const auto of_grids = [&](const std::vector<FieldGrid>& grids) {
     for (std::size_t i = 0; i < size(); ++i) {
@@ -249,7 +250,8 @@ Actuation CoilSystem::at(const Eigen::Vector3d& position) const {
     const Eigen::Vector3d off = position - centre_;
     for (std::size_t i = 0; i < size(); ++i) {
       const auto k = static_cast<Eigen::Index>(i);
-      const Eigen::Matrix3d gradient = microswarm::gradient_matrix(linear.gradients.col(k));
+      const Eigen::Matrix3d gradient =
+          microswarm::actuation::gradient_matrix(linear.gradients.col(k));
       put(i, {linear.field.col(k) + gradient * off, gradient});
     }
     result.offset.field += offset_.gradient * off;
@@ -264,4 +266,4 @@ CoilSystem read_coil_system(const std::filesystem::path& path) {
   return CoilSystem(params, keys, path.parent_path());
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

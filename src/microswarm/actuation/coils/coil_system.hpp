@@ -15,7 +15,7 @@
 #include "microswarm/actuation/field/field.hpp"
 #include "microswarm/config/key_locations.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 
 /// Three orthogonal Helmholtz pairs x, y, z around one centre. The two windings of a pair are one
 /// radius apart and carry the same current.
@@ -138,7 +138,7 @@ struct Actuation {
     return field * currents + offset.field;
   }
   Eigen::Matrix3d total_gradient(const Eigen::VectorXd& currents) const {
-    return microswarm::gradient_matrix(gradients * currents) + offset.gradient;
+    return microswarm::actuation::gradient_matrix(gradients * currents) + offset.gradient;
   }
 };
 
@@ -202,4 +202,4 @@ class CoilSystem {
 /// Reads a coil system file; unknown keys are errors. Throws InputError.
 CoilSystem read_coil_system(const std::filesystem::path& path);
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

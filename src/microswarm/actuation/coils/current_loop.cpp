@@ -8,7 +8,7 @@
 
 #include "microswarm/core/maths/angles.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 /// Complete elliptic integral of the second kind E(m) of the parameter m, and
@@ -91,4 +91,4 @@ FieldGradient loop_field(const CurrentLoop& loop, const Eigen::Vector3d& positio
   return result;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -3,7 +3,7 @@
 
 #include "microswarm/actuation/field/field.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 
 /// Magnetic constant µ0 [mT µm/A].
 inline constexpr double mu_0 = 1256.63706212;
@@ -20,4 +20,4 @@ struct CurrentLoop {
 /// within a millionth of the radius of the wire, where the distance is clamped.
 FieldGradient loop_field(const CurrentLoop& loop, const Eigen::Vector3d& position);
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -3,7 +3,7 @@
 
 #include <Eigen/SVD>
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 // Singular values below this fraction of the largest are rounding errors.
@@ -46,4 +46,4 @@ TurningCurrents turning_currents(const Actuation& at, const FieldGenerator& gene
           .sine = across.currents - none.currents};
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

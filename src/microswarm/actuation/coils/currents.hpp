@@ -7,7 +7,7 @@
 #include "microswarm/actuation/coils/coil_system.hpp"
 #include "microswarm/actuation/field/field_generator.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 
 /// Minimum-norm currents for a field. If the rank is below 3 and the field cannot be produced, they
 /// produce the nearest field.
@@ -29,4 +29,4 @@ CurrentsForField currents_for(const Actuation& at, const Eigen::Vector3d& field)
 TurningCurrents turning_currents(const Actuation& at, const FieldGenerator& generator,
                                  bool& reached);
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -12,7 +12,7 @@
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/text.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 constexpr std::uint64_t max_bytes = 64ULL << 20;
@@ -104,4 +104,4 @@ FieldMeasurements read_measurements(const std::filesystem::path& path) {
   return parse_measurements(read_file(path, max_bytes), path.string());
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

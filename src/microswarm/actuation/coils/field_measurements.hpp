@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace microswarm {
+namespace microswarm::actuation {
 
 /// One measurement: the currents in the coils and the field of a probe.
 struct FieldMeasurement {
@@ -33,4 +33,4 @@ FieldMeasurements read_measurements(const std::filesystem::path& path);
 /// Parses the same format from text.
 FieldMeasurements parse_measurements(std::string_view text, std::string_view name);
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -11,7 +11,7 @@
 #include "microswarm/core/text/lines.hpp"
 #include "microswarm/core/text/text.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 constexpr std::uint64_t max_log_bytes = 64ULL << 20;
@@ -105,4 +105,4 @@ void MeasurementLog::write() {
   write_file_atomically(file_, fmt::format("{}\n", fmt::join(lines_, "\n")));
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

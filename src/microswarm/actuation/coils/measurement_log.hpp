@@ -7,7 +7,7 @@
 
 #include "microswarm/actuation/coils/field_measurements.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 
 /// A field with the readings it is the mean of.
 struct FieldReading {
@@ -42,4 +42,4 @@ class MeasurementLog {
   FieldMeasurements measured_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -10,7 +10,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/text.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 constexpr double share_of_held = 0.8;
@@ -90,4 +90,4 @@ std::vector<MeasurementStep> missing_steps(const std::vector<MeasurementStep>& s
   return missing;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -7,7 +7,7 @@
 #include "microswarm/actuation/coils/coil_system.hpp"
 #include "microswarm/actuation/coils/field_measurements.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 
 /// One measurement that is to be made.
 struct MeasurementStep {
@@ -35,4 +35,4 @@ std::vector<MeasurementStep> measurement_plan(const CoilSystem& system,
 std::vector<MeasurementStep> missing_steps(const std::vector<MeasurementStep>& steps,
                                            const std::vector<FieldMeasurement>& rows);
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -6,7 +6,7 @@
 #include "microswarm/actuation/coils/si.hpp"
 #include "microswarm/core/maths/maths.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 constexpr double m_per_um = 1e-6;
@@ -87,4 +87,4 @@ bool MpemSystem::in_workspace(const Eigen::Vector3d& position) const {
   return (position.array() >= lo.array()).all() && (position.array() <= hi.array()).all();
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -10,7 +10,7 @@
 
 #include "microswarm/actuation/field/field.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 
 /// A multipole: the field −∇Ψ of the potential
 /// Ψ = Σ_n (A_n rⁿ + B_n / rⁿ⁺¹) P_n(cos θ), n = 1, 2, …
@@ -53,4 +53,4 @@ MpemSystem read_mpem(const std::filesystem::path& path);
 /// Parses the same format from text.
 MpemSystem parse_mpem(std::string_view text, std::string_view name);
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -13,7 +13,7 @@
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/text.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 using Kind = YamlNode::Kind;
@@ -175,4 +175,4 @@ MpemSystem read_mpem(const std::filesystem::path& path) {
   return parse_mpem(read_file(path, max_yaml_bytes), path.string());
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -17,7 +17,7 @@
 #include "microswarm/core/text/lines.hpp"
 #include "microswarm/core/text/text.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 constexpr std::size_t max_row = 4096;        // [bytes]
@@ -146,4 +146,4 @@ void ProbeFile::read(std::vector<Eigen::Vector3d>& fields) {
   rows_->take(bytes, fields);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

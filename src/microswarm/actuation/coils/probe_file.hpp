@@ -12,7 +12,7 @@
 
 #include "microswarm/core/execution/descriptor.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 
 /// Rows of a probe's logger: CSV with a header that names bx_mt, by_mt, bz_mt and optionally t_s.
 class ProbeRows {
@@ -65,4 +65,4 @@ class ProbeFile {
   std::optional<ProbeRows> rows_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -8,7 +8,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/text.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 
 TextRows::TextRows(std::string_view text, std::string_view name)
     : lines_(text, name), name_(name) {}
@@ -50,4 +50,4 @@ void TextRows::fail(const std::string& why) const {
   throw InputError(name_, std::max(line(), 1), 0, why);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -7,7 +7,7 @@
 
 #include "microswarm/core/text/lines.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 
 /// Reader of text rows of numbers. It skips blank lines and lines that start with '#'.
 class TextRows {
@@ -37,4 +37,4 @@ class TextRows {
   std::string name_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -8,7 +8,7 @@
 
 #include "microswarm/core/errors/error.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 std::pair<int, int> plane_axes(Plane plane) {
@@ -78,4 +78,4 @@ double fitting_half_width(const CoilSystem& system, UniformityGrid grid) {
   return usual;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

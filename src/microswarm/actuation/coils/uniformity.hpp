@@ -10,7 +10,7 @@
 
 #include "microswarm/actuation/coils/coil_system.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 
 /// A plane through two axes.
 enum class Plane { xy, xz, yz };
@@ -60,4 +60,4 @@ bool in_workspace(const CoilSystem& system, const UniformityGrid& grid);
 /// The grid's half width [µm], or less if the calibrated workspace is smaller.
 double fitting_half_width(const CoilSystem& system, UniformityGrid grid);
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -15,7 +15,7 @@
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/text.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 constexpr int max_nodes = 1000;  // per direction
@@ -192,4 +192,4 @@ FieldGrid read_vfield(const std::filesystem::path& path) {
   return yaml ? parse_vfield_yaml(text, path.string()) : parse_vfield_text(text, path.string());
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

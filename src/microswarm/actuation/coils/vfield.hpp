@@ -9,7 +9,7 @@
 
 #include "microswarm/actuation/field/field.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 
 /// Field of one coil for one ampere, sampled on a regular grid and interpolated trilinearly.
 class FieldGrid {
@@ -44,4 +44,4 @@ FieldGrid parse_vfield_text(std::string_view text, std::string_view name);
 /// Parses the YAML format.
 FieldGrid parse_vfield_yaml(std::string_view text, std::string_view name);
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

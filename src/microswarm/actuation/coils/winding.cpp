@@ -8,7 +8,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/text.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 struct Node {
@@ -68,4 +68,4 @@ FieldGradient field_at(const std::vector<CurrentLoop>& loops, const Eigen::Vecto
   return sum;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -8,7 +8,7 @@
 #include "microswarm/core/errors/issue.hpp"
 #include "microswarm/core/fields/fields.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 
 /// Turns of wire around one axis: a thin loop, or a solenoid if length or thickness is set. The
 /// turns fill the cross-section evenly. The middle turn has `radius`.
@@ -52,4 +52,4 @@ FieldGradient field_at(const std::vector<CurrentLoop>& loops, const Eigen::Vecto
 /// List of three numbers as a vector; otherwise the issue "KEY has 2 numbers, must be [x, y, z]".
 Eigen::Vector3d to_vector(const std::vector<double>& numbers, std::string_view key, Issues& issues);
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

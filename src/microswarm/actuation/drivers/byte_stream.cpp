@@ -10,7 +10,7 @@
 #include <cmath>
 #include <csignal>
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 bool ready(int descriptor, short what, double timeout) {
@@ -72,4 +72,4 @@ void ByteStream::discard(double timeout) {
   next_ = filled_;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -9,7 +9,7 @@
 
 #include "microswarm/core/execution/stop.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 
 /// Time between two checks for an interruption while waiting for a device [s].
 inline constexpr double stream_slice = 0.01;
@@ -37,4 +37,4 @@ class ByteStream {
   std::size_t next_ = 0, filled_ = 0;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

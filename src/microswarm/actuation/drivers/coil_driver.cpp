@@ -9,7 +9,7 @@
 #include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/maths/maths.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 
 std::string_view to_string(DriveStatus status) {
   constexpr std::array<std::string_view, 9> names{"driven",     "scaled",    "resumed",
@@ -102,4 +102,4 @@ StopReport SimulatedCoilDriver::stop() noexcept {
   return {.confirmed = true};
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

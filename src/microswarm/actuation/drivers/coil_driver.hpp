@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-namespace microswarm {
+namespace microswarm::actuation {
 
 /// Relative tolerance for currents above the full scale, for rounding.
 inline constexpr double full_scale_slack = 1e-9;
@@ -140,4 +140,4 @@ class SimulatedCoilDriver final : public CoilDriver {
   DeviceReport report_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -4,7 +4,7 @@
 #include <boost/crc.hpp>
 #include <cstddef>
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 constexpr std::uint8_t reply_bit = 0x80;
@@ -184,4 +184,4 @@ std::optional<CoilReply> CoilReplyReader::take(std::uint8_t byte) {
   return reply;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace microswarm {
+namespace microswarm::actuation {
 
 /// Version of the protocol between host and coil driver: docs/reference/protocol.md.
 inline constexpr int coil_link_version = 2;
@@ -104,4 +104,4 @@ class CoilReplyReader {
   int bad_ = 0;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -20,7 +20,7 @@
 #include "microswarm/core/text/lines.hpp"
 #include "microswarm/core/text/text.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 constexpr double patience = 0.5;   // [s] before each stronger request to end
@@ -201,4 +201,4 @@ std::unique_ptr<LineConnection> start_program(const std::vector<std::string>& co
   return std::make_unique<DriverProgram>(command, folder, lock);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -18,7 +18,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/text.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 namespace asio = boost::asio;
@@ -89,4 +89,4 @@ DeviceLock::DeviceLock(const std::filesystem::path& file) : file_(open_descripto
     throw HardwareError(one_line(file.string()) + ": another program drives these coils");
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -12,7 +12,7 @@
 #include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/text/text.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 constexpr double stop_wait = 0.5;  // [s] for the confirmation of zeros
@@ -261,4 +261,4 @@ bool LineCoilDriver::is_gone() {
   return true;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -19,7 +19,7 @@
 #include "microswarm/core/execution/stop.hpp"
 #include "microswarm/core/fields/fields.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 
 /// Quantity that is sent to a user-supplied driver.
 enum class DriverInput { currents, field };
@@ -135,4 +135,4 @@ class LineCoilDriver final : public CoilDriver {
   std::string strange_;                        // last line that was no reply
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -10,7 +10,7 @@
 #include "microswarm/actuation/drivers/byte_stream.hpp"
 #include "microswarm/core/execution/descriptor.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 
 /// Connection to a user-supplied driver: a child process or a socket. The destructor closes it.
 class LineConnection {
@@ -55,4 +55,4 @@ class DeviceLock {
   Descriptor file_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -12,7 +12,7 @@
 #include "microswarm/core/text/lines.hpp"
 #include "microswarm/core/text/text.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 constexpr std::array<std::pair<std::string_view, LineVerdict>, 5> verdicts{
@@ -91,4 +91,4 @@ std::optional<std::string> LineReader::take(std::uint8_t byte) {
   return line;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

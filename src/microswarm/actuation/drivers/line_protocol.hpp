@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace microswarm {
+namespace microswarm::actuation {
 
 /// Version of the line protocol for user-supplied drivers: docs/reference/line-protocol.md.
 inline constexpr int line_protocol_version = 1;
@@ -47,4 +47,4 @@ class LineReader {
   bool too_long_ = false;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

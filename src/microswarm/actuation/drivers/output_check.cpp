@@ -7,7 +7,7 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/maths.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 constexpr double rounding = 10;  // [per mille] by the device's sine table and integers
@@ -49,4 +49,4 @@ bool OutputCheck::agrees(const CoilAim& aim, const CoilReply& reply) {
   return agree;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

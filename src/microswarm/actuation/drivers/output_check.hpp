@@ -5,7 +5,7 @@
 
 #include "microswarm/actuation/drivers/coil_link.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 
 /// Compares a device's acknowledgements and outputs with the commands. A device follows an aim
 /// exactly, apart from a remainder that it removes at its slew rate after each change.
@@ -26,4 +26,4 @@ class OutputCheck {
       rest_{};  // upper bounds of the remainder at that time [per mille]
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -20,7 +20,7 @@
 #include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/maths/angles.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 namespace asio = boost::asio;
@@ -255,4 +255,4 @@ std::optional<CoilReply> SerialCoilDriver::answer_to(CoilMessage message, double
   }
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

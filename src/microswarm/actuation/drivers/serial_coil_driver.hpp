@@ -16,7 +16,7 @@
 #include "microswarm/core/execution/stop.hpp"
 #include "microswarm/core/fields/fields.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 
 /// Serial port and timeouts of the device.
 struct SerialCoilParams {
@@ -105,4 +105,4 @@ class SerialCoilDriver final : public CoilDriver {
   bool armed_ = false;       // armed by this driver and not stopped since
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace microswarm {
+namespace microswarm::actuation {
 
 /// Flux density at a position and its gradient; for a coil, both per ampere. In current-free space
 /// the gradient is symmetric and its trace is 0.
@@ -39,4 +39,4 @@ inline Eigen::Matrix3d gradient_matrix(const FiveGradients& five) {
 /// 1 T/m in mT/µm.
 inline constexpr double mt_per_um_of_t_per_m = 1e-3;
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -8,7 +8,7 @@
 #include "microswarm/actuation/field/waveform.hpp"
 #include "microswarm/core/maths/angles.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 namespace {
 
 // In units of a turn's length. Missed displacement across the heading is made up over
@@ -104,4 +104,4 @@ Eigen::Vector3d FieldGenerator::field_at(double phase) const {
   return Eigen::Vector3d::Zero();
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

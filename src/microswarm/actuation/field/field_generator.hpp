@@ -10,7 +10,7 @@
 #include "microswarm/core/fields/fields.hpp"
 #include "microswarm/core/maths/angles.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 
 /// Kind of field that drives the swarm: pitched and rotating [radar], rolling [gather], or
 /// oscillating [drrt].
@@ -107,4 +107,4 @@ class FieldGenerator {
   Eigen::Vector3d field_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

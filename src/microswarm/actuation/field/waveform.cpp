@@ -9,7 +9,7 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/maths.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 
 Eigen::Vector3d rotating_field(double amplitude, double pitch, double heading, double phase) {
   const auto [across, along] = maths::sincos(phase);
@@ -90,4 +90,4 @@ RollingPlan rolling_plan(std::span<const Move> moves, double heading, const Roll
   return {Waveform(params.amplitude, std::move(pieces)), std::move(rolls)};
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -10,7 +10,7 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/geometry/vec2.hpp"
 
-namespace microswarm {
+namespace microswarm::actuation {
 
 /// Rotating field of amplitude A [mT]; its plane is pitched by `pitch` towards `heading` [rad], and
 /// `phase` is 2πft. Eq 1 [radar].
@@ -98,4 +98,4 @@ struct RollingPlan {
 /// along `heading`. A move shorter than half a turn does nothing.
 RollingPlan rolling_plan(std::span<const Move> moves, double heading, const RollingParams& params);
 
-}  // namespace microswarm
+}  // namespace microswarm::actuation

@@ -7,7 +7,7 @@
 
 #include "microswarm/core/errors/error.hpp"
 
-namespace microswarm {
+namespace microswarm::environments {
 namespace {
 
 constexpr std::uint8_t marked = 255;
@@ -187,4 +187,4 @@ void GatheringEpisode::erase_particles() {
   }
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::environments

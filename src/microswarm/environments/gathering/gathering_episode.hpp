@@ -13,7 +13,7 @@
 #include "microswarm/environments/gathering/gathering_rules.hpp"
 #include "microswarm/environments/gathering/particle_motion.hpp"
 
-namespace microswarm {
+namespace microswarm::environments {
 
 /// A maze with the rules and the goal that all its episodes share.
 struct GatheringTask {
@@ -78,4 +78,4 @@ class GatheringEpisode {
   int steps_ = 0;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::environments

@@ -9,7 +9,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/maths/maths.hpp"
 
-namespace microswarm {
+namespace microswarm::environments {
 namespace {
 
 /// Free cells with a wall below or above and one to the right or left, of the four kinds: the
@@ -87,4 +87,4 @@ double GatheringMaze::episode_length_estimate(const MazeCosts& costs) const {
   return std::max(1.0, std::floor(0.75 * extent_ * maths::log(turns)));
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::environments

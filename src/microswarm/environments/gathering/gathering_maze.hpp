@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace microswarm {
+namespace microswarm::environments {
 
 /// A position as row and column from the upper left.
 struct MazePlace {
@@ -75,4 +75,4 @@ class GatheringMaze {
   std::uint32_t corners_ = 0;  ///< of the kind of convex corner that is rarest
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::environments

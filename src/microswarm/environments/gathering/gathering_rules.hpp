@@ -7,7 +7,7 @@
 
 #include "microswarm/core/fields/fields.hpp"
 
-namespace microswarm {
+namespace microswarm::environments {
 
 /// Motion of particles under an input.
 enum class ParticlePhysics {
@@ -98,4 +98,4 @@ struct GatheringRules {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::environments

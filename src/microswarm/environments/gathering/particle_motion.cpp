@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace microswarm {
+namespace microswarm::environments {
 namespace {
 
 /// A hash of 64 bits, each of which depends on all bits of `x` (finaliser of SplitMix64).
@@ -210,4 +210,4 @@ void ParticleMotion::block_full_cells(Scratch& scratch) {
   for (const std::uint32_t cell : cells_) at[cell] = 0;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::environments

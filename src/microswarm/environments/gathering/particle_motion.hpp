@@ -8,7 +8,7 @@
 #include "microswarm/environments/gathering/gathering_maze.hpp"
 #include "microswarm/environments/gathering/gathering_rules.hpp"
 
-namespace microswarm {
+namespace microswarm::environments {
 
 /// Particles in a maze and their motion. Particles in one cell move equally unless they are
 /// physical, so they form one group from then on.
@@ -53,4 +53,4 @@ class ParticleMotion {
   std::vector<double> accelerations_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::environments

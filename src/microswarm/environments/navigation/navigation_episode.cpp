@@ -11,7 +11,7 @@
 #include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/swarm/body/swarm_params.hpp"
 
-namespace microswarm {
+namespace microswarm::environments {
 namespace {
 
 /// A random place that keeps `clearance` from the walls. Throws InputError if none is found.
@@ -53,9 +53,9 @@ class NavigationEpisode::Agent final : public Navigator {
   }
 };
 
-NavigationTask::NavigationTask(Experiment experiment, const NavigationRules& rules)
+NavigationTask::NavigationTask(experiment::Experiment experiment, const NavigationRules& rules)
     : experiment_(std::move(experiment)), rules_(rules), max_speed_(0) {
-  Scenario& scenario = experiment_.scene.scenario;
+  experiment::Scenario& scenario = experiment_.scene.scenario;
   if (scenario.robots || !scenario.start || !scenario.goal)
     throw InputError("an environment of navigation needs a scenario with one swarm");
   scenario.hold_at_goal = 0;
@@ -82,7 +82,7 @@ void NavigationEpisode::reset(std::uint64_t seed) {
 }
 
 void NavigationEpisode::reset() {
-  Scenario scenario = task_.scenario();
+  experiment::Scenario scenario = task_.scenario();
   scenario.seed = seed_;
   const NavigationRules& rules = task_.rules();
   Rng rng(seed_, Purpose::start_goal, trial_);
@@ -93,12 +93,15 @@ void NavigationEpisode::reset() {
         Pose2{random_place(map, clearance, rng), rng.uniform(-std::numbers::pi, std::numbers::pi)};
   if (rules.random_goal) scenario.goal = random_place(map, clearance, rng);
   agent_ = std::make_shared<Agent>();
-  plant_ = make_kinematic_plant(scenario, task_.world(), trial_);
+  plant_ = experiment::make_kinematic_plant(scenario, task_.world(), trial_);
   goal_ = *scenario.goal;
   const double goal_tolerance = scenario.goal_tolerance;
-  session_ = std::make_unique<Session>(
-      Experiment{{std::move(scenario), {}}, task_.world(), {}},
-      SessionParts{.trial = trial_, .plant = plant_, .navigator = agent_, .keep = Keep::nothing});
+  session_ = std::make_unique<experiment::Session>(
+      experiment::Experiment{{std::move(scenario), {}}, task_.world(), {}},
+      experiment::SessionParts{.trial = trial_,
+                               .plant = plant_,
+                               .navigator = agent_,
+                               .keep = experiment::Keep::nothing});
   ++trial_;
   status_ = Status::running;
   look(nullptr);
@@ -112,19 +115,20 @@ EnvironmentStep NavigationEpisode::step(const NavigationAction& action) {
             .truncated = status_ == Status::time_limit};
   agent_->command = action;
   const double before = distance_;
-  const Scenario& scenario = session_->scenario();
-  const Tick* tick = session_->step();
+  const experiment::Scenario& scenario = session_->scenario();
+  const experiment::Tick* tick = session_->step();
   if (tick && tick->end) {  // the hold limit or the number of steps is reached
     status_ = *tick->end;
     made.truncated = true;
     return made;
   }
   const NavigationRules& rules = task_.rules();
-  for (const RunEvent& event : tick->events) {
-    if (event.kind == EventKind::goal_reached) {
+  for (const experiment::RunEvent& event : tick->events) {
+    if (event.kind == experiment::EventKind::goal_reached) {
       status_ = Status::solved;
       made.reward += rules.arrival_reward;
-    } else if (event.kind == EventKind::contact_wall || event.kind == EventKind::contact_obstacle) {
+    } else if (event.kind == experiment::EventKind::contact_wall ||
+               event.kind == experiment::EventKind::contact_obstacle) {
       if (scenario.stop_at_contact) status_ = Status::collided;
       made.reward -= rules.contact_penalty;
     }
@@ -141,7 +145,7 @@ EnvironmentStep NavigationEpisode::step(const NavigationAction& action) {
 }
 
 /// Takes the state at the end of a tick, or the first one.
-void NavigationEpisode::look(const Tick* tick) {
+void NavigationEpisode::look(const experiment::Tick* tick) {
   const GroundTruth truth = *plant_->ground_truth();
   pose_ = truth.swarm.pose;
   double radius = truth.swarm.radius;
@@ -200,4 +204,4 @@ void NavigationEpisode::see_obstacles(const Snapshot& world, std::span<float> ou
   }
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::environments

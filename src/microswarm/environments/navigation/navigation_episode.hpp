@@ -12,15 +12,15 @@
 #include "microswarm/experiment/scenario/experiment.hpp"
 #include "microswarm/experiment/session/session.hpp"
 
-namespace microswarm {
+namespace microswarm::environments {
 
 /// A scenario of one swarm with the rules of its environment.
 class NavigationTask {
  public:
   /// Throws InputError if the scenario has several robots.
-  NavigationTask(Experiment experiment, const NavigationRules& rules);
+  NavigationTask(experiment::Experiment experiment, const NavigationRules& rules);
 
-  const Scenario& scenario() const { return experiment_.scenario(); }
+  const experiment::Scenario& scenario() const { return experiment_.scenario(); }
   const World& world() const { return experiment_.world; }
   const NavigationRules& rules() const { return rules_; }
   /// Maximum speed of the swarm [µm/s].
@@ -36,7 +36,7 @@ class NavigationTask {
   static constexpr std::size_t obstacle_numbers = 5;
 
  private:
-  Experiment experiment_;
+  experiment::Experiment experiment_;
   NavigationRules rules_;
   double max_speed_;
 };
@@ -70,7 +70,7 @@ class NavigationEpisode {
 
  private:
   class Agent;
-  void look(const Tick* tick);
+  void look(const experiment::Tick* tick);
   void see_rays(const Snapshot& world, std::span<float> out) const;
   void see_obstacles(const Snapshot& world, std::span<float> out) const;
 
@@ -80,7 +80,7 @@ class NavigationEpisode {
   std::span<float> observation_;
   std::shared_ptr<Plant> plant_;
   std::shared_ptr<Agent> agent_;
-  std::unique_ptr<Session> session_;
+  std::unique_ptr<experiment::Session> session_;
   Vec2 goal_;
   Pose2 pose_;
   double time_ = 0;
@@ -89,4 +89,4 @@ class NavigationEpisode {
   Status status_ = Status::running;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::environments

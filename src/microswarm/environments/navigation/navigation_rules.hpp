@@ -5,7 +5,7 @@
 
 #include "microswarm/core/fields/fields.hpp"
 
-namespace microswarm {
+namespace microswarm::environments {
 
 /// Observations and rewards of an agent that steers a swarm.
 struct NavigationRules {
@@ -32,4 +32,4 @@ struct NavigationRules {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::environments

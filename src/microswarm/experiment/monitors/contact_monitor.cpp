@@ -9,7 +9,7 @@
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/geometry/distance.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 namespace {
 
@@ -179,4 +179,4 @@ PoseStamped moment_on(std::span<const PoseStamped> trajectory, double t) {
           a.radius + share * (after->radius - a.radius)};
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -11,7 +11,7 @@
 #include "microswarm/experiment/results/metrics.hpp"
 #include "microswarm/world/world.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// `RunEvent::body` of a contact with the map's border.
 inline constexpr std::uint32_t border_body = 0xffffffff;
@@ -65,4 +65,4 @@ class ContactMonitor {
 /// Pose on a non-empty trajectory at time t, clamped to its ends.
 PoseStamped moment_on(std::span<const PoseStamped> trajectory, double t);
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

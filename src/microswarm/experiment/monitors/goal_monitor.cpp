@@ -3,7 +3,7 @@
 
 #include "microswarm/geometry/distance.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 void GoalMonitor::take_goal(Vec2 from) {
   task_.reset();
@@ -23,7 +23,8 @@ double GoalMonitor::left(Vec2 centre, std::span<const Vec2> robots) {
 }
 
 std::optional<double> GoalMonitor::first_arrival(std::span<const PoseStamped> trajectory) const {
-  return microswarm::first_arrival(trajectory, *scenario_->goal, scenario_->goal_tolerance);
+  return microswarm::experiment::first_arrival(trajectory, *scenario_->goal,
+                                               scenario_->goal_tolerance);
 }
 
 std::optional<double> first_arrival(std::span<const PoseStamped> trajectory, Vec2 goal,
@@ -38,4 +39,4 @@ std::optional<double> first_arrival(std::span<const PoseStamped> trajectory, Vec
   return std::nullopt;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

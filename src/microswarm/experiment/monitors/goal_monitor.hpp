@@ -8,7 +8,7 @@
 #include "microswarm/experiment/monitors/robot_task.hpp"
 #include "microswarm/experiment/scenario/scenario.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// Measures the remaining distance to a scenario's goal, of a swarm or of individually tracked
 /// robots.
@@ -44,4 +44,4 @@ class GoalMonitor {
 std::optional<double> first_arrival(std::span<const PoseStamped> trajectory, Vec2 goal,
                                     double tolerance);
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -7,7 +7,7 @@
 #include "microswarm/experiment/monitors/contact_monitor.hpp"
 #include "microswarm/experiment/scenario/scenario.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// Time for which a swarm has been commanded to hold, without interruption, against the hold limit
 /// of the scenario.
@@ -33,4 +33,4 @@ class HoldMonitor {
   double time_ = 0;  ///< [s]
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

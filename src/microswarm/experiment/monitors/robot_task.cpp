@@ -5,12 +5,12 @@
 
 #include "microswarm/core/maths/hash.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 RobotTask::RobotTask(const Scenario& scenario, const Map& map) : goals_(scenario.robots->goals) {
   constexpr int cells = 512;
   if (!goals_.empty()) return;
-  field_ = DistanceField::over(map, *scenario.goal, cells);
+  field_ = planning::DistanceField::over(map, *scenario.goal, cells);
   known_.resize(4096);
 }
 
@@ -33,4 +33,4 @@ double RobotTask::left(std::span<const Vec2> robots) {
   return field_ ? sum / static_cast<double>(robots.size()) : worst;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -9,7 +9,7 @@
 #include "microswarm/experiment/scenario/scenario.hpp"
 #include "microswarm/planning/exact/distance_field.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// Task of individually tracked robots, measured on their positions: each reaches its own goal
 /// [global], or all gather at one goal [gather].
@@ -31,8 +31,8 @@ class RobotTask {
   double remaining_from(Vec2 position);
 
   std::vector<Vec2> goals_;
-  std::optional<DistanceField> field_;
+  std::optional<planning::DistanceField> field_;
   std::vector<Known> known_;  // cache, since robots that rest or have merged are queried repeatedly
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -4,7 +4,7 @@
 #include "microswarm/experiment/plant/plant.hpp"
 #include "microswarm/experiment/plant/robot_plant.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 std::unique_ptr<Plant> make_kinematic_plant(const Scenario& scenario, const World& world,
                                             std::uint32_t trial) {
@@ -12,4 +12,4 @@ std::unique_ptr<Plant> make_kinematic_plant(const Scenario& scenario, const Worl
   return std::make_unique<KinematicPlant>(scenario, world, trial);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -7,7 +7,7 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/experiment/monitors/contact_monitor.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 KinematicPlant::KinematicPlant(const Scenario& scenario, World world, std::uint32_t trial)
     : world_(std::move(world)),
@@ -84,4 +84,4 @@ std::optional<GroundTruth> KinematicPlant::ground_truth() const {
                      .world = &world_};
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -9,7 +9,7 @@
 #include "microswarm/swarm/body/swarm_body.hpp"
 #include "microswarm/swarm/robots/robot_swarm.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// Kinematic simulation of a swarm in a world. The camera shows both as they were
 /// `observation_delay` ago, at first as they were at t = 0. Walls do not stop or deflect the swarm;
@@ -37,4 +37,4 @@ class KinematicPlant : public Plant {
   std::vector<PoseStamped> history_;  // covers the observation delay
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -10,7 +10,7 @@
 #include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/planning/exact/distance_field.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 namespace {
 
@@ -25,7 +25,7 @@ RobotSwarm make_swarm(const Scenario& scenario, const Map& map, std::uint32_t tr
 std::vector<Vec2> robot_starts(const Scenario& scenario, const Map& map, std::uint32_t trial) {
   if (scenario.robots->count == 0) return scenario.robots->starts;
   const auto count = static_cast<std::size_t>(scenario.robots->count);
-  DistanceField field = DistanceField::over(map, *scenario.goal, 512);
+  planning::DistanceField field = planning::DistanceField::over(map, *scenario.goal, 512);
   const double guard = RobotStepper(map, scenario.robots->max_speed * scenario.tick).guard();
   const Box& box = map.bounds();
   Rng rng(scenario.seed, Purpose::scene, trial);
@@ -98,4 +98,4 @@ std::vector<Vec2> RobotPlant::robots_at(double t) const {
   return robots;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

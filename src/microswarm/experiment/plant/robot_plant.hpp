@@ -10,7 +10,7 @@
 #include "microswarm/swarm/robots/robot_swarm.hpp"
 #include "microswarm/world/world.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// Simulation of individually tracked robots. The camera shows them as they were
 /// `observation_delay` ago. The swarm's pose is their centroid, its radius their root-mean-square
@@ -49,4 +49,4 @@ class RobotPlant : public Plant {
 /// reachable. Throws InputError if there are too few such positions.
 std::vector<Vec2> robot_starts(const Scenario& scenario, const Map& map, std::uint32_t trial);
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -14,10 +14,10 @@
 #include "microswarm/navigation/gathering/policies/published_scale.hpp"
 #include "microswarm/world/connectivity/channel_width.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
-GatherExperiment open_gathering(MapParts map, MapSpec spec, const GatherQuery& query,
-                                const std::string& name) {
+GatherExperiment open_gathering(formats::MapParts map, formats::MapSpec spec,
+                                const GatherQuery& query, const std::string& name) {
   GatherExperiment made;
   Scene& scene = made.experiment.scene;
   Scenario& scenario = scene.scenario;
@@ -27,7 +27,7 @@ GatherExperiment open_gathering(MapParts map, MapSpec spec, const GatherQuery& q
   robots.count = query.starts.empty() ? query.robots : 0;
   robots.starts = query.starts;
   scenario.goal = query.goal;
-  scenario.navigator = AggregationParams{};
+  scenario.navigator = navigation::AggregationParams{};
   scenario.seed = query.seed;
   scene.map = std::move(map);
   const World world = build_world(scene);
@@ -44,11 +44,12 @@ GatherExperiment open_gathering(MapParts map, MapSpec spec, const GatherQuery& q
 }
 
 std::vector<std::string> unmet_assumptions(const Scenario& scenario, const Map& map) {
-  const auto* params = std::get_if<AggregationParams>(&scenario.navigator);
+  const auto* params = std::get_if<navigation::AggregationParams>(&scenario.navigator);
   if (!params || !scenario.goal) return {};
   Rng rng(scenario.seed, Purpose::scene);
-  const double width = published_channel_width * published_scale(*params, map, rng);
-  return unmet_assumptions(map, *scenario.goal, width);
+  const double width =
+      navigation::published_channel_width * navigation::published_scale(*params, map, rng);
+  return navigation::unmet_assumptions(map, *scenario.goal, width);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -11,7 +11,7 @@
 #include "microswarm/formats/map_parts.hpp"
 #include "microswarm/formats/map_spec.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// Query for gathering robots in a map under one input.
 struct GatherQuery {
@@ -34,11 +34,11 @@ struct GatherExperiment {
 /// Prepares the simulation with the lengths and the speed of fit_gathering, then applies the
 /// settings. `spec` is the source of the map's parts for the scenario, `name` its name in messages.
 /// Throws InputError with a line for each issue.
-GatherExperiment open_gathering(MapParts map, MapSpec spec, const GatherQuery& query,
-                                const std::string& name);
+GatherExperiment open_gathering(formats::MapParts map, formats::MapSpec spec,
+                                const GatherQuery& query, const std::string& name);
 
 /// Assumptions of [gather] that the map and the goal of an aggregating navigator do not meet, one
 /// line each; none for other navigators.
 std::vector<std::string> unmet_assumptions(const Scenario& scenario, const Map& map);
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

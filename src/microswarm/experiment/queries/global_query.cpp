@@ -13,12 +13,12 @@
 #include "microswarm/experiment/scenario/validate_robots.hpp"
 #include "microswarm/world/snapshot.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 namespace {
 
 /// Throws InputError if no plan can exist.
-void explain(const Map& map, const GlobalQuery& query, const GlobalPlay& play, Status status,
-             const std::string& name) {
+void explain(const Map& map, const GlobalQuery& query, const planning::GlobalPlay& play,
+             Status status, const std::string& name) {
   const Snapshot world = Snapshot::of(map);
   const bool starts_wrong = status == Status::start_blocked;
   if (!starts_wrong && status != Status::goal_blocked) return;
@@ -34,20 +34,22 @@ void explain(const Map& map, const GlobalQuery& query, const GlobalPlay& play, S
   throw InputError(fmt::format("{}: a {} is too near a wall", name, what));
 }
 
-void search(const Map& map, const GlobalQuery& query, const GlobalSearchParams& params, Rng& rng,
-            const Stop& stop, GlobalAnswer& made) {
-  GlobalSearch found = global_search(map, query.starts, query.goals, params, rng, stop);
+void search(const Map& map, const GlobalQuery& query, const planning::GlobalSearchParams& params,
+            Rng& rng, const Stop& stop, GlobalAnswer& made) {
+  planning::GlobalSearch found =
+      planning::global_search(map, query.starts, query.goals, params, rng, stop);
   made.plan = std::move(found.plan);
   made.nodes = found.counts.samples;
 }
 
-void grow(const Map& map, const GlobalQuery& query, const GlobalRrtParams& params, Rng& rng,
-          const Stop& stop, GlobalAnswer& made) {
-  GlobalRrt grown = global_rrt(map, query.starts, query.goals, params, rng, stop);
+void grow(const Map& map, const GlobalQuery& query, const planning::GlobalRrtParams& params,
+          Rng& rng, const Stop& stop, GlobalAnswer& made) {
+  planning::GlobalRrt grown =
+      planning::global_rrt(map, query.starts, query.goals, params, rng, stop);
   made.plan.status = grown.answer.status;
   made.nodes = grown.tree.size();
   if (grown.tree.size() == 0 || grown.answer.status == Status::goal_blocked) return;
-  if (!query.goals.empty()) made.plan = plan_to(grown.tree, grown.answer);
+  if (!query.goals.empty()) made.plan = planning::plan_to(grown.tree, grown.answer);
   if (query.keep_tree) made.tree = std::move(grown.tree);
 }
 
@@ -67,16 +69,16 @@ std::string GlobalAnswer::why_none() const {
   return fmt::format("{}: {} nodes of at most max_nodes {}", word, nodes, limit);
 }
 
-GlobalPlay to_play(const GlobalPlannerParams& planner) {
+planning::GlobalPlay to_play(const GlobalPlannerParams& planner) {
   return std::visit(
       [](const auto& p) {
-        return GlobalPlay{p.robostep, p.contact, p.separation, p.goal_tolerance};
+        return planning::GlobalPlay{p.robostep, p.contact, p.separation, p.goal_tolerance};
       },
       planner);
 }
 
 void check_ends(const Map& map, std::span<const Vec2> starts, std::span<const Vec2> goals,
-                const GlobalPlay& play, const std::string& name) {
+                const planning::GlobalPlay& play, const std::string& name) {
   if (goals.size() != starts.size()) return;
   KeyLocations(name).require_none(validate_robot_paths(map, starts, goals, play.goal_tolerance, 0));
 }
@@ -85,30 +87,31 @@ GlobalAnswer answer(const Map& map, const GlobalQuery& query, const std::string&
                     const Stop& stop) {
   GlobalChoice choice;
   if (query.keep_tree) {
-    GlobalRrtParams grown;
+    planning::GlobalRrtParams grown;
     grown.stop_at_first = false;
     choice.planner = grown;
   }
   GlobalAnswer made;
   made.notes = set_values(choice, query.settings);
   made.planner = choice.planner;
-  const GlobalPlay play = to_play(made.planner);
+  const planning::GlobalPlay play = to_play(made.planner);
   check_finite(query.starts, "start", name);
   check_finite(query.goals, "goal", name);
   check_ends(map, query.starts, query.goals, play, name);
-  if (query.keep_tree && !std::holds_alternative<GlobalRrtParams>(made.planner))
+  if (query.keep_tree && !std::holds_alternative<planning::GlobalRrtParams>(made.planner))
     throw InputError("global: --save-tree keeps trees of planner.type=global_rrt only");
   Rng rng(query.seed, Purpose::planner);
   const auto began = Stop::Clock::now();
   std::visit(
-      Overloaded{[&](const GlobalRrtParams& p) { grow(map, query, p, rng, stop, made); },
-                 [&](const GlobalSearchParams& p) { search(map, query, p, rng, stop, made); }},
+      Overloaded{
+          [&](const planning::GlobalRrtParams& p) { grow(map, query, p, rng, stop, made); },
+          [&](const planning::GlobalSearchParams& p) { search(map, query, p, rng, stop, made); }},
       made.planner);
   made.seconds = seconds_since(began);
   explain(map, query, play, made.plan.status, name);
   made.inputs_found = made.plan.inputs.size();
-  if (query.shorten) made.plan = shortened(map, made.plan, query.goals, play, stop);
+  if (query.shorten) made.plan = planning::shortened(map, made.plan, query.goals, play, stop);
   return made;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -15,10 +15,10 @@
 #include "microswarm/planning/global_input/global_search.hpp"
 #include "microswarm/planning/global_input/global_shorten.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// Planners of inputs for several robots.
-using GlobalPlannerParams = std::variant<GlobalSearchParams, GlobalRrtParams>;
+using GlobalPlannerParams = std::variant<planning::GlobalSearchParams, planning::GlobalRrtParams>;
 
 /// Values that the settings of a query may change.
 using GlobalChoice = PlannerChoice<GlobalPlannerParams>;
@@ -35,9 +35,9 @@ struct GlobalQuery {
 
 /// The answer to a query.
 struct GlobalAnswer {
-  GlobalPlan plan;
-  GlobalPlannerParams planner;       ///< parameters that were used
-  std::optional<GlobalTree> tree{};  ///< the grown tree, if requested
+  planning::GlobalPlan plan;
+  GlobalPlannerParams planner;                 ///< parameters that were used
+  std::optional<planning::GlobalTree> tree{};  ///< the grown tree, if requested
   std::uint64_t nodes = 0;
   std::size_t inputs_found = 0;  ///< number before superfluous ones were removed
   double seconds = 0;            ///< computing time of the planner [s]
@@ -54,10 +54,10 @@ GlobalAnswer answer(const Map& map, const GlobalQuery& query, const std::string&
                     const Stop& stop = {});
 
 /// Execution of a planner's inputs, and their goals.
-GlobalPlay to_play(const GlobalPlannerParams& planner);
+planning::GlobalPlay to_play(const GlobalPlannerParams& planner);
 
 /// Throws InputError if a robot cannot reach its goal. Unequal numbers are left to the planner.
 void check_ends(const Map& map, std::span<const Vec2> starts, std::span<const Vec2> goals,
-                const GlobalPlay& play, const std::string& name);
+                const planning::GlobalPlay& play, const std::string& name);
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -17,21 +17,22 @@
 #include "microswarm/planning/path/fit_to_map.hpp"
 #include "microswarm/planning/path/planners.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 namespace {
 
-using PathChoice = PlannerChoice<PlannerParams>;
+using PathChoice = PlannerChoice<planning::PlannerParams>;
 
 /// Throws InputError if the planner's parameters are inconsistent.
-void check_planner(const PlannerParams& planner, const KeyLocations& keys) {
+void check_planner(const planning::PlannerParams& planner, const KeyLocations& keys) {
   const Issues issues = std::visit(
       Overloaded{
-          [](const FmtStarParams& p) { return validate(p); },
-          [&](const DrrtStarParams& p) {
+          [](const planning::FmtStarParams& p) { return validate(p); },
+          [&](const planning::DrrtStarParams& p) {
             return validate(p, given_within(keys.is_given(), "planner"));
           },
-          [](const OneOf<ExactParams, AStarParams, ThetaStarParams, RrtParams, RrtConnectParams,
-                         RrtStarParams, UniformRrtStarParams> auto&) { return Issues(); }},
+          [](const OneOf<planning::ExactParams, planning::AStarParams, planning::ThetaStarParams,
+                         planning::RrtParams, planning::RrtConnectParams, planning::RrtStarParams,
+                         planning::UniformRrtStarParams> auto&) { return Issues(); }},
       planner);
   Issues of_planner;
   of_planner.add_within("planner", issues, "planner");
@@ -40,7 +41,7 @@ void check_planner(const PlannerParams& planner, const KeyLocations& keys) {
 
 /// Throws InputError if no path can exist.
 void explain(const Snapshot& world, const PathQuery& query, const std::string& name,
-             const PlannerParams& planner, Status status) {
+             const planning::PlannerParams& planner, Status status) {
   const auto [clearance, tolerance] = path_limits(planner);
   const Vec2 start = query.start.position;
   if (status == Status::start_blocked)
@@ -48,13 +49,13 @@ void explain(const Snapshot& world, const PathQuery& query, const std::string& n
   if (status == Status::goal_blocked)
     throw InputError(fmt::format("{}: goal {}", name, world.blocked_reason(query.goal, clearance)));
   if (status != Status::no_path && status != Status::node_limit) return;
-  if (const auto target = free_goal(world, query.goal, tolerance, clearance))
+  if (const auto target = planning::free_goal(world, query.goal, tolerance, clearance))
     KeyLocations(name).require_none(validate_path(world.map(), start, *target, clearance));
 }
 
 }  // namespace
 
-PathLimits path_limits(const PlannerParams& planner) {
+PathLimits path_limits(const planning::PlannerParams& planner) {
   return std::visit(
       [](const auto& p) {
         return PathLimits{p.clearance, p.goal_tolerance};
@@ -62,7 +63,7 @@ PathLimits path_limits(const PlannerParams& planner) {
       planner);
 }
 
-std::string planner_json(const PlannerParams& planner) {
+std::string planner_json(const planning::PlannerParams& planner) {
   return nlohmann::ordered_json::parse(to_json_text(PathChoice{planner}))["planner"].dump();
 }
 
@@ -70,7 +71,7 @@ std::string PathAnswer::why_none() const {
   if (plan.status == Status::solved) return {};
   const std::string word(to_string(plan.status));
   if (plan.status != Status::node_limit) return word;
-  return fmt::format("{}: {}", word, limit_text(planner, plan.counts));
+  return fmt::format("{}: {}", word, planning::limit_text(planner, plan.counts));
 }
 
 const Type& path_settings() { return type_of<PathChoice>(); }
@@ -85,7 +86,8 @@ PathAnswer answer(const Snapshot& world, const PathQuery& query, const std::stri
   made.notes = set_values(choice, query.settings);
   const KeyLocations keys = find_locations({}, "plan", query.settings);
   check_planner(choice.planner, keys);
-  made.planner = fit_to_map(choice.planner, world.map(), given_within(keys.is_given(), "planner"));
+  made.planner =
+      planning::fit_to_map(choice.planner, world.map(), given_within(keys.is_given(), "planner"));
   Rng rng(query.seed, Purpose::planner);
   const auto began = Stop::Clock::now();
   made.plan = plan(world, query.start, query.goal, made.planner, rng, stop);
@@ -94,4 +96,4 @@ PathAnswer answer(const Snapshot& world, const PathQuery& query, const std::stri
   return made;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

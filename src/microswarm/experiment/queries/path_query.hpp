@@ -13,7 +13,7 @@
 #include "microswarm/planning/path/planner_params.hpp"
 #include "microswarm/world/snapshot.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// Path query in a map.
 struct PathQuery {
@@ -30,9 +30,9 @@ const Type& path_settings();
 /// Answer to a query: the plan, and the planner's parameters and time.
 struct PathAnswer {
   Plan plan;
-  PlannerParams planner;  ///< parameters that were used
-  double seconds = 0;     ///< computing time of the planner [s]
-  Notes notes{};          ///< one for each former key in the settings
+  planning::PlannerParams planner;  ///< parameters that were used
+  double seconds = 0;               ///< computing time of the planner [s]
+  Notes notes{};                    ///< one for each former key in the settings
 
   /// Why there is no path, as text, with the limit that ended the search; empty with a path.
   std::string why_none() const;
@@ -49,9 +49,9 @@ struct PathLimits {
   double clearance = 0;
   double goal_tolerance = 0;
 };
-PathLimits path_limits(const PlannerParams& planner);
+PathLimits path_limits(const planning::PlannerParams& planner);
 
 /// Planner and values as a JSON object.
-std::string planner_json(const PlannerParams& planner);
+std::string planner_json(const planning::PlannerParams& planner);
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

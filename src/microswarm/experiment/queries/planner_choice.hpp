@@ -3,7 +3,7 @@
 
 #include "microswarm/core/fields/fields.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// A planner as stored in a file, so that --set planner.… works as in scenarios; `Planners` is a
 /// variant.
@@ -16,4 +16,4 @@ struct PlannerChoice {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -9,7 +9,7 @@
 #include "microswarm/core/text/lines.hpp"
 #include "microswarm/io/hdf5_tables.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 namespace {
 
 constexpr std::string_view diagnostics_group = "/diagnostics";
@@ -25,8 +25,6 @@ const AggregationDiagnostics* newest_tree(const AggregationRows& rows, std::size
 }
 
 }  // namespace
-
-template const Type& type_of<DiagnosticsLog>();
 
 bool DiagnosticsLog::empty() const {
   bool is_empty = true;
@@ -70,27 +68,33 @@ Diagnostics DiagnosticsLog::at(double t) const {
   return found;
 }
 
-void write_diagnostics(Hdf5Writer& out, const DiagnosticsLog& log) {
+void write_diagnostics(io::Hdf5Writer& out, const DiagnosticsLog& log) {
   std::string kinds;
   for (const Field& field : type_of<DiagnosticsLog>().fields) {
     if (field.type->count(field.in(&log)) == 0) continue;
-    write_table(out, field, &log, diagnostics_group);
+    io::write_table(out, field, &log, diagnostics_group);
     kinds.append(kinds.empty() ? "" : " ").append(field.info.name);
   }
   if (!kinds.empty()) out.attribute("/", kinds_attribute, kinds);
 }
 
-DiagnosticsLog read_diagnostics(const Hdf5Reader& in) {
+DiagnosticsLog read_diagnostics(const io::Hdf5Reader& in) {
   DiagnosticsLog log;
   if (!in.has_attribute("/", kinds_attribute)) return log;
   const std::string kinds = in.text_attribute("/", kinds_attribute);
   for (const std::string_view kind : split(kinds, ' '))
     for (const Field& field : type_of<DiagnosticsLog>().fields)
-      if (field.info.name == kind) read_table(in, field, &log, diagnostics_group);
+      if (field.info.name == kind) io::read_table(in, field, &log, diagnostics_group);
   for (const auto& row : log.radar)
     if (row.shown.best && *row.shown.best >= row.shown.beams.size())
       in.fail("/diagnostics/radar/best is no beam");
   return log;
 }
+
+}  // namespace microswarm::experiment
+
+namespace microswarm {
+
+template const Type& type_of<experiment::DiagnosticsLog>();
 
 }  // namespace microswarm

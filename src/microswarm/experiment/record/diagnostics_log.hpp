@@ -7,7 +7,7 @@
 #include "microswarm/contracts/diagnostics.hpp"
 #include "microswarm/io/hdf5_image.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// Diagnostics of one tick.
 template <class Shown>
@@ -44,14 +44,18 @@ struct DiagnosticsLog {
   Diagnostics at(double t) const;
 };
 
-/// Compiled once, in diagnostics_log.cpp.
-extern template const Type& type_of<DiagnosticsLog>();
-
 /// Writes the tables that have rows into the group /diagnostics.
-void write_diagnostics(Hdf5Writer& out, const DiagnosticsLog& log);
+void write_diagnostics(io::Hdf5Writer& out, const DiagnosticsLog& log);
 
 /// Reads the tables; empty if there are none. Tables of other names are ignored. Throws InputError
 /// if they are damaged.
-DiagnosticsLog read_diagnostics(const Hdf5Reader& in);
+DiagnosticsLog read_diagnostics(const io::Hdf5Reader& in);
+
+}  // namespace microswarm::experiment
+
+namespace microswarm {
+
+/// Compiled once, in diagnostics_log.cpp.
+extern template const Type& type_of<experiment::DiagnosticsLog>();
 
 }  // namespace microswarm

@@ -11,7 +11,7 @@
 #include "microswarm/core/version.hpp"
 #include "microswarm/io/hdf5_image.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 namespace {
 
 constexpr std::string_view tree_format_name = "microswarm global-input tree";
@@ -24,7 +24,8 @@ std::string column(std::size_t k) {
   return fmt::format("/nodes/robot{}_{}_um", k / 2 + 1, k % 2 == 0 ? 'x' : 'y');
 }
 
-void write_root(Hdf5Writer& out, const GlobalTree& tree, const LoadedMap& map) {
+void write_root(io::Hdf5Writer& out, const planning::GlobalTree& tree,
+                const formats::LoadedMap& map) {
   out.attribute("/", "format", tree_format_name);
   out.attribute("/", "format_version", tree_format_version);
   out.attribute("/", "version", version);
@@ -46,7 +47,7 @@ std::vector<float> every(const std::vector<float>& positions, std::size_t stride
   return some;
 }
 
-void write_indices(Hdf5Writer& out, const std::string& path, const auto& indices,
+void write_indices(io::Hdf5Writer& out, const std::string& path, const auto& indices,
                    std::string_view doc) {
   out.dataset(path, std::vector<std::int64_t>(indices.begin(), indices.end()));
   out.attribute(path, "description", doc);
@@ -54,10 +55,10 @@ void write_indices(Hdf5Writer& out, const std::string& path, const auto& indices
 
 class Reader {
  public:
-  Reader(const std::filesystem::path& file, const LoadedMap& map)
-      : in_(read_hdf5(read_file(file), file.string())), map_(map) {}
+  Reader(const std::filesystem::path& file, const formats::LoadedMap& map)
+      : in_(io::read_hdf5(read_file(file), file.string())), map_(map) {}
 
-  GlobalTree run() {
+  planning::GlobalTree run() {
     check_origin();
     read_root();
     read_nodes();
@@ -93,11 +94,11 @@ class Reader {
   }
 
   void read_root() {
-    tree_.robots = static_cast<std::size_t>(whole("robots", 1, max_global_robots));
+    tree_.robots = static_cast<std::size_t>(whole("robots", 1, planning::max_global_robots));
     tree_.robostep = length("robostep_um", 1e-3);
     tree_.separation = length("separation_um", 0);
     const auto directions = static_cast<int>(whole("directions", 3, 256));
-    tree_.moves = input_moves(directions, tree_.robostep);
+    tree_.moves = planning::input_moves(directions, tree_.robostep);
     const std::string contact = in_->text_attribute("/", "contact");
     const auto rule = enum_value<ContactRule>(contact);
     if (!rule) in_->fail("attribute contact is the unknown word '" + contact + "'");
@@ -131,7 +132,7 @@ class Reader {
   }
 
   void replay() const {
-    const RobotStepper stepper = input_stepper(*map_.map, tree_.robostep);
+    const RobotStepper stepper = planning::input_stepper(*map_.map, tree_.robostep);
     for (std::size_t i = 0; i < tree_.robots; ++i)
       if (!map_.map->is_free(tree_.position(0, i), 0))
         in_->fail(fmt::format("robot {} of the first node is in a wall", i + 1));
@@ -150,17 +151,17 @@ class Reader {
     }
   }
 
-  std::unique_ptr<const Hdf5Reader> in_;
-  const LoadedMap& map_;
-  GlobalTree tree_;
+  std::unique_ptr<const io::Hdf5Reader> in_;
+  const formats::LoadedMap& map_;
+  planning::GlobalTree tree_;
 };
 
 }  // namespace
 
-void write_global_tree(const GlobalTree& tree, const LoadedMap& map,
+void write_global_tree(const planning::GlobalTree& tree, const formats::LoadedMap& map,
                        const std::filesystem::path& file) {
-  const auto made = write_hdf5();
-  Hdf5Writer& out = *made;
+  const auto made = io::write_hdf5();
+  io::Hdf5Writer& out = *made;
   write_root(out, tree, map);
   for (std::size_t k = 0; k < 2 * tree.robots; ++k) {
     out.dataset(column(k), every(tree.configurations, 2 * tree.robots, k));
@@ -177,8 +178,9 @@ void write_global_tree(const GlobalTree& tree, const LoadedMap& map,
   write_file_atomically(file, out.finish());
 }
 
-GlobalTree read_global_tree(const std::filesystem::path& file, const LoadedMap& map) {
+planning::GlobalTree read_global_tree(const std::filesystem::path& file,
+                                      const formats::LoadedMap& map) {
   return Reader(file, map).run();
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -12,7 +12,7 @@
 #include "microswarm/experiment/run/run_listener.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// Record of a run, sufficient to repeat, measure and draw it.
 struct Record {
@@ -49,9 +49,6 @@ struct Record {
   std::string hash() const;
 };
 
-/// Compiled once, in record.cpp; describes the whole record.
-extern template const Type& type_of<Record>();
-
 /// Writes an HDF5 file with the layout in docs/reference/record.md, atomically through a temporary
 /// file. A symbolic link is replaced, its target is kept. Throws InputError "FILE: cannot write:
 /// REASON" and leaves no file behind; leftovers of killed processes are removed.
@@ -59,5 +56,12 @@ void write_record(const Record& record, const std::filesystem::path& file);
 
 /// Reads a record. Throws InputError if the file is not a record, is damaged or is inconsistent.
 Record read_record(const std::filesystem::path& file);
+
+}  // namespace microswarm::experiment
+
+namespace microswarm {
+
+/// Compiled once, in record.cpp; describes the whole record.
+extern template const Type& type_of<experiment::Record>();
 
 }  // namespace microswarm

@@ -11,14 +11,14 @@
 #include "microswarm/io/hdf5_image.hpp"
 #include "microswarm/io/hdf5_tables.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 namespace {
 
 constexpr std::string_view record_format_name = "microswarm record";
 constexpr std::int64_t record_format_version = 4;
 constexpr std::int64_t unchanged_format_version = 3;  // of a record without changes
-void write_root(Hdf5Writer& out, const Record& record) {
+void write_root(io::Hdf5Writer& out, const Record& record) {
   out.attribute("/", "format", record_format_name);
   out.attribute("/", "format_version",
                 record.changes.empty() ? unchanged_format_version : record_format_version);
@@ -33,19 +33,19 @@ void write_root(Hdf5Writer& out, const Record& record) {
   out.attribute("/", "record_hash", record.hash());
 }
 
-void write_times(Hdf5Writer& out, const std::string& path, const std::vector<double>& seconds,
+void write_times(io::Hdf5Writer& out, const std::string& path, const std::vector<double>& seconds,
                  std::string_view doc) {
   out.dataset(path, seconds);
   out.attribute(path, "unit", "s");
   out.attribute(path, "description", doc);
 }
 
-Status to_status(const Hdf5Reader& in, const std::string& word) {
+Status to_status(const io::Hdf5Reader& in, const std::string& word) {
   if (const auto status = enum_value<Status>(word)) return *status;
   in.fail("attribute status is the unknown word '" + word + "'");
 }
 
-void write_changes(Hdf5Writer& out, const std::vector<Change>& changes) {
+void write_changes(io::Hdf5Writer& out, const std::vector<Change>& changes) {
   if (changes.empty()) return;
   std::vector<double> times;
   std::vector<std::int64_t> frames;
@@ -64,7 +64,7 @@ void write_changes(Hdf5Writer& out, const std::vector<Change>& changes) {
   out.attribute("/changes/settings", "description", "KEY=VALUE of the scenario, a line a change.");
 }
 
-std::vector<Change> read_changes(const Hdf5Reader& in) {
+std::vector<Change> read_changes(const io::Hdf5Reader& in) {
   const std::vector<double> times = in.numbers("/changes/t_s");
   const std::vector<std::int64_t> frames = in.integers("/changes/frame");
   std::istringstream settings(in.text("/changes/settings"));
@@ -90,20 +90,20 @@ struct ExternalPart {
   }
 };
 
-void write_phased_goals(Hdf5Writer& out, const std::vector<PhasedGoal>& goals) {
+void write_phased_goals(io::Hdf5Writer& out, const std::vector<PhasedGoal>& goals) {
   if (goals.empty()) return;
   const ExternalPart part{goals};
   out.attribute("/", "phased_goals", static_cast<std::int64_t>(goals.size()));
-  write_tables(out, type_of<ExternalPart>(), &part);
+  io::write_tables(out, type_of<ExternalPart>(), &part);
 }
 
-std::vector<PhasedGoal> read_phased_goals(const Hdf5Reader& in) {
+std::vector<PhasedGoal> read_phased_goals(const io::Hdf5Reader& in) {
   ExternalPart part;
-  if (in.has_attribute("/", "phased_goals")) read_tables(in, type_of<ExternalPart>(), &part);
+  if (in.has_attribute("/", "phased_goals")) io::read_tables(in, type_of<ExternalPart>(), &part);
   return std::move(part.phased_goals);
 }
 
-std::int64_t check_format(const Hdf5Reader& in) {
+std::int64_t check_format(const io::Hdf5Reader& in) {
   if (in.text_attribute("/", "format") != record_format_name) in.fail("is no microswarm record");
   const std::int64_t written = in.integer_attribute("/", "format_version");
   if (written != record_format_version && written != unchanged_format_version)
@@ -116,17 +116,17 @@ std::int64_t check_format(const Hdf5Reader& in) {
 }  // namespace
 
 void write_record(const Record& record, const std::filesystem::path& file) {
-  const auto made = write_hdf5();
-  Hdf5Writer& out = *made;
+  const auto made = io::write_hdf5();
+  io::Hdf5Writer& out = *made;
   write_root(out, record);
   write_scene(out, record.scene);
-  write_tables(out, type_of<Record>(), &record);
+  io::write_tables(out, type_of<Record>(), &record);
   write_changes(out, record.changes);
   write_phased_goals(out, record.phased_goals);
   write_diagnostics(out, record.diagnostics);
   write_rig_log(out, record.rig_log);
   out.group("/metrics");
-  write_attributes(out, "/metrics", type_of<Metrics>(), &record.result.metrics);
+  io::write_attributes(out, "/metrics", type_of<Metrics>(), &record.result.metrics);
   write_times(out, "/timing/step_s", record.result.timing.steps,
               "Wall-clock time of the navigator's step, one a tick.");
   write_times(out, "/timing/planning_s", record.result.timing.planning,
@@ -137,8 +137,8 @@ void write_record(const Record& record, const std::filesystem::path& file) {
 }
 
 Record read_record(const std::filesystem::path& file) {
-  const auto opened = read_hdf5(read_file(file), file.string());
-  const Hdf5Reader& in = *opened;
+  const auto opened = io::read_hdf5(read_file(file), file.string());
+  const io::Hdf5Reader& in = *opened;
   const std::int64_t format = check_format(in);
   Record record;
   record.version = in.text_attribute("/", "version");
@@ -148,16 +148,16 @@ Record read_record(const std::filesystem::path& file) {
   if (in.has_attribute("/", "rig")) record.rig = in.text_attribute("/", "rig");
   if (in.has_attribute("/", "navigator")) record.navigator = in.text_attribute("/", "navigator");
   record.scene = read_scene(in);
-  read_tables(in, type_of<Record>(), &record);
+  io::read_tables(in, type_of<Record>(), &record);
   record.phased_goals = read_phased_goals(in);
   record.diagnostics = read_diagnostics(in);
   record.rig_log = read_rig_log(in);
   if (format == record_format_version) record.changes = read_changes(in);
   record.result.status = to_status(in, in.text_attribute("/", "status"));
-  read_attributes(in, "/metrics", type_of<Metrics>(), &record.result.metrics);
+  io::read_attributes(in, "/metrics", type_of<Metrics>(), &record.result.metrics);
   record.stated_hash = in.text_attribute("/", "record_hash");
   record.result.timing = {in.numbers("/timing/step_s"), in.numbers("/timing/planning_s")};
   return record;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -8,26 +8,26 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/navigation/following/follower_model.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 namespace {
 
 using Offsets = std::vector<std::int64_t>;
 
-void number_column(Hdf5Writer& out, const std::string& path, const std::vector<double>& values,
+void number_column(io::Hdf5Writer& out, const std::string& path, const std::vector<double>& values,
                    std::string_view unit) {
   out.dataset(path, values);
   out.attribute(path, "unit", unit);
 }
 
-void write_points(Hdf5Writer& out, const std::string& group, const std::vector<Vec2>& points) {
+void write_points(io::Hdf5Writer& out, const std::string& group, const std::vector<Vec2>& points) {
   std::vector<double> x, y;
   for (const Vec2 p : points) x.push_back(p.x), y.push_back(p.y);
   number_column(out, group + "/x_um", x, "µm");
   number_column(out, group + "/y_um", y, "µm");
 }
 
-std::vector<Vec2> read_points(const Hdf5Reader& in, const std::string& group) {
+std::vector<Vec2> read_points(const io::Hdf5Reader& in, const std::string& group) {
   const std::vector<double> x = in.numbers(group + "/x_um"), y = in.numbers(group + "/y_um");
   if (x.size() != y.size()) in.fail(group + ": x_um and y_um differ in length");
   std::vector<Vec2> points;
@@ -36,7 +36,7 @@ std::vector<Vec2> read_points(const Hdf5Reader& in, const std::string& group) {
 }
 
 /// Offsets of a list of lists with `count` entries in total.
-Offsets read_offsets(const Hdf5Reader& in, const std::string& path, std::size_t count) {
+Offsets read_offsets(const io::Hdf5Reader& in, const std::string& path, std::size_t count) {
   Offsets offsets = in.integers(path);
   if (offsets.empty() || offsets.front() != 0 ||
       offsets.back() != static_cast<std::int64_t>(count) ||
@@ -45,7 +45,7 @@ Offsets read_offsets(const Hdf5Reader& in, const std::string& path, std::size_t 
   return offsets;
 }
 
-void write_walls(Hdf5Writer& out, const std::vector<Polygon>& walls) {
+void write_walls(io::Hdf5Writer& out, const std::vector<Polygon>& walls) {
   std::vector<Vec2> points;
   Offsets ring_ends{0}, wall_ends{0};
   const auto add_ring = [&](const std::vector<Vec2>& ring) {
@@ -67,7 +67,7 @@ void write_walls(Hdf5Writer& out, const std::vector<Polygon>& walls) {
                 "outline, then its holes.");
 }
 
-std::vector<Polygon> read_walls(const Hdf5Reader& in) {
+std::vector<Polygon> read_walls(const io::Hdf5Reader& in) {
   const std::vector<Vec2> points = read_points(in, "/map/walls");
   const Offsets rings = read_offsets(in, "/map/walls/ring_offset", points.size());
   const Offsets walls = read_offsets(in, "/map/walls/wall_offset", rings.size() - 1);
@@ -90,7 +90,7 @@ std::vector<Track*> find_tracks(std::vector<Obstacle>& obstacles) {
   return tracks;
 }
 
-void write_tracks(Hdf5Writer& out, const std::vector<Obstacle>& obstacles) {
+void write_tracks(io::Hdf5Writer& out, const std::vector<Obstacle>& obstacles) {
   std::vector<double> times;
   std::vector<Vec2> points;
   Offsets ends{0};
@@ -111,7 +111,7 @@ void write_tracks(Hdf5Writer& out, const std::vector<Obstacle>& obstacles) {
       "The i-th obstacle that follows a track owns offset[i] to offset[i + 1] - 1, from 0.");
 }
 
-void read_track_samples(const Hdf5Reader& in, std::vector<Obstacle>& obstacles) {
+void read_track_samples(const io::Hdf5Reader& in, std::vector<Obstacle>& obstacles) {
   const std::vector<double> times = in.numbers("/tracks/t_s");
   const std::vector<Vec2> points = read_points(in, "/tracks");
   if (points.size() != times.size()) in.fail("/tracks: t_s and x_um differ in length");
@@ -129,7 +129,7 @@ void read_track_samples(const Hdf5Reader& in, std::vector<Obstacle>& obstacles) 
 
 }  // namespace
 
-void write_scene(Hdf5Writer& out, const Scene& scene) {
+void write_scene(io::Hdf5Writer& out, const Scene& scene) {
   out.text("/scenario", scenario_text(scene.scenario));
   out.attribute("/scenario", "description", "The scenario as YAML, every parameter written out.");
   const Box& bounds = scene.map.bounds;
@@ -143,12 +143,13 @@ void write_scene(Hdf5Writer& out, const Scene& scene) {
   write_points(out, "/map/discs", centres);
   number_column(out, "/map/discs/radius_um", radii, "µm");
   write_tracks(out, scene.scenario.obstacles);
-  if (const FollowerParams* follower = find_follower(scene.scenario.navigator);
+  if (const navigation::FollowerParams* follower =
+          navigation::find_follower(scene.scenario.navigator);
       follower && follower->loaded)
-    out.text("/follower_model", follower_model_text(*follower->loaded));
+    out.text("/follower_model", navigation::follower_model_text(*follower->loaded));
 }
 
-Scene read_scene(const Hdf5Reader& in) {
+Scene read_scene(const io::Hdf5Reader& in) {
   Scene scene;
   scene.scenario = read_yaml_text<Scenario>(in.text("/scenario"), in.name() + ":/scenario");
   const std::vector<double> bounds = in.numbers("/map/bounds_um");
@@ -159,13 +160,14 @@ Scene read_scene(const Hdf5Reader& in) {
   const std::vector<double> radii = in.numbers("/map/discs/radius_um");
   if (radii.size() != centres.size()) in.fail("/map/discs: x_um and radius_um differ in length");
   for (std::size_t i = 0; i < radii.size(); ++i) scene.map.discs.push_back({centres[i], radii[i]});
-  check(scene.map, in.name());
+  formats::check(scene.map, in.name());
   read_track_samples(in, scene.scenario.obstacles);
-  if (FollowerParams* follower = find_follower(scene.scenario.navigator);
+  if (navigation::FollowerParams* follower = navigation::find_follower(scene.scenario.navigator);
       follower && !follower->model.empty())
-    follower->loaded = std::make_shared<const FollowerModel>(
-        parse_follower_model(in.text("/follower_model"), in.name() + ":/follower_model"));
+    follower->loaded =
+        std::make_shared<const navigation::FollowerModel>(navigation::parse_follower_model(
+            in.text("/follower_model"), in.name() + ":/follower_model"));
   return scene;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

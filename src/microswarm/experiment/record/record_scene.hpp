@@ -4,12 +4,12 @@
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/io/hdf5_image.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// Writes the scene of a record: /scenario, /map and /tracks, layout in docs/reference/record.md.
-void write_scene(Hdf5Writer& out, const Scene& scene);
+void write_scene(io::Hdf5Writer& out, const Scene& scene);
 
 /// Reads a scene bit-exactly. Throws InputError if its parts are inconsistent.
-Scene read_scene(const Hdf5Reader& in);
+Scene read_scene(const io::Hdf5Reader& in);
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -5,7 +5,7 @@
 
 #include "microswarm/core/version.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 Recorder::Recorder(Scene scene, std::uint32_t trial, std::string rig)
     : record_{.version = std::string(version),
@@ -50,4 +50,4 @@ void Recorder::keep_robots(const Tick& tick) {
   kept.push_back({tick.frame.t, {tick.robots->begin(), tick.robots->end()}});
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

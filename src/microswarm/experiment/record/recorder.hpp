@@ -7,7 +7,7 @@
 #include "microswarm/experiment/record/record.hpp"
 #include "microswarm/experiment/run/metrics_listener.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// Keeps a run and its metrics in memory. Robot positions are kept at 64 to 128 equally spaced
 /// frames and at the end.
@@ -38,4 +38,4 @@ class Recorder : public RunListener {
   std::size_t robot_frames_ = 0;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -7,10 +7,10 @@
 
 #include "microswarm/io/hdf5_tables.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 namespace {
 
-void write_column(Hdf5Writer& out, const std::string& path, const auto& values,
+void write_column(io::Hdf5Writer& out, const std::string& path, const auto& values,
                   std::string_view unit, std::string_view doc) {
   out.dataset(path, values);
   out.attribute(path, "unit", unit);
@@ -38,7 +38,7 @@ void RigLog::see(double t, std::int64_t body, Vec2 position, double radius) {
   radii.push_back(radius);
 }
 
-void write_rig_log(Hdf5Writer& out, const RigLog& log) {
+void write_rig_log(io::Hdf5Writer& out, const RigLog& log) {
   if (log.empty()) return;
   out.text("/rig/file", log.rig_file);
   out.attribute("/rig/file", "description", "All parameters of the rig, YAML.");
@@ -52,7 +52,7 @@ void write_rig_log(Hdf5Writer& out, const RigLog& log) {
                "When the driver had the currents.");
   write_column(out, "/rig/currents/seen_s", log.pictured_at, "s",
                "Time of the picture that the currents answer.");
-  if (log.latency) write_attributes(out, "/rig", type_of<RigLatency>(), &*log.latency);
+  if (log.latency) io::write_attributes(out, "/rig", type_of<RigLatency>(), &*log.latency);
   for (std::size_t c = 0; c < log.coils.size(); ++c) {
     const std::string path = current_path(c);
     write_column(out, path, every_nth(log.currents, log.coils.size(), c), "A",
@@ -71,7 +71,7 @@ void write_rig_log(Hdf5Writer& out, const RigLog& log) {
   write_column(out, "/rig/seen/radius_um", log.radii, "µm", "Radius of a circle around the body.");
 }
 
-RigLog read_rig_log(const Hdf5Reader& in) {
+RigLog read_rig_log(const io::Hdf5Reader& in) {
   RigLog log;
   if (!in.has_attribute("/", "rig") || !in.has_attribute("/rig", "began")) return log;
   log.began = in.text_attribute("/rig", "began");
@@ -86,7 +86,7 @@ RigLog read_rig_log(const Hdf5Reader& in) {
     log.pictured_at = in.numbers("/rig/currents/seen_s");
     for (const std::size_t size : {log.answered_at.size(), log.pictured_at.size()})
       if (size != log.driven_at.size()) in.fail("/rig/currents has columns of different lengths");
-    read_attributes(in, "/rig", type_of<RigLatency>(), &log.latency.emplace());
+    io::read_attributes(in, "/rig", type_of<RigLatency>(), &log.latency.emplace());
   }
   const auto count = static_cast<std::size_t>(coils);
   std::vector<std::vector<double>> columns;
@@ -108,4 +108,4 @@ RigLog read_rig_log(const Hdf5Reader& in) {
   return log;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -11,7 +11,7 @@
 #include "microswarm/geometry/vec2.hpp"
 #include "microswarm/io/hdf5_image.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// Latency of a rig: time from the arrival of a picture in the program to the driver's
 /// acknowledgement of the first currents that answer it.
@@ -58,9 +58,9 @@ struct RigLog {
 };
 
 /// Writes the group /rig, nothing for an empty log.
-void write_rig_log(Hdf5Writer& out, const RigLog& log);
+void write_rig_log(io::Hdf5Writer& out, const RigLog& log);
 
 /// Reads the log; empty if there is none. Throws InputError if the columns do not fit together.
-RigLog read_rig_log(const Hdf5Reader& in);
+RigLog read_rig_log(const io::Hdf5Reader& in);
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -13,7 +13,7 @@
 #include "microswarm/contracts/plan.hpp"
 #include "microswarm/core/fields/fields.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// One tick of a run. All fields are physical and reproducible bit for bit.
 struct Frame {
@@ -153,4 +153,4 @@ struct RunEvent {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -6,7 +6,7 @@
 
 #include "microswarm/core/maths/statistics.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 double avoidance_cost(Vec2 towards, double left, double heading, bool moves,
                       double start_distance) {
@@ -32,4 +32,4 @@ TimeSummary summarise(std::span<const double> seconds) {
           .max = sorted.back()};
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

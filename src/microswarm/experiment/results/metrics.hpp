@@ -8,7 +8,7 @@
 #include "microswarm/core/fields/fields.hpp"
 #include "microswarm/geometry/vec2.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// Minimum clearance of a run and its time.
 struct LeastClearance {
@@ -103,4 +103,4 @@ struct Timing {
   std::vector<double> planning;  ///< of steps with a planning event
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -9,7 +9,7 @@
 #include "microswarm/experiment/monitors/contact_monitor.hpp"
 #include "microswarm/swarm/body/swarm_body.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 namespace {
 
@@ -184,4 +184,4 @@ std::vector<ContactVerdict> judge_contacts(const Scenario& scenario, const World
   return verdicts;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -9,7 +9,7 @@
 #include "microswarm/experiment/scenario/scenario.hpp"
 #include "microswarm/world/world.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// Settings of `judge_contacts`; see docs/explanation/safety.md.
 struct JudgeParams {
@@ -57,4 +57,4 @@ std::vector<ContactVerdict> judge_contacts(const Scenario& scenario, const World
                                            std::uint32_t trial, const ContactLog& log,
                                            const JudgeParams& params = {});
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -8,7 +8,7 @@
 
 #include "microswarm/experiment/results/metrics.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -254,7 +254,7 @@ void Episode::fill(const Observation& seen) {
   frame.obstacle_clearance =
       one_is_there ? world_->moving().clearance(frame.pose.position, infinity) : infinity;
   const double range =
-      scenario_.detection_range.value_or(required_detection_range(scenario_.navigator));
+      scenario_.detection_range.value_or(navigation::required_detection_range(scenario_.navigator));
   tick_.detects = !goal_.has_robots() && frame.obstacle_clearance - frame.radius < range;
   if (tick_.detects)
     frame.avoidance_cost = avoidance_cost(
@@ -267,4 +267,4 @@ void Episode::note(EventKind kind) {
       {.t = present_.t, .kind = kind, .position = present_.pose.position, .speed = present_.speed});
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -17,7 +17,7 @@
 #include "microswarm/experiment/scenario/scenario.hpp"
 #include "microswarm/navigation/prediction/obstacle_memory.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// Runs an experiment tick by tick: observe, decide, apply. Contacts and arrival are detected in
 /// continuous time. For individually tracked robots the goal is tested once per tick, and walls are
@@ -77,7 +77,7 @@ class Episode {
   const Navigator* shown_ = nullptr;  ///< whose diagnostics the tick carries
   Operation* operation_;
   OperatingMode mode_ = OperatingMode::autonomous;  ///< of the tick
-  ObstacleMemory obstacles_;
+  navigation::ObstacleMemory obstacles_;
   GoalMonitor goal_;
   HoldMonitor hold_;
   std::optional<ContactMonitor> contacts_;
@@ -101,4 +101,4 @@ class Episode {
   std::string fault_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

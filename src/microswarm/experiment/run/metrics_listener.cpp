@@ -5,7 +5,7 @@
 
 #include "microswarm/core/maths/angles.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 namespace {
 
@@ -117,4 +117,4 @@ void MetricsListener::summarise(const Frame& newest) {
   metrics.avoidance.mean_gap = gap_sum_ / detected_ticks_;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -6,7 +6,7 @@
 #include "microswarm/experiment/run/run_listener.hpp"
 #include "microswarm/experiment/scenario/scenario.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// Accumulates a run's metrics, up to the arrival if the swarm is held at the goal, and the
 /// navigator's times. If the plant provides no ground truth,
@@ -37,4 +37,4 @@ class MetricsListener : public RunListener {
   RunResult& result_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

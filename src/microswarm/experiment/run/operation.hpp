@@ -5,7 +5,7 @@
 
 #include "microswarm/navigation/manual/manual_navigator.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// Source of a tick's command: the experiment's navigator, manual steering, or a hold.
 enum class OperatingMode { autonomous, manual, paused };
@@ -46,13 +46,13 @@ class Operation {
     if (paused_) return OperatingMode::paused;
     return manual_ ? OperatingMode::manual : OperatingMode::autonomous;
   }
-  ManualNavigator& by_hand() { return by_hand_; }
+  navigation::ManualNavigator& by_hand() { return by_hand_; }
 
  private:
-  ManualNavigator by_hand_;
+  navigation::ManualNavigator by_hand_;
   std::atomic<bool> paused_ = false;
   std::atomic<bool> manual_ = false;
   std::atomic<bool> ended_ = false;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

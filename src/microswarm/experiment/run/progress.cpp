@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 ProgressListener::ProgressListener(const Scenario& scenario,
                                    std::function<void(const RunProgress&)> report, double period)
@@ -22,4 +22,4 @@ void ProgressListener::on_tick(const Tick& tick) {
            .time_spent = std::clamp(frame.t / time_limit_, 0.0, 1.0)});
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

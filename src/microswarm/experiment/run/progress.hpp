@@ -7,7 +7,7 @@
 #include "microswarm/experiment/run/run_listener.hpp"
 #include "microswarm/experiment/scenario/scenario.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// Progress of a run: the completed fraction of the initial goal distance and the elapsed fraction
 /// of the simulated time limit.
@@ -32,4 +32,4 @@ class ProgressListener : public RunListener {
   double next_ = 0;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

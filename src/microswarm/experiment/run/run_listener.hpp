@@ -7,7 +7,7 @@
 #include "microswarm/experiment/results/metrics.hpp"
 #include "microswarm/experiment/run/tick.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// Result of a run.
 struct RunResult {
@@ -27,4 +27,4 @@ class RunListener {
   virtual void on_end(const RunResult& result) { (void)result; }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

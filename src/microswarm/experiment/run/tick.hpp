@@ -14,7 +14,7 @@
 #include "microswarm/experiment/monitors/contact_monitor.hpp"
 #include "microswarm/experiment/results/frame.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// One tick of an episode: the state at its start and what happened during it. Valid until the next
 /// one.
@@ -37,4 +37,4 @@ struct Tick {
   std::string_view fault;     ///< why the plant stopped; set for the last tick
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

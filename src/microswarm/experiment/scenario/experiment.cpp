@@ -9,7 +9,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/experiment/scenario/validate.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 namespace {
 
 /// Whether a key that others are validated against was misread. Then only reading errors are
@@ -71,4 +71,4 @@ Experiment open_experiment(Scenario scenario, const std::filesystem::path& base,
   return open(std::move(scenario), base, keys, {});
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

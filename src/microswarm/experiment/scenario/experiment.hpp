@@ -13,7 +13,7 @@
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/world/world.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// A validated scenario with its world, ready to run.
 struct Experiment {
@@ -40,4 +40,4 @@ Experiment open_experiment_text(std::string_view text, const std::string& name,
 Experiment open_experiment(Scenario scenario, const std::filesystem::path& base,
                            const KeyLocations& keys = {});
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

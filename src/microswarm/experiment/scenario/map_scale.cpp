@@ -3,12 +3,12 @@
 
 #include "microswarm/navigation/gathering/policies/published_scale.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 void fit_gathering(Scenario& scenario, double width, int max_steps) {
   constexpr double speed = 80;  // [µm/s]
-  auto& params = std::get<AggregationParams>(scenario.navigator);
-  params.scale = width / published_channel_width;
+  auto& params = std::get<navigation::AggregationParams>(scenario.navigator);
+  params.scale = width / navigation::published_channel_width;
   scenario.robots->max_speed = speed;
   scenario.tick = params.step * params.scale / speed;
   scenario.time_limit = max_steps * scenario.tick;
@@ -19,7 +19,7 @@ void fit_swarm(Scenario& scenario, double width) {
   const double radius = 0.2 * width;
   const double speed = 7 * radius;  // [µm/s], a passage in two thirds of a second
   scenario.swarm = RibbonParams{.radius = radius, .max_speed = speed};
-  HierarchicalParams params;
+  navigation::HierarchicalParams params;
   params.clearance = 1.15 * radius;
   params.extra_clearance = 0.2 * radius;
   params.speed = 0.9 * speed;
@@ -38,4 +38,4 @@ void fit_swarm(Scenario& scenario, double width) {
   scenario.goal_tolerance = 2.5 * radius;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

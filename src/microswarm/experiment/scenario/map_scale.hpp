@@ -3,7 +3,7 @@
 
 #include "microswarm/experiment/scenario/scenario.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// Scales the published lengths and speed [gather], for channels of 10 µm, to channels of `width`
 /// [µm]. One step per tick; gathered when the mean path length is at most a channel width. The
@@ -14,4 +14,4 @@ void fit_gathering(Scenario& scenario, double width, int max_steps);
 /// D-RRT* whose lengths and speeds suit both.
 void fit_swarm(Scenario& scenario, double width);
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -6,9 +6,7 @@
 #include "microswarm/config/write.hpp"
 #include "microswarm/config/yaml.hpp"
 
-namespace microswarm {
-
-template const Type& type_of<Scenario>();
+namespace microswarm::experiment {
 
 Scenario read_scenario(const std::filesystem::path& file, const Settings& settings,
                        KeyLocations& keys) {
@@ -26,10 +24,16 @@ Scenario read_scenario(const std::filesystem::path& file) {
 
 std::string scenario_text(const Scenario& scenario) {
   Scenario out = scenario;
-  out.navigator = in_effect(out.navigator);
+  out.navigator = navigation::in_effect(out.navigator);
   return to_yaml(out);
 }
 
 std::string scenario_schema() { return json_schema<Scenario>("microswarm scenario"); }
+
+}  // namespace microswarm::experiment
+
+namespace microswarm {
+
+template const Type& type_of<experiment::Scenario>();
 
 }  // namespace microswarm

@@ -17,9 +17,11 @@
 #include "microswarm/world/obstacles/obstacle.hpp"
 
 namespace microswarm {
-
 class KeyLocations;
 struct Settings;
+}  // namespace microswarm
+
+namespace microswarm::experiment {
 
 /// Model of the camera and the image processing: delay, noise and missed detections.
 struct SensingParams {
@@ -68,7 +70,7 @@ struct RecordParams {
 struct Scenario {
   std::string name;
   std::string description;
-  MapSpec map;
+  formats::MapSpec map;
   std::vector<Obstacle> obstacles;
   SwarmParams swarm;
   std::optional<RobotSwarmParams> robots;
@@ -76,7 +78,7 @@ struct Scenario {
   std::optional<Pose2> start;
   std::optional<Vec2> goal;
   double goal_tolerance = 50;
-  NavigatorParams navigator;
+  navigation::NavigatorParams navigator;
   double tick = 0.1;
   double time_limit = 300;
   double hold_limit = 60;
@@ -134,7 +136,11 @@ std::string scenario_text(const Scenario& scenario);
 /// JSON Schema of scenarios: every key with its unit, range, default and description.
 std::string scenario_schema();
 
+}  // namespace microswarm::experiment
+
+namespace microswarm {
+
 /// Compiled once, in scenario.cpp; describes the whole scenario.
-extern template const Type& type_of<Scenario>();
+extern template const Type& type_of<experiment::Scenario>();
 
 }  // namespace microswarm

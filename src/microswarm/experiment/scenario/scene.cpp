@@ -13,7 +13,7 @@
 #include "microswarm/formats/tracks.hpp"
 #include "microswarm/navigation/following/follower_model.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 namespace {
 
 constexpr std::uint64_t max_model_bytes = 1 << 20;
@@ -32,7 +32,7 @@ class TrackFiles {
     }
     const std::filesystem::path path = base_ / track.file;
     auto file = files_.find(path);
-    if (file == files_.end()) file = files_.emplace(path, read_tracks(path)).first;
+    if (file == files_.end()) file = files_.emplace(path, formats::read_tracks(path)).first;
     const auto samples = file->second.find(track.id);
     if (samples == file->second.end())
       issues.add("id", fmt::format("{} has no id '{}'", path.string(), track.id));
@@ -43,7 +43,7 @@ class TrackFiles {
 
  private:
   std::filesystem::path base_;
-  std::map<std::filesystem::path, Tracks> files_;
+  std::map<std::filesystem::path, formats::Tracks> files_;
 };
 
 /// Loads the obstacles' tracks, then validates each obstacle.
@@ -64,12 +64,12 @@ Issues load_obstacles(std::vector<Obstacle>& obstacles, const std::filesystem::p
 }
 
 /// Reads the navigator's learned follower model, if it has one.
-void load_follower(NavigatorParams& navigator, const std::filesystem::path& base) {
-  FollowerParams* follower = find_follower(navigator);
+void load_follower(navigation::NavigatorParams& navigator, const std::filesystem::path& base) {
+  navigation::FollowerParams* follower = navigation::find_follower(navigator);
   if (!follower || follower->model.empty()) return;
   const std::filesystem::path path = base / follower->model;
-  follower->loaded = std::make_shared<const FollowerModel>(
-      parse_follower_model(read_file(path, max_model_bytes), path.string()));
+  follower->loaded = std::make_shared<const navigation::FollowerModel>(
+      navigation::parse_follower_model(read_file(path, max_model_bytes), path.string()));
 }
 
 void hash_points(Hash& hash, const std::vector<Vec2>& points) {
@@ -77,7 +77,7 @@ void hash_points(Hash& hash, const std::vector<Vec2>& points) {
   for (const Vec2 p : points) hash.value(p.x), hash.value(p.y);
 }
 
-void hash_map(Hash& hash, const MapParts& map) {
+void hash_map(Hash& hash, const formats::MapParts& map) {
   hash_points(hash, {map.bounds.lo, map.bounds.hi});
   hash.value(static_cast<std::uint64_t>(map.walls.size()));
   for (const Polygon& wall : map.walls) {
@@ -103,16 +103,16 @@ std::string Scene::hash() const {
     for (const double t : track->samples->times) hash.value(t);
     hash_points(hash, track->samples->points);
   }
-  if (const FollowerParams* follower = find_follower(scenario.navigator);
+  if (const navigation::FollowerParams* follower = navigation::find_follower(scenario.navigator);
       follower && follower->loaded)
-    hash.text(follower_model_text(*follower->loaded));
+    hash.text(navigation::follower_model_text(*follower->loaded));
   return hash.hex();
 }
 
 Scene load_scene(Scenario scenario, const std::filesystem::path& base, Issues& issues) {
   issues.add(load_obstacles(scenario.obstacles, base));
   attempt(issues, "navigator.follower.model", [&] { load_follower(scenario.navigator, base); });
-  MapParts map = read_map_parts(scenario.map, base, issues);
+  formats::MapParts map = formats::read_map_parts(scenario.map, base, issues);
   return {std::move(scenario), std::move(map)};
 }
 
@@ -124,12 +124,12 @@ Scene load_scene(Scenario scenario, const std::filesystem::path& base, const Key
 }
 
 World build_world(const Scene& scene) {
-  const MapParts& parts = scene.map;
+  const formats::MapParts& parts = scene.map;
   return {std::make_shared<const Map>(parts.bounds, parts.walls, parts.discs),
           scene.scenario.obstacles};
 }
 
-Task navigation_task(const Scenario& scenario) {
+navigation::Task navigation_task(const Scenario& scenario) {
   return {.swarm = swarm_limits(scenario.swarm),
           .robots = scenario.robots,
           .goal = scenario.goal,
@@ -138,4 +138,4 @@ Task navigation_task(const Scenario& scenario) {
           .frame_timeout = scenario.sensing.frame_timeout};
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

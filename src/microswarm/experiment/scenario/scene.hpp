@@ -10,12 +10,12 @@
 #include "microswarm/navigation/make.hpp"
 #include "microswarm/world/world.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// A scenario and the contents of its files: everything a run depends on.
 struct Scene {
   Scenario scenario;  ///< tracks of obstacles include their samples
-  MapParts map;
+  formats::MapParts map;
 
   /// Fingerprint of the whole scene.
   std::string hash() const;
@@ -29,9 +29,9 @@ Scene load_scene(Scenario scenario, const std::filesystem::path& base,
                  const KeyLocations& keys = {});
 
 /// The navigator's task in a scenario.
-Task navigation_task(const Scenario& scenario);
+navigation::Task navigation_task(const Scenario& scenario);
 
 /// Builds the world of a scene. Throws InputError like Map.
 World build_world(const Scene& scene);
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

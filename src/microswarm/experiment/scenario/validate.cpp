@@ -11,7 +11,7 @@
 #include "microswarm/planning/exact/shortest_paths.hpp"
 #include "microswarm/world/connectivity/passage.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 namespace {
 
 // A navigator for which every observation is too old would never move.
@@ -28,21 +28,22 @@ Issues validate_sensing(const Scenario& scenario) {
 }
 
 std::string goal_text(const std::string& why, const Scenario& scenario) {
-  return fmt::format("goal {}, and {:.3g} of goal_tolerance_um is only {:.4g} µm", why, aim_share,
-                     aim_share * scenario.goal_tolerance);
+  return fmt::format("goal {}, and {:.3g} of goal_tolerance_um is only {:.4g} µm", why,
+                     navigation::aim_share, navigation::aim_share * scenario.goal_tolerance);
 }
 
 /// Whether a path with the clearance exists; false is a proof.
 bool leads_to(const Map& map, Vec2 start, Vec2 goal, double clearance) {
-  return ShortestPaths(map, clearance).find(start, goal).status == Status::solved;
+  return planning::ShortestPaths(map, clearance).find(start, goal).status == Status::solved;
 }
 
 // The navigator may require more clearance than the swarm needs.
 Issues validate_margin(const Scenario& scenario, const World& world) {
   Issues issues;
-  const double margin = required_clearance(scenario.navigator);
+  const double margin = navigation::required_clearance(scenario.navigator);
   const Snapshot walls(world.map);
-  const auto target = reachable_goal(walls, *scenario.goal, scenario.goal_tolerance, margin);
+  const auto target =
+      navigation::reachable_goal(walls, *scenario.goal, scenario.goal_tolerance, margin);
   if (!target) {
     issues.add({"goal_um", "navigator.clearance_um"},
                goal_text(walls.blocked_reason(*scenario.goal, margin) + " (navigator.clearance_um)",
@@ -78,7 +79,8 @@ Issues validate_body(const Scenario& scenario, const World& world) {
   }
   // The swarm's centre may stop anywhere within the tolerance.
   const Snapshot walls(world.map);
-  const auto target = reachable_goal(walls, *scenario.goal, scenario.goal_tolerance, radius);
+  const auto target =
+      navigation::reachable_goal(walls, *scenario.goal, scenario.goal_tolerance, radius);
   if (!target)
     issues.add("goal_um", goal_text(walls.blocked_reason(*scenario.goal, radius), scenario));
   if (!issues.empty()) return issues;
@@ -108,7 +110,7 @@ Issues validate(const Scenario& scenario, const World& world, const IsGiven& is_
   Issues issues = validate_sensing(scenario);
   if (scenario.robots) issues.add(validate_robots(scenario));
   const bool is_complete = issues.empty() && (scenario.robots || scenario.goal);
-  const auto lack = unsupported_reason(scenario.navigator, navigation_task(scenario));
+  const auto lack = navigation::unsupported_reason(scenario.navigator, navigation_task(scenario));
   if (is_complete && !lack.empty())
     issues.add({"navigator.type", "navigator"}, fmt::format("this navigator needs {}", lack));
   issues.add_within("navigator", validate(scenario.navigator, navigation_task(scenario), *world.map,
@@ -121,4 +123,4 @@ Issues validate(const Scenario& scenario, const World& world, const IsGiven& is_
   return issues;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -4,7 +4,7 @@
 #include "microswarm/core/errors/issue.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// Issues that make a run pointless: the start or the goal in a wall ("start is 12 µm inside wall
 /// 3"), a swarm wider than every passage, a goal cut off from the start, no path with the
@@ -16,4 +16,4 @@ Issues validate(const Scenario& scenario, const World& world, const IsGiven& is_
 /// map to the other.
 Issues validate_path(const Map& map, Vec2 start, Vec2 goal, double radius);
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -7,7 +7,7 @@
 #include "microswarm/world/map/map.hpp"
 #include "microswarm/world/world.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 namespace {
 
 /// A phased goal with its name and key.
@@ -17,7 +17,7 @@ struct Stage {
   std::string key;
 };
 
-std::vector<Stage> radar_stages(const Scenario& scenario, const RadarParams& radar) {
+std::vector<Stage> radar_stages(const Scenario& scenario, const navigation::RadarParams& radar) {
   std::vector<Stage> stages{{scenario.start->position, "start", "start"}};
   for (std::size_t i = 0; i < radar.waypoints.size(); ++i)
     stages.push_back({radar.waypoints[i], fmt::format("waypoint {}", i + 1),
@@ -41,7 +41,7 @@ Issues validate_legs(const std::vector<Stage>& stages, const Map& map) {
 }
 
 /// Why the valve in the zone never lets the swarm pass; empty if it does.
-std::string never_opens(const WaitZone& area, const Valve& valve) {
+std::string never_opens(const navigation::WaitZone& area, const Valve& valve) {
   const bool opens = valve.max_gap >= valve.span ||    // then the valve is absent
                      valve.min_gap >= area.min_gap ||  // it is never too narrow
                      valve.max_gap > area.min_gap;
@@ -50,11 +50,11 @@ std::string never_opens(const WaitZone& area, const Valve& valve) {
                      valve.max_gap);
 }
 
-Issues validate_area(const WaitZone& area, const Scenario& scenario, const Map& map) {
+Issues validate_area(const navigation::WaitZone& area, const Scenario& scenario, const Map& map) {
   Issues issues;
   const Box b = map.bounds();
   const Body ground{Polygon{{b.lo, {b.hi.x, b.lo.y}, b.hi, {b.lo.x, b.hi.y}}, {}}};
-  if (gap_between(Body{zone_outline(area)}, ground) > 0) {
+  if (navigation::gap_between(Body{navigation::zone_outline(area)}, ground) > 0) {
     issues.add("centre_um", fmt::format("at ({:.6g}, {:.6g}) µm it is outside the map",
                                         area.centre.x, area.centre.y));
     return issues;
@@ -63,7 +63,7 @@ Issues validate_area(const WaitZone& area, const Scenario& scenario, const Map& 
   for (std::size_t i = 0; i < scenario.obstacles.size(); ++i) {
     const auto* valve = std::get_if<Valve>(&scenario.obstacles[i].shape);
     const auto* still = std::get_if<Still>(&scenario.obstacles[i].motion);
-    if (!valve || (still && !contains(area, still->position))) continue;
+    if (!valve || (still && !navigation::contains(area, still->position))) continue;
     has_valve = true;
     if (const std::string why = never_opens(area, *valve); still && !why.empty())
       issues.add("min_gap_um", fmt::format("{} (obstacle {})", why, i + 1));
@@ -76,7 +76,7 @@ Issues validate_area(const WaitZone& area, const Scenario& scenario, const Map& 
 
 Issues validate_radar(const Scenario& scenario, const World& world) {
   Issues issues;
-  const auto* radar = std::get_if<RadarParams>(&scenario.navigator);
+  const auto* radar = std::get_if<navigation::RadarParams>(&scenario.navigator);
   if (!radar || !scenario.start || !scenario.goal) return issues;
   if (!radar->waypoints.empty())
     issues.add(validate_legs(radar_stages(scenario, *radar), *world.map));
@@ -87,4 +87,4 @@ Issues validate_radar(const Scenario& scenario, const World& world) {
   return issues;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

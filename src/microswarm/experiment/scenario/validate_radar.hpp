@@ -5,11 +5,11 @@
 #include "microswarm/experiment/scenario/scenario.hpp"
 #include "microswarm/world/world.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// The part of `validate` for a radar's route and wait zones. Issues: a straight leg between start,
 /// waypoints and goal crosses a wall; a wait zone is outside the map, contains no valve, or
 /// requires a gap that its valve never reaches. A moving valve counts as being in every zone.
 Issues validate_radar(const Scenario& scenario, const World& world);
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

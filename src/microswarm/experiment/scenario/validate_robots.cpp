@@ -9,7 +9,7 @@
 #include "microswarm/world/connectivity/passage.hpp"
 #include "microswarm/world/snapshot.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 Issues validate_robots(const Scenario& scenario) {
   Issues issues;
@@ -34,10 +34,10 @@ Issues validate_robots(const Scenario& scenario) {
     issues.add("robots.goals_um",
                fmt::format("robots.goals_um has {} places, robots.starts_um has {}",
                            robots.goals.size(), robots.starts.size()));
-  if (robots.starts.size() > max_global_robots)
+  if (robots.starts.size() > planning::max_global_robots)
     issues.add("robots.goals_um",
                fmt::format("{} robots with goals of their own, at most {} can be planned for",
-                           robots.starts.size(), max_global_robots));
+                           robots.starts.size(), planning::max_global_robots));
   return issues;
 }
 
@@ -81,4 +81,4 @@ Issues validate_robot_paths(const Map& map, std::span<const Vec2> starts,
   return issues;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

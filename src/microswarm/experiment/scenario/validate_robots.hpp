@@ -7,7 +7,7 @@
 #include "microswarm/experiment/scenario/scenario.hpp"
 #include "microswarm/world/map/map.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// The part of `validate` for a scenario's robots: their number and the keys allowed with them.
 Issues validate_robots(const Scenario& scenario);
@@ -21,4 +21,4 @@ Issues validate_robot_positions(const Scenario& scenario, const Map& map);
 Issues validate_robot_paths(const Map& map, std::span<const Vec2> starts,
                             std::span<const Vec2> goals, double tolerance, double guard);
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

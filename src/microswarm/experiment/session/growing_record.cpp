@@ -9,7 +9,7 @@
 #include <iterator>
 #include <system_error>
 
-namespace microswarm {
+namespace microswarm::experiment {
 namespace {
 
 constexpr double copies_share = 0.02;  ///< share of the session's time
@@ -154,4 +154,4 @@ void GrowingRecord::write_all() {
   }
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -11,7 +11,7 @@
 
 #include "microswarm/experiment/session/session.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// File with the record so far of a run that will write `record`: run.part.h5 for run.h5.
 std::filesystem::path part_file(const std::filesystem::path& record);
@@ -63,4 +63,4 @@ class GrowingRecord : public RunListener {
   std::thread thread_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

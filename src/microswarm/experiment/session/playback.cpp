@@ -5,7 +5,7 @@
 
 #include "microswarm/config/yaml.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 namespace {
 
 /// The newest row at time t; null before the first.
@@ -88,4 +88,4 @@ const Tick* Playback::step(const Stop&) {
   return &tick_;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

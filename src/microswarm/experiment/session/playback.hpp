@@ -7,7 +7,7 @@
 
 #include "microswarm/experiment/session/source.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// The scenario of a record with all changes until a time [s].
 Scenario scenario_at(const Record& record, double t);
@@ -41,4 +41,4 @@ class Playback : public SessionSource {
   std::vector<std::string> changes_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

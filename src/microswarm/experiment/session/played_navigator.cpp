@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/experiment/session/played_navigator.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 Command PlayedNavigator::step(const Observation& seen, const Stop&) {
   const std::vector<Frame>& frames = record_.frames;
@@ -25,4 +25,4 @@ Diagnostics PlayedNavigator::diagnostics() const {
   return record_.diagnostics.at(record_.frames[frame_].t);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

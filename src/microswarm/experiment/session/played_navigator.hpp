@@ -4,7 +4,7 @@
 #include "microswarm/contracts/navigator.hpp"
 #include "microswarm/experiment/record/record.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// Repeats the commands of a record's navigator at the same times. It replaces an external
 /// navigator when its run is replayed.
@@ -26,4 +26,4 @@ class PlayedNavigator final : public Navigator {
   NavigatorView view_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

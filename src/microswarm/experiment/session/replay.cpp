@@ -14,7 +14,7 @@
 #include "microswarm/io/columns.hpp"
 #include "microswarm/io/tables.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 namespace {
 
@@ -24,19 +24,19 @@ bool same_bits(double a, double b) {
   return first.digest() == second.digest();
 }
 
-std::string shown(const Column& column, const void* row) {
-  return column.kind == ColumnKind::word ? std::string(column.word(row))
-                                         : number_text(column.number(row));
+std::string shown(const io::Column& column, const void* row) {
+  return column.kind == io::ColumnKind::word ? std::string(column.word(row))
+                                             : number_text(column.number(row));
 }
 
 /// The first row and quantity in which two lists differ; empty if they are equal.
-std::string first_difference(const std::string& row_name, const ListRef<const void*>& stored,
-                             const ListRef<const void*>& now) {
-  const std::vector<Column> columns = to_columns(stored.row_type());
+std::string first_difference(const std::string& row_name, const io::ListRef<const void*>& stored,
+                             const io::ListRef<const void*>& now) {
+  const std::vector<io::Column> columns = io::to_columns(stored.row_type());
   const bool timed = columns.front().key == "t_s";
   for (std::size_t i = 0; i < std::min(stored.size(), now.size()); ++i) {
-    for (const Column& column : columns) {
-      const bool same = column.kind == ColumnKind::word
+    for (const io::Column& column : columns) {
+      const bool same = column.kind == io::ColumnKind::word
                             ? column.word(stored.row(i)) == column.word(now.row(i))
                             : same_bits(column.number(stored.row(i)), column.number(now.row(i)));
       if (same) continue;
@@ -57,11 +57,11 @@ struct Comparison {
   const void* second;
   std::string difference;
 
-  void table(const std::string& group, const ListRef<const void*>& stored) {
+  void table(const std::string& group, const io::ListRef<const void*>& stored) {
     if (difference.empty()) difference = first_difference(row_name(group), stored, of_now(stored));
   }
-  void parts(const std::string& group, const ListRef<const void*>& stored, const Field& field) {
-    const ListRef<const void*> again = of_now(stored);
+  void parts(const std::string& group, const io::ListRef<const void*>& stored, const Field& field) {
+    const io::ListRef<const void*> again = of_now(stored);
     for (std::size_t i = 0; i < stored.size() && difference.empty(); ++i)
       difference = first_difference(group.substr(1) + " " + std::to_string(i) + ", row",
                                     stored.part(i, field), again.part(i, field));
@@ -72,7 +72,7 @@ struct Comparison {
     return group.substr(1, group.size() - (group.ends_with('s') ? 2 : 1));  // "/frames" → "frame"
   }
   /// The list of the second value at the same member offset.
-  ListRef<const void*> of_now(const ListRef<const void*>& stored) const {
+  io::ListRef<const void*> of_now(const io::ListRef<const void*>& stored) const {
     const auto offset =
         static_cast<const std::byte*>(stored.value) - static_cast<const std::byte*>(first);
     return {stored.type, static_cast<const std::byte*>(second) + offset};
@@ -137,7 +137,7 @@ bool repeat(const Record& record, Session& session, Inputs& inputs, const Stop& 
 }
 
 std::string first_difference(const Metrics& stored, const Metrics& now) {
-  for (const Column& column : to_columns<Metrics>()) {
+  for (const io::Column& column : io::to_columns<Metrics>()) {
     const double was = column.number(&stored), is = column.number(&now);
     if (!same_bits(was, is))
       return "metrics: " + column.key + " is " + number_text(was) + " in the record, " +
@@ -149,11 +149,11 @@ std::string first_difference(const Metrics& stored, const Metrics& now) {
 /// The first difference of the replay; empty if there is none.
 std::string first_difference(const Record& record, const Record& now, const std::string& refused) {
   Comparison comparison{&record, &now, refused};
-  visit_tables(type_of<Record>(), static_cast<const void*>(&record), comparison);
+  io::visit_tables(type_of<Record>(), static_cast<const void*>(&record), comparison);
   if (!record.diagnostics.empty()) {
     comparison.first = &record.diagnostics;
     comparison.second = &now.diagnostics;
-    visit_tables(type_of<DiagnosticsLog>(), comparison.first, comparison, "/diagnostics");
+    io::visit_tables(type_of<DiagnosticsLog>(), comparison.first, comparison, "/diagnostics");
   }
   if (!comparison.difference.empty()) return std::move(comparison.difference);
   if (record.result.status != now.result.status)
@@ -183,4 +183,4 @@ ReplayResult replay(const Record& record, const Stop& stop) {
   return {.identical = identical, .stopped = false, .difference = std::move(difference)};
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -6,7 +6,7 @@
 #include "microswarm/core/execution/stop.hpp"
 #include "microswarm/experiment/record/record.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// Result of a replay.
 struct ReplayResult {
@@ -19,4 +19,4 @@ struct ReplayResult {
 /// a run on a rig.
 ReplayResult replay(const Record& record, const Stop& stop = {});
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -12,7 +12,7 @@
 #include "microswarm/experiment/scenario/validate.hpp"
 #include "microswarm/navigation/make.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 namespace {
 
 constexpr std::array<std::string_view, 8> changeable{
@@ -25,8 +25,8 @@ double swarm_max_speed(const Scenario& scenario) {
 
 /// Whether the model file changes; model files are read only when the scenario is opened.
 bool names_another_model(const Scenario& a, const Scenario& b) {
-  const FollowerParams* first = find_follower(a.navigator);
-  const FollowerParams* second = find_follower(b.navigator);
+  const navigation::FollowerParams* first = navigation::find_follower(a.navigator);
+  const navigation::FollowerParams* second = navigation::find_follower(b.navigator);
   return second && !second->model.empty() && (!first || first->model != second->model);
 }
 
@@ -62,8 +62,8 @@ RunningExperiment::RunningExperiment(Scenario scenario, World world, std::uint32
       episode_(scenario_, *plant_, *navigator_, &operation_) {}
 
 std::shared_ptr<Navigator> RunningExperiment::made() const {
-  return make_navigator(scenario_.navigator, navigation_task(scenario_),
-                        Rng(scenario_.seed, Purpose::planner, trial_));
+  return navigation::make_navigator(scenario_.navigator, navigation_task(scenario_),
+                                    Rng(scenario_.seed, Purpose::planner, trial_));
 }
 
 const Tick* RunningExperiment::step(const Stop& stop) {
@@ -121,4 +121,4 @@ Issues RunningExperiment::set(const std::string& wanted_key, const std::string& 
   return issues;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -11,7 +11,7 @@
 #include "microswarm/experiment/run/episode.hpp"
 #include "microswarm/experiment/session/source.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// Keys of a scenario that can be changed during a run, with all keys within them.
 std::span<const std::string_view> changeable_keys();
@@ -51,4 +51,4 @@ class RunningExperiment : public SessionSource {
   Episode episode_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -12,7 +12,7 @@
 #include "microswarm/experiment/session/playback.hpp"
 #include "microswarm/experiment/session/running_experiment.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 bool is_record(const std::filesystem::path& file) {
   constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
@@ -112,4 +112,4 @@ RunResult simulate(const Scenario& scenario, const World& world, SessionParts pa
   return session.finish(stop);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

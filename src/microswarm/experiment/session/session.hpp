@@ -16,7 +16,7 @@
 #include "microswarm/experiment/session/source.hpp"
 #include "microswarm/experiment/session/view.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// Data that a session keeps of its ticks.
 enum class Keep {
@@ -118,4 +118,4 @@ std::unique_ptr<Session> open_session(const std::filesystem::path& file,
 RunResult simulate(const Scenario& scenario, const World& world, SessionParts parts = {},
                    std::span<RunListener* const> listeners = {}, const Stop& stop = {});
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

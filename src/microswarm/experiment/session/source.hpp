@@ -11,7 +11,7 @@
 #include "microswarm/experiment/run/tick.hpp"
 #include "microswarm/world/world.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// Source of a session's ticks: an experiment that runs, or a record that is played back.
 class SessionSource {
@@ -36,4 +36,4 @@ class SessionSource {
   virtual const Record* record() const { return nullptr; }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -12,7 +12,7 @@
 #include "microswarm/navigation/make.hpp"
 #include "microswarm/swarm/robots/robot_swarm.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 namespace {
 
 constexpr double max_time = 1e9;    // [s]
@@ -40,8 +40,8 @@ void require_place(const char* name, Vec2 p) {
 
 StandaloneNavigator::StandaloneNavigator(Experiment experiment, std::uint32_t trial)
     : experiment_(std::move(experiment)),
-      navigator_(make_navigator(scenario().navigator, navigation_task(scenario()),
-                                Rng(scenario().seed, Purpose::planner, trial))),
+      navigator_(navigation::make_navigator(scenario().navigator, navigation_task(scenario()),
+                                            Rng(scenario().seed, Purpose::planner, trial))),
       numbers_(reach_in(map())),
       memory_(scenario().sensing.obstacle_memory) {
   if (scenario().robots)
@@ -118,4 +118,4 @@ Command StandaloneNavigator::step(const ExternalObservation& given, const Stop& 
   return command_ = navigator_->step(seen, stop);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -11,7 +11,7 @@
 #include "microswarm/navigation/prediction/body_numbers.hpp"
 #include "microswarm/navigation/prediction/obstacle_memory.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// Observation supplied by an external control loop.
 struct ExternalObservation {
@@ -53,12 +53,12 @@ class StandaloneNavigator {
 
   Experiment experiment_;
   std::unique_ptr<Navigator> navigator_;
-  BodyNumbers numbers_;
-  ObstacleMemory memory_;
+  navigation::BodyNumbers numbers_;
+  navigation::ObstacleMemory memory_;
   std::optional<double> last_;  ///< time of the last step [s]
   Command command_;             ///< command of the last step
   std::size_t robots_ = 0;
   bool is_prepared_ = false;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

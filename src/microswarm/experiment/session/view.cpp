@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/experiment/session/view.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 SessionView session_view(const Tick& tick, std::uint64_t number, std::uint64_t plans) {
   SessionView view{.frame = tick.frame,
@@ -22,4 +22,4 @@ SessionView session_view(const Tick& tick, std::uint64_t number, std::uint64_t p
   return view;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

@@ -12,7 +12,7 @@
 #include "microswarm/experiment/run/tick.hpp"
 #include "microswarm/world/obstacles/body.hpp"
 
-namespace microswarm {
+namespace microswarm::experiment {
 
 /// State of an experiment at one time, as plain values for front ends.
 struct SessionView {
@@ -33,4 +33,4 @@ struct SessionView {
 /// View of a tick.
 SessionView session_view(const Tick& tick, std::uint64_t number, std::uint64_t plans);
 
-}  // namespace microswarm
+}  // namespace microswarm::experiment

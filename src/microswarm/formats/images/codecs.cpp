@@ -18,7 +18,7 @@
 #include "microswarm/formats/images/tiff.hpp"
 #include "microswarm/formats/media/media.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 namespace {
 
 using Bytes = std::span<const std::byte>;
@@ -280,4 +280,4 @@ void take_pixels(DecodedImage decoded, int depth, Image& image) {
   to_8_bits(deep.samples, depth, image.pixels);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

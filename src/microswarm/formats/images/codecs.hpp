@@ -10,7 +10,7 @@
 
 #include "microswarm/formats/images/deep_image.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 
 /// Whether the bytes begin with a PNG's signature.
 bool is_png(std::span<const std::byte> bytes);
@@ -32,4 +32,4 @@ std::string encode_png(const Image& image);
 /// Moves or converts pixels into `image`; 16-bit samples are numbers of `depth` bits.
 void take_pixels(DecodedImage decoded, int depth, Image& image);
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

@@ -7,7 +7,7 @@
 
 #include "microswarm/formats/images/image.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 
 /// Image with 9 to 16 bits per sample, in the order of Image.
 struct DeepImage {
@@ -20,4 +20,4 @@ struct DeepImage {
 /// A picture as its file stores it.
 using DecodedImage = std::variant<Image, DeepImage>;
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

@@ -17,7 +17,7 @@
 
 #include "microswarm/core/errors/error.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 namespace {
 
 constexpr int max_colours = 255;  // besides the transparent one, which is 0
@@ -204,4 +204,4 @@ void GifWriter::finish() {
   if (EGifCloseFile(std::exchange(parts_->gif, nullptr), &error) != GIF_OK) parts_->fail(error);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

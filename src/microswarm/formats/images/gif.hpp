@@ -6,7 +6,7 @@
 
 #include "microswarm/formats/images/image.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 
 /// Maximum rate of a GIF [1/s]: its delays are multiples of 10 ms, and browsers play delays below
 /// 20 ms more slowly.
@@ -32,4 +32,4 @@ class GifWriter {
   std::unique_ptr<Parts> parts_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

@@ -13,7 +13,7 @@
 #include "microswarm/formats/images/samples.hpp"
 #include "microswarm/formats/images/tiff.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 namespace {
 
 constexpr std::uint64_t max_file_bytes = 512ULL << 20;
@@ -87,4 +87,4 @@ void write_png(const std::filesystem::path& path, const Image& image) {
   write_file_atomically(path, encode_png(image));
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

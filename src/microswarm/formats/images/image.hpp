@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace microswarm {
+namespace microswarm::formats {
 
 /// Image with 8 bits per sample: row by row, y down, `channels` 1 (grey) or 3 (red, green, blue).
 struct Image {
@@ -68,4 +68,4 @@ Image to_grey(const Image& image);
 /// Writes an 8-bit PNG through a temporary file. Throws InputError "PATH: cannot write: REASON".
 void write_png(const std::filesystem::path& path, const Image& image);
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

@@ -8,7 +8,7 @@
 
 #include "microswarm/core/errors/error.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 
 void decode_jpeg_frame(std::span<const std::byte> bytes, std::string_view name, Image& image) {
   const std::unique_ptr<void, int (*)(tjhandle)> jpeg(tjInitDecompress(), tjDestroy);
@@ -51,4 +51,4 @@ std::string encode_jpeg(const Image& image, int quality) {
   return bytes;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

@@ -8,7 +8,7 @@
 
 #include "microswarm/formats/images/image.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 
 /// Decodes a JPEG of a camera's stream into `image`, grey or colour, reusing its memory. Its
 /// Huffman tables may be missing. A truncated or damaged frame is an error; surplus bytes before
@@ -18,4 +18,4 @@ void decode_jpeg_frame(std::span<const std::byte> bytes, std::string_view name, 
 /// Encodes an image as JPEG, `quality` 1 to 100. Throws InputError on failure.
 std::string encode_jpeg(const Image& image, int quality);
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

@@ -10,7 +10,7 @@
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/geometry/distance.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 namespace {
 
 /// Corner of cells: column 0..width from the left, row 0..height from the top.
@@ -225,4 +225,4 @@ void simplify(std::vector<Polygon>& polygons, double tolerance) {
   }
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

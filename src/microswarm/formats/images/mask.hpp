@@ -7,7 +7,7 @@
 #include "microswarm/formats/images/image.hpp"
 #include "microswarm/geometry/shapes.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 
 /// Set of square cells: 1 = set, 0 = not; row by row, y down.
 struct Mask {
@@ -49,4 +49,4 @@ std::vector<Polygon> mask_walls(const Mask& set, double cell, Vec2 lo = {});
 /// most `tolerance` [µm] from the new outline. A ring never vanishes; rings may end up overlapping.
 void simplify(std::vector<Polygon>& polygons, double tolerance);
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

@@ -4,7 +4,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/formats/images/image.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 namespace {
 
 constexpr int highest_maximum = 65535;
@@ -128,4 +128,4 @@ std::string encode_pnm(const Image& image) {
   return out;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

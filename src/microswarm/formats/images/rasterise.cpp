@@ -8,7 +8,7 @@
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/formats/images/image.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 namespace {
 
 /// Number of cells along a length; an overhang below a millionth of a cell is ignored.
@@ -31,4 +31,4 @@ Mask rasterise(const Map& map, double cell) {
   });
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

@@ -8,7 +8,7 @@
 #include "microswarm/formats/images/mask.hpp"
 #include "microswarm/world/map/map.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 
 /// Cells of side `cell` [µm] over the map's bounds, from the lower left corner, whose centre is not
 /// free: in or on a wall, or outside if the bounds are not a whole number of cells. Inverse of
@@ -31,4 +31,4 @@ Mask blocked_cells(const Map& map, int width, int height, PlaceOf&& cell_positio
   return mask;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

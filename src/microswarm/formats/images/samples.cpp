@@ -7,7 +7,7 @@
 
 #include "microswarm/core/errors/error.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 namespace {
 
 template <class Sample>
@@ -58,4 +58,4 @@ void take_samples(const Samples2d<std::uint16_t>& picture, int depth, std::strin
   to_8_bits(picture.samples, depth, image.pixels);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

@@ -6,7 +6,7 @@
 
 #include "microswarm/formats/images/image.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 
 /// Samples of a picture in memory: row by row, y down, 1 or 3 of them for a pixel (red, green,
 /// blue).
@@ -31,4 +31,4 @@ void take_samples(const Samples2d<std::uint8_t>& picture, std::string_view name,
 void take_samples(const Samples2d<std::uint16_t>& picture, int depth, std::string_view name,
                   Image& image);
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

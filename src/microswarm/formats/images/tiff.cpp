@@ -15,7 +15,7 @@
 
 #include "microswarm/core/errors/error.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 namespace {
 
 constexpr tmsize_t max_allocation = 512L << 20;  // [bytes] of the library at once
@@ -263,4 +263,4 @@ DecodedImage TiffPages::next() {
   return *std::move(picture);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

@@ -10,7 +10,7 @@
 
 #include "microswarm/formats/images/deep_image.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 
 /// Whether the bytes begin as a TIFF or a BigTIFF does.
 bool is_tiff(std::span<const std::byte> bytes);
@@ -42,4 +42,4 @@ class TiffPages {
   int next_ = 0;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

@@ -3,7 +3,7 @@
 
 #include "microswarm/core/execution/module.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 
 const Media& media() {
   static const Media& loaded =
@@ -11,4 +11,4 @@ const Media& media() {
   return loaded;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

@@ -12,7 +12,7 @@ namespace cv {
 class Mat;
 }  // namespace cv
 
-namespace microswarm {
+namespace microswarm::formats {
 
 // Photographs and videos by OpenCV's imgcodecs and videoio. These depend on some 150 shared
 // libraries, 0.2 s of a program's start, so they form a module that is loaded at the first use.
@@ -76,4 +76,4 @@ class Media {
 /// The module, loaded by the first call. Throws InputError if it cannot be loaded.
 const Media& media();
 
-}  // namespace microswarm
+}  // namespace microswarm::formats

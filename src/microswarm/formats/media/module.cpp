@@ -6,7 +6,7 @@
 
 #include "microswarm/formats/media/media.hpp"
 
-namespace microswarm {
+namespace microswarm::formats {
 namespace {
 
 namespace fs = std::filesystem;
@@ -94,10 +94,10 @@ class OpenCvMedia : public Media {
 };
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::formats
 
 /// Symbol that media() looks up.
-extern "C" const microswarm::Media* microswarm_media() {
-  static const microswarm::OpenCvMedia only;
+extern "C" const microswarm::formats::Media* microswarm_media() {
+  static const microswarm::formats::OpenCvMedia only;
   return &only;
 }

@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-namespace microswarm {
+namespace microswarm::io {
 
 constexpr hsize_t max_values = 100'000'000;    // of a dataset
 constexpr std::size_t image_growth = 1 << 20;  // [bytes]
@@ -65,4 +65,4 @@ inline std::string unused_name() {
   return "record " + std::to_string(++count);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::io

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace microswarm {
+namespace microswarm::io {
 namespace {
 
 class LinkedHdf5 : public Hdf5 {
@@ -16,10 +16,10 @@ class LinkedHdf5 : public Hdf5 {
 };
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::io
 
 /// Symbol that write_hdf5 and read_hdf5 look up.
-extern "C" const microswarm::Hdf5* microswarm_hdf5() {
-  static const microswarm::LinkedHdf5 only;
+extern "C" const microswarm::io::Hdf5* microswarm_hdf5() {
+  static const microswarm::io::LinkedHdf5 only;
   return &only;
 }

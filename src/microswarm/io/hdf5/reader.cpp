@@ -6,7 +6,7 @@
 #include "microswarm/io/hdf5/library.hpp"
 #include "microswarm/io/hdf5/module.hpp"
 
-namespace microswarm {
+namespace microswarm::io {
 namespace {
 
 /// Reads from a file that HDF5 keeps in memory.
@@ -252,4 +252,4 @@ std::unique_ptr<Hdf5Reader> make_image_reader(std::string bytes, std::string nam
   return std::make_unique<ImageReader>(std::move(bytes), std::move(name));
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::io

@@ -6,7 +6,7 @@
 #include "microswarm/io/hdf5/library.hpp"
 #include "microswarm/io/hdf5/module.hpp"
 
-namespace microswarm {
+namespace microswarm::io {
 namespace {
 
 constexpr hsize_t compressed_from = 4096;  // values; below this, chunks cost more than they save
@@ -174,4 +174,4 @@ class ImageWriter : public Hdf5Writer {
 
 std::unique_ptr<Hdf5Writer> make_image_writer() { return std::make_unique<ImageWriter>(); }
 
-}  // namespace microswarm
+}  // namespace microswarm::io

@@ -7,7 +7,7 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/geometry/distance.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 /// Nearest point of an outline to `p`.
@@ -140,4 +140,4 @@ std::optional<Command> PotentialFieldNavigator::clear_of_walls(const Map& map, c
   return std::nullopt;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

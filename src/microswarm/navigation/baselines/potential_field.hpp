@@ -7,7 +7,7 @@
 #include "microswarm/navigation/steering/guide.hpp"
 #include "microswarm/navigation/steering/steering_navigator.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Potential field baseline; see PotentialFieldParams. Commands never lead into a wall: if the
 /// force does, the nearest direction that does not is taken. States: follow (no repulsion), avoid,
@@ -33,4 +33,4 @@ class PotentialFieldNavigator : public SteeringNavigator {
   ObstacleTracker tracker_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -8,7 +8,7 @@
 #include "microswarm/navigation/prediction/obstacle_tracker_params.hpp"
 #include "microswarm/navigation/steering/guide_kind.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Baseline: artificial potential field for moving obstacles after Ge and Cui (Autonomous Robots
 /// 13, 2002). The target attracts with a force of 1. A wall, border or obstacle at the gap g repels
@@ -47,4 +47,4 @@ struct PotentialFieldParams {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -3,7 +3,7 @@
 
 #include "microswarm/core/fields/fields.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Constants of PotentialFieldNavigator that rarely need a change.
 struct PotentialFieldTuning {
@@ -24,4 +24,4 @@ struct PotentialFieldTuning {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 constexpr double lookahead_tick = 0.1;  // time step of the look-ahead [s]
@@ -46,4 +46,4 @@ bool StraightNavigator::path_is_clear(const Snapshot& world, Pose2 pose) const {
   return true;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -5,7 +5,7 @@
 #include "microswarm/navigation/baselines/straight_params.hpp"
 #include "microswarm/navigation/steering/steering_navigator.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Straight-line baseline; see StraightParams. It does not stop for what is near but gets no nearer
 /// ahead. States: follow, hold, arrived, blind.
@@ -24,4 +24,4 @@ class StraightNavigator : public SteeringNavigator {
   StraightParams params_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -5,7 +5,7 @@
 
 #include "microswarm/core/fields/fields.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Simplest baseline: goes straight to the goal and stops while something is in the way.
 struct StraightParams {
@@ -23,4 +23,4 @@ struct StraightParams {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -9,7 +9,7 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/geometry/distance.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
@@ -173,4 +173,4 @@ double VelocityObstacleNavigator::time_to_contact(const Threat& threat, Segment 
   return std::visit(Overloaded{with_disc, with_polygon}, threat.body->shape);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

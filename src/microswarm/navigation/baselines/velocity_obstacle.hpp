@@ -9,7 +9,7 @@
 #include "microswarm/navigation/steering/guide.hpp"
 #include "microswarm/navigation/steering/steering_navigator.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Velocity-obstacle baseline; see VelocityObstacleParams. States: follow (the preferred velocity),
 /// avoid, escape (no velocity is collision-free), hold, arrived, blind.
@@ -49,4 +49,4 @@ class VelocityObstacleNavigator : public SteeringNavigator {
   std::vector<Choice> choices_;  ///< nearest to the preferred velocity first
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -8,7 +8,7 @@
 #include "microswarm/navigation/prediction/obstacle_tracker_params.hpp"
 #include "microswarm/navigation/steering/guide_kind.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Baseline: velocity obstacles (Fiorini and Shiller, IJRR 17, 1998), not reciprocal. Of the
 /// velocities on a grid of directions and speeds that are collision-free within the horizon, it
@@ -43,4 +43,4 @@ struct VelocityObstacleParams {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -3,7 +3,7 @@
 
 #include "microswarm/core/fields/fields.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Constants of VelocityObstacleNavigator that rarely need a change.
 struct VelocityObstacleTuning {
@@ -17,4 +17,4 @@ struct VelocityObstacleTuning {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -6,7 +6,7 @@
 
 #include "microswarm/navigation/steering/delay_compensator.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Estimates the drift velocity of a swarm: low-pass of (observed − predicted displacement) / dt.
 /// The drift is a flow, or a speed that differs from the commanded one. The time constant of some
@@ -35,4 +35,4 @@ class FlowEstimate {
   Vec2 flow_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

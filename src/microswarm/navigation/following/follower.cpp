@@ -6,7 +6,7 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/geometry/distance.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 double projected_share(Segment s, Vec2 p) {
@@ -62,4 +62,4 @@ Command pursue(std::span<const Vec2> path, PathPosition& position, const Pose2& 
   return {heading, ease * speed};
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

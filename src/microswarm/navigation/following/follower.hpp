@@ -6,7 +6,7 @@
 
 #include "microswarm/contracts/command.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Position on a path: index of a segment and the fraction of it already passed.
 struct PathPosition {
@@ -27,4 +27,4 @@ double remaining(std::span<const Vec2> path, PathPosition position);
 Command pursue(std::span<const Vec2> path, PathPosition& position, const Pose2& pose,
                double lookahead, double speed);
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

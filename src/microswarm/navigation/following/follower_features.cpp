@@ -7,7 +7,7 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/maths.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 FollowerFeatures to_features(const FollowerQuery& query) {
   const Vec2 from = query.pose.position;
@@ -37,4 +37,4 @@ FollowerFeatures to_features(const FollowerQuery& query) {
   return features;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

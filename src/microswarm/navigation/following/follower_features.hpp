@@ -6,7 +6,7 @@
 
 #include "microswarm/navigation/following/follower.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Inputs of a learned follower.
 struct FollowerQuery {
@@ -34,4 +34,4 @@ struct FollowerFeatures {
 };
 FollowerFeatures to_features(const FollowerQuery& query);
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -12,7 +12,7 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/text/text.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 std::optional<std::array<double, feature_count>> FollowerModel::scaled(
     std::array<double, feature_count> features) const {
@@ -182,4 +182,4 @@ FollowerModel parse_follower_model(std::string_view text, std::string_view name)
   return model;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

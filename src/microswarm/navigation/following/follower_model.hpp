@@ -10,7 +10,7 @@
 #include "microswarm/navigation/following/follower_features.hpp"
 #include "microswarm/navigation/following/multilayer_perceptron.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Learned follower: a network, the training range of each feature, and its training parameters.
 /// Features are scaled to [-1, 1] over their range. The outputs are the heading relative to the
@@ -42,4 +42,4 @@ FollowerModel parse_follower_model(std::string_view text, std::string_view name)
 /// Built-in model: models/follower.yaml of the source tree.
 const FollowerModel& default_follower_model();
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -9,7 +9,7 @@
 
 #include "microswarm/core/fields/fields.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 struct FollowerModel;
 
@@ -38,4 +38,4 @@ struct FollowerParams {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

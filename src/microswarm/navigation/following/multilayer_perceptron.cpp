@@ -8,7 +8,7 @@
 
 #include "microswarm/core/maths/maths.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 std::size_t MultilayerPerceptron::weight_count(std::span<const std::size_t> layers) {
   std::size_t count = 0;
@@ -34,4 +34,4 @@ void MultilayerPerceptron::evaluate(std::span<const double> in, std::span<double
   std::copy_n(values.begin(), out.size(), out.begin());
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Small fully connected network with tanh after every layer but the last. `weights` holds, layer
 /// by layer and output by output, the weights of the inputs and then the bias.
@@ -23,4 +23,4 @@ struct MultilayerPerceptron {
   void evaluate(std::span<const double> in, std::span<double> out) const;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

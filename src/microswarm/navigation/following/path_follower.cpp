@@ -8,7 +8,7 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/maths.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 PathFollower::PathFollower(const FollowerParams& params, const SwarmLimits& swarm)
     : loaded_(params.loaded),
@@ -56,4 +56,4 @@ Command pursue_in_flow(std::span<const Vec2> path, PathPosition& position, const
   return command;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -8,7 +8,7 @@
 #include "microswarm/navigation/following/follower_model.hpp"
 #include "microswarm/navigation/following/follower_params.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Computes the command that follows a path. A learned follower falls back to pure pursuit outside
 /// its training range.
@@ -50,4 +50,4 @@ class PathFollower {
 Command pursue_in_flow(std::span<const Vec2> path, PathPosition& position, const Pose2& pose,
                        double lookahead, double speed, Vec2 flow);
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 PathNavigator::PathNavigator(const PathNavigatorParams& params, const Task& task, Rng)
     : SteeringNavigator(task, params.speed),
@@ -56,4 +56,4 @@ bool PathNavigator::path_is_clear(const Snapshot& world, Pose2 pose) const {
   return true;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -8,7 +8,7 @@
 #include "microswarm/navigation/following/path_navigator_params.hpp"
 #include "microswarm/navigation/steering/steering_navigator.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Path-following navigator; see PathNavigatorParams. States: follow, fallback (pure pursuit
 /// instead of the learned follower), hold, arrived, blind.
@@ -31,4 +31,4 @@ class PathNavigator : public SteeringNavigator {
   PathPosition position_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -8,7 +8,7 @@
 #include "microswarm/geometry/vec2.hpp"
 #include "microswarm/navigation/following/follower_params.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Follows a given path and stops while something is in the way: for comparing followers, and for
 /// paths drawn by hand.
@@ -31,4 +31,4 @@ struct PathNavigatorParams {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -7,7 +7,7 @@
 
 #include "microswarm/world/map/lattice.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 /// Nodes of a lattice that are reached from a point over steps that are free and `admitted`.
@@ -94,4 +94,4 @@ std::string too_few_regions(std::size_t regions) {
       regions, enough);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -7,7 +7,7 @@
 
 #include "microswarm/world/map/map.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Properties of a map and a goal that [gather] assumes.
 struct MapAssumptions {
@@ -29,4 +29,4 @@ std::vector<std::string> unmet_assumptions(const Map& map, Vec2 goal, double wid
 /// has enough.
 std::string too_few_regions(std::size_t regions);
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

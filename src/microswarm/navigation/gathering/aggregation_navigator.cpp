@@ -5,7 +5,7 @@
 
 #include "microswarm/navigation/gathering/policies/published_scale.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 Issues validate(const AggregationParams& params) {
   Issues issues;
@@ -61,7 +61,7 @@ Diagnostics AggregationNavigator::diagnostics() const {
       out.team_branch = policy_->division().branch();
     }
   }
-  const MapSegmentation& segmentation = map_->segmentation;
+  const planning::MapSegmentation& segmentation = map_->segmentation;
   for (std::size_t i = 0; i < segmentation.region.size(); ++i)
     out.nodes.push_back({map_->tree.nodes[i], map_->routes().next[i], segmentation.region[i],
                          segmentation.branch[i]});
@@ -69,4 +69,4 @@ Diagnostics AggregationNavigator::diagnostics() const {
   return out;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -10,7 +10,7 @@
 #include "microswarm/navigation/gathering/rollout/rollout_policy.hpp"
 #include "microswarm/navigation/steering/robot_steering_navigator.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Reports an empty list of the lengths by which a rollout changes a plan.
 Issues validate(const AggregationParams& params);
@@ -46,4 +46,4 @@ class AggregationNavigator : public RobotSteeringNavigator {
   std::optional<RolloutPolicy> rollout_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -5,7 +5,7 @@
 
 #include "microswarm/navigation/gathering/policies/merged_robots.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 /// `next` gives the move of a step, or nothing when they are gathered.
@@ -49,4 +49,4 @@ GatherResult gather(const CommonInput& input, RolloutPolicy& policy, Robots& rob
                    [&](int) { return policy.next(robots, stop); });
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

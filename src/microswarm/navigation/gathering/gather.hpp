@@ -7,7 +7,7 @@
 #include "microswarm/navigation/gathering/policies/common_input.hpp"
 #include "microswarm/navigation/gathering/rollout/rollout_policy.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Result of a gathering.
 struct GatherResult {
@@ -24,4 +24,4 @@ GatherResult gather(const CommonInput& input, AggregationPolicy& policy, Robots&
 GatherResult gather(const CommonInput& input, RolloutPolicy& policy, Robots& robots, int max_steps,
                     const Stop& stop = {});
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

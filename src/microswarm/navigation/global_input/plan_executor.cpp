@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 std::string_view PlanExecutor::unsupported_reason(const Task& task) {
   return task.robots && !task.robots->goals.empty() ? "" : "robots with a goal each";
@@ -78,7 +78,7 @@ NavigatorState PlanExecutor::find_path(const Robots& robots, double now, const S
   input_ = plan_.inputs.size();
   if (now < retry_at_) return NavigatorState::play;
   const std::vector<Vec2> positions = robots.positions();
-  plan_ = global_search(map(), positions, goals(), params_.planner, rng_, stop).plan;
+  plan_ = planning::global_search(map(), positions, goals(), params_.planner, rng_, stop).plan;
   if (plan_.status != Status::solved) retry_at_ = now + params_.retry_time;
   input_ = 0;
   on_plan_ = true;
@@ -98,4 +98,4 @@ Command PlanExecutor::next_piece() {
   return command;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

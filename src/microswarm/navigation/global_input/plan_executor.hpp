@@ -9,7 +9,7 @@
 #include "microswarm/navigation/steering/robot_steering_navigator.hpp"
 #include "microswarm/planning/global_input/global_search.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Executes a plan; see PlanExecutorParams. When robots deviate from the plan, it simulates whether
 /// the rest of the plan still brings all to their goals, then whether it does from another position
@@ -23,7 +23,7 @@ class PlanExecutor : public RobotSteeringNavigator {
   PlanExecutor(const PlanExecutorParams& params, const Task& task, Rng rng);
 
   /// Executes a given plan instead of planning, as long as it leads to the goals.
-  void play(GlobalPlan plan) { plan_ = std::move(plan); }
+  void play(planning::GlobalPlan plan) { plan_ = std::move(plan); }
 
  private:
   Decision decide(const Robots& robots, double now, const Stop& stop) override;
@@ -37,7 +37,7 @@ class PlanExecutor : public RobotSteeringNavigator {
 
   PlanExecutorParams params_;
   Rng rng_;
-  GlobalPlan plan_;
+  planning::GlobalPlan plan_;
   std::size_t input_ = 0;  ///< input of the plan being executed
   int piece_ = 0;          ///< part of that input, if it is longer than a tick's move
   Robots expected_;        ///< when the next command takes effect
@@ -45,4 +45,4 @@ class PlanExecutor : public RobotSteeringNavigator {
   double retry_at_ = 0;  ///< time of the next search [s]
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -6,14 +6,14 @@
 #include "microswarm/core/fields/fields.hpp"
 #include "microswarm/planning/global_input/global_search_params.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Executes a plan for several robots under one input in closed loop; open loop, errors would
 /// accumulate, as [global] notes. The goal tolerance is that of the planner.
 struct PlanExecutorParams {
   /// A search that gives up after some seconds.
-  static GlobalSearchParams limited() {
-    GlobalSearchParams p;
+  static planning::GlobalSearchParams limited() {
+    planning::GlobalSearchParams p;
     p.max_nodes = 2'000'000;
     return p;
   }
@@ -22,7 +22,7 @@ struct PlanExecutorParams {
   double max_deviation = 3;
   int rejoin_candidates = 64;
   double retry_time = 10;
-  GlobalSearchParams planner = limited();
+  planning::GlobalSearchParams planner = limited();
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.max_deviation,
@@ -36,4 +36,4 @@ struct PlanExecutorParams {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

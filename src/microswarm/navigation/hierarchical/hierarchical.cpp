@@ -10,7 +10,7 @@
 #include "microswarm/core/fields/published.hpp"
 #include "microswarm/core/maths/angles.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 namespace {
 
@@ -60,8 +60,8 @@ HierarchicalNavigator::HierarchicalNavigator(const HierarchicalParams& params, c
 void HierarchicalNavigator::prepare(const Snapshot& world, const Stop&) {
   choose_aim(world, params_.clearance, params_.clearance + params_.extra_clearance);
   if (params_.guide == Guide::route)
-    route_ = DistanceField::to_goal(world.shared_map(), aim().position, params_.clearance,
-                                    params_.route_cell);
+    route_ = planning::DistanceField::to_goal(world.shared_map(), aim().position, params_.clearance,
+                                              params_.route_cell);
 }
 
 void HierarchicalNavigator::update(const Observation& seen, const Stop& stop) {
@@ -253,11 +253,11 @@ void HierarchicalNavigator::plan_to(const Snapshot& world, Vec2 target, double c
                                     const Stop& stop) {
   step_view().planned = true;
   const Vec2 from = pose_.position;
-  DrrtStarParams local = params_.planner;
+  planning::DrrtStarParams local = params_.planner;
   local.clearance = clearance;
   local.goal_tolerance =
       std::min({local.goal_tolerance, aim().tolerance, 0.25 * distance(from, target)});
-  plan_ = plan(world, pose_, target, local, rng_, stop);  // line 11
+  plan_ = planning::plan(world, pose_, target, local, rng_, stop);  // line 11
   if (plan_->status == Status::solved)
     path_ = plan_->path;
   else if (!params_.as_published)
@@ -292,4 +292,4 @@ bool HierarchicalNavigator::path_is_safe(const Snapshot& seen, double speed) con
   return safety_.is_safe(situation(seen), std::ref(follow_path));
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -18,7 +18,7 @@
 #include "microswarm/planning/exact/distance_field.hpp"
 #include "microswarm/planning/path/planners.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Hierarchical D-RRT* navigator; see HierarchicalParams. States: follow, fallback (pure pursuit
 /// instead of the learned follower), hold, escape, arrived, blind.
@@ -69,7 +69,7 @@ class HierarchicalNavigator : public SteeringNavigator {
 
   HierarchicalParams params_;
   Rng rng_;
-  DistanceField route_;
+  planning::DistanceField route_;
   std::optional<Vec2> via_;  ///< point of the route ahead of the current pose, computed on demand
   SafetyLookahead safety_;
   ObstaclePredictor obstacles_;
@@ -84,4 +84,4 @@ class HierarchicalNavigator : public SteeringNavigator {
   std::optional<Plan> plan_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -13,7 +13,7 @@
 #include "microswarm/navigation/steering/guide_kind.hpp"
 #include "microswarm/planning/trees/drrt_star_params.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Autonomous local target selection: Algorithm 1, Eq 4 [drrt].
 struct LocalTargetParams {
@@ -50,8 +50,8 @@ struct LocalTargetParams {
 /// only Algorithm 4 remains (docs/explanation/hierarchical-drrt-star.md).
 struct HierarchicalParams {
   /// D-RRT* with limits that suit a local target: near, and usually on a straight free line.
-  static DrrtStarParams local_planner() {
-    DrrtStarParams p;
+  static planning::DrrtStarParams local_planner() {
+    planning::DrrtStarParams p;
     p.goal_bias = 0.5;
     p.max_nodes = 200;
     p.max_iterations = 50;
@@ -71,7 +71,7 @@ struct HierarchicalParams {
   double route_cell = 20;
   ObstacleTrackerParams tracker;
   LocalTargetParams target;
-  DrrtStarParams planner = local_planner();
+  planning::DrrtStarParams planner = local_planner();
   HierarchicalTuning tuning;
 
   /// These parameters, with our additions disabled if `as_published`.
@@ -104,4 +104,4 @@ struct HierarchicalParams {
 /// is no share of the speed, or waits do not ascend from 0.
 Issues validate(const HierarchicalParams& params, const IsGiven& is_given);
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -6,7 +6,7 @@
 #include "microswarm/core/fields/fields.hpp"
 #include "microswarm/navigation/prediction/obstacle_predictor_tuning.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Constants of HierarchicalNavigator that rarely need a change.
 struct HierarchicalTuning {
@@ -41,4 +41,4 @@ struct HierarchicalTuning {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -6,7 +6,7 @@
 
 #include "microswarm/core/maths/angles.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 struct Candidate {
@@ -64,8 +64,8 @@ Detection detect_obstacles(const Snapshot& world, const LocalTargetQuery& query,
   const double towards =
       query.previous_target ? heading_along(*query.previous_target - from) : query.goal_heading;
   const double diameter = query.previous_target ? params.detection_diameter : query.goal_distance;
-  return detect(world, {from + 0.5 * ahead * unit_vector(towards), 0.5 * diameter}, params.rho_min,
-                stop);
+  return planning::detect(world, {from + 0.5 * ahead * unit_vector(towards), 0.5 * diameter},
+                          params.rho_min, stop);
 }
 
 }  // namespace
@@ -94,4 +94,4 @@ std::optional<LocalTarget> select_local_target(const Snapshot& world, const Loca
   return std::nullopt;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -7,7 +7,7 @@
 #include "microswarm/navigation/hierarchical/hierarchical_params.hpp"
 #include "microswarm/planning/path/planners.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Selected target and the circle that determined its distance.
 struct LocalTarget {
@@ -36,4 +36,4 @@ std::optional<LocalTarget> select_local_target(const Snapshot& world, const Loca
                                                const LocalTargetParams& params,
                                                const Stop& stop = {});
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -7,7 +7,7 @@
 
 #include "microswarm/core/maths/angles.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 constexpr double same_place = 1;  // [µm]
@@ -63,8 +63,8 @@ class PredictedChoice {
 
  private:
   double free_time(Segment leg, double heading, double start, double most) const {
-    return microswarm::free_time(frame_, obstacles_, leg, heading, q_.speed, q_.delay + start, most,
-                                 q_.clearance);
+    return microswarm::navigation::free_time(frame_, obstacles_, leg, heading, q_.speed,
+                                             q_.delay + start, most, q_.clearance);
   }
   bool rests_freely(double wait) const {
     const Segment here{q_.swarm.position, q_.swarm.position};
@@ -120,4 +120,4 @@ bool is_free_in_time(const Snapshot& frame, const ObstaclePredictor& obstacles,
   return true;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -8,7 +8,7 @@
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/navigation/prediction/obstacle_predictor.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Input of the target selection among predicted obstacles.
 struct PredictedTargetQuery {
@@ -52,4 +52,4 @@ bool is_free_in_time(const Snapshot& frame, const ObstaclePredictor& obstacles,
                      std::span<const Vec2> path, double speed, double delay, double horizon,
                      double clearance);
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -7,7 +7,7 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/swarm/body/unicycle.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 SafetyLookahead::SafetyLookahead(const HierarchicalParams& params, const SwarmLimits& swarm)
     : params_(params), radius_(swarm.radius), max_turn_rate_(swarm.max_turn_rate) {
@@ -132,4 +132,4 @@ Command SafetyLookahead::escape(const Start& start) const {
   return best;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -9,7 +9,7 @@
 #include "microswarm/navigation/steering/aim.hpp"
 #include "microswarm/swarm/body/swarm_limits.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Look-ahead of HierarchicalNavigator (ours, not in [drrt]): simulates the swarm for the horizon
 /// among predicted obstacles, and measures its clearance.
@@ -59,4 +59,4 @@ class SafetyLookahead {
   double period_ = 0.1;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 void ManualNavigator::steer(const Command& command) {
   const std::lock_guard lock(mutex_);
@@ -34,4 +34,4 @@ Command ManualNavigator::step(const Observation& seen, const Stop&) {
   return {seen.swarm ? seen.swarm->pose.heading : heading_, 0};
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -6,7 +6,7 @@
 
 #include "microswarm/contracts/navigator.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Executes commands that a person gives, for example by keys. Each lasts for a limited time, in
 /// which the next one must come; then the swarm holds. It keeps the swarm's speed limit and avoids
@@ -39,4 +39,4 @@ class ManualNavigator : public Navigator {
   NavigatorView view_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -11,7 +11,7 @@
 #include "microswarm/geometry/point_grid.hpp"
 #include "microswarm/navigation/prediction/obstacle_tracker.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 constexpr double memory = 1;       // [s] for which a hidden body is remembered
@@ -120,4 +120,4 @@ std::vector<Disc> BodyNumbers::expected_discs(double t) const {
   return discs;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

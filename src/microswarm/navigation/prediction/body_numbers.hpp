@@ -7,7 +7,7 @@
 #include "microswarm/core/matching/assignment.hpp"
 #include "microswarm/world/obstacles/body.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Matches the bodies of consecutive pictures: `Body::obstacle` becomes the number of the nearest
 /// body of the previous pictures, or a new one.
@@ -39,4 +39,4 @@ class BodyNumbers {
   Assignment assignment_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

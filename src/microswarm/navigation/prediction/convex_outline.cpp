@@ -11,7 +11,7 @@
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/navigation/prediction/obstacle_tracker.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 /// Number of points that are tested against the edges together.
@@ -127,4 +127,4 @@ void ConvexOutliner::find_hull(const std::vector<Vec2>& outline) {
   if (hull_.size() > 1) hull_.pop_back();
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -8,7 +8,7 @@
 #include "microswarm/navigation/prediction/convex_outline_tuning.hpp"
 #include "microswarm/world/obstacles/body.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Convex hull of a body, optimised for distance queries. A disc has no edges.
 struct ConvexOutline {
@@ -51,4 +51,4 @@ class ConvexOutliner {
   double hollow_share_ = 0;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

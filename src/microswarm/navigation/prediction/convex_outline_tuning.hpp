@@ -3,7 +3,7 @@
 
 #include "microswarm/core/fields/fields.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Constants of ConvexOutliner that rarely need a change. Hollow is the fraction of a hull that is
 /// not in the body.
@@ -19,4 +19,4 @@ struct ConvexOutlineTuning {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

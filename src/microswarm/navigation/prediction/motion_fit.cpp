@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 /// Size of a buffer; a median of more differences is hardly more accurate.
@@ -184,4 +184,4 @@ MotionFit fit_motion(std::span<const Sighting> sightings, int most, const Motion
   return out;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -6,7 +6,7 @@
 #include "microswarm/geometry/vec2.hpp"
 #include "microswarm/navigation/prediction/motion_fit_tuning.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Observed position [µm] and its time [s].
 struct Sighting {
@@ -33,4 +33,4 @@ struct MotionFit {
 MotionFit fit_motion(std::span<const Sighting> sightings, int most,
                      const MotionFitTuning& tuning = {});
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

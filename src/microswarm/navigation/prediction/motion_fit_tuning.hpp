@@ -3,7 +3,7 @@
 
 #include "microswarm/core/fields/fields.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Constants of fit_motion that rarely need a change.
 struct MotionFitTuning {
@@ -24,4 +24,4 @@ struct MotionFitTuning {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

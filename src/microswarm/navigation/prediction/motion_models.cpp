@@ -6,7 +6,7 @@
 
 #include "microswarm/core/maths/angles.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 constexpr double unturned = 1e-6;    // smaller turns are rounding [rad]
@@ -147,4 +147,4 @@ double MotionModels::turn(std::size_t model, const MotionTrail& trail, double s)
   return std::min(s, tuning_.turning_time) * turn_rate_;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

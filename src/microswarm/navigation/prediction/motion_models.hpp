@@ -12,7 +12,7 @@
 #include "microswarm/navigation/prediction/obstacle_tracker.hpp"
 #include "microswarm/navigation/prediction/oscillation.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Oscillation or rotation on a circle.
 struct ArcSwing {
@@ -71,4 +71,4 @@ class MotionModels {
   std::vector<Sighting> along_;  ///< arc lengths on the circle
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

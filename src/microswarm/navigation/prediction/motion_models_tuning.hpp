@@ -3,7 +3,7 @@
 
 #include "microswarm/core/fields/fields.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Constants of MotionModels that rarely need a change.
 struct MotionModelsTuning {
@@ -36,4 +36,4 @@ struct MotionModelsTuning {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

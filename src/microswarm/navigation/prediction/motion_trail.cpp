@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 constexpr double min_squared_speed = 1;  // [µm²/s²] slower points cannot be divided by
@@ -89,4 +89,4 @@ TrailPoint MotionTrail::after(const Recurrence& recurrence, double s) const {
   return at(recurrence.t + std::fmod(s, period));
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

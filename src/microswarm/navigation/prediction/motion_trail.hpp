@@ -8,7 +8,7 @@
 #include "microswarm/geometry/vec2.hpp"
 #include "microswarm/navigation/prediction/motion_trail_tuning.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// State of a body at one time.
 struct TrailPoint {
@@ -56,4 +56,4 @@ class MotionTrail {
   std::vector<TrailPoint> points_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

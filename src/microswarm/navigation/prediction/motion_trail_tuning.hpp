@@ -3,7 +3,7 @@
 
 #include "microswarm/core/fields/fields.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Constants of MotionTrail::recurrence that rarely need a change.
 struct RecurrenceTuning {
@@ -41,4 +41,4 @@ struct RecurrenceTuning {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -8,7 +8,7 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/maths.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 /// Size of the buffer of pending forecasts.
@@ -214,4 +214,4 @@ PredictedBody MultiModelPredictor::at(std::size_t body, double t) const {
   return out;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -11,7 +11,7 @@
 #include "microswarm/navigation/prediction/obstacle_tracker.hpp"
 #include "microswarm/navigation/prediction/oscillation.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Predicted state of a body, relative to its last observation.
 struct PredictedBody {
@@ -90,4 +90,4 @@ class MultiModelPredictor {
   std::vector<Sighting> radii_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -5,7 +5,7 @@
 #include "microswarm/navigation/prediction/multi_model_predictor_tuning.hpp"
 #include "microswarm/navigation/prediction/obstacle_tracker_params.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Selection of the motion models of obstacles, and their uncertainty.
 struct MultiModelPredictorParams {
@@ -32,4 +32,4 @@ struct MultiModelPredictorParams {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -6,7 +6,7 @@
 #include "microswarm/navigation/prediction/motion_trail_tuning.hpp"
 #include "microswarm/navigation/prediction/oscillation_tuning.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Constants of MultiModelPredictor that rarely need a change. Priors are the errors expected of a
 /// model before it has shown any, as shares of the predicted distance.
@@ -54,4 +54,4 @@ struct MultiModelPredictorTuning {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

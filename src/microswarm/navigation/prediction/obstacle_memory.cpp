@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 bool holds(std::span<const Body> bodies, std::uint32_t obstacle) {
@@ -49,4 +49,4 @@ void ObstacleMemory::look_for_lost(std::span<const Body> bodies, double seen) {
   });
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -7,7 +7,7 @@
 #include "microswarm/contracts/observation.hpp"
 #include "microswarm/navigation/prediction/obstacle_tracker.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Completes frames in which an obstacle was not detected: for a while it is extrapolated at its
 /// estimated velocity, so that one missed detection does not open a path through it.
@@ -36,4 +36,4 @@ class ObstacleMemory {
   std::vector<Lost> lost_;   ///< detected before, missing now
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -8,7 +8,7 @@
 #include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/geometry/distance.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 constexpr double rest_speed = 1e-6;  // smaller values are rounding [µm/s]
@@ -91,4 +91,4 @@ Snapshot ObstaclePredictor::swept_obstacles(const Snapshot& frame, double horizo
   return Snapshot(frame.shared_map(), frame.time(), std::move(swept));
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

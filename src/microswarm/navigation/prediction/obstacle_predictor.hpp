@@ -7,7 +7,7 @@
 #include "microswarm/navigation/prediction/obstacle_tracker.hpp"
 #include "microswarm/world/snapshot.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Predicts moving obstacles for a few seconds. Each moves straight with the velocity that
 /// ObstacleTracker estimates from the frames; its outline keeps growing for a while.
@@ -45,4 +45,4 @@ class ObstaclePredictor {
   bool all_rest_ = true;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

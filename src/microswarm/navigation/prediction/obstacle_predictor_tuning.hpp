@@ -3,7 +3,7 @@
 
 #include "microswarm/core/fields/fields.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Constants of ObstaclePredictor that rarely need a change.
 struct ObstaclePredictorTuning {
@@ -18,4 +18,4 @@ struct ObstaclePredictorTuning {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -9,7 +9,7 @@
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/geometry/distance.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 /// Number of sightings from which the noise is estimated.
@@ -214,4 +214,4 @@ TrackedBody ObstacleTracker::estimate(const Trail& trail) const {
           .frames = position.sightings};
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -13,7 +13,7 @@
 #include "microswarm/navigation/prediction/motion_fit.hpp"
 #include "microswarm/navigation/prediction/obstacle_tracker_params.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Estimated motion of one body at the time of the newest frame.
 struct TrackedBody {
@@ -92,4 +92,4 @@ class ObstacleTracker {
 /// Upper bound of the outward speed [µm/s] of the body's outline relative to its centre.
 double outward_speed(const Body& body, const TrackedBody& motion);
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -4,7 +4,7 @@
 #include "microswarm/core/fields/fields.hpp"
 #include "microswarm/navigation/prediction/obstacle_tracker_tuning.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Data used by ObstacleTracker for a motion estimate.
 struct ObstacleTrackerParams {
@@ -20,4 +20,4 @@ struct ObstacleTrackerParams {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -4,7 +4,7 @@
 #include "microswarm/core/fields/fields.hpp"
 #include "microswarm/navigation/prediction/motion_fit_tuning.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Constants of ObstacleTracker that rarely need a change.
 struct ObstacleTrackerTuning {
@@ -21,4 +21,4 @@ struct ObstacleTrackerTuning {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -6,7 +6,7 @@
 
 #include "microswarm/core/maths/maths.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 constexpr double same_time = 1e-9;     // rounding of times [s]
@@ -157,4 +157,4 @@ std::optional<Oscillation> OscillationFit::best_fit(const Sums& sums, Vec2 origi
   return Oscillation{frequency, origin + found.c[0], found.c[1], found.c[2]};
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -9,7 +9,7 @@
 #include "microswarm/navigation/prediction/motion_fit.hpp"
 #include "microswarm/navigation/prediction/oscillation_tuning.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Oscillating position: value + rate · sin(ωt) / ω + curve · (1 − cos ωt) / ω², with t [s] since
 /// the newest sighting. Harmonic motion on lines, ellipses and circles has this form; for ω → 0 it
@@ -62,4 +62,4 @@ class OscillationFit {
   std::vector<Row> rows_;  ///< ascending in time
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -3,7 +3,7 @@
 
 #include "microswarm/core/fields/fields.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Constants of OscillationFit that rarely need a change. Windows and frequencies must ascend.
 struct OscillationTuning {
@@ -31,4 +31,4 @@ struct OscillationTuning {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -5,7 +5,7 @@
 
 #include "microswarm/geometry/distance.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 /// Minimum distance from the outline to a point that moves straight from a to b, both relative to
@@ -102,4 +102,4 @@ PredictiveDiagnostics ObstacleHorizon::diagnostics(const TimeField& field, doubl
   return out;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -13,7 +13,7 @@
 #include "microswarm/navigation/predictive/predictive_params.hpp"
 #include "microswarm/navigation/predictive/time_field.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Moving bodies over the horizon of a step: the convex outlines of the predicted ones, and those
 /// that are taken as they are now. Allocates only if there are more bodies than ever before.
@@ -78,4 +78,4 @@ class ObstacleHorizon {
   double closing_ = 0;  ///< upper bound of their approach in the meantime [µm]
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

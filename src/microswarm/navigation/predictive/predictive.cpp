@@ -12,7 +12,7 @@
 #include "microswarm/core/maths/maths.hpp"
 #include "microswarm/geometry/distance.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 constexpr double leg_rounding = 1e-9;
@@ -63,7 +63,7 @@ void PredictiveNavigator::prepare(const Snapshot& world, const Stop&) {
   reached_ = {aim().position, params_.tuning.goal_share * left};
   ends_within_ = goal_tolerance() - (1 - params_.tuning.goal_share) * left;
   if (params_.guide == Guide::route)
-    route_ = DistanceField::to_goal(
+    route_ = planning::DistanceField::to_goal(
         world.shared_map(), aim().position,
         wall_clearance(swarm().radius + params_.wall_gap, aim().position, 0), params_.route_cell);
 }
@@ -251,4 +251,4 @@ double PredictiveNavigator::follow_field(Vec2 from) {
   return least;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

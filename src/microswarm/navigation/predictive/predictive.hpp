@@ -14,7 +14,7 @@
 #include "microswarm/navigation/steering/steering_navigator.hpp"
 #include "microswarm/planning/exact/distance_field.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Reports an empty list of speeds, and bounds of the prediction that do not ascend.
 Issues validate(const PredictiveParams& params);
@@ -57,7 +57,7 @@ class PredictiveNavigator : public SteeringNavigator {
   double radius_;           ///< including the gap [µm]
   MultiModelPredictor predictor_;
   TimeField field_;
-  DistanceField route_;
+  planning::DistanceField route_;
   bool in_sight_ = true;          ///< is the goal?
   std::optional<double> wanted_;  ///< heading to turn to, of a swarm that turns slowly [rad]
   bool ending_ = false;           ///< is it at the last bit, finer than the field's cells?
@@ -66,4 +66,4 @@ class PredictiveNavigator : public SteeringNavigator {
   std::vector<Vec2> path_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -9,7 +9,7 @@
 #include "microswarm/navigation/predictive/predictive_tuning.hpp"
 #include "microswarm/navigation/steering/guide_kind.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Cost of being near an obstacle, in seconds per second.
 struct RiskParams {
@@ -67,4 +67,4 @@ struct PredictiveParams {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

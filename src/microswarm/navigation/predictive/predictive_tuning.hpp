@@ -6,7 +6,7 @@
 #include "microswarm/core/fields/fields.hpp"
 #include "microswarm/navigation/prediction/convex_outline_tuning.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Constants of PredictiveNavigator that rarely need a change.
 struct PredictiveTuning {
@@ -42,4 +42,4 @@ struct PredictiveTuning {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

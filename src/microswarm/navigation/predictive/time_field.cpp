@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 // The stencil of moves, in cells. The values belong together: the long moves are those from
@@ -198,4 +198,4 @@ Vec2 TimeField::next(int k, Vec2 p) const {
   return best;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -10,7 +10,7 @@
 #include "microswarm/navigation/prediction/multi_model_predictor.hpp"
 #include "microswarm/navigation/predictive/predictive_params.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Cost rate at a gap [µm] that is known up to `uncertainty` [µm].
 inline float penetration_risk(const RiskParams& p, float gap, float uncertainty) {
@@ -90,4 +90,4 @@ class TimeField {
   std::vector<std::vector<float>> cost_;  ///< after 0, 1, … steps
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -6,7 +6,7 @@
 
 #include "microswarm/core/execution/each_cpu.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 constexpr double rounding = 1e-9;  // relative, of distances
@@ -196,4 +196,4 @@ std::int64_t EscapeFan::test_exactly(const Positions& at, const ReachableObstacl
   return met;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -9,7 +9,7 @@
 
 #include "microswarm/navigation/radar/reachable_obstacles.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Whether a swarm keeps the required gaps on the trajectory at these times; `before` [s] is the
 /// time before the first of them.
@@ -96,4 +96,4 @@ class EscapeFan {
   std::size_t last_ = 0;  ///< index of the velocity that was free last time
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

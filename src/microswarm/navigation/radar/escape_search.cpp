@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 constexpr double gap_rounding = 1e-6;  // [µm]
@@ -126,4 +126,4 @@ bool EscapeSearch::is_hopeless(const Trace& trace, double max_last_gap) const {
   return out.least + max_last_gap <= bar();
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -10,7 +10,7 @@
 #include "microswarm/navigation/radar/escape_fan.hpp"
 #include "microswarm/navigation/radar/reachable_obstacles.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Outcome of a trajectory.
 struct EscapeOutcome {
@@ -83,4 +83,4 @@ class EscapeSearch {
   EscapeOutcome outcome_{-1, -infinity, 0};
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -11,7 +11,7 @@
 #include "microswarm/planning/trees/fmt_star.hpp"
 #include "microswarm/world/connectivity/free_place.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 constexpr double usual_tick = 0.1;  // [s]
@@ -157,10 +157,10 @@ Pose2 RadarNavigator::beside_walls(const Map& map, double radius) const {
 
 bool RadarNavigator::plan_route(const Snapshot& walls, Pose2 from, double clearance,
                                 const Stop& stop) {
-  FmtStarParams planner = params_.planner;
+  planning::FmtStarParams planner = params_.planner;
   planner.clearance = clearance;
   planner.goal_tolerance = std::min(planner.goal_tolerance, aim().tolerance);
-  plan_ = plan(walls, from, aim().position, planner, rng_, stop);
+  plan_ = planning::plan(walls, from, aim().position, planner, rng_, stop);
   if (plan_->status != Status::solved) return false;
   std::vector<Vec2> points = plan_->path;
   if (points.size() > 1 && from.position == pose_.position) points.erase(points.begin());
@@ -207,4 +207,4 @@ Decision RadarNavigator::rest(const Observation& seen, NavigatorState state) {
   return {{pose_.heading, 0}, state};
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

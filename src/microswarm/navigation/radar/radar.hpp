@@ -15,7 +15,7 @@
 #include "microswarm/navigation/radar/safety_radius.hpp"
 #include "microswarm/navigation/steering/steering_navigator.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Reports inconsistent parameters, a step that is too long for the swarm, and waypoints that it
 /// cannot occupy.
@@ -80,4 +80,4 @@ class RadarNavigator : public SteeringNavigator {
   std::optional<RadarContact> contact_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

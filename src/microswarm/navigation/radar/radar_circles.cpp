@@ -7,7 +7,7 @@
 
 #include "microswarm/core/fields/published.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 RadarCircles make_circles(const RadarParams& params, double swarm_radius) {
   const double prediction = swarm_radius + params.prediction_distance;  // Eq 6
@@ -71,4 +71,4 @@ Issues validate_step(const RadarParams& params, const SwarmLimits& swarm) {
   return issues;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

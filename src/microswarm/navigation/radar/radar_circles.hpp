@@ -6,7 +6,7 @@
 #include "microswarm/navigation/radar/radar_params.hpp"
 #include "microswarm/swarm/body/swarm_limits.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Circles of a swarm observed with the radius r_s [µm]: Eq 6, 7, 26 [radar].
 RadarCircles make_circles(const RadarParams& params, double swarm_radius);
@@ -24,4 +24,4 @@ Issues validate(const RadarParams& params, const IsGiven& is_given = {});
 /// published d_p is at most an eighth of a body length [radar].
 Issues validate_step(const RadarParams& params, const SwarmLimits& swarm);
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

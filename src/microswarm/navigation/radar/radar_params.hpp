@@ -13,7 +13,7 @@
 #include "microswarm/navigation/radar/wait_zone_params.hpp"
 #include "microswarm/planning/trees/fmt_star_params.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Radar-based navigation among moving obstacles [radar]. Our additions are keeping to one side,
 /// the retreat, the safety filter and the delay compensation. `as_published` disables them all.
@@ -36,7 +36,7 @@ struct RadarParams {
   std::vector<Vec2> waypoints;
   double waypoint_tolerance = 50;
   bool global_plan = false;
-  FmtStarParams planner;
+  planning::FmtStarParams planner;
   RadarTuning tuning;
   bool as_published = false;
 
@@ -82,4 +82,4 @@ struct RadarParams {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/navigation/radar/radar_route.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 Vec2 RadarRoute::target(const Map& map, Vec2 p, double clearance, double tolerance) {
   const auto sees = [&](std::size_t i) { return map.is_free(Segment{p, points_[i]}, clearance); };
@@ -21,4 +21,4 @@ Vec2 RadarRoute::target(const Map& map, Vec2 p, double clearance, double toleran
   return points_[next_];
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

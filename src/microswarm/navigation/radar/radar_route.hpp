@@ -8,7 +8,7 @@
 #include "microswarm/geometry/vec2.hpp"
 #include "microswarm/world/map/map.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Waypoints as successive phased goals [radar]. Never returns to a waypoint already passed.
 class RadarRoute {
@@ -36,4 +36,4 @@ class RadarRoute {
   bool in_sight_ = true;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -8,7 +8,7 @@
 #include "microswarm/geometry/distance.hpp"
 #include "microswarm/navigation/prediction/obstacle_tracker.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 double nearness(Vec2 position, Vec2 target) {
@@ -136,4 +136,4 @@ RadarDiagnostics scan(const RadarLook& look, const Snapshot& world, int directio
   return out;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -7,7 +7,7 @@
 #include "microswarm/contracts/diagnostics.hpp"
 #include "microswarm/world/snapshot.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Input of one radar decision, besides the world. Lengths in µm.
 struct RadarLook {
@@ -68,4 +68,4 @@ RadarDiagnostics scan(const RadarLook& look, const Snapshot& world, int directio
 /// hollow one; then the distance to its edge counts.
 std::optional<Vec2> rotation_centre(const Body& body);
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -8,7 +8,7 @@
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/geometry/distance.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 constexpr double scan_rounding = 1e-6;  // of distances [µm]
@@ -239,4 +239,4 @@ std::optional<double> RadarScanner::retreat(const RadarLook& look, const Snapsho
   return found ? std::optional(heading(*found)) : std::nullopt;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -8,7 +8,7 @@
 #include "microswarm/navigation/radar/radar_scan.hpp"
 #include "microswarm/navigation/radar/radar_tuning.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Nearest body in the detection circle.
 struct RadarContact {
@@ -74,4 +74,4 @@ class RadarScanner {
   std::vector<std::uint32_t> bodies_;  ///< near bodies, each once
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

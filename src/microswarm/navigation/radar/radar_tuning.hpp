@@ -3,7 +3,7 @@
 
 #include "microswarm/core/fields/fields.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Constants of RadarNavigator that rarely need a change.
 struct RadarTuning {
@@ -23,4 +23,4 @@ struct RadarTuning {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 constexpr double clearance_rounding = 1e-6;  // [µm]
@@ -163,4 +163,4 @@ bool ReachableObstacles::meets_walls(const Segment& segment, double slack) const
   return walls_from_ < end() && keep > 0 && !world_->map().is_free(segment, keep);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -15,7 +15,7 @@
 #include "microswarm/navigation/radar/safety_filter_params.hpp"
 #include "microswarm/world/snapshot.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Predicted state of the swarm when a command takes effect.
 struct EscapeStart {
@@ -146,4 +146,4 @@ class ReachableObstacles {
   double closing_ = 0;  ///< approach speed of the bodies near the swarm [µm/s]
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

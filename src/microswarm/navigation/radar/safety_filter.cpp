@@ -11,7 +11,7 @@
 
 #include "microswarm/core/maths/angles.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 constexpr double tie = 1e-6;
@@ -152,4 +152,4 @@ Command SafetyFilter::best_manoeuvre() {
   return {speed > 0 ? heading_along(begin) : 0, speed};
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

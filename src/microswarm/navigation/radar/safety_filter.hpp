@@ -13,7 +13,7 @@
 #include "microswarm/navigation/radar/reachable_obstacles.hpp"
 #include "microswarm/navigation/radar/safety_filter_params.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Safety filter of a command, see SafetyFilterParams. For holonomic swarms. Does not allocate once
 /// it has seen the obstacles.
@@ -73,4 +73,4 @@ class SafetyFilter {
   std::vector<EscapeSearch::Bundle> bundles_;  ///< as many as are evaluated in turn at most
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -5,7 +5,7 @@
 
 #include "microswarm/navigation/prediction/obstacle_tracker_params.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Safety filter (ours, not in [radar]). A command passes only if a collision-free escape remains
 /// after it: to hold, or to move straight in some direction. Otherwise the nearest command with an
@@ -39,4 +39,4 @@ struct SafetyFilterParams {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -7,7 +7,7 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/navigation/prediction/convex_outline_tuning.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Constants of SafetyFilter that rarely need a change.
 struct SafetyFilterTuning {
@@ -57,4 +57,4 @@ struct SafetyFilterTuning {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 // On the line from the obstacle to the swarm, Eq 20, 21 are one number: the gap x from edge to edge
 // with x_{i+1} = x_i − T u_i, u = |v_r| in [0, |v_r|max] and T u < x_0 (Eq 22). The second input of
@@ -38,4 +38,4 @@ double SafetyRadius::radius(double greatest, double least, double gap) const {
   return std::max(least, greatest - assumed_speed(gap) * params_.assumed_time);  // Eq 24
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

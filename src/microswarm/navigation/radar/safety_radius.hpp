@@ -3,7 +3,7 @@
 
 #include "microswarm/navigation/radar/safety_radius_params.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Controller of the safety radius; safety_radius.cpp proves that it is exact.
 class SafetyRadius {
@@ -22,4 +22,4 @@ class SafetyRadius {
   double gain_ = 0;  // K_0 [1/s]
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -3,7 +3,7 @@
 
 #include "microswarm/core/fields/fields.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Adaptation of the safety circle, which shrinks while obstacles are far: model predictive
 /// control, Eq 18–24 [radar].
@@ -28,4 +28,4 @@ struct SafetyRadiusParams {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -9,7 +9,7 @@
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/geometry/distance.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 /// Rectangle in any orientation.
@@ -115,4 +115,4 @@ bool must_wait(const WaitZone& area, std::span<const Body> bodies, const Waiting
   return false;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

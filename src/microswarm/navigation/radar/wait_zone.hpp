@@ -9,7 +9,7 @@
 #include "microswarm/world/obstacles/body_set.hpp"
 #include "microswarm/world/obstacles/motion.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Position and target of a swarm that may have to wait.
 struct Waiting {
@@ -34,4 +34,4 @@ double gap_between(const Body& a, const Body& b);
 /// they close on it.
 bool must_wait(const WaitZone& area, std::span<const Body> bodies, const Waiting& swarm);
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

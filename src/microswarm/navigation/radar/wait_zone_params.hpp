@@ -5,7 +5,7 @@
 #include "microswarm/geometry/vec2.hpp"
 #include "microswarm/world/obstacles/motion.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Rectangle around a valve in which the swarm waits while the gap is too small: A and D of Eq 29
 /// [radar].
@@ -27,4 +27,4 @@ struct WaitZone {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

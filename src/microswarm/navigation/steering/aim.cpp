@@ -5,11 +5,11 @@
 
 #include "microswarm/planning/common/free_goal.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 std::optional<Vec2> reachable_goal(const Snapshot& walls, Vec2 goal, double tolerance,
                                    double clearance) {
-  return free_goal(walls, goal, aim_share * tolerance, clearance);
+  return planning::free_goal(walls, goal, aim_share * tolerance, clearance);
 }
 
 namespace {
@@ -40,4 +40,4 @@ double Aim::wall_clearance(double least, double wanted, Vec2 p, double reach) co
   return std::max(least, (1 - rounding) * clearance);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -6,7 +6,7 @@
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/world/snapshot.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Fraction of the goal's tolerance used to choose the aim; the rest is for path-following errors.
 inline constexpr double aim_share = 0.9;
@@ -34,4 +34,4 @@ struct Aim {
 /// and in the tolerance. The goal itself if no point has `least`.
 Aim aim_at(const Snapshot& walls, Vec2 goal, double tolerance, double least, double wanted);
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -4,7 +4,7 @@
 #include "microswarm/contracts/command.hpp"
 #include "microswarm/contracts/navigator_state.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Decision of a navigator in a step.
 struct Decision {
@@ -12,4 +12,4 @@ struct Decision {
   NavigatorState state = NavigatorState::hold;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -9,7 +9,7 @@
 #include "microswarm/swarm/body/swarm_limits.hpp"
 #include "microswarm/swarm/body/unicycle.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Predicts a single-body swarm from its past commands: a frame is already old when it arrives, and
 /// a command takes effect only after the swarm's dead time. Does not allocate after construction.
@@ -61,4 +61,4 @@ class DelayCompensator {
   std::vector<Issued> issued_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

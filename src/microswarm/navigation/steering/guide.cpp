@@ -3,14 +3,14 @@
 
 #include <utility>
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 void GoalGuide::prepare(const std::shared_ptr<const Map>& map, Vec2 goal, double clearance,
                         double least) {
   goal_ = goal;
   if (kind_ == Guide::straight) return;
   for (const auto& [i, keep] : {std::pair{0U, clearance}, {1U, least}})
-    candidates_[i] = {Route(map, goal_, keep), keep};
+    candidates_[i] = {planning::Route(map, goal_, keep), keep};
 }
 
 Vec2 GoalGuide::target(const Map& map, Vec2 from) {
@@ -23,4 +23,4 @@ Vec2 GoalGuide::target(const Map& map, Vec2 from) {
   return goal_;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -7,7 +7,7 @@
 #include "microswarm/navigation/steering/guide_kind.hpp"
 #include "microswarm/planning/exact/route.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Shows a navigator that looks no further than its surroundings where to head for: at the goal, or
 /// where walls hide it along the route to it.
@@ -28,7 +28,7 @@ class GoalGuide {
 
  private:
   struct Candidate {
-    Route route;
+    planning::Route route;
     double clearance = 0;
   };
   Guide kind_;
@@ -37,4 +37,4 @@ class GoalGuide {
   std::array<Candidate, 2> candidates_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

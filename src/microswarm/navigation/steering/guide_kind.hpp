@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Which way the goal is taken to lie.
 enum class Guide {
@@ -17,4 +17,4 @@ constexpr auto enum_names(Guide) {
       {{Guide::straight, "straight"}, {Guide::route, "route"}}};
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -6,7 +6,7 @@
 
 #include "microswarm/world/connectivity/free_place.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 namespace {
 
@@ -40,4 +40,4 @@ void RobotDelayCompensator::note(double now, const Command& command) {
   while (issued_.size() > 1 && issued_[1].time + lag_ < now - remembered) issued_.pop_front();
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -7,7 +7,7 @@
 #include "microswarm/swarm/robots/robot_stepper.hpp"
 #include "microswarm/swarm/robots/robot_swarm.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Predicts the robots' positions when the next command takes effect: the last observed positions,
 /// moved by the commands given since and not yet in effect.
@@ -38,4 +38,4 @@ class RobotDelayCompensator {
   std::deque<Issued> issued_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

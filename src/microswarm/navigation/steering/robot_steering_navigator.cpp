@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 RobotSteeringNavigator::RobotSteeringNavigator(const Task& task, std::optional<std::size_t> count)
     : robots_(*task.robots),
@@ -31,4 +31,4 @@ bool RobotSteeringNavigator::sees_robots(const Observation& seen) const {
   return is_complete && seen.age() <= frame_timeout_ && std::ranges::all_of(seen.robots, is_finite);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -9,7 +9,7 @@
 #include "microswarm/navigation/steering/robot_delay_compensator.hpp"
 #include "microswarm/navigation/steering/task.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Counterpart of SteeringNavigator for individually tracked robots under one input. It holds if
 /// the frame is too old or shows a robot at no finite position, or not all of them.
@@ -56,4 +56,4 @@ class RobotSteeringNavigator : public Navigator {
   NavigatorView view_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

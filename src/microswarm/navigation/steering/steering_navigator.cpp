@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 std::string_view SteeringNavigator::unsupported_reason(const Task& task) {
   if (task.robots) return "a swarm that is one body: it cannot steer robots one by one";
@@ -52,4 +52,4 @@ void SteeringNavigator::record(double now, const Command& command) {
   compensator_.note(now, command);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -10,7 +10,7 @@
 #include "microswarm/navigation/steering/delay_compensator.hpp"
 #include "microswarm/navigation/steering/task.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Base of the navigators of a single-body swarm: the cycle of a step. It holds without an observed
 /// swarm and at the goal, compensates delays, and records every command and its state.
@@ -109,4 +109,4 @@ class SteeringNavigator : public Navigator {
   NavigatorView view_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

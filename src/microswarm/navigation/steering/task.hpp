@@ -7,7 +7,7 @@
 #include "microswarm/swarm/body/swarm_limits.hpp"
 #include "microswarm/swarm/robots/robot_swarm_params.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Task of a navigator.
 struct Task {
@@ -19,4 +19,4 @@ struct Task {
   double frame_timeout = default_frame_timeout;  ///< age of a frame [s] at which it holds
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -5,7 +5,7 @@
 
 #include "microswarm/core/maths/angles.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 Detection detect(const Snapshot& world, Disc circle, double rho_min, const Stop& stop) {
   Detection detection{circle, 0, 0, 1};
@@ -22,4 +22,4 @@ Detection detect(const Snapshot& world, Disc circle, double rho_min, const Stop&
   return detection;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

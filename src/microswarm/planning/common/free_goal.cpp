@@ -6,7 +6,7 @@
 #include <queue>
 #include <vector>
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 constexpr int finest_level = 6;
@@ -99,4 +99,4 @@ Target find_target(const Snapshot& world, Vec2 start, Vec2 goal, double toleranc
   return {.fault = std::nullopt, .position = *position};
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

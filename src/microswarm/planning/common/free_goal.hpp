@@ -5,7 +5,7 @@
 
 #include "microswarm/contracts/plan.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// The goal if it is free with the clearance, else approximately the nearest free point within
 /// `tolerance` [µm]. A free spot smaller than tolerance / 64 is found only by moving from its
@@ -26,4 +26,4 @@ struct Target {
 Target find_target(const Snapshot& world, Vec2 start, Vec2 goal, double tolerance,
                    double clearance);
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

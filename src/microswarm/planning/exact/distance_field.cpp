@@ -11,7 +11,7 @@
 #include "microswarm/core/maths/heap_entry.hpp"
 #include "microswarm/world/snapshot.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 constexpr float unknown = -1;
@@ -152,4 +152,4 @@ double DistanceField::visible_estimate(Vec2 p) {
   return shortest < infinity ? shortest : straight_and_detour(p);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -8,7 +8,7 @@
 
 #include "microswarm/planning/exact/route.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// Lengths of the shortest paths to a goal from the nodes of a square grid. The length of a node is
 /// computed at the first query and kept. Not thread-safe.
@@ -63,4 +63,4 @@ class DistanceField {
   std::vector<float> lengths_;  ///< of each node [µm]; negative until computed
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

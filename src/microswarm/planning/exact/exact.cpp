@@ -8,7 +8,7 @@
 #include "microswarm/planning/exact/shortest_paths.hpp"
 #include "microswarm/world/map/kept_work.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 /// Finds the shortest path with the tangents kept from earlier queries.
@@ -47,4 +47,4 @@ Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const ExactParams& para
   return made;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -4,7 +4,7 @@
 #include "microswarm/contracts/plan.hpp"
 #include "microswarm/planning/exact/exact_params.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// Plans the shortest path to the goal or, if the goal is blocked, to a free point next to it;
 /// see planners.hpp for the common interface. The first plan in a map finds its corners, which are
@@ -13,4 +13,4 @@ namespace microswarm {
 Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const ExactParams& params, Rng& rng,
           const Stop& stop = {});
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -5,7 +5,7 @@
 
 #include "microswarm/core/fields/fields.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// Parameters of the exact planner: the shortest path, or the proof that there is none. The path
 /// consists of tangents between circles of the clearance around corners and discs, and of arcs.
@@ -21,4 +21,4 @@ struct ExactParams {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -5,7 +5,7 @@
 
 #include "microswarm/planning/common/free_goal.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// First point of the path from `p` that keeps the clearance; nothing without a path.
 std::optional<Vec2> Route::entry(Vec2 p) const {
@@ -45,4 +45,4 @@ Vec2 Route::ahead(Vec2 p, double reach) {
   return seen;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

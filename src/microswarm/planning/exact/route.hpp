@@ -6,7 +6,7 @@
 
 #include "microswarm/planning/exact/shortest_path_tree.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// Shortest paths of a swarm to its goal from any position, also from positions with slightly less
 /// than the clearance. Not thread-safe.
@@ -41,4 +41,4 @@ class Route {
   std::optional<ShortestPathTree> tree_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

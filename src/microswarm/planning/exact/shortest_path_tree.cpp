@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace microswarm {
+namespace microswarm::planning {
 
 ShortestPathTree::ShortestPathTree(const Map& map, Vec2 goal, double clearance, Growth growth)
     : map_(&map),
@@ -126,4 +126,4 @@ ShortestPathTree::Best ShortestPathTree::best_over_seen(Vec2 p) {
   return {};
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -10,7 +10,7 @@
 #include "microswarm/core/execution/stop.hpp"
 #include "microswarm/planning/exact/tangent_query.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// Shortest paths of a disc from any position to one goal, for one clearance: a tree over the
 /// tangents of the map's corners, rooted at the goal. A query looks around its position and takes
@@ -84,4 +84,4 @@ class ShortestPathTree {
   std::vector<Line> lines_;          ///< from seen wheels, a heap
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

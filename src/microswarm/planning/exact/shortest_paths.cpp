@@ -7,7 +7,7 @@
 
 #include "microswarm/planning/exact/tangent_query.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 /// End of the free part of the straight line to the goal.
@@ -79,4 +79,4 @@ ShortestPath ShortestPaths::find(Vec2 start, Vec2 goal, const BodySet& moving, c
   return path;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

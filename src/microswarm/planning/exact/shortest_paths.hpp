@@ -8,7 +8,7 @@
 #include "microswarm/core/execution/stop.hpp"
 #include "microswarm/planning/exact/tangent_graph.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// A shortest path, or the reason for its absence and a path that ends near the goal.
 struct ShortestPath {
@@ -42,4 +42,4 @@ class ShortestPaths {
   TangentGraph graph_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

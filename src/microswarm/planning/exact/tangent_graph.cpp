@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 constexpr std::uint8_t often = 8;  // queries that visit a circle before its hops are settled
@@ -99,7 +99,7 @@ int TangentGraph::arc_at(std::uint32_t circle, double angle) {
     at.is_cut = true;
     at.arcs = cut(circle, nullptr, arcs_);
   }
-  return microswarm::arc_at(at, angle, at.arcs.of(arcs_));
+  return microswarm::planning::arc_at(at, angle, at.arcs.of(arcs_));
 }
 
 TangentGraph::ArcRange TangentGraph::cut(std::uint32_t circle, const BodySet* bodies,
@@ -109,4 +109,4 @@ TangentGraph::ArcRange TangentGraph::cut(std::uint32_t circle, const BodySet* bo
   return {static_cast<std::uint32_t>(first), static_cast<std::uint16_t>(arcs.size() - first)};
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -9,7 +9,7 @@
 
 #include "microswarm/planning/exact/turning_circle.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// Tangents of the circles around a map's corners, for one clearance, computed at first use and
 /// kept for later queries, which changes no result. A wheel is a circle with a sense:
@@ -139,4 +139,4 @@ void take_unseen(std::uint32_t corner, SidesOf&& find_sides, std::vector<std::ui
   if (sides.right && std::exchange(right, look) != look) take(2 * corner + 1);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

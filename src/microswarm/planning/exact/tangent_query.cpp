@@ -7,7 +7,7 @@
 
 #include "microswarm/core/maths/angles.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 TangentQuery::TangentQuery(TangentGraph& graph, Vec2 start, Vec2 goal, bool ends_there,
                            const BodySet* moving)
@@ -37,7 +37,8 @@ TangentQuery::TangentQuery(TangentGraph& graph, Vec2 start)
 /// Index of the free arc that contains this angle; −1 if none does.
 int TangentQuery::arc_at(std::uint32_t circle, double angle) {
   if (!is_near_moving(circle)) return graph_->arc_at(circle, angle);
-  return microswarm::arc_at(graph_->circle(circle), angle, circles_now_[circle].arcs.of(arcs_now_));
+  return microswarm::planning::arc_at(graph_->circle(circle), angle,
+                                      circles_now_[circle].arcs.of(arcs_now_));
 }
 
 /// Whether a moving body may cut the circle; if so, computes its current arcs.
@@ -283,4 +284,4 @@ void TangentQuery::draw_arc(const Label& label, double to, std::vector<Vec2>& po
   }
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -10,7 +10,7 @@
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/planning/exact/tangent_graph.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// One search by A* over the tangents of a graph: shortest paths from a start to one goal, or to
 /// many positions in turn. Tangents of moving bodies are computed by each query. A graph serves one
@@ -150,4 +150,4 @@ class TangentQuery {
   std::vector<Open> open_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -6,7 +6,7 @@
 
 #include "microswarm/core/maths/angles.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 /// The angle in [0, 2π).
@@ -161,4 +161,4 @@ int arc_at(const TurningCircle& circle, double angle, std::span<const Arc> arcs)
   return -1;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

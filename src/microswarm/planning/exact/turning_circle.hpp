@@ -9,7 +9,7 @@
 #include "microswarm/world/map/corners.hpp"
 #include "microswarm/world/map/map.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// Tolerance of angles [rad] and unit vectors.
 constexpr double angle_slack = 1e-9;
@@ -62,4 +62,4 @@ void add_free_arcs(const TurningCircle& circle, const Map& map, const BodySet* m
 /// Index of the arc that contains this angle; −1 if none does.
 int arc_at(const TurningCircle& circle, double angle, std::span<const Arc> arcs);
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

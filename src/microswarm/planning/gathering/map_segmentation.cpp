@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 constexpr std::uint32_t unassigned = ~0u;
@@ -322,4 +322,4 @@ MapSegmentation segment_map(const Map& map, const ObstacleWeightedRrt& tree, con
   return Segmenter(map, tree, routes, params).segment(stop);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

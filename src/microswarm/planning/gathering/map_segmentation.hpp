@@ -8,7 +8,7 @@
 #include "microswarm/planning/gathering/map_segmentation_params.hpp"
 #include "microswarm/planning/gathering/obstacle_weighted_rrt.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// Partition of the nodes: every node belongs to one region and one branch of it. Regions are
 /// numbered by the cost of their gates, so `next` descends to the goal's region 0, which is its own
@@ -26,4 +26,4 @@ struct MapSegmentation {
 MapSegmentation segment_map(const Map& map, const ObstacleWeightedRrt& tree, const Routes& routes,
                             const MapSegmentationParams& params = {}, const Stop& stop = {});
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -6,7 +6,7 @@
 #include "microswarm/core/fields/fields.hpp"
 #include "microswarm/core/maths/angles.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// Parameters of segment_map. Lengths are in widths of the local channel, so they fit every map.
 struct MapSegmentationParams {
@@ -33,4 +33,4 @@ struct MapSegmentationParams {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 constexpr double cells_per_node = 4;
@@ -159,4 +159,4 @@ std::optional<std::uint32_t> NodeLookup::nearest_visible(const Map& map, Vec2 p,
   return best;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -11,7 +11,7 @@
 #include "microswarm/geometry/uniform_grid.hpp"
 #include "microswarm/world/map/map.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// Lookup of the nearest of a fixed set of nodes, fast enough for a thousand robots per step. It is
 /// a raster whose cells list the few candidate nodes. A node not visible from a cell (from its
@@ -54,4 +54,4 @@ class NodeLookup {
   std::vector<std::uint32_t> listed_;  ///< candidate nodes of each cell, ascending
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

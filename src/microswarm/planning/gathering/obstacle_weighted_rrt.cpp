@@ -15,7 +15,7 @@
 #include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/planning/gathering/tree_cover.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 /// Wall contacts are located to 2^-20 of an extension.
@@ -345,4 +345,4 @@ ObstacleWeightedRrt obstacle_weighted_rrt(const Map& map, Vec2 goal,
   return tree;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -10,7 +10,7 @@
 #include "microswarm/planning/gathering/node_lookup.hpp"
 #include "microswarm/planning/gathering/obstacle_weighted_rrt_params.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// Routes from each node to the goal. Every step from a node to its next is collision-free.
 struct Routes {
@@ -61,4 +61,4 @@ ObstacleWeightedRrt obstacle_weighted_rrt(const Map& map, Vec2 goal,
                                           const ObstacleWeightedRrtParams& params, Rng& rng,
                                           const Stop& stop = {});
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

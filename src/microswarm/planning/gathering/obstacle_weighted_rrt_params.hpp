@@ -5,7 +5,7 @@
 
 #include "microswarm/core/fields/fields.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// Parameters of the tree. The defaults are those of the published trees, where a channel is 10
 /// wide; `scaled` adapts them to other channels.
@@ -50,4 +50,4 @@ struct ObstacleWeightedRrtParams {
 /// long. The published ones are for channels of 10 µm.
 ObstacleWeightedRrtParams scaled(ObstacleWeightedRrtParams params, double factor);
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -7,7 +7,7 @@
 
 #include "microswarm/world/map/lattice.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 class Cover {
@@ -83,4 +83,4 @@ void cover(const Map& map, const PointGrid& nodes, double cell, double radius,
   Cover(map, nodes, cell, radius, add).run();
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -7,7 +7,7 @@
 #include "microswarm/geometry/point_grid.hpp"
 #include "microswarm/world/map/map.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// Marks the absence of a tree node.
 inline constexpr std::uint32_t no_node = ~0u;
@@ -21,4 +21,4 @@ inline constexpr std::uint32_t no_node = ~0u;
 void cover(const Map& map, const PointGrid& nodes, double cell, double radius,
            const std::function<void(Vec2 p, std::uint32_t parent)>& add);
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -9,7 +9,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/maths/maths.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 constexpr double max_space_cells = 1 << 24;
@@ -95,4 +95,4 @@ Coverage coverage(const Map& map, const GlobalTree& tree, double cell) {
   return result;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

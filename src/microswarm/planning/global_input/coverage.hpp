@@ -3,7 +3,7 @@
 
 #include "microswarm/planning/global_input/global_tree.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// Fraction of the configuration space covered by a tree (Sec II-d [global]).
 struct Coverage {
@@ -19,4 +19,4 @@ struct Coverage {
 /// above 0, or so small that the plane has more than 2^24 cells.
 Coverage coverage(const Map& map, const GlobalTree& tree, double cell);
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

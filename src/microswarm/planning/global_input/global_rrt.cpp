@@ -12,7 +12,7 @@
 #include "microswarm/planning/common/free_goal.hpp"
 #include "microswarm/planning/global_input/global_separation.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 constexpr int max_place_draws = 10'000;   // per position of one robot
@@ -212,4 +212,4 @@ GlobalRrt global_rrt(const Map& map, std::span<const Vec2> starts, std::span<con
   return root;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -9,7 +9,7 @@
 #include "microswarm/planning/global_input/global_rrt_params.hpp"
 #include "microswarm/planning/global_input/global_tree.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// A grown tree and its answer for the goals it was grown with.
 struct GlobalRrt {
@@ -35,4 +35,4 @@ std::optional<Status> robots_fault(const Map& map, std::span<const Vec2> starts,
                                    std::span<const Vec2> goals, double tolerance, double guard,
                                    double separation = 0);
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

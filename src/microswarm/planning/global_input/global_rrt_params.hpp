@@ -6,7 +6,7 @@
 #include "microswarm/core/fields/fields.hpp"
 #include "microswarm/swarm/robots/contact_rule.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// Parameters of global_rrt. `goal_bias` and `separation` go beyond the paper, whose tree has no
 /// goal.
@@ -38,4 +38,4 @@ struct GlobalRrtParams {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

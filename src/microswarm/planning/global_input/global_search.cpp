@@ -14,7 +14,7 @@
 #include "microswarm/planning/global_input/global_rrt.hpp"
 #include "microswarm/planning/global_input/global_separation.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 constexpr double round_growth = 1.3;
@@ -333,4 +333,4 @@ GlobalSearch global_search(const Map& map, std::span<const Vec2> starts,
   return found;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -7,7 +7,7 @@
 #include "microswarm/planning/global_input/global_search_params.hpp"
 #include "microswarm/planning/global_input/global_tree.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// A plan and what it took.
 struct GlobalSearch {
@@ -33,4 +33,4 @@ GlobalSearch global_search(const Map& map, std::span<const Vec2> starts,
                            std::span<const Vec2> goals, const GlobalSearchParams& params, Rng& rng,
                            const Stop& stop = {});
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -6,7 +6,7 @@
 #include "microswarm/core/fields/fields.hpp"
 #include "microswarm/swarm/robots/contact_rule.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// Parameters of the search beyond [global]. One set does for two to four robots.
 struct GlobalSearchParams {
@@ -40,4 +40,4 @@ struct GlobalSearchParams {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 constexpr int max_halvings = 6;
@@ -77,4 +77,4 @@ bool GlobalSeparation::holds_between(const Pair& from, const Pair& to, PointF mo
          holds_between(from, to, move, middle, at_middle, high, at_high, halvings - 1);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

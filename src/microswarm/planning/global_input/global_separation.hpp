@@ -5,7 +5,7 @@
 
 #include "microswarm/swarm/robots/robot_stepper.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// Minimum distance between robots under one input, enforced along their whole moves: magnets that
 /// come too close attract each other (future work of [global]).
@@ -38,4 +38,4 @@ class GlobalSeparation {
   float least_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

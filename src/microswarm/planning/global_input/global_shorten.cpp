@@ -8,7 +8,7 @@
 
 #include "microswarm/planning/global_input/global_separation.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 constexpr int max_shorten_rounds = 20;
@@ -179,4 +179,4 @@ GlobalPlan shortened(const Map& map, const GlobalPlan& plan, std::span<const Vec
   return shortening.plan();
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

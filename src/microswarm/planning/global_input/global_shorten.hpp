@@ -7,7 +7,7 @@
 #include "microswarm/planning/global_input/global_tree.hpp"
 #include "microswarm/world/map/map.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// Execution of a plan's inputs, and its goals.
 struct GlobalPlay {
@@ -25,4 +25,4 @@ struct GlobalPlay {
 GlobalPlan shortened(const Map& map, const GlobalPlan& plan, std::span<const Vec2> goals,
                      const GlobalPlay& play, const Stop& stop = {});
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

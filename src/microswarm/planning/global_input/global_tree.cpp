@@ -9,7 +9,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/maths/angles.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 /// A sine or cosine, exactly 0 on the axes.
@@ -100,4 +100,4 @@ void check_robots(std::span<const Vec2> starts, std::span<const Vec2> goals) {
   if (!goals.empty()) check_goals(goals.size(), starts.size());
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

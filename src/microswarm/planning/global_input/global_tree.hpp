@@ -8,7 +8,7 @@
 #include "microswarm/core/execution/status.hpp"
 #include "microswarm/swarm/robots/robot_stepper.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// Maximum number of robots planned for under one input.
 inline constexpr std::size_t max_global_robots = 64;
@@ -76,4 +76,4 @@ GlobalPlan plan_to(const GlobalTree& tree, const GoalAnswer& answer);
 /// Throws InputError if there are no or too many robots, or goals are given but not one per robot.
 void check_robots(std::span<const Vec2> starts, std::span<const Vec2> goals);
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -7,7 +7,7 @@
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/planning/grid/grid.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 struct SteppedCell {
@@ -78,4 +78,4 @@ Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const AStarParams& para
       });
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

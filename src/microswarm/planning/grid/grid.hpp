@@ -15,7 +15,7 @@
 #include "microswarm/planning/exact/exact.hpp"
 #include "microswarm/planning/grid/grid_params.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// Grid position, in cells from the lower left corner.
 struct Place {
@@ -269,7 +269,7 @@ Plan plan_on_grids(const Snapshot& world, Pose2 start, Vec2 goal, Params params,
     if (is_first) {
       const ExactParams proof{.clearance = params.clearance,
                               .goal_tolerance = params.goal_tolerance};
-      const Status status = microswarm::plan(world, start, goal, proof, rng, stop).status;
+      const Status status = microswarm::planning::plan(world, start, goal, proof, rng, stop).status;
       if (status != Status::solved) {
         plan.status = status;
         return plan;
@@ -285,4 +285,4 @@ Plan plan_on_grids(const Snapshot& world, Pose2 start, Vec2 goal, Params params,
   }
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -7,7 +7,7 @@
 #include "microswarm/core/fields/fields.hpp"
 #include "microswarm/geometry/vec2.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// Parameters common to the planners on an 8-connected grid. They cut no corners and check every
 /// edge with the clearance. If the grid has no path, its spacing is halved, until a path is found,
@@ -42,4 +42,4 @@ struct ThetaStarParams : GridParams {
   static constexpr std::string_view type_name = "theta_star";
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

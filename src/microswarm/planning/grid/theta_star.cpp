@@ -6,7 +6,7 @@
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/planning/grid/grid.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 struct SeenCell {
@@ -85,4 +85,4 @@ Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const ThetaStarParams& 
       });
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

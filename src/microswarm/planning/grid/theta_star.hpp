@@ -4,10 +4,10 @@
 #include "microswarm/contracts/plan.hpp"
 #include "microswarm/planning/grid/grid_params.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// Plans with Lazy Theta*; see planners.hpp for the common interface.
 Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const ThetaStarParams& params, Rng& rng,
           const Stop& stop = {});
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -10,7 +10,7 @@
 #include "microswarm/world/connectivity/channel_width.hpp"
 #include "microswarm/world/connectivity/corner_lattice.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 /// Width [µm] of the channel that the defaults fit: the S-channel of Fig 3 [drrt].
@@ -178,4 +178,4 @@ std::string limit_text(const PlannerParams& params, const PlanCounts& counts) {
       params);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -7,7 +7,7 @@
 #include "microswarm/core/errors/issue.hpp"
 #include "microswarm/planning/path/planner_params.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// Parameters for a path across a whole map. Lengths that are not given follow from the typical
 /// channel width, as the defaults fit the channel of Fig 3 [drrt]; limits of nodes and iterations
@@ -20,4 +20,4 @@ PlannerParams fit_to_map(PlannerParams params, const Map& map, const IsGiven& is
 /// The limit that ended a search with the status node_limit: "planner.max_nodes is 5000".
 std::string limit_text(const PlannerParams& params, const PlanCounts& counts);
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

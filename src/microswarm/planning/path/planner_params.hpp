@@ -9,11 +9,11 @@
 #include "microswarm/planning/trees/fmt_star_params.hpp"
 #include "microswarm/planning/trees/rrt_params.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// Any planner, selected at run time by its `type`; the first is the default.
 using PlannerParams =
     std::variant<ExactParams, DrrtStarParams, RrtStarParams, UniformRrtStarParams, RrtParams,
                  RrtConnectParams, AStarParams, ThetaStarParams, FmtStarParams>;
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

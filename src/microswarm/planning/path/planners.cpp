@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/planning/path/planners.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// A planner without its own function would otherwise be taken for its base, or for any
 /// planner.
@@ -15,4 +15,4 @@ Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const PlannerParams& pa
                     params);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -12,7 +12,7 @@
 #include "microswarm/planning/trees/rrt_connect.hpp"
 #include "microswarm/planning/trees/rrt_star.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// Plans with the planner selected by `params`. All planners share this interface: plan(world,
 /// start, goal, params, rng, stop). They are pure: the same arguments and random stream give the
@@ -21,4 +21,4 @@ namespace microswarm {
 Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const PlannerParams& params, Rng& rng,
           const Stop& stop = {});
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -11,7 +11,7 @@
 #include "microswarm/planning/trees/tree_growth.hpp"
 #include "microswarm/planning/trees/turn_edge.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 constexpr int max_time_steps = 10'000;
@@ -225,4 +225,4 @@ Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const DrrtStarParams& p
   return DrrtStar(world, start, goal, params, rng, stop).run();
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

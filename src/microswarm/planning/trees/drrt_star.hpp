@@ -4,10 +4,10 @@
 #include "microswarm/planning/trees/drrt_star_params.hpp"
 #include "microswarm/planning/trees/rrt_star.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// Plans with D-RRT*; see planners.hpp for the common interface.
 Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const DrrtStarParams& params, Rng& rng,
           const Stop& stop = {});
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -7,7 +7,7 @@
 #include "microswarm/core/fields/fields.hpp"
 #include "microswarm/planning/trees/rrt_params.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// Local planner D-RRT*: Algorithms 2–3, Eq 1–3 and 5–10 [drrt]. Costs are λ_s · turning + λ_l ·
 /// length, including the turn out of the start's heading. Beyond the paper: `straighten` shortens
@@ -59,4 +59,4 @@ struct DrrtStarParams : RrtStarParams {
 /// Reports an issue if `as_published` is combined with given values of what it disables.
 Issues validate(const DrrtStarParams& params, const IsGiven& is_given);
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -14,7 +14,7 @@
 #include "microswarm/planning/common/free_goal.hpp"
 #include "microswarm/planning/trees/sample_buckets.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 constexpr std::uint64_t draws_per_sample = 200;  // maximum, on average
@@ -234,4 +234,4 @@ Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const FmtStarParams& pa
   return FmtStar(world, start, goal, target.position, params, rng, stop).run();
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -4,7 +4,7 @@
 #include "microswarm/contracts/plan.hpp"
 #include "microswarm/planning/trees/fmt_star_params.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// Connection radius γ √(log n / n) [µm], with γ = 2 (1 + η) √(1/2) √(area / π), for n samples in a
 /// free space of `area` µm².
@@ -14,4 +14,4 @@ double fmt_radius(double radius_factor, double area, std::size_t n);
 Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const FmtStarParams& params, Rng& rng,
           const Stop& stop = {});
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

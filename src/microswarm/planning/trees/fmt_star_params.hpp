@@ -7,7 +7,7 @@
 #include "microswarm/core/fields/fields.hpp"
 #include "microswarm/planning/trees/rrt_params.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// FMT*, the Fast Marching Tree (Janson et al. 2015, reference 46 of [radar]). A tree marches from
 /// the start, in the order of cost-to-come, over a set of free samples. Every sample and every edge
@@ -37,4 +37,4 @@ struct FmtStarParams {
 /// Reports an issue if `max_nodes` is less than `samples`.
 Issues validate(const FmtStarParams& params);
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

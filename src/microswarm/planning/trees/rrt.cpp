@@ -3,7 +3,7 @@
 
 #include "microswarm/planning/trees/tree_growth.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const RrtParams& params, Rng& rng,
           const Stop& stop) {
@@ -20,4 +20,4 @@ Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const RrtParams& params
   return growth.finish();
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

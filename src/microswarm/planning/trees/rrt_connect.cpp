@@ -9,7 +9,7 @@
 #include "microswarm/planning/trees/search_tree.hpp"
 #include "microswarm/planning/trees/tree_growth.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 class RrtConnect {
@@ -134,4 +134,4 @@ Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const RrtConnectParams&
   return RrtConnect(world, start, goal, target.position, params, rng).run(stop);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

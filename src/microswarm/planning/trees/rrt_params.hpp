@@ -6,7 +6,7 @@
 #include "microswarm/core/fields/fields.hpp"
 #include "microswarm/geometry/vec2.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// Fields that planners by trees have in common.
 namespace tree_fields {
@@ -107,4 +107,4 @@ struct UniformRrtStarParams : RrtStarParams {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

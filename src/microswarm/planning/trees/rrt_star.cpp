@@ -5,7 +5,7 @@
 
 #include "microswarm/planning/trees/tree_growth.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 /// RRT*; `accepts(growth, p)` returns whether a node may be added at p.
@@ -43,4 +43,4 @@ Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const UniformRrtStarPar
                        });
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

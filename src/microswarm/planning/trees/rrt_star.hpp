@@ -4,7 +4,7 @@
 #include "microswarm/planning/trees/rrt.hpp"
 #include "microswarm/planning/trees/rrt_params.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// Plans with RRT* or uniform RRT*; see planners.hpp for the common interface.
 Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const RrtStarParams& params, Rng& rng,
@@ -12,4 +12,4 @@ Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const RrtStarParams& pa
 Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const UniformRrtStarParams& params,
           Rng& rng, const Stop& stop = {});
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/planning/trees/sample_buckets.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 SampleBuckets::SampleBuckets(std::span<const Vec2> points, double radius)
     : radius_(radius), placed_(points.size()) {
@@ -37,4 +37,4 @@ void SampleBuckets::append_near(Vec2 p, std::vector<std::uint32_t>& out) const {
   }
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -9,7 +9,7 @@
 
 #include "microswarm/geometry/uniform_grid.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// Fixed points in square cells at least as wide as the query radius. All points within the radius
 /// lie in three rows of three cells, and each row is contiguous in memory.
@@ -34,4 +34,4 @@ class SampleBuckets {
   std::vector<Placed> placed_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

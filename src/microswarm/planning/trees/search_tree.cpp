@@ -7,7 +7,7 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/planning/trees/turn_edge.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 double PathCost::turned_edge(const TreeNode& node, Vec2 p) const {
   const TurnEdge edge = turn_edge({node.position, node.heading}, p, turn_radius);
@@ -94,4 +94,4 @@ bool SearchTree::is_below(std::uint32_t node, std::uint32_t ancestor) const {
   return node == ancestor;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -8,7 +8,7 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/geometry/point_grid.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// Cost of a path, summed over its edges: length and the turn into each edge. The turn into a
 /// root's first edge starts at the root's heading. Eq 9 [drrt]; for RRT* the length alone. With a
@@ -90,4 +90,4 @@ class SearchTree {
   PointGrid points_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -9,7 +9,7 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/infinity.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 /// Maximum number of points skipped by an edge of a chain, so that long paths take linear time.
@@ -194,4 +194,4 @@ void straighten(const Snapshot& world, double clearance, double start_heading, P
   }
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -5,7 +5,7 @@
 
 #include "microswarm/planning/trees/search_tree.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// Number of rounds used by D-RRT*.
 inline constexpr int straighten_rounds = 2;
@@ -17,4 +17,4 @@ inline constexpr int straighten_rounds = 2;
 void straighten(const Snapshot& world, double clearance, double start_heading, PathCost cost,
                 int rounds, std::vector<Vec2>& path, std::uint64_t& checks);
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

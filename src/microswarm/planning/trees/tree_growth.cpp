@@ -11,7 +11,7 @@
 #include "microswarm/planning/common/free_goal.hpp"
 #include "microswarm/planning/trees/turn_edge.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 constexpr std::size_t max_sample_draws = 200;
@@ -203,4 +203,4 @@ Vec2 steer(Vec2 from, Vec2 to, double step) {
   return length <= step ? to : from + (step / length) * (to - from);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

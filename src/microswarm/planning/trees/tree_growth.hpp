@@ -11,7 +11,7 @@
 #include "microswarm/planning/trees/rrt_star.hpp"
 #include "microswarm/planning/trees/search_tree.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// Common part of the tree planners: limits and stopping, samples, counted checks, the choice of
 /// parents, and the final plan. A planner reads
@@ -89,4 +89,4 @@ Vec2 sample_in(const Box& box, const Params& params, Rng& rng) {
 /// Point at distance `step` from `from` towards `to`, or `to` if it is nearer.
 Vec2 steer(Vec2 from, Vec2 to, double step);
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -8,7 +8,7 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/maths.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 namespace {
 
 constexpr double chord_angle = pi / 18;
@@ -63,4 +63,4 @@ void append_edge(const Pose2& from, Vec2 to, double radius, std::vector<Vec2>& o
 
 double chord_error(double radius) { return radius * (1 - maths::cos(0.5 * chord_angle)); }
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

@@ -5,7 +5,7 @@
 
 #include "microswarm/geometry/shapes.hpp"
 
-namespace microswarm {
+namespace microswarm::planning {
 
 /// Edge that a unicycle can follow: a turn of constant radius, then a tangent straight line. It is
 /// the shortest path of bounded curvature from a pose to a point with free final heading, if that
@@ -30,4 +30,4 @@ void append_chords(const Pose2& from, const TurnEdge& edge, double radius, doubl
                    std::vector<Vec2>& out);
 double chord_error(double radius);
 
-}  // namespace microswarm
+}  // namespace microswarm::planning

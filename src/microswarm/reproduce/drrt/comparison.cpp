@@ -30,7 +30,7 @@ constexpr int all_trials = 100, quick_trials = 30;
 struct Contestant {
   const char* name;
   const char* tick;  ///< label in plots
-  NavigatorParams params;
+  navigation::NavigatorParams params;
   std::size_t colour;
   bool noisy = false;     ///< with detection noise and dropouts
   bool held_out = false;  ///< on trials not used for any choice
@@ -38,8 +38,9 @@ struct Contestant {
 
 /// The radar with circles for a given margin: the checked point, one prediction distance ahead, is
 /// free of obstacles within radius plus prediction distance.
-RadarParams radar(const HierarchicalParams& drrt, double prediction_distance, bool as_published) {
-  RadarParams params;
+navigation::RadarParams radar(const navigation::HierarchicalParams& drrt,
+                              double prediction_distance, bool as_published) {
+  navigation::RadarParams params;
   params.speed = drrt.speed;
   params.prediction_distance = prediction_distance;
   params.safety_distance = prediction_distance;
@@ -48,12 +49,12 @@ RadarParams radar(const HierarchicalParams& drrt, double prediction_distance, bo
   return params;
 }
 
-std::vector<Contestant> list_contestants(const Scenario& scenario) {
+std::vector<Contestant> list_contestants(const experiment::Scenario& scenario) {
   const double radius = swarm_limits(scenario.swarm).radius;
-  const auto& ours = std::get<HierarchicalParams>(scenario.navigator);
-  HierarchicalParams published = ours;
+  const auto& ours = std::get<navigation::HierarchicalParams>(scenario.navigator);
+  navigation::HierarchicalParams published = ours;
   published.as_published = true;
-  namespace colour = method_colours;
+  namespace colour = report::method_colours;
   return {
       {"D-RRT*, as published", "D-RRT* publ.", published, colour::drrt_star},
       {"D-RRT*, ours", "D-RRT* ours", ours, colour::drrt_star},
@@ -76,10 +77,10 @@ struct Study {
   double shortest = 0;  ///< [µm]
 };
 
-Study study(const std::vector<TrialResult>& trials, double shortest) {
+Study study(const std::vector<experiment::TrialResult>& trials, double shortest) {
   Study out{.shortest = shortest};
-  for (const TrialResult& t : trials) {
-    const Metrics& m = t.result.metrics;
+  for (const experiment::TrialResult& t : trials) {
+    const experiment::Metrics& m = t.result.metrics;
     out.least.push_back(m.obstacles.clearance);
     out.kept += m.obstacles.clearance >= kept_margin;
     if (t.result.status != Status::solved) continue;
@@ -94,7 +95,8 @@ Study study(const std::vector<TrialResult>& trials, double shortest) {
 }
 
 /// Rows of one navigator; with `aimed`, ours have aims of our own.
-void add_rows(const char* name, const Study& s, bool aimed, std::vector<ReproduceRow>& rows) {
+void add_rows(const char* name, const Study& s, bool aimed,
+              std::vector<report::ReproduceRow>& rows) {
   const auto add = [&](const char* what, const char* unit, std::optional<double> ours) {
     rows.push_back(
         row_without_aim("", "comparison", fmt::format("{}: {}", name, what), unit, {}, ours));
@@ -124,14 +126,14 @@ void add_rows(const char* name, const Study& s, bool aimed, std::vector<Reproduc
 }
 
 /// The claim as a row: reduction of D-RRT*'s median relative to the radar's.
-ReproduceRow claim(const char* what, const Contestant& drrt, const Study& of_drrt,
-                   const Contestant& radar, const Study& of_radar,
-                   std::vector<double> Study::*measure) {
+report::ReproduceRow claim(const char* what, const Contestant& drrt, const Study& of_drrt,
+                           const Contestant& radar, const Study& of_radar,
+                           std::vector<double> Study::*measure) {
   const std::vector<double>& a = of_drrt.*measure;
   const std::vector<double>& b = of_radar.*measure;
   std::optional<double> less;
   if (!a.empty() && !b.empty()) less = percent_less(median(a), median(b));
-  ReproduceRow row =
+  report::ReproduceRow row =
       noted(make_row("comparison", fmt::format("{} {} than {}", drrt.name, what, radar.name), "%",
                      {}, less, 0, false),
             "claimed without a figure");
@@ -142,12 +144,13 @@ ReproduceRow claim(const char* what, const Contestant& drrt, const Study& of_drr
 
 void plot_study(const std::vector<Contestant>& who, const std::vector<Study>& studies,
                 const std::filesystem::path& folder) {
-  std::vector<Plot> plots{{.title = "Turning", .y_label = "total turning (°)", .log_y = true},
-                          {.title = "Path length", .y_label = "path length (µm)"},
-                          {.title = "Time", .y_label = "time (s)"},
-                          {.title = "Least distance, centre to obstacle",
-                           .y_label = "least distance (µm)",
-                           .levels = {{"margin", kept_margin}}}};
+  std::vector<report::Plot> plots{
+      {.title = "Turning", .y_label = "total turning (°)", .log_y = true},
+      {.title = "Path length", .y_label = "path length (µm)"},
+      {.title = "Time", .y_label = "time (s)"},
+      {.title = "Least distance, centre to obstacle",
+       .y_label = "least distance (µm)",
+       .levels = {{"margin", kept_margin}}}};
   for (std::size_t k = 0; k < who.size(); ++k) {
     const Study& s = studies[k];
     const std::array<const std::vector<double>*, 4> values{&s.turning, &s.length, &s.time,
@@ -156,20 +159,21 @@ void plot_study(const std::vector<Contestant>& who, const std::vector<Study>& st
     for (std::size_t i = 0; i < plots.size(); ++i) {
       if (!values[i]->empty())
         plots[i].series.push_back({who[k].tick, std::vector<double>(values[i]->size(), x),
-                                   *values[i], PlotStyle::box, who[k].colour});
+                                   *values[i], report::PlotStyle::box, who[k].colour});
       plots[i].x_ticks.push_back({who[k].tick, x});
     }
   }
-  write_plots_everywhere(plots, folder / "comparison");
+  report::write_plots_everywhere(plots, folder / "comparison");
 }
 
 }  // namespace
 
-std::vector<ReproduceRow> drrt_comparison(const ReproduceOptions& options, const Stop& stop) {
+std::vector<report::ReproduceRow> drrt_comparison(const ReproduceOptions& options,
+                                                  const Stop& stop) {
   DrrtSetting s = load_drrt(options, "moving_obstacles.yaml");
   const std::vector<Contestant> who = list_contestants(s.scene.scenario);
   std::vector<Study> studies;
-  std::vector<ReproduceRow> rows;
+  std::vector<report::ReproduceRow> rows;
   const double shortest = shortest_path_length(s);
   const std::uint64_t seed = s.scene.scenario.seed;
   for (const Contestant& contestant : who) {
@@ -178,7 +182,7 @@ std::vector<ReproduceRow> drrt_comparison(const ReproduceOptions& options, const
     s.scene.scenario.sensing.obstacle_noise = contestant.noisy ? sight_noise : 0;
     s.scene.scenario.sensing.obstacle_missed_share = contestant.noisy ? sight_missed : 0;
     const Progress bar(options.progress, fmt::format("comparison: {}", contestant.name));
-    const auto trials = run_trials(
+    const auto trials = experiment::run_trials(
         s.scene.scenario, s.world,
         {.trials = options.quick ? quick_trials : all_trials,
          .progress = [&](int done, int all) { bar.update(static_cast<double>(done) / all); },
@@ -195,7 +199,7 @@ std::vector<ReproduceRow> drrt_comparison(const ReproduceOptions& options, const
     rows.push_back(
         claim("is shorter", who[drrt], studies[drrt], who[k], studies[k], &Study::length));
   }
-  for (ReproduceRow& row : rows)
+  for (report::ReproduceRow& row : rows)
     if (row.aim) row = unjudged_if_quick(std::move(row), options);
   if (!options.out.empty()) plot_study(who, studies, options.out);
   return rows;

@@ -15,15 +15,16 @@ namespace microswarm::reproduce {
 
 DrrtSetting load_drrt(const ReproduceOptions& options, const char* name) {
   const std::filesystem::path file = options.scenarios / "papers" / "drrt" / name;
-  Scene scene = load_scene(read_scenario(file), file.parent_path());
-  World world = build_world(scene);
+  experiment::Scene scene =
+      experiment::load_scene(experiment::read_scenario(file), file.parent_path());
+  World world = experiment::build_world(scene);
   return {std::move(scene), std::move(world)};
 }
 
 double shortest_path_length(const DrrtSetting& setting) {
-  const Scenario& scenario = setting.scene.scenario;
-  const ShortestPath path =
-      ShortestPaths(*setting.world.map, 0).find(scenario.start->position, *scenario.goal);
+  const experiment::Scenario& scenario = setting.scene.scenario;
+  const planning::ShortestPath path =
+      planning::ShortestPaths(*setting.world.map, 0).find(scenario.start->position, *scenario.goal);
   return path.length - scenario.goal_tolerance;
 }
 
@@ -32,7 +33,7 @@ std::optional<double> over_the_shortest(const std::vector<double>& lengths, doub
   return 100 * (quantile(lengths, 0.5) / shortest - 1);
 }
 
-void vary_phases(Scenario& scenario, std::uint32_t trial) {
+void vary_phases(experiment::Scenario& scenario, std::uint32_t trial) {
   Rng rng(scenario.seed, Purpose::scene, trial);
   for (Obstacle& o : scenario.obstacles) {
     const double phase = rng.uniform();
@@ -46,8 +47,8 @@ namespace {
 
 #ifdef MICROSWARM_HAS_LEARNING
 // The learned controller, for which the paper gives no values.
-std::vector<ReproduceRow> follower(const ReproduceOptions& options, const Stop& stop) {
-  const ComparisonOptions comparison{.tasks = options.quick ? 60 : 200};
+std::vector<report::ReproduceRow> follower(const ReproduceOptions& options, const Stop& stop) {
+  const learning::ComparisonOptions comparison{.tasks = options.quick ? 60 : 200};
   const auto outcomes = compare_with_progress(comparison, options.progress, stop);
   if (stop()) return {};
   if (!options.out.empty()) write_follower_figures(outcomes, comparison, options.out);
@@ -57,8 +58,8 @@ std::vector<ReproduceRow> follower(const ReproduceOptions& options, const Stop& 
 
 }  // namespace
 
-std::vector<ReproduceRow> drrt_figures(const std::string& figure, const ReproduceOptions& options,
-                                       const Stop& stop) {
+std::vector<report::ReproduceRow> drrt_figures(const std::string& figure,
+                                               const ReproduceOptions& options, const Stop& stop) {
   static constexpr Figure figures[] = {
       {"fig3", drrt_fig3},    {"fig5a", drrt_fig5a},
       {"fig5b", drrt_fig5b},  {"comparison", drrt_comparison},

@@ -11,7 +11,7 @@ namespace microswarm::reproduce {
 
 /// A shipped scenario of [drrt] with its world.
 struct DrrtSetting {
-  Scene scene;
+  experiment::Scene scene;
   World world;
 };
 DrrtSetting load_drrt(const ReproduceOptions& options, const char* name);
@@ -24,15 +24,16 @@ inline double percent_less(double ours, double theirs) {
 // The figures of [drrt], one in each file.
 
 /// The S-channel: D-RRT* as published and ours, compared with RRT*, uniform RRT* and A*.
-std::vector<ReproduceRow> drrt_fig3(const ReproduceOptions& options, const Stop& stop);
+std::vector<report::ReproduceRow> drrt_fig3(const ReproduceOptions& options, const Stop& stop);
 /// Median planning time [ms] of the published planner over the whole S-channel, for Fig 6.
 double drrt_global_planning_time(const ReproduceOptions& options, const Stop& stop);
 /// The deforming channel and the moving obstacles, as published and ours.
-std::vector<ReproduceRow> drrt_fig5a(const ReproduceOptions& options, const Stop& stop);
-std::vector<ReproduceRow> drrt_fig5b(const ReproduceOptions& options, const Stop& stop);
+std::vector<report::ReproduceRow> drrt_fig5a(const ReproduceOptions& options, const Stop& stop);
+std::vector<report::ReproduceRow> drrt_fig5b(const ReproduceOptions& options, const Stop& stop);
 /// Compares D-RRT* with the radar of [radar] among the moving obstacles of Fig 5(b), with equal
 /// start, goal and margin, each as published and ours.
-std::vector<ReproduceRow> drrt_comparison(const ReproduceOptions& options, const Stop& stop);
+std::vector<report::ReproduceRow> drrt_comparison(const ReproduceOptions& options,
+                                                  const Stop& stop);
 
 /// Shortest way [µm] of the scenario's swarm to within the goal's tolerance, without its moving
 /// obstacles and at no distance from the walls: no run is shorter.
@@ -41,6 +42,6 @@ double shortest_path_length(const DrrtSetting& setting);
 std::optional<double> over_the_shortest(const std::vector<double>& lengths, double shortest);
 
 /// Gives the obstacles of each trial another phase of their motion.
-void vary_phases(Scenario& scenario, std::uint32_t trial);
+void vary_phases(experiment::Scenario& scenario, std::uint32_t trial);
 
 }  // namespace microswarm::reproduce

@@ -35,28 +35,30 @@ struct Outcome {
 
 // Applies D-RRT*'s straightening to the path of another planner, to separate the effects of planner
 // and straightening.
-void pull_straight(const Snapshot& world, Pose2 start, const PlannerParams& params, Plan& made) {
-  const DrrtStarParams drrt;
+void pull_straight(const Snapshot& world, Pose2 start, const planning::PlannerParams& params,
+                   Plan& made) {
+  const planning::DrrtStarParams drrt;
   const double clearance = std::visit([](const auto& p) { return p.clearance; }, params);
-  straighten(world, clearance, start.heading, {drrt.length_weight, drrt.smoothness_weight},
-             straighten_rounds, made.path, made.counts.edge_checks);
+  planning::straighten(world, clearance, start.heading,
+                       {drrt.length_weight, drrt.smoothness_weight}, planning::straighten_rounds,
+                       made.path, made.counts.edge_checks);
 }
 
 enum class Finish { as_planned, straightened };
 
-Outcome try_planner(const DrrtSetting& s, std::string name, const PlannerParams& params, int seeds,
-                    const Stop& stop, Finish finish = Finish::as_planned) {
+Outcome try_planner(const DrrtSetting& s, std::string name, const planning::PlannerParams& params,
+                    int seeds, const Stop& stop, Finish finish = Finish::as_planned) {
   Outcome out{.name = std::move(name)};
-  const Scenario& scenario = s.scene.scenario;
+  const experiment::Scenario& scenario = s.scene.scenario;
   const Snapshot world = s.world.at(0);
   const double clearance = std::visit([](const auto& p) { return p.clearance; }, params);
-  const double shortest = ShortestPaths(*s.world.map, clearance)
+  const double shortest = planning::ShortestPaths(*s.world.map, clearance)
                               .find(scenario.start->position, *scenario.goal, stop)
                               .length;
   for (int seed = 0; seed < seeds && !stop(); ++seed) {
     Rng rng(scenario.seed, Purpose::planner, static_cast<std::uint32_t>(seed));
     const auto began = Stop::Clock::now();
-    Plan made = plan(world, *scenario.start, *scenario.goal, params, rng, stop);
+    Plan made = planning::plan(world, *scenario.start, *scenario.goal, params, rng, stop);
     if (finish == Finish::straightened) pull_straight(world, *scenario.start, params, made);
     out.time.push_back(
         std::chrono::duration<double, std::milli>(Stop::Clock::now() - began).count());
@@ -73,8 +75,8 @@ Outcome try_planner(const DrrtSetting& s, std::string name, const PlannerParams&
   return out;
 }
 
-DrrtStarParams published_planner() {
-  DrrtStarParams params;
+planning::DrrtStarParams published_planner() {
+  planning::DrrtStarParams params;
   params.as_published = true;
   return params;
 }
@@ -86,18 +88,18 @@ constexpr std::size_t ours = 0, published = 1, rrt_star = 2, uniform = 3, a_star
 }  // namespace at
 
 std::vector<Outcome> try_planners(const DrrtSetting& s, int seeds, const Stop& stop) {
-  DrrtStarParams arcs;
+  planning::DrrtStarParams arcs;
   arcs.arcs = true;
   std::vector<Outcome> out;
-  out.push_back(try_planner(s, "D-RRT*, ours", DrrtStarParams{}, seeds, stop));
+  out.push_back(try_planner(s, "D-RRT*, ours", planning::DrrtStarParams{}, seeds, stop));
   out.push_back(try_planner(s, "D-RRT*, as published", published_planner(), seeds, stop));
-  out.push_back(try_planner(s, "RRT*", RrtStarParams{}, seeds, stop));
-  out.push_back(try_planner(s, "uniform RRT*", UniformRrtStarParams{}, seeds, stop));
-  out.push_back(try_planner(s, "A*", AStarParams{}, seeds, stop));
-  out.push_back(
-      try_planner(s, "RRT*, straightened", RrtStarParams{}, seeds, stop, Finish::straightened));
-  out.push_back(
-      try_planner(s, "A*, straightened", AStarParams{}, seeds, stop, Finish::straightened));
+  out.push_back(try_planner(s, "RRT*", planning::RrtStarParams{}, seeds, stop));
+  out.push_back(try_planner(s, "uniform RRT*", planning::UniformRrtStarParams{}, seeds, stop));
+  out.push_back(try_planner(s, "A*", planning::AStarParams{}, seeds, stop));
+  out.push_back(try_planner(s, "RRT*, straightened", planning::RrtStarParams{}, seeds, stop,
+                            Finish::straightened));
+  out.push_back(try_planner(s, "A*, straightened", planning::AStarParams{}, seeds, stop,
+                            Finish::straightened));
   out.push_back(try_planner(s, "D-RRT*, ours with arcs", arcs, seeds, stop));
   return out;
 }
@@ -116,7 +118,7 @@ double length_median(const Outcome& o) { return median(o.length); }
 double turning_median(const Outcome& o) { return median(o.turning); }
 
 /// Rows common to all planners: the shortest path, and whether one was found.
-void common_rows(const Outcome& o, std::vector<ReproduceRow>& rows) {
+void common_rows(const Outcome& o, std::vector<report::ReproduceRow>& rows) {
   rows.push_back(row_without_aim("", figure3, o.name + ": length over the shortest, median", "%",
                                  {}, median(o.excess)));
   const double n = std::max<double>(1, static_cast<double>(o.time.size()));
@@ -128,7 +130,7 @@ void common_rows(const Outcome& o, std::vector<ReproduceRow>& rows) {
 /// Medians of a planner for which the paper gives no values, or to which we fitted a parameter.
 void planner_rows(const Outcome& o, const char* why, std::optional<double> length,
                   std::optional<double> turning, std::optional<double> time,
-                  std::vector<ReproduceRow>& rows) {
+                  std::vector<report::ReproduceRow>& rows) {
   const auto row = [&](const char* what, const char* unit, std::optional<double> paper,
                        double ours) {
     rows.push_back(
@@ -143,7 +145,7 @@ void planner_rows(const Outcome& o, const char* why, std::optional<double> lengt
 
 /// D-RRT* and the paper's values: the published method has to match them, ours has to be at least
 /// as good.
-void drrt_rows(const Outcome& o, bool as_published, std::vector<ReproduceRow>& rows) {
+void drrt_rows(const Outcome& o, bool as_published, std::vector<report::ReproduceRow>& rows) {
   const auto row = [&](const char* what, const char* unit, double paper, double ours) {
     const std::string quantity = o.name + ": " + what;
     rows.push_back(as_published ? row_within(0.1, figure3, quantity, unit, paper, ours)
@@ -159,8 +161,8 @@ void drrt_rows(const Outcome& o, bool as_published, std::vector<ReproduceRow>& r
   common_rows(o, rows);
 }
 
-std::vector<ReproduceRow> fig3_rows(const std::vector<Outcome>& o) {
-  std::vector<ReproduceRow> rows;
+std::vector<report::ReproduceRow> fig3_rows(const std::vector<Outcome>& o) {
+  std::vector<report::ReproduceRow> rows;
   drrt_rows(o[at::ours], false, rows);
   drrt_rows(o[at::published], true, rows);
   // RRT*'s medians are published only relative to D-RRT*'s.
@@ -199,38 +201,41 @@ std::vector<ReproduceRow> fig3_rows(const std::vector<Outcome>& o) {
 }
 
 void fig3_pictures(const DrrtSetting& s, const std::vector<Outcome>& o, const fs::path& folder) {
-  const Scenario& scenario = s.scene.scenario;
+  const experiment::Scenario& scenario = s.scene.scenario;
   const auto draw = [&](const char* title, const std::string& file, auto&& content) {
-    Picture picture(s.world.map->bounds(), title);
+    report::Picture picture(s.world.map->bounds(), title);
     picture.walls(*s.world.map);
     content(picture);
     picture.mark(scenario.start->position, "start");
-    picture.circle({*scenario.goal, DrrtStarParams{}.goal_tolerance}, colours::goal);
-    picture.mark(*scenario.goal, "goal", colours::goal);
+    picture.circle({*scenario.goal, planning::DrrtStarParams{}.goal_tolerance},
+                   report::colours::goal);
+    picture.mark(*scenario.goal, "goal", report::colours::goal);
     picture.write_everywhere(folder / file);
   };
-  constexpr Colour published_path{0.0, 0.45, 0.70, 0.45};
-  draw("D-RRT*: tree, detection circles along the path, paths", "fig3a1", [&](Picture& picture) {
-    const Plan& tree = o[at::published].first;
-    picture.tree(tree.tree);
-    std::size_t n = tree.tree.size() - 1;
-    for (std::size_t k = 0; n != 0 && k < tree.tree.size(); n = tree.tree[n].parent, ++k)
-      picture.circle(tree.detections[n].circle, colours::circle, 1);
-    picture.line(tree.path, published_path, 2.5);
-    picture.line(o[at::ours].first.path, colours::path, 3.5);
-    picture.line(o[at::arcs].first.path, colours::swarm, 2);
-    picture.legend("tree", colours::tree);
-    picture.legend("detection circle", colours::circle);
-    picture.legend("as published", published_path);
-    picture.legend("ours", colours::path);
-    picture.legend("ours with arcs", colours::swarm);
-  });
-  draw("RRT*, uniform RRT* and A* beside D-RRT*", "fig3a2", [&](Picture& picture) {
-    const std::array<std::pair<std::size_t, Colour>, 5> lines{{{at::ours, colours::path},
-                                                               {at::published, published_path},
-                                                               {at::rrt_star, colours::obstacle},
-                                                               {at::uniform, colours::circle},
-                                                               {at::a_star, colours::swarm}}};
+  constexpr report::Colour published_path{0.0, 0.45, 0.70, 0.45};
+  draw("D-RRT*: tree, detection circles along the path, paths", "fig3a1",
+       [&](report::Picture& picture) {
+         const Plan& tree = o[at::published].first;
+         picture.tree(tree.tree);
+         std::size_t n = tree.tree.size() - 1;
+         for (std::size_t k = 0; n != 0 && k < tree.tree.size(); n = tree.tree[n].parent, ++k)
+           picture.circle(tree.detections[n].circle, report::colours::circle, 1);
+         picture.line(tree.path, published_path, 2.5);
+         picture.line(o[at::ours].first.path, report::colours::path, 3.5);
+         picture.line(o[at::arcs].first.path, report::colours::swarm, 2);
+         picture.legend("tree", report::colours::tree);
+         picture.legend("detection circle", report::colours::circle);
+         picture.legend("as published", published_path);
+         picture.legend("ours", report::colours::path);
+         picture.legend("ours with arcs", report::colours::swarm);
+       });
+  draw("RRT*, uniform RRT* and A* beside D-RRT*", "fig3a2", [&](report::Picture& picture) {
+    const std::array<std::pair<std::size_t, report::Colour>, 5> lines{
+        {{at::ours, report::colours::path},
+         {at::published, published_path},
+         {at::rrt_star, report::colours::obstacle},
+         {at::uniform, report::colours::circle},
+         {at::a_star, report::colours::swarm}}};
     for (const auto& [which, colour] : lines) {
       picture.line(o[which].first.path, colour, 3);
       picture.legend(o[which].name, colour);
@@ -240,32 +245,32 @@ void fig3_pictures(const DrrtSetting& s, const std::vector<Outcome>& o, const fs
 
 void fig3_plots(const std::vector<Outcome>& o, const fs::path& folder) {
   const Plan& tree = o[at::published].first;
-  Series w1{.label = "w1"}, w2{.label = "w2"}, step{.label = "dynamic step"};
+  report::Series w1{.label = "w1"}, w2{.label = "w2"}, step{.label = "dynamic step"};
   std::vector<std::uint32_t> nodes;
   for (std::uint32_t n = static_cast<std::uint32_t>(tree.tree.size()) - 1;
        n != 0 && nodes.size() < tree.tree.size(); n = tree.tree[n].parent)
     nodes.push_back(n);
   std::reverse(nodes.begin(), nodes.end());
-  const double base = DrrtStarParams{}.step;
+  const double base = planning::DrrtStarParams{}.step;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const Detection& d = tree.detections[nodes[i]];
-    for (Series* s : {&w1, &w2, &step}) s->x.push_back(static_cast<double>(i + 1));
+    for (report::Series* s : {&w1, &w2, &step}) s->x.push_back(static_cast<double>(i + 1));
     w1.y.push_back(d.w1);
     w2.y.push_back(d.w2);
     step.y.push_back(d.rho * base);
   }
-  const std::vector<Plot> b{{.title = "Fig 3(b1): factors along the path",
-                             .x_label = "node of the path",
-                             .y_label = "factor",
-                             .series = {w1, w2},
-                             .y_min = 0},
-                            {.title = "Fig 3(b2): step",
-                             .x_label = "node of the path",
-                             .y_label = "step (µm)",
-                             .series = {step},
-                             .levels = {{"base step", base}},
-                             .y_min = 0,
-                             .y_max = 1.15 * base}};
+  const std::vector<report::Plot> b{{.title = "Fig 3(b1): factors along the path",
+                                     .x_label = "node of the path",
+                                     .y_label = "factor",
+                                     .series = {w1, w2},
+                                     .y_min = 0},
+                                    {.title = "Fig 3(b2): step",
+                                     .x_label = "node of the path",
+                                     .y_label = "step (µm)",
+                                     .series = {step},
+                                     .levels = {{"base step", base}},
+                                     .y_min = 0,
+                                     .y_max = 1.15 * base}};
   // The four methods of the paper, with its values as diamonds in the method's colour.
   struct Shown {
     std::size_t which;
@@ -273,7 +278,7 @@ void fig3_plots(const std::vector<Outcome>& o, const fs::path& folder) {
     std::size_t colour;
     std::optional<double> length, turning, time;
   };
-  namespace colour = method_colours;
+  namespace colour = report::method_colours;
   const std::array<Shown, 5> shown{
       {{at::ours, "D-RRT*, ours", colour::drrt_star, {}, {}, {}},
        {at::published, "as published", colour::drrt_star, published_drrt.length,
@@ -286,24 +291,26 @@ void fig3_plots(const std::vector<Outcome>& o, const fs::path& folder) {
         {}},
        {at::uniform, "uniform", colour::uniform_rrt_star, {}, {}, {}},
        {at::a_star, "A*", colour::a_star, 1702.3, 585, 10}}};
-  std::vector<Plot> c{{.title = "Path length", .y_label = "path length (µm)"},
-                      {.title = "Turning", .y_label = "total turning (°)", .y_min = 0},
-                      {.title = "Planning time", .y_label = "planning time (ms)", .log_y = true}};
+  std::vector<report::Plot> c{
+      {.title = "Path length", .y_label = "path length (µm)"},
+      {.title = "Turning", .y_label = "total turning (°)", .y_min = 0},
+      {.title = "Planning time", .y_label = "planning time (ms)", .log_y = true}};
   for (std::size_t i = 0; i < shown.size(); ++i) {
     const Shown& s = shown[i];
     const double x = static_cast<double>(i + 1);
-    const auto add = [&](Plot& plot, const std::vector<double>& y, std::optional<double> paper) {
+    const auto add = [&](report::Plot& plot, const std::vector<double>& y,
+                         std::optional<double> paper) {
       plot.series.push_back(
-          {s.label, std::vector<double>(y.size(), x), y, PlotStyle::box, s.colour});
-      if (paper) plot.series.push_back({"", {x}, {*paper}, PlotStyle::published, s.colour});
+          {s.label, std::vector<double>(y.size(), x), y, report::PlotStyle::box, s.colour});
+      if (paper) plot.series.push_back({"", {x}, {*paper}, report::PlotStyle::published, s.colour});
       plot.x_ticks.push_back({s.label, x});
     };
     add(c[0], o[s.which].length, s.length);
     add(c[1], o[s.which].turning, s.turning);
     add(c[2], o[s.which].time, s.time);
   }
-  write_plots_everywhere(b, folder / "fig3b");
-  write_plots_everywhere(c, folder / "fig3c");
+  report::write_plots_everywhere(b, folder / "fig3b");
+  report::write_plots_everywhere(c, folder / "fig3c");
 }
 
 }  // namespace
@@ -313,7 +320,7 @@ double drrt_global_planning_time(const ReproduceOptions& options, const Stop& st
   return median(try_planner(s, "", published_planner(), 20, stop).time);
 }
 
-std::vector<ReproduceRow> drrt_fig3(const ReproduceOptions& options, const Stop& stop) {
+std::vector<report::ReproduceRow> drrt_fig3(const ReproduceOptions& options, const Stop& stop) {
   const DrrtSetting s = load_drrt(options, "s_channel.yaml");
   const std::vector<Outcome> outcomes = try_planners(s, options.seed_count(), stop);
   if (stop()) return {};

@@ -39,10 +39,10 @@ struct Loops {
   int reached = 0, below = 0;
 };
 
-Loops summed(const std::vector<TrialResult>& trials) {
+Loops summed(const std::vector<experiment::TrialResult>& trials) {
   Loops out;
-  for (const TrialResult& t : trials) {
-    const Metrics& m = t.result.metrics;
+  for (const experiment::TrialResult& t : trials) {
+    const experiment::Metrics& m = t.result.metrics;
     out.reached += t.result.status == Status::solved;
     out.below += m.obstacles.clearance < published_margin;
     out.least = std::min(out.least, m.obstacles.clearance);
@@ -57,11 +57,11 @@ Loops summed(const std::vector<TrialResult>& trials) {
   return out;
 }
 
-std::vector<ReproduceRow> loop_rows(const LoopFigure& f, const std::string& who, const Loops& l,
-                                    double shortest, double global_time) {
+std::vector<report::ReproduceRow> loop_rows(const LoopFigure& f, const std::string& who,
+                                            const Loops& l, double shortest, double global_time) {
   const std::string fig = f.figure;
   const auto named = [&](const char* what) { return who + ": " + what; };
-  const TimeSummary sum = summarise(l.planning);  // in milliseconds
+  const experiment::TimeSummary sum = experiment::summarise(l.planning);  // in milliseconds
   const auto n = static_cast<double>(l.events.size());
   const auto plain = [&](const char* what, const char* unit, std::optional<double> paper,
                          std::optional<double> ours, const char* why = "") {
@@ -89,27 +89,28 @@ std::vector<ReproduceRow> loop_rows(const LoopFigure& f, const std::string& who,
                 "both are ours, of another machine and another channel")};
 }
 
-void loop_pictures(const LoopFigure& f, const std::string& who, const Scene& scene,
+void loop_pictures(const LoopFigure& f, const std::string& who, const experiment::Scene& scene,
                    const World& world, const fs::path& out, const Stop& stop) {
-  Session session({scene, world, {}});
+  experiment::Session session({scene, world, {}});
   session.finish(stop);
   const fs::path folder = out / (f.figure + who);
   make_folder(folder.string());
-  write_record(session.record(), folder / "run.h5");
-  write_run_report(session.record(), folder);
+  experiment::write_record(session.record(), folder / "run.h5");
+  report::write_run_report(session.record(), folder);
 }
 
-std::vector<ReproduceRow> loop_figure(const LoopFigure& f, const ReproduceOptions& options,
-                                      const Stop& stop) {
+std::vector<report::ReproduceRow> loop_figure(const LoopFigure& f, const ReproduceOptions& options,
+                                              const Stop& stop) {
   DrrtSetting s = load_drrt(options, f.scenario);
   const double global_time = drrt_global_planning_time(options, stop);
-  std::vector<ReproduceRow> rows;
+  std::vector<report::ReproduceRow> rows;
   for (const bool as_published : {true, false}) {
     const std::string who = as_published ? "D-RRT*, as published" : "D-RRT*, ours";
-    std::get<HierarchicalParams>(s.scene.scenario.navigator).as_published = as_published;
+    std::get<navigation::HierarchicalParams>(s.scene.scenario.navigator).as_published =
+        as_published;
     const Progress bar(options.progress, fmt::format("{}: {}", f.figure, who));
     // One thread, because planning times are measured.
-    const auto trials = run_trials(
+    const auto trials = experiment::run_trials(
         s.scene.scenario, s.world,
         {.trials = options.seed_count(),
          .jobs = 1,
@@ -119,7 +120,7 @@ std::vector<ReproduceRow> loop_figure(const LoopFigure& f, const ReproduceOption
     if (stop()) return rows;  // do not report interrupted trials
     if (!options.out.empty())
       loop_pictures(f, as_published ? "-as-published" : "", s.scene, s.world, options.out, stop);
-    for (ReproduceRow& row :
+    for (report::ReproduceRow& row :
          loop_rows(f, who, summed(trials), shortest_path_length(s), global_time))
       rows.push_back(std::move(row));
   }
@@ -128,11 +129,11 @@ std::vector<ReproduceRow> loop_figure(const LoopFigure& f, const ReproduceOption
 
 }  // namespace
 
-std::vector<ReproduceRow> drrt_fig5a(const ReproduceOptions& options, const Stop& stop) {
+std::vector<report::ReproduceRow> drrt_fig5a(const ReproduceOptions& options, const Stop& stop) {
   return loop_figure(deforming, options, stop);
 }
 
-std::vector<ReproduceRow> drrt_fig5b(const ReproduceOptions& options, const Stop& stop) {
+std::vector<report::ReproduceRow> drrt_fig5b(const ReproduceOptions& options, const Stop& stop) {
   return loop_figure(moving, options, stop);
 }
 

@@ -24,14 +24,15 @@ namespace {
 constexpr double frames_per_s = 45;
 struct RigMethod {
   const char* name;
-  Aggregation aggregation;
+  navigation::Aggregation aggregation;
   std::optional<double> published;  // [frames]
   std::size_t colour;
 };
 constexpr std::array<RigMethod, 3> rig_methods{
-    {{"HRA", Aggregation::heuristic, 93'063, method_colours::heuristic},
-     {"DCA", Aggregation::divide_and_conquer, 60'628, method_colours::divide_and_conquer},
-     {"rollout", Aggregation::rollout, std::nullopt, method_colours::rollout}}};
+    {{"HRA", navigation::Aggregation::heuristic, 93'063, report::method_colours::heuristic},
+     {"DCA", navigation::Aggregation::divide_and_conquer, 60'628,
+      report::method_colours::divide_and_conquer},
+     {"rollout", navigation::Aggregation::rollout, std::nullopt, report::method_colours::rollout}}};
 
 /// Number of robots in an experiment. The paper counts 600 to 1,485 pixels of robots and "over 300"
 /// robots; we assume two pixels per robot.
@@ -42,27 +43,28 @@ int population_of_fig10(std::size_t trial) {
   return populations_of_fig10[trial % populations_of_fig10.size()];
 }
 
-Scene maze(const ReproduceOptions& options, Aggregation method, int robots) {
+experiment::Scene maze(const ReproduceOptions& options, navigation::Aggregation method,
+                       int robots) {
   const auto file = options.scenarios / "papers/gather/maze.yaml";
-  Scenario scenario = read_scenario(file);
+  experiment::Scenario scenario = experiment::read_scenario(file);
   scenario.robots->count = robots;
-  std::get<AggregationParams>(scenario.navigator).method = method;
-  return load_scene(std::move(scenario), file.parent_path());
+  std::get<navigation::AggregationParams>(scenario.navigator).method = method;
+  return experiment::load_scene(std::move(scenario), file.parent_path());
 }
 
-ReproduceRow frames_row(const char* figure, const std::string& what, std::optional<double> paper,
-                        double ours) {
+report::ReproduceRow frames_row(const char* figure, const std::string& what,
+                                std::optional<double> paper, double ours) {
   return row_without_aim("the speed of led robots and the spread of speeds are not in the paper",
                          figure, what + ": mean frames at 45 fps", "1", paper, ours);
 }
 
-ReproduceRow gathered_row(const char* figure, const std::string& what, double share) {
+report::ReproduceRow gathered_row(const char* figure, const std::string& what, double share) {
   return noted(make_row(figure, what + ": gathered", "%", {}, 100 * share, 100, false),
                "aim is ours");
 }
 
-ReproduceRow reduction_row(const char* figure, const std::string& what, double dca, double hra,
-                           const ReproduceOptions& options) {
+report::ReproduceRow reduction_row(const char* figure, const std::string& what, double dca,
+                                   double hra, const ReproduceOptions& options) {
   return unjudged_if_quick(
       row_at_most(0, figure, what, "%", -34.9, 100 * (dca / std::max(1.0, hra) - 1)), options);
 }
@@ -89,35 +91,36 @@ std::uint64_t whole(double frames) { return static_cast<std::uint64_t>(std::llro
 }  // namespace
 
 void gather_fig10(const ReproduceOptions& options, const Stop& stop,
-                  std::vector<ReproduceRow>& rows) {
+                  std::vector<report::ReproduceRow>& rows) {
   const std::size_t trials = options.quick ? 2 : 10;
   const std::size_t methods = options.quick ? 2 : rig_methods.size();
-  const World world = build_world(maze(options, Aggregation::heuristic, 1));
-  std::vector<RunResult> results(methods * trials);
+  const World world = experiment::build_world(maze(options, navigation::Aggregation::heuristic, 1));
+  std::vector<experiment::RunResult> results(methods * trials);
   for_each_index(results.size(), 0, [&](std::size_t i) {
     const std::size_t trial = i % trials;
-    const Scene scene =
+    const experiment::Scene scene =
         maze(options, rig_methods[i / trials].aggregation, population_of_fig10(trial));
     if (!stop())
-      results[i] =
-          simulate(scene.scenario, world, {.trial = static_cast<std::uint32_t>(trial)}, {}, stop);
+      results[i] = experiment::simulate(scene.scenario, world,
+                                        {.trial = static_cast<std::uint32_t>(trial)}, {}, stop);
   });
   if (stop()) return;
   std::vector<double> frames;
   std::vector<Fig10Row> table;
-  Plot plot{.title = "",
-            .x_label = "pixels of robots, two a robot",
-            .y_label = "frames at 45 a second",
-            .y_min = 0};
+  report::Plot plot{.title = "",
+                    .x_label = "pixels of robots, two a robot",
+                    .y_label = "frames at 45 a second",
+                    .y_min = 0};
   plot.key_below = true;
   plot.x_min = 500;
   plot.x_max = 1600;
   for (std::size_t m = 0; m < methods; ++m) {
-    Series series{
-        .label = rig_methods[m].name, .style = PlotStyle::points, .colour = rig_methods[m].colour};
+    report::Series series{.label = rig_methods[m].name,
+                          .style = report::PlotStyle::points,
+                          .colour = rig_methods[m].colour};
     double gathered = 0;
     for (std::size_t t = 0; t < trials; ++t) {
-      const RunResult& result = results[m * trials + t];
+      const experiment::RunResult& result = results[m * trials + t];
       series.x.push_back(pixels_a_robot * population_of_fig10(t));
       series.y.push_back(frames_per_s * result.metrics.time);
       gathered += result.status == Status::solved;
@@ -139,7 +142,7 @@ void gather_fig10(const ReproduceOptions& options, const Stop& stop,
       plot.series.push_back({.label = fmt::format("{}, mean of the paper", rig_methods[m].name),
                              .x = {mean_pixels},
                              .y = {*paper},
-                             .style = PlotStyle::published,
+                             .style = report::PlotStyle::published,
                              .colour = rig_methods[m].colour});
     plot.series.push_back(std::move(series));
   }
@@ -148,8 +151,9 @@ void gather_fig10(const ReproduceOptions& options, const Stop& stop,
     rows.push_back(row_without_aim("not in the paper", "fig10", "rollout against HRA", "%", {},
                                    100 * (frames[2] / std::max(1.0, frames[0]) - 1)));
   if (options.out.empty()) return;
-  write_file_atomically(std::filesystem::path(options.out) / "fig10-trials.csv", csv_table(table));
-  write_plots_everywhere({plot}, std::filesystem::path(options.out) / "fig10");
+  write_file_atomically(std::filesystem::path(options.out) / "fig10-trials.csv",
+                        io::csv_table(table));
+  report::write_plots_everywhere({plot}, std::filesystem::path(options.out) / "fig10");
 }
 
 namespace {
@@ -187,28 +191,29 @@ class Shares {
 
 /// The rollout planner is not a method of the paper, so it is omitted.
 void gather_through_rig(const ThroughRig& how, const ReproduceOptions& options, const Stop& stop,
-                        std::vector<ReproduceRow>& rows) {
-  const World world = build_world(maze(options, Aggregation::heuristic, 1));
-  const Rig rollers =
-      read_rig(options.scenarios / "rigs/rollers.yaml",
-               {"camera.type=simulated", "camera.microscope.um_per_px=53",
-                "camera.microscope.robot_diameter_px=4", "perception.robots.diameter_px=5",
-                "perception.robots.min_mass=60", "perception.robots.separation_px=3"});
-  std::vector<std::optional<RunResult>> results(2 * how.trials);  // of both methods alternately
+                        std::vector<report::ReproduceRow>& rows) {
+  const World world = experiment::build_world(maze(options, navigation::Aggregation::heuristic, 1));
+  const rig::Rig rollers =
+      rig::read_rig(options.scenarios / "rigs/rollers.yaml",
+                    {"camera.type=simulated", "camera.microscope.um_per_px=53",
+                     "camera.microscope.robot_diameter_px=4", "perception.robots.diameter_px=5",
+                     "perception.robots.min_mass=60", "perception.robots.separation_px=3"});
+  std::vector<std::optional<experiment::RunResult>> results(
+      2 * how.trials);  // of both methods alternately
   {
     Shares shares(options.progress, how.figure, results.size());
     for_each_index(results.size(), 0, [&](std::size_t i) {
       if (stop()) return;
-      Scenario scenario =
+      experiment::Scenario scenario =
           maze(options, rig_methods[i % 2].aggregation, populations_of_fig10[0]).scenario;
       scenario.tick = how.tick.value_or(scenario.tick);
-      ProgressListener progress(
-          scenario, [&](const RunProgress& p) { shares.tell_time(i, p.t); }, 10);
-      RunListener* const listeners[] = {&progress};
+      experiment::ProgressListener progress(
+          scenario, [&](const experiment::RunProgress& p) { shares.tell_time(i, p.t); }, 10);
+      experiment::RunListener* const listeners[] = {&progress};
       const auto trial = static_cast<std::uint32_t>(i / 2);
-      auto rig = std::make_shared<SimulatedRig>(scenario, world, rollers, trial);
-      const RunResult result =
-          simulate(scenario, world, {.trial = trial, .plant = std::move(rig)}, listeners, stop);
+      auto rig = std::make_shared<rig::SimulatedRig>(scenario, world, rollers, trial);
+      const experiment::RunResult result = experiment::simulate(
+          scenario, world, {.trial = trial, .plant = std::move(rig)}, listeners, stop);
       if (result.status != Status::stopped) results[i] = result;
       shares.tell(i, 1);
     });
@@ -222,7 +227,7 @@ void gather_through_rig(const ThroughRig& how, const ReproduceOptions& options, 
     std::vector<double> times;
     double gathered = 0;
     for (std::size_t t = 0; t < trials; ++t) {
-      const RunResult& result = *results[2 * t + m];
+      const experiment::RunResult& result = *results[2 * t + m];
       times.push_back(frames_per_s * result.metrics.time);
       gathered += result.status == Status::solved;
       table.push_back({.method = rig_methods[m].name,
@@ -242,13 +247,13 @@ void gather_through_rig(const ThroughRig& how, const ReproduceOptions& options, 
   if (options.out.empty()) return;
   write_file_atomically(
       std::filesystem::path(options.out) / fmt::format("{}-trials.csv", how.figure),
-      csv_table(table));
+      io::csv_table(table));
 }
 
 }  // namespace
 
 void gather_fig10_rig(const ReproduceOptions& options, const Stop& stop,
-                      std::vector<ReproduceRow>& rows) {
+                      std::vector<report::ReproduceRow>& rows) {
   gather_through_rig({.figure = "fig10-rig",
                       .what = "a command a step",
                       .tick = {},
@@ -257,7 +262,7 @@ void gather_fig10_rig(const ReproduceOptions& options, const Stop& stop,
 }
 
 void gather_fig10_frames(const ReproduceOptions& options, const Stop& stop,
-                         std::vector<ReproduceRow>& rows) {
+                         std::vector<report::ReproduceRow>& rows) {
   gather_through_rig({.figure = "fig10-frames",
                       .what = "a command a frame",
                       .tick = 1 / frames_per_s,

@@ -39,8 +39,9 @@ double by_area_smooth(double xi) { return (1 - xi) * (2 - xi); }
 double model_xi(std::size_t regions) { return 1 - 1 / static_cast<double>(regions); }
 
 /// Merges the smallest region into its successor until `regions` remain.
-MapSegmentation coarsened(MapSegmentation map, const ObstacleWeightedRrt& tree,
-                          std::size_t regions) {
+planning::MapSegmentation coarsened(planning::MapSegmentation map,
+                                    const planning::ObstacleWeightedRrt& tree,
+                                    std::size_t regions) {
   while (map.regions.size() > regions) {
     std::vector<std::size_t> nodes(map.regions.size(), 0);
     for (const std::uint32_t r : map.region) ++nodes[r];
@@ -70,26 +71,27 @@ struct Measured {
   std::vector<std::size_t> regions;
 };
 
-double mean_steps(const scenes::Vascular& scene, const AggregationMap& map, int trials,
+double mean_steps(const scenes::Vascular& scene, const navigation::AggregationMap& map, int trials,
                   const Stop& stop) {
   const RobotStepper stepper(map.map, 1);
   std::vector<double> steps(static_cast<std::size_t>(trials));
   for_each_index(steps.size(), 0, [&](std::size_t i) {
     Robots robots =
         gather_robots(scene, map, stepper, robots_measured, static_cast<std::uint32_t>(i), 0);
-    AggregationPolicy policy(map, gather_params(scene, Aggregation::divide_and_conquer));
-    steps[i] = gather(stepper, policy, robots, gather_most_steps, stop).steps;
+    navigation::AggregationPolicy policy(
+        map, gather_params(scene, navigation::Aggregation::divide_and_conquer));
+    steps[i] = navigation::gather(stepper, policy, robots, gather_most_steps, stop).steps;
   });
   return std::accumulate(steps.begin(), steps.end(), 0.0) / trials;
 }
 
 Measured measured(const scenes::Vascular& scene, int trials, const Stop& stop) {
-  const AggregationMap whole = gather_map(scene, true);
+  const navigation::AggregationMap whole = gather_map(scene, true);
   const std::size_t all = whole.segmentation.regions.size();
   Measured out;
   for (const std::size_t regions : {1, 2, 3, 5, 7, 9, 13, 18, 24, 31}) {
     if (regions > all) break;
-    AggregationMap map = whole;
+    navigation::AggregationMap map = whole;
     map.segmentation = coarsened(whole.segmentation, whole.tree, regions);
     out.regions.push_back(regions);
     out.xi.push_back(model_xi(regions));
@@ -110,9 +112,9 @@ double fitted_unit(const Measured& m, double (*model)(double)) {
 }
 
 template <class Model>
-Series curve(std::string label, Model&& model, double from, double to, int points = 200,
-             PlotStyle style = PlotStyle::line) {
-  Series series{.label = std::move(label), .style = style};
+report::Series curve(std::string label, Model&& model, double from, double to, int points = 200,
+                     report::PlotStyle style = report::PlotStyle::line) {
+  report::Series series{.label = std::move(label), .style = style};
   for (int i = 0; i <= points; ++i) {
     series.x.push_back(from + (to - from) * i / points);
     series.y.push_back(model(series.x.back()));
@@ -120,8 +122,8 @@ Series curve(std::string label, Model&& model, double from, double to, int point
   return series;
 }
 
-Plot plot_of_models() {
-  Plot plot{.title = "models", .x_label = "ξ", .y_label = "T / (k ρ m^2)", .y_min = 0};
+report::Plot plot_of_models() {
+  report::Plot plot{.title = "models", .x_label = "ξ", .y_label = "T / (k ρ m^2)", .y_min = 0};
   plot.y_max = 2.1;
   plot.key_below = true;
   constexpr int rings = 40;  // over the nearly coinciding curves
@@ -129,13 +131,14 @@ Plot plot_of_models() {
   plot.series.push_back(curve("Eq 13", by_area_smooth, 0.01, 0.99));
   plot.series.push_back(curve(
       "Eq 9, m = 100", [](double xi) { return by_factor(xi, map_area); }, 0.01, 0.99, rings,
-      PlotStyle::rings));
-  plot.series.push_back(curve("Eq 12", by_area, 0.01, 0.99, rings, PlotStyle::rings));
+      report::PlotStyle::rings));
+  plot.series.push_back(curve("Eq 12", by_area, 0.01, 0.99, rings, report::PlotStyle::rings));
   return plot;
 }
 
-Plot draw_plot(const std::string& name, const Measured& m) {
-  Plot plot{.title = name, .x_label = "ξ = 1 - 1 / regions", .y_label = "steps", .y_min = 0};
+report::Plot draw_plot(const std::string& name, const Measured& m) {
+  report::Plot plot{
+      .title = name, .x_label = "ξ = 1 - 1 / regions", .y_label = "steps", .y_min = 0};
   const double by_area_unit = fitted_unit(m, by_area_smooth);
   const double by_factor_unit = fitted_unit(m, by_factor_smooth);
   const double last = m.xi.back();
@@ -148,7 +151,7 @@ Plot draw_plot(const std::string& name, const Measured& m) {
   return plot;
 }
 
-void add_rows(const std::string& name, const Measured& m, std::vector<ReproduceRow>& rows) {
+void add_rows(const std::string& name, const Measured& m, std::vector<report::ReproduceRow>& rows) {
   const auto add = [&](std::size_t i, const char* what, double steps) {
     rows.push_back(row_without_aim("the model has a free unit", "fig7",
                                    fmt::format("{}, regions {}: {}", name, m.regions[i], what), "1",
@@ -166,9 +169,9 @@ void add_rows(const std::string& name, const Measured& m, std::vector<ReproduceR
 }  // namespace
 
 void gather_fig7(const ReproduceOptions& options, const Stop& stop,
-                 std::vector<ReproduceRow>& rows) {
+                 std::vector<report::ReproduceRow>& rows) {
   const int trials = options.quick ? 2 : 12;
-  std::vector<Plot> plots{plot_of_models()};
+  std::vector<report::Plot> plots{plot_of_models()};
   for (const auto& [name, scene] :
        {std::pair<std::string, scenes::Vascular>{"Fig 8(b)", scenes::vascular_network()},
         {"Fig 8(c)", scenes::larger_vascular_network()}}) {
@@ -178,7 +181,7 @@ void gather_fig7(const ReproduceOptions& options, const Stop& stop,
     plots.push_back(draw_plot(name, m));
   }
   if (!options.out.empty() && !stop())
-    write_plots_everywhere(plots, std::filesystem::path(options.out) / "fig7");
+    report::write_plots_everywhere(plots, std::filesystem::path(options.out) / "fig7");
 }
 
 }  // namespace microswarm::reproduce

@@ -28,14 +28,15 @@ namespace fs = std::filesystem;
 
 /// Parameters of a method. The rollout planner's budget grows with log n, since few robots need
 /// little.
-AggregationParams parameters(const Ground& ground, std::size_t method, std::size_t population,
-                             bool quick) {
-  AggregationParams params = gather_params(ground.scene, gather_methods[method].aggregation);
+navigation::AggregationParams parameters(const Ground& ground, std::size_t method,
+                                         std::size_t population, bool quick) {
+  navigation::AggregationParams params =
+      gather_params(ground.scene, gather_methods[method].aggregation);
   params.obstacle_weighted = gather_methods[method].weighted;
   params.rollout.max_work = (quick ? 0.1 : 1) * ground.work * static_cast<double>(population + 1) /
                             static_cast<double>(populations);
   if (method == of_dca) {
-    params.reading = DcaReading::published;
+    params.reading = navigation::DcaReading::published;
     params.followed_regions = ground.followed_regions;
     params.last_regions = ground.last_regions;
     params.team_depth = 5;
@@ -45,7 +46,7 @@ AggregationParams parameters(const Ground& ground, std::size_t method, std::size
 
 struct Trial {
   bool ran = false;
-  GatherResult result;
+  navigation::GatherResult result;
 };
 
 /// Trials on one map, by method, population and trial number.
@@ -111,20 +112,22 @@ class Trials {
   std::vector<Trial> all_;
 };
 
-GatherResult gathered(const AggregationMap& map, const RobotStepper& stepper,
-                      const AggregationParams& params, Robots& robots, const Stop& stop) {
-  if (params.method == Aggregation::rollout) {
-    RolloutPolicy policy(map, stepper, params, Rng(1, Purpose::planner));
-    return gather(stepper, policy, robots, gather_most_steps, stop);
+navigation::GatherResult gathered(const navigation::AggregationMap& map,
+                                  const RobotStepper& stepper,
+                                  const navigation::AggregationParams& params, Robots& robots,
+                                  const Stop& stop) {
+  if (params.method == navigation::Aggregation::rollout) {
+    navigation::RolloutPolicy policy(map, stepper, params, Rng(1, Purpose::planner));
+    return navigation::gather(stepper, policy, robots, gather_most_steps, stop);
   }
-  AggregationPolicy policy(map, params);
-  return gather(stepper, policy, robots, gather_most_steps, stop);
+  navigation::AggregationPolicy policy(map, params);
+  return navigation::gather(stepper, policy, robots, gather_most_steps, stop);
 }
 
 Trials gather_on(const Ground& ground, int count, bool quick, const Progress& bar,
                  const Stop& stop) {
-  const AggregationMap weighted = gather_map(ground.scene, true);
-  const AggregationMap plain = gather_map(ground.scene, false);
+  const navigation::AggregationMap weighted = gather_map(ground.scene, true);
+  const navigation::AggregationMap plain = gather_map(ground.scene, false);
   const RobotStepper stepper(weighted.map, 1);
   Trials trials(count, quick);
   std::atomic<std::size_t> done = 0;
@@ -152,7 +155,8 @@ std::optional<double> published(const Ground& ground, std::size_t method, std::s
 }
 
 /// Means of the methods as published, to match the paper within `tolerance`.
-void add_means(const Ground& ground, const Trials& trials, std::vector<ReproduceRow>& rows) {
+void add_means(const Ground& ground, const Trials& trials,
+               std::vector<report::ReproduceRow>& rows) {
   constexpr double tolerance = 0.15;
   for (std::size_t m = 0; m < gather_methods.size(); ++m) {
     for (std::size_t k = 0; k < populations; ++k) {
@@ -167,7 +171,7 @@ void add_means(const Ground& ground, const Trials& trials, std::vector<Reproduce
         rows.push_back(row_without_aim("there every edge, 1.2 long, takes two steps", "fig9", what,
                                        "1", paper, steps));
       } else {
-        ReproduceRow row = row_within(tolerance, "fig9", what, "1", paper, steps);
+        report::ReproduceRow row = row_within(tolerance, "fig9", what, "1", paper, steps);
         rows.push_back(trials.quick() ? unjudged(std::move(row), "too few trials") : row);
       }
     }
@@ -189,7 +193,8 @@ void add_means(const Ground& ground, const Trials& trials, std::vector<Reproduce
 }
 
 /// From n = 8 on DCA+OWRRT is the best of the paper's methods and grows the slowest.
-void add_order(const Ground& ground, const Trials& trials, std::vector<ReproduceRow>& rows) {
+void add_order(const Ground& ground, const Trials& trials,
+               std::vector<report::ReproduceRow>& rows) {
   for (const std::size_t m : {of_dca, of_ours}) {
     const char* name = gather_methods[m].name;
     for (std::size_t k = of_8; k < populations; ++k) {
@@ -200,7 +205,7 @@ void add_order(const Ground& ground, const Trials& trials, std::vector<Reproduce
       if (const auto plain = published(ground, of_plain, k); m == of_dca)
         paper = *published(ground, of_dca, k) /
                 std::min(*published(ground, of_hra, k), plain.value_or(1e9));
-      ReproduceRow row =
+      report::ReproduceRow row =
           noted(make_row("fig9",
                          fmt::format("{}, n = {}: {}'s steps ÷ the best HRA's", ground.name,
                                      population(k), name),
@@ -211,7 +216,7 @@ void add_order(const Ground& ground, const Trials& trials, std::vector<Reproduce
     if (!trials.all_ran(m, of_64) || !trials.all_ran(m, of_1024)) continue;
     const double paper = *ground.published[of_dca][of_1024] / *ground.published[of_dca][of_64];
     const double ours = trials.mean_steps(m, of_1024) / std::max(1.0, trials.mean_steps(m, of_64));
-    ReproduceRow row =
+    report::ReproduceRow row =
         row_at_most(0.15, "fig9", fmt::format("{}, {}: growth, n = 64 to 1024", ground.name, name),
                     "1", paper, ours);
     rows.push_back(trials.quick() ? unjudged(std::move(row), "too few trials") : row);
@@ -224,7 +229,8 @@ void add_order(const Ground& ground, const Trials& trials, std::vector<Reproduce
 }
 
 /// Benefit of the rollout planner, which starts from our DCA.
-void add_rollout(const Ground& ground, const Trials& trials, std::vector<ReproduceRow>& rows) {
+void add_rollout(const Ground& ground, const Trials& trials,
+                 std::vector<report::ReproduceRow>& rows) {
   if (!trials.all_ran(of_rollout, of_1024) || !trials.all_ran(of_ours, of_1024)) return;
   const double share =
       trials.mean_steps(of_rollout, of_1024) / std::max(1.0, trials.mean_steps(of_ours, of_1024));
@@ -239,7 +245,7 @@ double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_
 /// Median duration of a run.
 double time_of_a_run(const Ground& ground, const Stop& stop) {
   constexpr std::uint32_t runs = 5;
-  const AggregationMap map = gather_map(ground.scene, true);
+  const navigation::AggregationMap map = gather_map(ground.scene, true);
   const RobotStepper stepper(map.map, 1);
   std::vector<double> times;
   for (std::uint32_t run = 0; run < runs; ++run) {
@@ -253,11 +259,11 @@ double time_of_a_run(const Ground& ground, const Stop& stop) {
 
 /// Maximum time of the rollout planner for one move.
 double longest_decision(const Ground& ground, const Stop& stop) {
-  const AggregationMap map = gather_map(ground.scene, true);
+  const navigation::AggregationMap map = gather_map(ground.scene, true);
   const RobotStepper stepper(map.map, 1);
   Robots robots = gather_robots(ground.scene, map, stepper, population(of_1024), 0, 0);
-  RolloutPolicy policy(map, stepper, parameters(ground, of_rollout, of_1024, false),
-                       Rng(1, Purpose::planner));
+  navigation::RolloutPolicy policy(map, stepper, parameters(ground, of_rollout, of_1024, false),
+                                   Rng(1, Purpose::planner));
   double longest = 0;
   for (int i = 0; i < gather_most_steps && !stop(); ++i) {
     const double began = processor_time();
@@ -308,7 +314,7 @@ std::string trials_csv(const std::vector<Ground>& maps, std::vector<Trials>& tri
                       .guard_count = t.result.guard_count});
     }
   }
-  return csv_table(rows);
+  return io::csv_table(rows);
 }
 
 std::string superscript(std::size_t n) {
@@ -318,8 +324,8 @@ std::string superscript(std::size_t n) {
 }
 
 /// Violins for every n, a line through the means, and the paper's means.
-Plot draw_plot(const Ground& ground, const Trials& trials) {
-  Plot plot{.title = ground.name, .x_label = "robots", .y_label = "steps", .y_min = 0};
+report::Plot draw_plot(const Ground& ground, const Trials& trials) {
+  report::Plot plot{.title = ground.name, .x_label = "robots", .y_label = "steps", .y_min = 0};
   plot.key_below = true;
   constexpr double apart = 0.16;
   const auto at = [&](std::size_t m, std::size_t k) {
@@ -327,9 +333,11 @@ Plot draw_plot(const Ground& ground, const Trials& trials) {
   };
   for (std::size_t m = 0; m < gather_methods.size(); ++m) {
     const GatherMethod& method = gather_methods[m];
-    Series violins{.label = method.name, .style = PlotStyle::filled, .colour = method.colour};
-    Series means{.label = "", .style = PlotStyle::line, .colour = method.colour};
-    Series paper{.label = "", .style = PlotStyle::published, .colour = method.colour};
+    report::Series violins{
+        .label = method.name, .style = report::PlotStyle::filled, .colour = method.colour};
+    report::Series means{.label = "", .style = report::PlotStyle::line, .colour = method.colour};
+    report::Series paper{
+        .label = "", .style = report::PlotStyle::published, .colour = method.colour};
     if (m == of_hra) paper.label = "means of the paper";
     for (std::size_t k = 0; k < populations; ++k) {
       if (const auto steps = published(ground, m, k)) {
@@ -372,8 +380,8 @@ std::vector<std::vector<std::string>> to_table(const Ground& ground, const Trial
 
 void write_figure(const std::vector<Ground>& maps, std::vector<Trials>& trials, bool interrupted,
                   const fs::path& out) {
-  std::vector<Plot> plots;
-  std::vector<PageSection> sections{
+  std::vector<report::Plot> plots;
+  std::vector<report::PageSection> sections{
       {"",
        fmt::format("Steps until n robots are gathered, {} trials each: violins, and lines through "
                    "the means. In brackets and as diamonds what the paper gives.{}",
@@ -386,14 +394,14 @@ void write_figure(const std::vector<Ground>& maps, std::vector<Trials>& trials, 
     sections.push_back({maps[g].name, "Mean steps.", to_table(maps[g], trials[g]), {}});
   }
   write_file_atomically(out / "fig9-trials.csv", trials_csv(maps, trials));
-  write_plots_everywhere(plots, out / "fig9");
-  write_page(out / "fig9.html", "Fig 9 of [gather]", sections);
+  report::write_plots_everywhere(plots, out / "fig9");
+  report::write_page(out / "fig9.html", "Fig 9 of [gather]", sections);
 }
 
 }  // namespace
 
 void gather_fig9(const ReproduceOptions& options, const Stop& stop,
-                 std::vector<ReproduceRow>& rows) {
+                 std::vector<report::ReproduceRow>& rows) {
   constexpr int full_trials = 30;
   constexpr int quick_trials = 2;
   const std::vector<Ground> maps = grounds();

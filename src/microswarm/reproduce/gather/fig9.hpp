@@ -22,16 +22,18 @@ inline constexpr std::size_t of_1024 = 9;
 /// A method in the comparison.
 struct GatherMethod {
   const char* name;
-  Aggregation aggregation;
+  navigation::Aggregation aggregation;
   bool weighted;
   std::size_t colour;
 };
 inline constexpr std::array<GatherMethod, 5> gather_methods{
-    {{"DCA+OWRRT", Aggregation::divide_and_conquer, true, method_colours::divide_and_conquer},
-     {"HRA+OWRRT", Aggregation::heuristic, true, method_colours::heuristic},
-     {"HRA+RRT", Aggregation::heuristic, false, method_colours::heuristic_plain_tree},
-     {"rollout", Aggregation::rollout, true, method_colours::rollout},
-     {"DCA+OWRRT, ours", Aggregation::divide_and_conquer, true, 4}}};
+    {{"DCA+OWRRT", navigation::Aggregation::divide_and_conquer, true,
+      report::method_colours::divide_and_conquer},
+     {"HRA+OWRRT", navigation::Aggregation::heuristic, true, report::method_colours::heuristic},
+     {"HRA+RRT", navigation::Aggregation::heuristic, false,
+      report::method_colours::heuristic_plain_tree},
+     {"rollout", navigation::Aggregation::rollout, true, report::method_colours::rollout},
+     {"DCA+OWRRT, ours", navigation::Aggregation::divide_and_conquer, true, 4}}};
 inline constexpr std::size_t published_methods = 3;
 inline constexpr std::size_t of_dca = 0;
 inline constexpr std::size_t of_hra = 1;

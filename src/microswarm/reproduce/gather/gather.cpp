@@ -11,21 +11,23 @@
 
 namespace microswarm::reproduce {
 
-AggregationParams gather_params(const scenes::Vascular& scene, Aggregation method) {
-  AggregationParams params;
+navigation::AggregationParams gather_params(const scenes::Vascular& scene,
+                                            navigation::Aggregation method) {
+  navigation::AggregationParams params;
   params.tree.nodes = scene.nodes;
   params.method = method;
   return params;
 }
 
-AggregationMap gather_map(const scenes::Vascular& scene, bool obstacle_weighted) {
+navigation::AggregationMap gather_map(const scenes::Vascular& scene, bool obstacle_weighted) {
   Rng rng(1, Purpose::planner);
-  AggregationParams params = gather_params(scene, Aggregation::divide_and_conquer);
+  navigation::AggregationParams params =
+      gather_params(scene, navigation::Aggregation::divide_and_conquer);
   params.obstacle_weighted = obstacle_weighted;
   return {scene.map(), scene.goal, params, rng};
 }
 
-Robots gather_robots(const scenes::Vascular& scene, const AggregationMap& map,
+Robots gather_robots(const scenes::Vascular& scene, const navigation::AggregationMap& map,
                      const RobotStepper& stepper, int count, std::uint32_t trial, double min_cost) {
   Rng rng(1, Purpose::scene, trial);
   std::vector<Vec2> positions;
@@ -38,23 +40,24 @@ Robots gather_robots(const scenes::Vascular& scene, const AggregationMap& map,
   return stepper.place(positions);
 }
 
-void write_everywhere(const std::vector<Plot>& plots, const std::filesystem::path& stem) {
-  write_plots_everywhere(plots, stem);
+void write_everywhere(const std::vector<report::Plot>& plots, const std::filesystem::path& stem) {
+  report::write_plots_everywhere(plots, stem);
 }
 
 namespace {
 
 template <auto add>
-std::vector<ReproduceRow> measure_rows(const ReproduceOptions& options, const Stop& stop) {
-  std::vector<ReproduceRow> rows;
+std::vector<report::ReproduceRow> measure_rows(const ReproduceOptions& options, const Stop& stop) {
+  std::vector<report::ReproduceRow> rows;
   add(options, stop, rows);
   return rows;
 }
 
 }  // namespace
 
-std::vector<ReproduceRow> gather_figures(const std::string& figure, const ReproduceOptions& options,
-                                         const Stop& stop) {
+std::vector<report::ReproduceRow> gather_figures(const std::string& figure,
+                                                 const ReproduceOptions& options,
+                                                 const Stop& stop) {
   constexpr std::array<Figure, 7> figures{{{"fig3-6", measure_rows<gather_maps>},
                                            {"fig7", measure_rows<gather_fig7>},
                                            {"fig9", measure_rows<gather_fig9>},

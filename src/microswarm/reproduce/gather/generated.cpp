@@ -61,15 +61,16 @@ struct GeneratedRow {
 
 OnGenerated gather_on_generated(const scenes::Vascular& scene, std::uint32_t trials,
                                 const Stop& stop) {
-  const AggregationMap map = gather_map(scene, true);
+  const navigation::AggregationMap map = gather_map(scene, true);
   const RobotStepper stepper(map.map, 1);
   OnGenerated out{.regions = map.segmentation.regions.size()};
   for (std::uint32_t trial = 0; trial < trials; ++trial) {
-    for (const Aggregation method : {Aggregation::divide_and_conquer, Aggregation::heuristic}) {
+    for (const navigation::Aggregation method :
+         {navigation::Aggregation::divide_and_conquer, navigation::Aggregation::heuristic}) {
       Robots robots = gather_robots(scene, map, stepper, robots_on_generated, trial, 0);
-      AggregationPolicy policy(map, gather_params(scene, method));
-      const int steps = gather(stepper, policy, robots, gather_most_steps, stop).steps;
-      (method == Aggregation::heuristic ? out.hra : out.dca) += steps;
+      navigation::AggregationPolicy policy(map, gather_params(scene, method));
+      const int steps = navigation::gather(stepper, policy, robots, gather_most_steps, stop).steps;
+      (method == navigation::Aggregation::heuristic ? out.hra : out.dca) += steps;
     }
   }
   return out;
@@ -78,7 +79,7 @@ OnGenerated gather_on_generated(const scenes::Vascular& scene, std::uint32_t tri
 }  // namespace
 
 void gather_generated(const ReproduceOptions& options, const Stop& stop,
-                      std::vector<ReproduceRow>& rows) {
+                      std::vector<report::ReproduceRow>& rows) {
   std::vector<GeneratedRow> table;
   const std::uint32_t trials = options.quick ? 2 : 4;
   for (const GeneratedSize& size : generated_sizes(options.quick)) {
@@ -112,7 +113,7 @@ void gather_generated(const ReproduceOptions& options, const Stop& stop,
       rows.push_back(row_without_aim(many ? "the paper: DCA is the best" : "too few to divide",
                                      "generated", what + ": DCA needs fewer steps than HRA", "%",
                                      {}, 100 * best / count));
-      ReproduceRow ratio =
+      report::ReproduceRow ratio =
           make_row("generated", what + ": DCA's steps ÷ HRA's, geometric mean", "1", {},
                    maths::exp(logs / count), many ? std::optional(1.0) : std::nullopt);
       rows.push_back(
@@ -120,7 +121,8 @@ void gather_generated(const ReproduceOptions& options, const Stop& stop,
     }
   }
   if (!options.out.empty())
-    write_file_atomically(std::filesystem::path(options.out) / "generated.csv", csv_table(table));
+    write_file_atomically(std::filesystem::path(options.out) / "generated.csv",
+                          io::csv_table(table));
 }
 
 }  // namespace microswarm::reproduce

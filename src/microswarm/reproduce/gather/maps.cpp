@@ -11,72 +11,76 @@ namespace {
 
 // Fig 3 to 6 on the map of Fig 8(b): the tree, its weights, the regions and DCA.
 
-void draw_routes(Picture& picture, const AggregationMap& map, const Routes& routes, Colour colour) {
+void draw_routes(report::Picture& picture, const navigation::AggregationMap& map,
+                 const planning::Routes& routes, report::Colour colour) {
   for (std::size_t v = 0; v < map.tree.nodes.size(); ++v)
     picture.line(std::array{map.tree.nodes[v], map.tree.nodes[routes.next[v]]}, colour, 1);
 }
 
-void draw_robots(Picture& picture, const Robots& robots, Colour colour) {
+void draw_robots(report::Picture& picture, const Robots& robots, report::Colour colour) {
   for (std::size_t i = 0; i < robots.size(); ++i) picture.disc({robots.position(i), 0.4}, colour);
 }
 
-Picture& with_walls(Picture& picture, const AggregationMap& map) {
+report::Picture& with_walls(report::Picture& picture, const navigation::AggregationMap& map) {
   picture.walls(map.map);
   return picture;
 }
 
-void keep(Picture& picture, const AggregationMap& map, const ReproduceOptions& options,
-          const std::string& name) {
-  picture.mark(map.tree.nodes[0], "goal", colours::goal);
+void keep(report::Picture& picture, const navigation::AggregationMap& map,
+          const ReproduceOptions& options, const std::string& name) {
+  picture.mark(map.tree.nodes[0], "goal", report::colours::goal);
   if (!options.out.empty()) picture.write_everywhere(std::filesystem::path(options.out) / name);
 }
 
 /// Fig 4: the tree, and the routes along the medial axis.
-void draw_trees(const AggregationMap& map, const ReproduceOptions& options) {
-  Picture plain(map.map.bounds(), "RRT, Alg 1");
-  draw_routes(with_walls(plain, map), map, map.tree.plain, colours::tree);
+void draw_trees(const navigation::AggregationMap& map, const ReproduceOptions& options) {
+  report::Picture plain(map.map.bounds(), "RRT, Alg 1");
+  draw_routes(with_walls(plain, map), map, map.tree.plain, report::colours::tree);
   keep(plain, map, options, "fig4a");
-  Picture weighted(map.map.bounds(), "obstacle-weighted RRT, Alg 2");
-  draw_routes(with_walls(weighted, map), map, map.tree.weighted, colours::tree);
+  report::Picture weighted(map.map.bounds(), "obstacle-weighted RRT, Alg 2");
+  draw_routes(with_walls(weighted, map), map, map.tree.weighted, report::colours::tree);
   for (std::size_t v = 0; v < map.tree.nodes.size(); ++v)
-    if (map.tree.medial[v]) weighted.disc({map.tree.nodes[v], 0.15}, colours::swarm);
-  weighted.legend("V*", colours::swarm, true);
+    if (map.tree.medial[v]) weighted.disc({map.tree.nodes[v], 0.15}, report::colours::swarm);
+  weighted.legend("V*", report::colours::swarm, true);
   keep(weighted, map, options, "fig4b");
 }
 
 /// Fig 5: junction nodes, regions, and the branches of one region.
-void draw_regions(const AggregationMap& map, const ReproduceOptions& options) {
-  const MapSegmentation& found = map.segmentation;
-  const auto of = [](std::uint32_t k) { return colours::robots[k % colours::robots.size()]; };
+void draw_regions(const navigation::AggregationMap& map, const ReproduceOptions& options) {
+  const planning::MapSegmentation& found = map.segmentation;
+  const auto of = [](std::uint32_t k) {
+    return report::colours::robots[k % report::colours::robots.size()];
+  };
   const auto most =
       std::max_element(found.regions.begin(), found.regions.end(),
                        [](const Region& a, const Region& b) { return a.branches < b.branches; });
   const auto shown = static_cast<std::uint32_t>(most - found.regions.begin());
-  Picture junctions(map.map.bounds(), "junction nodes, Alg 4");
-  Picture regions(map.map.bounds(), "regions, Alg 4");
-  Picture branches(map.map.bounds(), "branches of a region, Alg 4");
-  for (Picture* picture : {&junctions, &regions, &branches}) with_walls(*picture, map);
+  report::Picture junctions(map.map.bounds(), "junction nodes, Alg 4");
+  report::Picture regions(map.map.bounds(), "regions, Alg 4");
+  report::Picture branches(map.map.bounds(), "branches of a region, Alg 4");
+  for (report::Picture* picture : {&junctions, &regions, &branches}) with_walls(*picture, map);
   for (std::uint32_t v = 0; v < map.tree.nodes.size(); ++v) {
     const Disc node{map.tree.nodes[v], 0.25};
-    if (map.tree.medial[v]) junctions.disc(node, colours::goal);
+    if (map.tree.medial[v]) junctions.disc(node, report::colours::goal);
     regions.disc(node, of(found.region[v]));
     if (found.region[v] == shown) branches.disc(node, of(found.branch[v]));
   }
   for (const std::uint32_t v : found.junction_nodes)
-    junctions.disc({map.tree.nodes[v], 0.3}, colours::swarm);
-  junctions.legend("V*", colours::goal, true);
-  junctions.legend("V_J", colours::swarm, true);
+    junctions.disc({map.tree.nodes[v], 0.3}, report::colours::swarm);
+  junctions.legend("V*", report::colours::goal, true);
+  junctions.legend("V_J", report::colours::swarm, true);
   keep(junctions, map, options, "fig5a");
   keep(regions, map, options, "fig5b");
   keep(branches, map, options, "fig5c");
 }
 
 /// Fig 6: the swarm before, during and after DCA.
-void draw_transitions(const AggregationMap& map, const scenes::Vascular& scene,
+void draw_transitions(const navigation::AggregationMap& map, const scenes::Vascular& scene,
                       const ReproduceOptions& options) {
   const RobotStepper stepper(map.map, 1);
   Robots robots = gather_robots(scene, map, stepper, 64, 0, 0);
-  AggregationPolicy policy(map, gather_params(scene, Aggregation::divide_and_conquer));
+  navigation::AggregationPolicy policy(
+      map, gather_params(scene, navigation::Aggregation::divide_and_conquer));
   int done = 0;
   for (const int steps : {0, 100, 300, 600}) {
     for (; done < steps; ++done) {
@@ -84,16 +88,16 @@ void draw_transitions(const AggregationMap& map, const scenes::Vascular& scene,
       if (!move) break;
       stepper.step(robots, *move, ContactRule::stop);
     }
-    Picture picture(map.map.bounds(), "DCA, " + std::to_string(done) + " steps");
-    draw_robots(with_walls(picture, map), robots, colours::path);
+    report::Picture picture(map.map.bounds(), "DCA, " + std::to_string(done) + " steps");
+    draw_robots(with_walls(picture, map), robots, report::colours::path);
     keep(picture, map, options, "fig6-" + std::to_string(steps));
   }
 }
 
 /// Fig 3: a swarm led around a corner along the medial axis and along the shortest path. Returns
 /// the final distance of its robots from their mean.
-double spread_when_led(const AggregationMap& map, Vec2 start, const ReproduceOptions& options,
-                       const std::string& name) {
+double spread_when_led(const navigation::AggregationMap& map, Vec2 start,
+                       const ReproduceOptions& options, const std::string& name) {
   constexpr int count = 64;
   constexpr double radius = 3;
   const RobotStepper stepper(map.map, 1);
@@ -107,10 +111,10 @@ double spread_when_led(const AggregationMap& map, Vec2 start, const ReproduceOpt
   }
   Robots robots = stepper.place(positions);
   Robots leader = stepper.place(std::vector<Vec2>{start});
-  AggregationParams params;
-  params.method = Aggregation::heuristic;
+  navigation::AggregationParams params;
+  params.method = navigation::Aggregation::heuristic;
   params.sigma = 2;
-  AggregationPolicy policy(map, params);
+  navigation::AggregationPolicy policy(map, params);
   std::vector<Vec2> path{start};
   for (int i = 0; i < 2000; ++i) {
     const auto move = policy.next(leader);
@@ -121,22 +125,23 @@ double spread_when_led(const AggregationMap& map, Vec2 start, const ReproduceOpt
   const Vec2 end = leader.position(0);
   double sum = 0;
   for (std::size_t i = 0; i < robots.size(); ++i) sum += distance(robots.position(i), end);
-  Picture picture(map.map.bounds(), name);
+  report::Picture picture(map.map.bounds(), name);
   with_walls(picture, map).line(path);
-  draw_robots(picture, stepper.place(positions), colours::swarm);
-  draw_robots(picture, robots, colours::obstacle);
-  picture.legend("at the start", colours::swarm, true);
-  picture.legend("at the end", colours::obstacle, true);
+  draw_robots(picture, stepper.place(positions), report::colours::swarm);
+  draw_robots(picture, robots, report::colours::obstacle);
+  picture.legend("at the start", report::colours::swarm, true);
+  picture.legend("at the end", report::colours::obstacle, true);
   keep(picture, map, options, map.obstacle_weighted ? "fig3-middle" : "fig3-tree");
   return sum / count;
 }
 
 }  // namespace
 
-void gather_maps(const ReproduceOptions& options, const Stop&, std::vector<ReproduceRow>& rows) {
+void gather_maps(const ReproduceOptions& options, const Stop&,
+                 std::vector<report::ReproduceRow>& rows) {
   const scenes::Vascular scene = scenes::vascular_network();
-  const AggregationMap map = gather_map(scene, true);
-  const AggregationMap plain = gather_map(scene, false);
+  const navigation::AggregationMap map = gather_map(scene, true);
+  const navigation::AggregationMap plain = gather_map(scene, false);
   constexpr Vec2 start{24, 95};
   const double middle = spread_when_led(map, start, options, "along the middle");
   const double tree = spread_when_led(plain, start, options, "along the RRT");

@@ -9,7 +9,7 @@
 
 namespace microswarm::reproduce {
 
-void add_violin(std::vector<double> values, double x, double half_width, Series& series) {
+void add_violin(std::vector<double> values, double x, double half_width, report::Series& series) {
   constexpr int levels = 24;
   if (values.empty()) return;
   std::sort(values.begin(), values.end());

@@ -8,6 +8,6 @@
 namespace microswarm::reproduce {
 
 /// Adds the outline of a violin at x, with widths from a Gaussian kernel density estimate.
-void add_violin(std::vector<double> values, double x, double half_width, Series& series);
+void add_violin(std::vector<double> values, double x, double half_width, report::Series& series);
 
 }  // namespace microswarm::reproduce

@@ -35,17 +35,17 @@ constexpr const char* only_drawn = "the paper's value is only in a picture";
 int tree_trials(const ReproduceOptions& options) { return options.quick ? 3 : 10; }
 
 /// A tree of two robots without a goal, as in Fig 3–7.
-GlobalTree grown(const Map& map, std::span<const Vec2> starts, double step, int nodes, int trial,
-                 const Stop& stop) {
-  GlobalRrtParams params;
+planning::GlobalTree grown(const Map& map, std::span<const Vec2> starts, double step, int nodes,
+                           int trial, const Stop& stop) {
+  planning::GlobalRrtParams params;
   params.robostep = step;
   params.max_nodes = nodes;
   Rng rng(1, Purpose::planner, static_cast<std::uint32_t>(trial));
-  return global_rrt(map, starts, {}, params, rng, stop).tree;
+  return planning::global_rrt(map, starts, {}, params, rng, stop).tree;
 }
 
 /// The first `nodes` nodes of the tree.
-GlobalTree first_nodes(GlobalTree tree, std::size_t nodes) {
+planning::GlobalTree first_nodes(planning::GlobalTree tree, std::size_t nodes) {
   if (nodes >= tree.size()) return tree;
   tree.configurations.resize(2 * tree.robots * nodes);
   tree.parents.resize(nodes);
@@ -67,8 +67,9 @@ struct CoverageCurve {
       if (at(k) > at(found)) found = k;
     return found;
   }
-  Series series(std::string label, std::optional<std::size_t> colour = {}) const {
-    Series s{.label = std::move(label), .x = x, .style = PlotStyle::marked, .colour = colour};
+  report::Series series(std::string label, std::optional<std::size_t> colour = {}) const {
+    report::Series s{
+        .label = std::move(label), .x = x, .style = report::PlotStyle::marked, .colour = colour};
     for (std::size_t k = 0; k < x.size(); ++k) {
       s.y.push_back(at(k));
       s.low.push_back(quantile(shares[k], 0.25));
@@ -87,10 +88,10 @@ void for_each_tree(const CoverageCurve& curve, const Stop& stop, Measure&& measu
   });
 }
 
-void write_plot(Plot plot, const ReproduceOptions& options, const char* name) {
+void write_plot(report::Plot plot, const ReproduceOptions& options, const char* name) {
   plot.y_min = 0;
   plot.key_below = true;
-  if (!options.out.empty()) write_plots_everywhere({plot}, fs::path(options.out) / name);
+  if (!options.out.empty()) report::write_plots_everywhere({plot}, fs::path(options.out) / name);
 }
 
 /// The walls shifted to the right.
@@ -109,14 +110,14 @@ void draw_trees(const Map& map, const ReproduceOptions& options, const Stop& sto
   const Box box = map.bounds();
   const double pitch = box.width() + gap;
   for (const double step : {1., 3., 5., 50., 200.}) {
-    const auto starts = std::span(global_starts).first(2);
-    const GlobalTree tree = grown(map, starts, step, nodes, 0, stop);
-    Picture picture({box.lo, {box.hi.x + pitch, box.hi.y}},
-                    fmt::format("Fig 4: {} nodes, Robostep {:g} µm", nodes, step), 1600);
+    const auto starts = std::span(scenes::global_starts).first(2);
+    const planning::GlobalTree tree = grown(map, starts, step, nodes, 0, stop);
+    report::Picture picture({box.lo, {box.hi.x + pitch, box.hi.y}},
+                            fmt::format("Fig 4: {} nodes, Robostep {:g} µm", nodes, step), 1600);
     for (std::size_t robot = 0; robot < 2; ++robot) {
       const Vec2 shift{pitch * static_cast<double>(robot), 0};
-      const Colour colour = colours::robots[robot];
-      const Colour faint{colour.red, colour.green, colour.blue, 0.55};
+      const report::Colour colour = report::colours::robots[robot];
+      const report::Colour faint{colour.red, colour.green, colour.blue, 0.55};
       std::vector<TreeNode> part(tree.size());
       for (std::uint32_t node = 0; node < tree.size(); ++node) {
         part[node].position = tree.position(node, robot) + shift;
@@ -124,15 +125,15 @@ void draw_trees(const Map& map, const ReproduceOptions& options, const Stop& sto
       }
       const Vec2 lo = box.lo + shift;
       const Vec2 hi = box.hi + shift;
-      picture.bodies(moved_right(map.walls().bodies(), shift.x), colours::wall);
+      picture.bodies(moved_right(map.walls().bodies(), shift.x), report::colours::wall);
       picture.tree(part, faint);
-      picture.line(std::vector<Vec2>{lo, {hi.x, lo.y}, hi, {lo.x, hi.y}, lo}, colours::wall_edge,
-                   1);
-      picture.disc({global_starts[robot] + shift, 5}, colours::ink);
-      picture.circle({global_goals[robot] + shift, 20}, colours::ink, 3, false);
+      picture.line(std::vector<Vec2>{lo, {hi.x, lo.y}, hi, {lo.x, hi.y}, lo},
+                   report::colours::wall_edge, 1);
+      picture.disc({scenes::global_starts[robot] + shift, 5}, report::colours::ink);
+      picture.circle({scenes::global_goals[robot] + shift, 20}, report::colours::ink, 3, false);
       picture.legend(fmt::format("tree of robot {}", robot + 1), colour);
     }
-    picture.legend("start; the goal is the circle", colours::ink, true);
+    picture.legend("start; the goal is the circle", report::colours::ink, true);
     picture.write_everywhere(fs::path(options.out) / fmt::format("fig4-step{:g}", step));
   }
 }
@@ -140,30 +141,32 @@ void draw_trees(const Map& map, const ReproduceOptions& options, const Stop& sto
 }  // namespace
 
 // Coverage over Robostep, for trees of several sizes.
-std::vector<ReproduceRow> global_step_lengths(const ReproduceOptions& options, const Stop& stop) {
+std::vector<report::ReproduceRow> global_step_lengths(const ReproduceOptions& options,
+                                                      const Stop& stop) {
   constexpr std::array steps{1., 3., 5., 10., 20., 40., 50., 60., 70., 80., 100., 150., 200.};
   constexpr std::size_t at_best = 7;
   static_assert(steps[at_best] == best_step);
   const Map map = scenes::global_world(1);
-  const auto starts = std::span(global_starts).first(2);
+  const auto starts = std::span(scenes::global_starts).first(2);
   std::vector<CoverageCurve> curves(tree_sizes.size(), CoverageCurve(steps, tree_trials(options)));
   for_each_tree(curves[0], stop, [&](std::size_t k, std::size_t trial) {
-    const GlobalTree tree = grown(map, starts, steps[k], max_nodes, int(trial), stop);
+    const planning::GlobalTree tree = grown(map, starts, steps[k], max_nodes, int(trial), stop);
     for (std::size_t size = 0; size < tree_sizes.size(); ++size)
       curves[size].shares[k][trial] =
-          100 * coverage(map, first_nodes(tree, std::size_t(tree_sizes[size])), grid_cell).share;
+          100 * planning::coverage(map, first_nodes(tree, std::size_t(tree_sizes[size])), grid_cell)
+                    .share;
   });
   if (stop()) return {};
-  Plot plot{.title = "Fig 3, 5: two robots in Env 1; dashed: the paper's best Robostep",
-            .x_label = "Robostep (µm)",
-            .y_label = "coverage (%), median and quartiles",
-            .marks = {{"", best_step}}};
+  report::Plot plot{.title = "Fig 3, 5: two robots in Env 1; dashed: the paper's best Robostep",
+                    .x_label = "Robostep (µm)",
+                    .y_label = "coverage (%), median and quartiles",
+                    .marks = {{"", best_step}}};
   for (std::size_t k = 0; k < tree_sizes.size(); ++k)
     plot.series.push_back(curves[k].series(fmt::format("{} nodes", tree_sizes[k])));
   write_plot(plot, options, "fig3-5");
   draw_trees(map, options, stop);
 
-  std::vector<ReproduceRow> rows;
+  std::vector<report::ReproduceRow> rows;
   for (std::size_t k = 0; k < tree_sizes.size(); ++k)
     rows.push_back(row_without_aim(only_drawn, "fig3",
                                    fmt::format("coverage at step 60, {} nodes", tree_sizes[k]), "%",
@@ -179,15 +182,16 @@ std::vector<ReproduceRow> global_step_lengths(const ReproduceOptions& options, c
 }
 
 // Coverage over the edge of the hypercubes.
-std::vector<ReproduceRow> global_cell_sizes(const ReproduceOptions& options, const Stop& stop) {
+std::vector<report::ReproduceRow> global_cell_sizes(const ReproduceOptions& options,
+                                                    const Stop& stop) {
   constexpr std::array cells{50., 40., 30., 20., 10.};
   const Map map = scenes::global_world(1);
-  const auto starts = std::span(global_starts).first(2);
+  const auto starts = std::span(scenes::global_starts).first(2);
   CoverageCurve curve(cells, tree_trials(options));
   for_each_index(curve.shares[0].size(), 0, [&](std::size_t trial) {
-    const GlobalTree tree = grown(map, starts, best_step, max_nodes, int(trial), stop);
+    const planning::GlobalTree tree = grown(map, starts, best_step, max_nodes, int(trial), stop);
     for (std::size_t k = 0; k < cells.size(); ++k)
-      curve.shares[k][trial] = 100 * coverage(map, tree, cells[k]).share;
+      curve.shares[k][trial] = 100 * planning::coverage(map, tree, cells[k]).share;
   });
   if (stop()) return {};
   write_plot({.title = "Fig 6: two robots in Env 1, 7500 nodes, Robostep 60 µm",
@@ -197,7 +201,7 @@ std::vector<ReproduceRow> global_cell_sizes(const ReproduceOptions& options, con
               .x_min = 5,
               .x_max = 55},
              options, "fig6");
-  std::vector<ReproduceRow> rows;
+  std::vector<report::ReproduceRow> rows;
   for (std::size_t k = 0; k < cells.size(); ++k)
     rows.push_back(row_without_aim(
         "only in a picture; falls with the edge, as the nodes are the same", "fig6",
@@ -207,40 +211,42 @@ std::vector<ReproduceRow> global_cell_sizes(const ReproduceOptions& options, con
 
 // Coverage over the distance between the two starts: "little effect until a critical distance,
 // after which the coverage drops quickly". The paper states neither Robostep nor number of nodes.
-std::vector<ReproduceRow> global_initial_distances(const ReproduceOptions& options,
-                                                   const Stop& stop) {
+std::vector<report::ReproduceRow> global_initial_distances(const ReproduceOptions& options,
+                                                           const Stop& stop) {
   constexpr std::array distances{200., 150., 100., 70., 50., 20., 5., 1.};
   constexpr std::size_t at_20 = 5;
   constexpr std::size_t at_1 = distances.size() - 1;
   constexpr double min_plateau = 90;  // [%]
   constexpr double max_left = 60;     // [%]
-  std::vector<AxisTick> ticks;
+  std::vector<report::AxisTick> ticks;
   for (const double d : distances)
     if (d != 150) ticks.push_back({fmt::format("{:g}", d), d});  // would touch that of 200
   const Map map = scenes::global_world(1);
-  std::vector<Plot> plots;
-  std::vector<ReproduceRow> rows;
+  std::vector<report::Plot> plots;
+  std::vector<report::ReproduceRow> rows;
   for (const double step : {published_step, best_step}) {
     std::vector<CoverageCurve> curves(tree_sizes.size(),
                                       CoverageCurve(distances, tree_trials(options)));
     for_each_tree(curves[0], stop, [&](std::size_t k, std::size_t trial) {
       const std::array<Vec2, 2> starts{{{60, 300}, {60, 300 - distances[k]}}};
-      const GlobalTree tree = grown(map, starts, step, max_nodes, int(trial), stop);
+      const planning::GlobalTree tree = grown(map, starts, step, max_nodes, int(trial), stop);
       for (std::size_t size = 0; size < tree_sizes.size(); ++size)
         curves[size].shares[k][trial] =
-            100 * coverage(map, first_nodes(tree, std::size_t(tree_sizes[size])), grid_cell).share;
+            100 *
+            planning::coverage(map, first_nodes(tree, std::size_t(tree_sizes[size])), grid_cell)
+                .share;
     });
     if (stop()) return rows;
-    Plot& plot =
-        plots.emplace_back(Plot{.title = fmt::format("Fig 7: Env 1, Robostep {:g} µm", step),
-                                .x_label = "distance between the starts (µm)",
-                                .y_label = "coverage (%), median and quartiles",
-                                .x_ticks = ticks,
-                                .log_x = true,
-                                .key_below = true,
-                                .x_min = 0.8,
-                                .x_max = 250,
-                                .y_min = 0});
+    report::Plot& plot = plots.emplace_back(
+        report::Plot{.title = fmt::format("Fig 7: Env 1, Robostep {:g} µm", step),
+                     .x_label = "distance between the starts (µm)",
+                     .y_label = "coverage (%), median and quartiles",
+                     .x_ticks = ticks,
+                     .log_x = true,
+                     .key_below = true,
+                     .x_min = 0.8,
+                     .x_max = 250,
+                     .y_min = 0});
     for (std::size_t size = 0; size < tree_sizes.size(); ++size) {
       const CoverageCurve& curve = curves[size];
       plot.series.push_back(curve.series(fmt::format("{} nodes", tree_sizes[size])));
@@ -259,7 +265,7 @@ std::vector<ReproduceRow> global_initial_distances(const ReproduceOptions& optio
       row("1 µm", at_1, max_left, true);
     }
   }
-  if (!options.out.empty()) write_plots_everywhere(plots, fs::path(options.out) / "fig7");
+  if (!options.out.empty()) report::write_plots_everywhere(plots, fs::path(options.out) / "fig7");
   return rows;
 }
 

@@ -11,15 +11,15 @@
 namespace microswarm::reproduce {
 
 void draw_plan(const ReproduceOptions& options, const std::string& name, const std::string& title,
-               const Map& map, const GlobalPlan& plan, std::span<const Vec2> goals,
+               const Map& map, const planning::GlobalPlan& plan, std::span<const Vec2> goals,
                double tolerance) {
   if (options.out.empty()) return;
   for (const char* kind : {".png", ".svg", ".pdf"})
-    draw_robots(map, plan, goals, tolerance, title,
-                std::filesystem::path(options.out) / (name + kind));
+    report::draw_robots(map, plan, goals, tolerance, title,
+                        std::filesystem::path(options.out) / (name + kind));
 }
 
-double min_distance(const GlobalPlan& plan) {
+double min_distance(const planning::GlobalPlan& plan) {
   double least = std::numeric_limits<double>::infinity();
   for (const auto& positions : plan.configurations)
     for (std::size_t i = 0; i < positions.size(); ++i)
@@ -28,8 +28,9 @@ double min_distance(const GlobalPlan& plan) {
   return least;
 }
 
-std::vector<ReproduceRow> global_figures(const std::string& figure, const ReproduceOptions& options,
-                                         const Stop& stop) {
+std::vector<report::ReproduceRow> global_figures(const std::string& figure,
+                                                 const ReproduceOptions& options,
+                                                 const Stop& stop) {
   constexpr std::array<Figure, 9> figures{{{"fig1", global_vascular},
                                            {"fig3-5", global_step_lengths},
                                            {"fig6", global_cell_sizes},

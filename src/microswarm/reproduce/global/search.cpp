@@ -22,20 +22,21 @@ struct Searches {
   std::vector<double> seconds, nodes, found, brief, apart;  // of solved searches
   std::vector<double> worst;                                // of unsolved searches
 
-  void add(const scenes::GlobalTask& task, const GlobalSearchParams& params, int seed,
+  void add(const scenes::GlobalTask& task, const planning::GlobalSearchParams& params, int seed,
            const ReproduceOptions& options, const std::string& name, const Stop& stop) {
     Rng rng(1, Purpose::planner, static_cast<std::uint32_t>(seed));
     const auto began = Stop::Clock::now();
-    GlobalSearch search = global_search(task.map, task.starts, task.goals, params, rng, stop);
-    GlobalPlan& plan = search.plan;
+    planning::GlobalSearch search =
+        planning::global_search(task.map, task.starts, task.goals, params, rng, stop);
+    planning::GlobalPlan& plan = search.plan;
     if (stop()) return;
     if (plan.status == Status::solved) {
       seconds.push_back(seconds_since(began));
       nodes.push_back(static_cast<double>(search.counts.samples));
       found.push_back(static_cast<double>(plan.inputs.size()));
-      plan = shortened(task.map, plan, task.goals,
-                       {params.robostep, params.contact, params.separation, params.goal_tolerance},
-                       stop);
+      plan = planning::shortened(
+          task.map, plan, task.goals,
+          {params.robostep, params.contact, params.separation, params.goal_tolerance}, stop);
       brief.push_back(static_cast<double>(plan.inputs.size()));
       apart.push_back(min_distance(plan));
     } else {
@@ -48,14 +49,14 @@ struct Searches {
                 task.map, plan, task.goals, params.goal_tolerance);
   }
 
-  std::vector<ReproduceRow> rows(const char* figure, const std::string& who,
-                                 const GlobalSearchParams& params) const {
+  std::vector<report::ReproduceRow> rows(const char* figure, const std::string& who,
+                                         const planning::GlobalSearchParams& params) const {
     const auto row = [&](const char* what, const char* unit, std::optional<double> ours) {
       return row_without_aim(by_the_search, figure, who + what, unit, {}, ours);
     };
     const std::size_t tries = found.size() + worst.size();
     const double solved = 100.0 * static_cast<double>(found.size()) / static_cast<double>(tries);
-    std::vector<ReproduceRow> all{
+    std::vector<report::ReproduceRow> all{
         noted(row(": solved", "%", solved),
               fmt::format("{} of {} tries of {} nodes", found.size(), tries, params.max_nodes))};
     if (!found.empty()) {
@@ -82,10 +83,10 @@ scenes::GlobalTask task_of_env(int env, std::size_t robots) {
 
 }  // namespace
 
-std::vector<ReproduceRow> search_task(const char* figure, const char* name,
-                                      const scenes::GlobalTask& task, GlobalSearchParams params,
-                                      int seeds, const ReproduceOptions& options,
-                                      const Stop& stop) {
+std::vector<report::ReproduceRow> search_task(const char* figure, const char* name,
+                                              const scenes::GlobalTask& task,
+                                              planning::GlobalSearchParams params, int seeds,
+                                              const ReproduceOptions& options, const Stop& stop) {
   params.robostep = task.robostep;
   params.goal_tolerance = task.tolerance;
   params.max_nodes = std::min(params.max_nodes, max_search_nodes);
@@ -99,17 +100,18 @@ std::vector<ReproduceRow> search_task(const char* figure, const char* name,
       params);
 }
 
-std::vector<ReproduceRow> global_digestive(const ReproduceOptions& options, const Stop& stop) {
+std::vector<report::ReproduceRow> global_digestive(const ReproduceOptions& options,
+                                                   const Stop& stop) {
   return search_task("fig8", "fig8", scenes::digestive_task(), {}, options.quick ? 1 : 5, options,
                      stop);
 }
 
 // Beyond the paper: two to four robots in Env 1–4.
-std::vector<ReproduceRow> global_beyond(const ReproduceOptions& options, const Stop& stop) {
-  std::vector<ReproduceRow> rows;
+std::vector<report::ReproduceRow> global_beyond(const ReproduceOptions& options, const Stop& stop) {
+  std::vector<report::ReproduceRow> rows;
   for (const std::size_t robots : {2U, 3U, 4U}) {
     const int seeds = options.quick ? (robots < 4 ? 3 : 1) : (robots < 4 ? 20 : 5);
-    const GlobalSearchParams params{.max_nodes = max_search_nodes};
+    const planning::GlobalSearchParams params{.max_nodes = max_search_nodes};
     Searches searches;
     for (int env = 1; env <= scenes::global_worlds; ++env)
       for (int seed = 0; seed < seeds && !stop(); ++seed)
@@ -124,11 +126,11 @@ std::vector<ReproduceRow> global_beyond(const ReproduceOptions& options, const S
 }
 
 // Beyond the paper, which shows four robots.
-std::vector<ReproduceRow> global_six(const ReproduceOptions& options, const Stop& stop) {
+std::vector<report::ReproduceRow> global_six(const ReproduceOptions& options, const Stop& stop) {
   scenes::GlobalTask task = scenes::six_robots(1);
   task.name = "Env 1";
   const int seeds = options.quick ? 1 : 3;
-  GlobalSearchParams params;
+  planning::GlobalSearchParams params;
   if (options.quick) params.max_nodes = 100'000;
   auto rows = search_task("beyond", "env1-n6", task, params, seeds, options, stop);
   task.name = "Env 1, goals apart";

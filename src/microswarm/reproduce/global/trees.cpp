@@ -40,8 +40,8 @@ constexpr std::array<TreeSetting, 3> tree_settings{
      {"tree with goal bias 5 %", "bias", ContactRule::slide, 0.05},
      {"tree with goal bias 5 %, reject", "reject", ContactRule::reject, 0.05}}};
 
-GlobalRrtParams parameters(const TreeSetting& setting, int nodes) {
-  GlobalRrtParams params;
+planning::GlobalRrtParams parameters(const TreeSetting& setting, int nodes) {
+  planning::GlobalRrtParams params;
   params.contact = setting.contact;
   params.goal_bias = setting.goal_bias;
   params.max_nodes = nodes;
@@ -55,8 +55,8 @@ double percentage(std::ptrdiff_t part, std::size_t all) {
 }
 
 /// Whether several trees solve a task for which the paper shows one tree.
-ReproduceRow solved_row(const char* figure, const std::string& what, std::ptrdiff_t solved,
-                        std::size_t seeds, const ReproduceOptions& options) {
+report::ReproduceRow solved_row(const char* figure, const std::string& what, std::ptrdiff_t solved,
+                                std::size_t seeds, const ReproduceOptions& options) {
   return unjudged_if_quick(noted(row_at_least(0, figure, what, "%", 100, percentage(solved, seeds)),
                                  fmt::format("{} of {} trees; the paper shows one", solved, seeds)),
                            options);
@@ -64,8 +64,8 @@ ReproduceRow solved_row(const char* figure, const std::string& what, std::ptrdif
 
 /// Result of a tree for one of the two sets of goals of Fig 9 and 10.
 struct TreeAnswer {
-  GoalAnswer answer;
-  GlobalPlan plan;
+  planning::GoalAnswer answer;
+  planning::GlobalPlan plan;
 };
 using TreeAnswers = std::vector<std::array<TreeAnswer, 2>>;  // one per seed
 
@@ -76,42 +76,44 @@ constexpr std::array<const char*, 2> goal_figures{"fig9", "fig10"};
 TreeAnswers measure_answers(const Map& map, const TreeSetting& setting, std::size_t seeds,
                             const Stop& stop) {
   TreeAnswers answers(seeds);
-  GlobalRrtParams params = parameters(setting, published_nodes);
+  planning::GlobalRrtParams params = parameters(setting, published_nodes);
   params.stop_at_first = false;
   for_each_index(seeds, 0, [&](std::size_t seed) {
     Rng rng = tree_rng(seed);
-    const GlobalTree tree =
-        global_rrt(map, scenes::global_starts, scenes::global_goals, params, rng, stop).tree;
+    const planning::GlobalTree tree =
+        planning::global_rrt(map, scenes::global_starts, scenes::global_goals, params, rng, stop)
+            .tree;
     for (std::size_t k = 0; k < goal_sets.size(); ++k) {
       TreeAnswer& a = answers[seed][k];
-      a.answer = ask(tree, goal_sets[k], params.goal_tolerance);
-      a.plan = plan_to(tree, a.answer);
+      a.answer = planning::ask(tree, goal_sets[k], params.goal_tolerance);
+      a.plan = planning::plan_to(tree, a.answer);
     }
   });
   return answers;
 }
 
 /// Costs of storing a tree.
-void add_costs(const LoadedMap& map, const ReproduceOptions& options, const Stop& stop,
-               std::vector<ReproduceRow>& rows) {
+void add_costs(const formats::LoadedMap& map, const ReproduceOptions& options, const Stop& stop,
+               std::vector<report::ReproduceRow>& rows) {
   Rng rng = tree_rng(0);
   auto began = Clock::now();
-  const GlobalTree tree = global_rrt(*map.map, scenes::global_starts, {},
-                                     parameters(tree_settings[0], published_nodes), rng, stop)
-                              .tree;
+  const planning::GlobalTree tree =
+      planning::global_rrt(*map.map, scenes::global_starts, {},
+                           parameters(tree_settings[0], published_nodes), rng, stop)
+          .tree;
   const double growing = seconds_since(began);
   if (stop()) return;
   const fs::path file = options.out.empty() ? fs::temp_directory_path() /
                                                   fmt::format("microswarm_tree_{}.h5", ::getpid())
                                             : fs::path(options.out) / "fig9-tree.h5";
-  write_global_tree(tree, map, file);
+  experiment::write_global_tree(tree, map, file);
   began = Clock::now();
-  const GlobalTree loaded = read_global_tree(file, map);
+  const planning::GlobalTree loaded = experiment::read_global_tree(file, map);
   const double loading = seconds_since(began);
   const auto bytes = static_cast<double>(fs::file_size(file));
   if (options.out.empty()) fs::remove(file);
   began = Clock::now();
-  ask(loaded, scenes::global_other_goals, 20);
+  planning::ask(loaded, scenes::global_other_goals, 20);
   const double asking = 1e3 * seconds_since(began);
   const auto nodes = static_cast<double>(tree.size());
   rows.push_back(make_row("fig9", "nodes per second", "1/s", {}, nodes / growing));
@@ -122,18 +124,19 @@ void add_costs(const LoadedMap& map, const ReproduceOptions& options, const Stop
 
 /// The network shipped with the published program, by trees and by the search.
 void add_leaf(const scenes::GlobalTask& leaf, int search_seeds, const ReproduceOptions& options,
-              const Stop& stop, std::vector<ReproduceRow>& rows) {
+              const Stop& stop, std::vector<report::ReproduceRow>& rows) {
   const int nodes = options.quick ? 20'000 : 60'000;
   const std::size_t seeds = options.quick ? 2 : 10;
   for (const TreeSetting& setting : tree_settings) {
     std::vector<TreeAnswer> answers(seeds);
     for_each_index(seeds, 0, [&](std::size_t seed) {
-      GlobalRrtParams params = parameters(setting, nodes);
+      planning::GlobalRrtParams params = parameters(setting, nodes);
       params.robostep = leaf.robostep;
       params.goal_tolerance = leaf.tolerance;
       Rng rng = tree_rng(seed);
-      const GlobalRrt grown = global_rrt(leaf.map, leaf.starts, leaf.goals, params, rng, stop);
-      answers[seed] = {grown.answer, plan_to(grown.tree, grown.answer)};
+      const planning::GlobalRrt grown =
+          planning::global_rrt(leaf.map, leaf.starts, leaf.goals, params, rng, stop);
+      answers[seed] = {grown.answer, planning::plan_to(grown.tree, grown.answer)};
     });
     if (stop()) return;
     const auto solved = std::ranges::count(answers, Status::solved,
@@ -161,22 +164,24 @@ void add_leaf(const scenes::GlobalTask& leaf, int search_seeds, const ReproduceO
 
 // The paper does not say which of the program's two networks the figure shows, and one of them has
 // no file.
-std::vector<ReproduceRow> global_vascular(const ReproduceOptions& options, const Stop& stop) {
+std::vector<report::ReproduceRow> global_vascular(const ReproduceOptions& options,
+                                                  const Stop& stop) {
   const int seeds = options.quick ? 1 : 5;
-  std::vector<ReproduceRow> rows;
+  std::vector<report::ReproduceRow> rows;
   if (const auto file =
           data_file(options, "paper_authors/global_leaf.csv", "fig1, veins of a leaf"))
-    add_leaf(scenes::leaf_task(*load_map(guess_map_spec(*file)).map), seeds, options, stop, rows);
+    add_leaf(scenes::leaf_task(*formats::load_map(formats::guess_map_spec(*file)).map), seeds,
+             options, stop, rows);
   const auto more = search_task("fig1", "fig1", scenes::vascular_task(), {}, seeds, options, stop);
   rows.insert(rows.end(), more.begin(), more.end());
   return rows;
 }
 
 // Trees of four robots in Env 3 are queried for two sets of goals.
-std::vector<ReproduceRow> global_reuse(const ReproduceOptions& options, const Stop& stop) {
-  const LoadedMap map{std::make_shared<const Map>(scenes::global_world(3)), 3};
+std::vector<report::ReproduceRow> global_reuse(const ReproduceOptions& options, const Stop& stop) {
+  const formats::LoadedMap map{std::make_shared<const Map>(scenes::global_world(3)), 3};
   const std::size_t seeds = options.quick ? 2 : 20;
-  std::vector<ReproduceRow> rows;
+  std::vector<report::ReproduceRow> rows;
   std::array<TreeAnswer, 2> best;
   std::array<const char*, 2> best_setting{};
   for (TreeAnswer& a : best) a.answer.worst = std::numeric_limits<double>::infinity();
@@ -208,7 +213,7 @@ std::vector<ReproduceRow> global_reuse(const ReproduceOptions& options, const St
   add_costs(map, options, stop, rows);
   scenes::GlobalTask task{"Env 3", *map.map, {}, {}};
   task.starts.assign(scenes::global_starts.begin(), scenes::global_starts.end());
-  GlobalSearchParams params;
+  planning::GlobalSearchParams params;
   if (options.quick) params.max_nodes = 50'000;
   for (std::size_t k = 0; k < goal_sets.size(); ++k) {
     task.goals.assign(goal_sets[k].begin(), goal_sets[k].end());
@@ -221,10 +226,11 @@ std::vector<ReproduceRow> global_reuse(const ReproduceOptions& options, const St
 
 // Inputs along the axes only, so that cylinders meet walls perpendicularly; then a search that
 // keeps the magnets apart, which the paper does not specify.
-std::vector<ReproduceRow> global_magnets(const ReproduceOptions& options, const Stop& stop) {
+std::vector<report::ReproduceRow> global_magnets(const ReproduceOptions& options,
+                                                 const Stop& stop) {
   const scenes::GlobalTask task = scenes::magnets_task();
   constexpr int nodes = 40'000;
-  GlobalRrtParams params = parameters(tree_settings[0], nodes);
+  planning::GlobalRrtParams params = parameters(tree_settings[0], nodes);
   params.robostep = task.robostep;
   params.goal_tolerance = task.tolerance;
   params.directions = 4;
@@ -234,8 +240,9 @@ std::vector<ReproduceRow> global_magnets(const ReproduceOptions& options, const 
   double apart = std::numeric_limits<double>::infinity();
   for (std::size_t seed = 0; seed < seeds && !stop(); ++seed) {
     Rng rng = tree_rng(seed);
-    const GlobalRrt grown = global_rrt(task.map, task.starts, task.goals, params, rng, stop);
-    const GlobalPlan plan = plan_to(grown.tree, grown.answer);
+    const planning::GlobalRrt grown =
+        planning::global_rrt(task.map, task.starts, task.goals, params, rng, stop);
+    const planning::GlobalPlan plan = planning::plan_to(grown.tree, grown.answer);
     needed.push_back(static_cast<double>(grown.tree.size()));
     if (seed == 0)
       draw_plan(options, "fig12",
@@ -247,7 +254,7 @@ std::vector<ReproduceRow> global_magnets(const ReproduceOptions& options, const 
   }
   if (stop()) return {};
   const std::string what = fmt::format("two magnets, tree of {} nodes: ", nodes);
-  std::vector<ReproduceRow> rows{
+  std::vector<report::ReproduceRow> rows{
       noted(row_without_aim(map_of_ours, "fig12", what + "solved", "%", 100,
                             percentage(solved, needed.size())),
             fmt::format("{} of {} trees", solved, needed.size())),
@@ -255,7 +262,7 @@ std::vector<ReproduceRow> global_magnets(const ReproduceOptions& options, const 
                       median(needed)),
       make_row("fig12", what + "least distance between the magnets", "µm", {},
                solved > 0 ? std::optional(apart) : std::nullopt)};
-  GlobalSearchParams keeps_apart;
+  planning::GlobalSearchParams keeps_apart;
   keeps_apart.directions = 4;
   keeps_apart.separation = 40;
   scenes::GlobalTask named = task;

@@ -17,7 +17,7 @@ constexpr double start_distance = 200;  // l_0 [pixels]
 
 /// δ of Eq 4 [radar] for the deviation α [°] and l [pixels].
 double cost(double deviation, double left) {
-  return avoidance_cost({1, 0}, left, radians(deviation), true, start_distance);
+  return experiment::avoidance_cost({1, 0}, left, radians(deviation), true, start_distance);
 }
 
 struct PublishedCost {
@@ -28,13 +28,13 @@ struct PublishedCost {
 constexpr std::array<PublishedCost, 2> published_costs{{{60, 100, 0.25}, {90, 130, 0.65}}};
 
 void draw_costs(const std::filesystem::path& folder) {
-  Plot plot{.title = "Avoidance cost",
-            .x_label = "deviation α (°)",
-            .y_label = "avoidance cost δ",
-            .key_below = true,
-            .y_min = 0};
+  report::Plot plot{.title = "Avoidance cost",
+                    .x_label = "deviation α (°)",
+                    .y_label = "avoidance cost δ",
+                    .key_below = true,
+                    .y_min = 0};
   for (const double left : {50.0, 100.0, 130.0, 200.0}) {
-    Series series{.label = fmt::format("l = {} pixels", left), .x = {}, .y = {}};
+    report::Series series{.label = fmt::format("l = {} pixels", left), .x = {}, .y = {}};
     for (double deviation = 0; deviation <= 180; deviation += 2) {
       series.x.push_back(deviation);
       series.y.push_back(cost(deviation, left));
@@ -45,15 +45,15 @@ void draw_costs(const std::filesystem::path& folder) {
     plot.series.push_back({.label = k == 0 ? "published" : "",
                            .x = {published_costs[k].deviation},
                            .y = {published_costs[k].cost},
-                           .style = PlotStyle::published,
+                           .style = report::PlotStyle::published,
                            .colour = k + 1});
-  write_plots_everywhere({plot}, folder / "fig1");
+  report::write_plots_everywhere({plot}, folder / "fig1");
 }
 
 }  // namespace
 
-std::vector<ReproduceRow> radar_cost(const ReproduceOptions& options, const Stop&) {
-  std::vector<ReproduceRow> rows;
+std::vector<report::ReproduceRow> radar_cost(const ReproduceOptions& options, const Stop&) {
+  std::vector<report::ReproduceRow> rows;
   rows.reserve(published_costs.size());
   for (const PublishedCost& p : published_costs)
     rows.push_back(row_within(

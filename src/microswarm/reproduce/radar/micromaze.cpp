@@ -16,16 +16,17 @@ namespace {
 
 /// Time of the frame with the minimum frame_distance(frame).
 template <class Distance>
-double nearest(const Record& record, Distance&& frame_distance) {
-  return std::min_element(
-             record.frames.begin(), record.frames.end(),
-             [&](const Frame& a, const Frame& b) { return frame_distance(a) < frame_distance(b); })
+double nearest(const experiment::Record& record, Distance&& frame_distance) {
+  return std::min_element(record.frames.begin(), record.frames.end(),
+                          [&](const experiment::Frame& a, const experiment::Frame& b) {
+                            return frame_distance(a) < frame_distance(b);
+                          })
       ->t;
 }
 
 /// Middle of the first wait for a valve from t0 [s] on; empty without a wait.
-std::optional<double> middle_of_wait(const Record& record, double t0) {
-  const auto waits = [](const Frame& f) { return f.state == NavigatorState::wait; };
+std::optional<double> middle_of_wait(const experiment::Record& record, double t0) {
+  const auto waits = [](const experiment::Frame& f) { return f.state == NavigatorState::wait; };
   const auto from = record.frames.begin() + static_cast<std::ptrdiff_t>(frame_at(record, t0));
   const auto begin = std::find_if(from, record.frames.end(), waits);
   if (begin == record.frames.end()) return std::nullopt;
@@ -35,11 +36,11 @@ std::optional<double> middle_of_wait(const Record& record, double t0) {
 
 /// Moments of the figure: the plan, an avoided mover, the wait at the first valve, the passage
 /// through it, the passage of the breathing obstacle, the second valve, and the end.
-std::vector<double> micromaze_moments(const Record& record) {
-  const Scenario& scenario = record.scene.scenario;
-  const auto& areas = std::get<RadarParams>(scenario.navigator).wait_zones;
+std::vector<double> micromaze_moments(const experiment::Record& record) {
+  const experiment::Scenario& scenario = record.scene.scenario;
+  const auto& areas = std::get<navigation::RadarParams>(scenario.navigator).wait_zones;
   const auto to_obstacle = [&](std::size_t k) {
-    return nearest(record, [&](const Frame& f) {
+    return nearest(record, [&](const experiment::Frame& f) {
       return distance(f.pose.position, placement(scenario.obstacles[k].motion, f.t).pose.position);
     });
   };
@@ -55,10 +56,10 @@ std::vector<double> micromaze_moments(const Record& record) {
     if (first_mover || std::holds_alternative<BreathingDisc>(shape)) add(to_obstacle(k));
   }
   double passed = 0;
-  for (const WaitZone& area : areas) {
+  for (const navigation::WaitZone& area : areas) {
     add(middle_of_wait(record, passed));
-    passed =
-        nearest(record, [&](const Frame& f) { return distance(f.pose.position, area.centre); });
+    passed = nearest(
+        record, [&](const experiment::Frame& f) { return distance(f.pose.position, area.centre); });
     add(passed);
   }
   std::sort(out.begin(), out.end());
@@ -68,15 +69,16 @@ std::vector<double> micromaze_moments(const Record& record) {
 
 }  // namespace
 
-std::vector<ReproduceRow> radar_micromaze(const ReproduceOptions& options, const Stop& stop) {
+std::vector<report::ReproduceRow> radar_micromaze(const ReproduceOptions& options,
+                                                  const Stop& stop) {
   constexpr const char* figure = "fig13";
   constexpr const char* outline = "the maze is ours, its outline is only in the figure";
-  std::vector<ReproduceRow> rows;
+  std::vector<report::ReproduceRow> rows;
   for (const RadarVersion& version : radar_versions) {
     const RadarSetting s = load_radar(options, "micromaze.yaml", version);
-    const auto trials =
-        run_trials(s.scene.scenario, s.world,
-                   {.trials = options.quick ? 5 : 20, .progress = {}, .vary = {}}, stop);
+    const auto trials = experiment::run_trials(
+        s.scene.scenario, s.world, {.trials = options.quick ? 5 : 20, .progress = {}, .vary = {}},
+        stop);
     const RadarRun run = run_radar(s.scene, s.world, stop);
     if (stop()) return rows;
     if (!options.out.empty()) {
@@ -87,7 +89,7 @@ std::vector<ReproduceRow> radar_micromaze(const ReproduceOptions& options, const
     }
     std::vector<double> times, turning;
     int contacts = 0;
-    for (const TrialResult& t : trials) {
+    for (const experiment::TrialResult& t : trials) {
       contacts += t.result.metrics.contacts;
       turning.push_back(degrees(t.result.metrics.turning));
       if (t.result.status == Status::solved) times.push_back(t.result.metrics.time);

@@ -16,9 +16,10 @@ namespace microswarm::reproduce {
 
 namespace fs = std::filesystem;
 
-ReproduceRow version_row(const RadarVersion& version, double share, const std::string& figure,
-                         const std::string& quantity, const std::string& unit,
-                         std::optional<double> paper, std::optional<double> ours) {
+report::ReproduceRow version_row(const RadarVersion& version, double share,
+                                 const std::string& figure, const std::string& quantity,
+                                 const std::string& unit, std::optional<double> paper,
+                                 std::optional<double> ours) {
   const std::string named = fmt::format("{}, {}", quantity, version.name);
   if (!paper || version.as_published) return row_within(share, figure, named, unit, paper, ours);
   return row_without_aim("not the paper's navigator", figure, named, unit, paper, ours);
@@ -32,14 +33,15 @@ std::string spread_text(const std::vector<double>& values) {
 RadarSetting load_radar(const ReproduceOptions& options, const char* name,
                         const RadarVersion& version) {
   const fs::path file = options.scenarios / "papers" / "radar" / name;
-  Scenario scenario = read_scenario(file);
-  std::get<RadarParams>(scenario.navigator).as_published = version.as_published;
-  Experiment opened = open_experiment(std::move(scenario), file.parent_path(), file.string());
+  experiment::Scenario scenario = experiment::read_scenario(file);
+  std::get<navigation::RadarParams>(scenario.navigator).as_published = version.as_published;
+  experiment::Experiment opened =
+      experiment::open_experiment(std::move(scenario), file.parent_path(), file.string());
   return {std::move(opened.scene), std::move(opened.world)};
 }
 
-std::vector<ReproduceRow> radar_figures(const std::string& figure, const ReproduceOptions& options,
-                                        const Stop& stop) {
+std::vector<report::ReproduceRow> radar_figures(const std::string& figure,
+                                                const ReproduceOptions& options, const Stop& stop) {
   constexpr std::array<Figure, 10> figures{{{"fig1", radar_cost},
                                             {"fig5-6", radar_single},
                                             {"fig7", radar_series},

@@ -31,19 +31,22 @@ inline constexpr std::array<RadarVersion, 2> radar_versions{
     {{"as published", "published", true}, {"ours", "ours", false}}};
 
 /// A row of one version. The paper's value is the aim of the published version; ours has no aim.
-ReproduceRow version_row(const RadarVersion& version, double share, const std::string& figure,
-                         const std::string& quantity, const std::string& unit,
-                         std::optional<double> paper, std::optional<double> ours);
+report::ReproduceRow version_row(const RadarVersion& version, double share,
+                                 const std::string& figure, const std::string& quantity,
+                                 const std::string& unit, std::optional<double> paper,
+                                 std::optional<double> ours);
 
 /// Text such as "quartiles 0.12 – 0.31"; empty for fewer than four values.
 std::string spread_text(const std::vector<double>& values);
 
 /// A scenario of [radar], ready to run.
 struct RadarSetting {
-  Scene scene;
+  experiment::Scene scene;
   World world;
 
-  RadarParams& params() { return std::get<RadarParams>(scene.scenario.navigator); }
+  navigation::RadarParams& params() {
+    return std::get<navigation::RadarParams>(scene.scenario.navigator);
+  }
 };
 /// Throws InputError like read_scenario.
 RadarSetting load_radar(const ReproduceOptions& options, const char* name,
@@ -51,13 +54,15 @@ RadarSetting load_radar(const ReproduceOptions& options, const char* name,
 
 /// Figures of [radar] by subject: one obstacle (5, 6, 7, 10), twelve obstacles (8, 11, 12), the
 /// micromaze (13). If interrupted, they return the completed rows, or none.
-std::vector<ReproduceRow> radar_cost(const ReproduceOptions& options, const Stop& stop);
-std::vector<ReproduceRow> radar_single(const ReproduceOptions& options, const Stop& stop);
-std::vector<ReproduceRow> radar_series(const ReproduceOptions& options, const Stop& stop);
-std::vector<ReproduceRow> radar_twelve(const ReproduceOptions& options, const Stop& stop);
-std::vector<ReproduceRow> radar_experiment(const ReproduceOptions& options, const Stop& stop);
-std::vector<ReproduceRow> radar_twelve_experiment(const ReproduceOptions& options,
+std::vector<report::ReproduceRow> radar_cost(const ReproduceOptions& options, const Stop& stop);
+std::vector<report::ReproduceRow> radar_single(const ReproduceOptions& options, const Stop& stop);
+std::vector<report::ReproduceRow> radar_series(const ReproduceOptions& options, const Stop& stop);
+std::vector<report::ReproduceRow> radar_twelve(const ReproduceOptions& options, const Stop& stop);
+std::vector<report::ReproduceRow> radar_experiment(const ReproduceOptions& options,
+                                                   const Stop& stop);
+std::vector<report::ReproduceRow> radar_twelve_experiment(const ReproduceOptions& options,
+                                                          const Stop& stop);
+std::vector<report::ReproduceRow> radar_micromaze(const ReproduceOptions& options,
                                                   const Stop& stop);
-std::vector<ReproduceRow> radar_micromaze(const ReproduceOptions& options, const Stop& stop);
 
 }  // namespace microswarm::reproduce

@@ -17,24 +17,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr Colour moment_mark{0.13, 0.15, 0.18, 1};
+constexpr report::Colour moment_mark{0.13, 0.15, 0.18, 1};
 
 constexpr double pixels = 900;
 constexpr int max_pictures = 20;
 
 RadarCircles circles_at(const RadarRun& run, std::size_t frame) {
-  return radar_circles(run.record, frame, run.looks[frame]);
+  return report::radar_circles(run.record, frame, run.looks[frame]);
 }
 
 /// Marks P0, P1, … with their times on the path, up to the moment `last`.
-void mark_moments(Picture& picture, const Record& record, std::span<const double> moments,
-                  std::size_t last) {
+void mark_moments(report::Picture& picture, const experiment::Record& record,
+                  std::span<const double> moments, std::size_t last) {
   for (std::size_t k = 0; k < last; ++k)
     picture.mark(record.frames[frame_at(record, moments[k])].pose.position,
                  fmt::format("P{}, {:.1f} s", k, moments[k]), moment_mark);
 }
 
-std::string frame_title(const RadarRun& run, const std::string& title, const Frame& frame) {
+std::string frame_title(const RadarRun& run, const std::string& title,
+                        const experiment::Frame& frame) {
   std::string out =
       fmt::format("{}: t = {:.1f} s, δ = {:.2f}", title, frame.t, frame.avoidance_cost);
   if (run.collided()) out += fmt::format(", collided at {:.1f} s", run.record.result.metrics.time);
@@ -66,24 +67,26 @@ struct CurveRow {
 
 }  // namespace
 
-Plot cost_plot(const RadarRun& run, const std::string& title, double paper_mean, double y_max) {
-  const Metrics& metrics = run.record.result.metrics;
-  Plot plot{.title = title,
-            .x_label = "time (s)",
-            .y_label = "avoidance cost δ",
-            .series = {{.label = "measured", .x = {}, .y = {}},
-                       {.label = fmt::format("its mean, {:.3f}", metrics.avoidance.mean_cost),
-                        .x = {0, metrics.time},
-                        .y = {metrics.avoidance.mean_cost, metrics.avoidance.mean_cost}}},
-            .levels = {{fmt::format("paper's mean, {:.2f}", paper_mean), paper_mean}},
-            .band_label = "obstacle in the detection circle",
-            .key_below = true,
-            .x_min = 0,
-            .x_max = metrics.time,
-            .y_min = 0,
-            .y_max = y_max};
+report::Plot cost_plot(const RadarRun& run, const std::string& title, double paper_mean,
+                       double y_max) {
+  const experiment::Metrics& metrics = run.record.result.metrics;
+  report::Plot plot{
+      .title = title,
+      .x_label = "time (s)",
+      .y_label = "avoidance cost δ",
+      .series = {{.label = "measured", .x = {}, .y = {}},
+                 {.label = fmt::format("its mean, {:.3f}", metrics.avoidance.mean_cost),
+                  .x = {0, metrics.time},
+                  .y = {metrics.avoidance.mean_cost, metrics.avoidance.mean_cost}}},
+      .levels = {{fmt::format("paper's mean, {:.2f}", paper_mean), paper_mean}},
+      .band_label = "obstacle in the detection circle",
+      .key_below = true,
+      .x_min = 0,
+      .x_max = metrics.time,
+      .y_min = 0,
+      .y_max = y_max};
   if (run.collided()) plot.title += fmt::format(", collided at {:.1f} s", metrics.time);
-  for (const Frame& frame : run.record.frames) {
+  for (const experiment::Frame& frame : run.record.frames) {
     plot.series[0].x.push_back(frame.t);
     plot.series[0].y.push_back(frame.avoidance_cost);
   }
@@ -94,7 +97,7 @@ Plot cost_plot(const RadarRun& run, const std::string& title, double paper_mean,
 
 Box part_that_matters(const RadarRun& run, const World& world, std::span<const double> moments) {
   constexpr double edge = 1.1;
-  const Record& record = run.record;
+  const experiment::Record& record = run.record;
   const Vec2 end = *record.scene.scenario.goal;
   Box box{end, end};
   const auto include = [&](Vec2 p, double r) {
@@ -119,30 +122,31 @@ Box part_that_matters(const RadarRun& run, const World& world, std::span<const d
 
 void draw_radar_moments(const RadarRun& run, const World& world, std::span<const double> moments,
                         const std::string& title, const fs::path& stem, std::optional<Box> part) {
-  const Record& record = run.record;
+  const experiment::Record& record = run.record;
   const Box view = part.value_or(world.map->bounds());
-  std::vector<std::unique_ptr<Picture>> pictures;
+  std::vector<std::unique_ptr<report::Picture>> pictures;
   for (int k = 1; k <= max_pictures; ++k)
     for (const char* end : {"png", "svg", "pdf"})
       fs::remove(fmt::format("{}-{}.{}", stem.string(), k, end));
   for (std::size_t k = 0; k < moments.size(); ++k) {
     const std::size_t number = frame_at(record, moments[k]);
-    const Frame& frame = record.frames[number];
-    pictures.push_back(std::make_unique<Picture>(view, frame_title(run, title, frame), pixels));
-    Picture& picture = *pictures.back();
-    draw_radar_view(picture, record, world, number, run.looks[number]);
+    const experiment::Frame& frame = record.frames[number];
+    pictures.push_back(
+        std::make_unique<report::Picture>(view, frame_title(run, title, frame), pixels));
+    report::Picture& picture = *pictures.back();
+    report::draw_radar_view(picture, record, world, number, run.looks[number]);
     mark_moments(picture, record, moments, k);
     picture.write_everywhere(fmt::format("{}-{}", stem.string(), k + 1));
   }
   const int columns = view.height() > view.width() ? 4 : 2;
   for (const char* end : {".png", ".svg", ".pdf"})
-    write_sheet(pictures, columns, stem.string() + "-moments" + end);
+    report::write_sheet(pictures, columns, stem.string() + "-moments" + end);
 }
 
 void write_radar_run(const RadarRun& run, const fs::path& stem) {
   std::vector<CurveRow> rows;
   for (std::size_t k = 0; k < run.record.frames.size(); ++k) {
-    const Frame& f = run.record.frames[k];
+    const experiment::Frame& f = run.record.frames[k];
     const RadarCircles c = circles_at(run, k);
     rows.push_back({.t = f.t,
                     .at = f.pose.position,
@@ -153,8 +157,8 @@ void write_radar_run(const RadarRun& run, const fs::path& stem) {
                     .detection = c.detection,
                     .state = f.state});
   }
-  write_file_atomically(stem.string() + ".csv", csv_table(rows));
-  write_record(run.record, stem.string() + ".h5");
+  write_file_atomically(stem.string() + ".csv", io::csv_table(rows));
+  experiment::write_record(run.record, stem.string() + ".h5");
 }
 
 }  // namespace microswarm::reproduce

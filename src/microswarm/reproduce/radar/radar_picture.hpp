@@ -13,7 +13,8 @@ namespace microswarm::reproduce {
 
 /// Avoidance cost over time, grey while an obstacle is detected, with its mean and the paper's.
 /// `y_max` is the top of the axis.
-Plot cost_plot(const RadarRun& run, const std::string& title, double paper_mean, double y_max);
+report::Plot cost_plot(const RadarRun& run, const std::string& title, double paper_mean,
+                       double y_max);
 
 /// The part of the world relevant to a run: the path with the circles around it, the goal, and the
 /// obstacles that are near enough to be detected, at their positions at these moments [s].

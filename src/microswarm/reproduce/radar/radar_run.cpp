@@ -8,12 +8,13 @@
 
 namespace microswarm::reproduce {
 
-RadarRun run_radar(const Scene& scene, const World& world, const Stop& stop, std::uint32_t trial) {
-  const Scenario& scenario = scene.scenario;
-  const auto navigator = std::make_shared<RadarNavigator>(
-      std::get<RadarParams>(scenario.navigator), navigation_task(scenario),
+RadarRun run_radar(const experiment::Scene& scene, const World& world, const Stop& stop,
+                   std::uint32_t trial) {
+  const experiment::Scenario& scenario = scene.scenario;
+  const auto navigator = std::make_shared<navigation::RadarNavigator>(
+      std::get<navigation::RadarParams>(scenario.navigator), experiment::navigation_task(scenario),
       Rng(scenario.seed, Purpose::planner, trial));
-  Session session({scene, world, {}}, {.trial = trial, .navigator = navigator});
+  experiment::Session session({scene, world, {}}, {.trial = trial, .navigator = navigator});
   RadarRun run;
   while (session.step(stop)) run.looks.push_back(navigator->last_look());
   run.record = session.record();
@@ -22,17 +23,17 @@ RadarRun run_radar(const Scene& scene, const World& world, const Stop& stop, std
   return run;
 }
 
-std::size_t frame_at(const Record& record, double t) {
+std::size_t frame_at(const experiment::Record& record, double t) {
   const auto after = std::find_if(record.frames.begin(), record.frames.end(),
-                                  [t](const Frame& f) { return f.t > t + 1e-9; });
+                                  [t](const experiment::Frame& f) { return f.t > t + 1e-9; });
   return static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - record.frames.begin(), 1)) - 1;
 }
 
-std::vector<Period> periods_detected(const Record& record) {
-  const double range = required_detection_range(record.scene.scenario.navigator);
+std::vector<Period> periods_detected(const experiment::Record& record) {
+  const double range = navigation::required_detection_range(record.scene.scenario.navigator);
   std::vector<Period> out;
   bool before = false;
-  for (const Frame& f : record.frames) {
+  for (const experiment::Frame& f : record.frames) {
     const bool now = f.obstacle_clearance - f.radius < range;
     if (now && !before) out.push_back({f.t, f.t});
     if (now || before) out.back().to = f.t;
@@ -41,17 +42,19 @@ std::vector<Period> periods_detected(const Record& record) {
   return out;
 }
 
-std::optional<double> cost_above(const Record& record, double cost) {
-  for (const Frame& f : record.frames)
+std::optional<double> cost_above(const experiment::Record& record, double cost) {
+  for (const experiment::Frame& f : record.frames)
     if (f.avoidance_cost > cost) return f.t;
   return std::nullopt;
 }
 
-int side_passed(const Record& record) {
-  const Scenario& scenario = record.scene.scenario;
-  const Frame& nearest = *std::min_element(
-      record.frames.begin(), record.frames.end(),
-      [](const Frame& a, const Frame& b) { return a.obstacle_clearance < b.obstacle_clearance; });
+int side_passed(const experiment::Record& record) {
+  const experiment::Scenario& scenario = record.scene.scenario;
+  const experiment::Frame& nearest =
+      *std::min_element(record.frames.begin(), record.frames.end(),
+                        [](const experiment::Frame& a, const experiment::Frame& b) {
+                          return a.obstacle_clearance < b.obstacle_clearance;
+                        });
   const Vec2 obstacle = placement(scenario.obstacles.front().motion, nearest.t).pose.position;
   const Vec2 line = *scenario.goal - scenario.start->position;
   return cross(line, obstacle - nearest.pose.position) > 0 ? 1 : -1;

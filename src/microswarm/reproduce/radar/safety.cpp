@@ -28,7 +28,7 @@ struct Counts {
   int planner;  ///< D-RRT* and the predictive navigator
 
   int of(std::string_view navigator) const {
-    if (navigator == RadarParams::type_name) return radar;
+    if (navigator == navigation::RadarParams::type_name) return radar;
     const bool is_baseline = !is_ours(navigator);
     return is_baseline ? baseline : planner;
   }
@@ -66,7 +66,7 @@ std::optional<Course> recorded(std::string name, double slower, const ReproduceO
 Race noisy(Race race) {
   race.course.name += ", noisy";
   race.course.scenario = [exact = race.course.scenario](std::uint64_t seed) {
-    Scenario scenario = exact(seed);
+    experiment::Scenario scenario = exact(seed);
     scenes::see_obstacles_with_noise(scenario);
     return scenario;
   };
@@ -88,14 +88,14 @@ CourseResult crossed(const Race& race, const ReproduceOptions& options, const St
 }
 
 void add_rows(const std::string& figure, const CourseResult& result,
-              const ReproduceOptions& options, std::vector<ReproduceRow>& rows) {
+              const ReproduceOptions& options, std::vector<report::ReproduceRow>& rows) {
   for (std::size_t k = 0; k < result.who.size(); ++k) {
     const Tally tally = count_tally(result.crossings[k]);
     if (tally.runs == 0) continue;  // interrupted
     const std::string note = tally.runs == 1 ? "1 world" : fmt::format("{} worlds", tally.runs);
     const auto row = [&](const char* what, const char* unit, std::optional<double> ours,
                          std::optional<double> aim = {}, std::optional<int> share = {}) {
-      ReproduceRow out = noted(
+      report::ReproduceRow out = noted(
           make_row(figure, fmt::format("{}, {}: {}", result.course.name, result.who[k].name, what),
                    unit, {}, ours, aim),
           note);
@@ -140,12 +140,12 @@ std::optional<double> contact_ratio(const CourseResult& result, std::string_view
 }
 
 void add_ratios(const std::string& figure, const CourseResult& result,
-                const ReproduceOptions& options, std::vector<ReproduceRow>& rows) {
+                const ReproduceOptions& options, std::vector<report::ReproduceRow>& rows) {
   for (const char* other : {"radar", "radar_as_published", "hierarchical_drrt_star"}) {
     const auto ratio = contact_ratio(result, "predictive", other);
     if (!ratio) continue;
     const bool is_aim = other == std::string_view("radar");
-    ReproduceRow row = make_row(
+    report::ReproduceRow row = make_row(
         figure, fmt::format("{}: contacts of predictive ÷ those of {}", result.course.name, other),
         "1", {}, *ratio, is_aim ? std::optional(aimed_share) : std::nullopt);
     rows.push_back(is_aim ? unjudged_if_quick(noted(std::move(row), "the aim is ours"), options)
@@ -153,9 +153,9 @@ void add_ratios(const std::string& figure, const CourseResult& result,
   }
 }
 
-std::vector<ReproduceRow> raced(const std::string& figure, const std::vector<Race>& races,
-                                const ReproduceOptions& options, const Stop& stop) {
-  std::vector<ReproduceRow> rows;
+std::vector<report::ReproduceRow> raced(const std::string& figure, const std::vector<Race>& races,
+                                        const ReproduceOptions& options, const Stop& stop) {
+  std::vector<report::ReproduceRow> rows;
   std::vector<CourseResult> results;
   for (const Race& race : races) {
     if (stop()) break;
@@ -178,17 +178,18 @@ std::vector<Race> slow_races(const ReproduceOptions& options) {
 
 }  // namespace
 
-std::vector<ReproduceRow> radar_safety(const ReproduceOptions& options, const Stop& stop) {
+std::vector<report::ReproduceRow> radar_safety(const ReproduceOptions& options, const Stop& stop) {
   return raced("safety", slow_races(options), options, stop);
 }
 
-std::vector<ReproduceRow> radar_safety_noisy(const ReproduceOptions& options, const Stop& stop) {
+std::vector<report::ReproduceRow> radar_safety_noisy(const ReproduceOptions& options,
+                                                     const Stop& stop) {
   std::vector<Race> races;
   for (Race& race : slow_races(options)) races.push_back(noisy(std::move(race)));
   return raced("safety-noisy", races, options, stop);
 }
 
-std::vector<ReproduceRow> radar_fast(const ReproduceOptions& options, const Stop& stop) {
+std::vector<report::ReproduceRow> radar_fast(const ReproduceOptions& options, const Stop& stop) {
   std::vector<Race> races{
       {generated("fast", scenes::fast_obstacles, false), {12, 8, 8}, {1000, 1000, 1000}}};
   if (auto street = recorded("fast walkers", as_fast, options))

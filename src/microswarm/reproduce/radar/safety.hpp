@@ -11,12 +11,13 @@ namespace microswarm::reproduce {
 /// walls, and among recorded pedestrians. Measures contacts, contacts avoidable by holding or
 /// retreating, arrivals and times. Plots, tables of all runs and contacts, and some worlds are
 /// written to options.out.
-std::vector<ReproduceRow> radar_safety(const ReproduceOptions& options, const Stop& stop);
+std::vector<report::ReproduceRow> radar_safety(const ReproduceOptions& options, const Stop& stop);
 
 /// The same worlds with noisy and missed detections of obstacles.
-std::vector<ReproduceRow> radar_safety_noisy(const ReproduceOptions& options, const Stop& stop);
+std::vector<report::ReproduceRow> radar_safety_noisy(const ReproduceOptions& options,
+                                                     const Stop& stop);
 
 /// The same with obstacles at 1 to 3 times the swarm's speed, and pedestrians as fast as the swarm.
-std::vector<ReproduceRow> radar_fast(const ReproduceOptions& options, const Stop& stop);
+std::vector<report::ReproduceRow> radar_fast(const ReproduceOptions& options, const Stop& stop);
 
 }  // namespace microswarm::reproduce

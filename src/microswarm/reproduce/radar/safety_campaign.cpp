@@ -22,30 +22,31 @@ namespace microswarm::reproduce {
 namespace {
 
 /// Sets what a navigator must know of the swarm, and of a world with walls.
-NavigatorParams suited(NavigatorParams params, const Scenario& scenario, bool walls) {
+navigation::NavigatorParams suited(navigation::NavigatorParams params,
+                                   const experiment::Scenario& scenario, bool walls) {
   const SwarmLimits swarm = swarm_limits(scenario.swarm);
   const double margin = swarm.radius + 0.8 * scenes::avoidance_passage_gap;
-  std::visit(Overloaded{[&](HierarchicalParams& p) {
-                          p.speed = swarm.max_speed;
-                          p.clearance = margin;
-                        },
-                        [&](RadarParams& p) {
-                          p.speed = swarm.max_speed;
-                          if (walls) p.safety_distance = std::min(p.safety_distance, 40.0);
-                          p.global_plan = walls;
-                          p.planner.clearance = margin;
-                        },
-                        [&](OneOf<StraightParams, PotentialFieldParams, VelocityObstacleParams,
-                                  PredictiveParams, PathNavigatorParams> auto& p) {
-                          p.speed = swarm.max_speed;
-                        },
-                        [](OneOf<PlanExecutorParams, AggregationParams> auto&) {}},
-             params);
+  std::visit(
+      Overloaded{[&](navigation::HierarchicalParams& p) {
+                   p.speed = swarm.max_speed;
+                   p.clearance = margin;
+                 },
+                 [&](navigation::RadarParams& p) {
+                   p.speed = swarm.max_speed;
+                   if (walls) p.safety_distance = std::min(p.safety_distance, 40.0);
+                   p.global_plan = walls;
+                   p.planner.clearance = margin;
+                 },
+                 [&](OneOf<navigation::StraightParams, navigation::PotentialFieldParams,
+                           navigation::VelocityObstacleParams, navigation::PredictiveParams,
+                           navigation::PathNavigatorParams> auto& p) { p.speed = swarm.max_speed; },
+                 [](OneOf<navigation::PlanExecutorParams, navigation::AggregationParams> auto&) {}},
+      params);
   return params;
 }
 
-Contestant contestant(std::string name, const NavigatorParams& params) {
-  return {std::move(name), [params](const Scenario& scenario, bool walls) {
+Contestant contestant(std::string name, const navigation::NavigatorParams& params) {
+  return {std::move(name), [params](const experiment::Scenario& scenario, bool walls) {
             return suited(params, scenario, walls);
           }};
 }
@@ -64,25 +65,25 @@ struct SampleRow {
 };
 
 /// Circles that leave time to decide; the published ones suit obstacles much slower than the swarm.
-RadarParams wide_radar() {
-  RadarParams params;
+navigation::RadarParams wide_radar() {
+  navigation::RadarParams params;
   params.safety_distance = 100;
   params.detection_range = 170;
   return params;
 }
 
-RadarParams published_radar() {
-  RadarParams params;
+navigation::RadarParams published_radar() {
+  navigation::RadarParams params;
   params.as_published = true;
   return params;
 }
 
 /// Adds this alternative of NavigatorParams if it supports the task; the radar twice.
 template <class Params>
-void add(const Task& task, std::vector<Contestant>& out) {
-  if (!unsupported_reason(NavigatorParams(Params{}), task).empty()) return;
+void add(const navigation::Task& task, std::vector<Contestant>& out) {
+  if (!navigation::unsupported_reason(navigation::NavigatorParams(Params{}), task).empty()) return;
   const std::string name(Params::type_name);
-  if constexpr (std::same_as<Params, RadarParams>) {
+  if constexpr (std::same_as<Params, navigation::RadarParams>) {
     out.push_back(contestant(name, wide_radar()));
     out.push_back(contestant(name + "_as_published", published_radar()));
   } else {
@@ -91,18 +92,19 @@ void add(const Task& task, std::vector<Contestant>& out) {
 }
 
 template <std::size_t... I>
-void add_all(const Task& task, std::vector<Contestant>& out, std::index_sequence<I...>) {
-  (add<std::variant_alternative_t<I, NavigatorParams>>(task, out), ...);
+void add_all(const navigation::Task& task, std::vector<Contestant>& out,
+             std::index_sequence<I...>) {
+  (add<std::variant_alternative_t<I, navigation::NavigatorParams>>(task, out), ...);
 }
 
-Crossing crossed(const Scenario& scenario, const World& world, const Stop& stop) {
-  ContactLog log;
-  RunListener* const listeners[] = {&log};
-  const RunResult result = simulate(scenario, world, {}, listeners, stop);
+Crossing crossed(const experiment::Scenario& scenario, const World& world, const Stop& stop) {
+  experiment::ContactLog log;
+  experiment::RunListener* const listeners[] = {&log};
+  const experiment::RunResult result = experiment::simulate(scenario, world, {}, listeners, stop);
   Crossing out;
   out.ran = result.status != Status::stopped;
   out.status = result.status;
-  const Metrics& metrics = result.metrics;
+  const experiment::Metrics& metrics = result.metrics;
   out.arrived = metrics.goal_distance <= scenario.goal_tolerance + 1e-6;
   out.obstacles = scenario.obstacles.size();
   out.time = metrics.time;
@@ -115,21 +117,22 @@ Crossing crossed(const Scenario& scenario, const World& world, const Stop& stop)
   const std::vector<double>& steps = result.timing.steps;
   out.step = std::accumulate(steps.begin(), steps.end(), 0.0) /
              std::max(1.0, static_cast<double>(steps.size()));
-  if (out.ran) out.contacts = judge_contacts(scenario, world, 0, log);
+  if (out.ran) out.contacts = experiment::judge_contacts(scenario, world, 0, log);
   return out;
 }
 
 }  // namespace
 
 int Crossing::avoidable() const {
-  return static_cast<int>(std::count_if(contacts.begin(), contacts.end(),
-                                        [](const ContactVerdict& v) { return v.avoidable; }));
+  return static_cast<int>(
+      std::count_if(contacts.begin(), contacts.end(),
+                    [](const experiment::ContactVerdict& v) { return v.avoidable; }));
 }
 
-std::vector<Contestant> contestants(const Scenario& example) {
+std::vector<Contestant> contestants(const experiment::Scenario& example) {
   std::vector<Contestant> out;
-  add_all(navigation_task(example), out,
-          std::make_index_sequence<std::variant_size_v<NavigatorParams>>{});
+  add_all(experiment::navigation_task(example), out,
+          std::make_index_sequence<std::variant_size_v<navigation::NavigatorParams>>{});
   return out;
 }
 
@@ -145,7 +148,7 @@ Crossings cross(const Course& course, const std::vector<Contestant>& who,
   std::mutex mutex;
   for_each_index(static_cast<std::size_t>(std::max(0, most)), 0, [&](std::size_t seed) {
     if (stop()) return;
-    Scenario scenario = course.scenario(seed);
+    experiment::Scenario scenario = course.scenario(seed);
     const World world = course.world(scenario);
     int crossings = 0;
     for (std::size_t k = 0; k < who.size() && !stop(); ++k) {
@@ -161,7 +164,7 @@ Crossings cross(const Course& course, const std::vector<Contestant>& who,
   return out;
 }
 
-void write_scenario(Scenario scenario, const std::filesystem::path& folder,
+void write_scenario(experiment::Scenario scenario, const std::filesystem::path& folder,
                     const std::string& stem) {
   const std::string file = stem + "-tracks.csv";
   std::vector<SampleRow> tracks;
@@ -175,8 +178,8 @@ void write_scenario(Scenario scenario, const std::filesystem::path& folder,
       tracks.push_back({track->id, samples.times[k], samples.points[k]});
   }
   scenario.name = stem;
-  if (!tracks.empty()) write_file_atomically(folder / file, csv_table(tracks));
-  write_file_atomically(folder / (stem + ".yaml"), scenario_text(scenario));
+  if (!tracks.empty()) write_file_atomically(folder / file, io::csv_table(tracks));
+  write_file_atomically(folder / (stem + ".yaml"), experiment::scenario_text(scenario));
 }
 
 }  // namespace microswarm::reproduce

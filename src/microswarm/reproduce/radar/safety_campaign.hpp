@@ -16,21 +16,21 @@ namespace microswarm::reproduce {
 struct Course {
   std::string name;
   bool walls = false;
-  std::function<Scenario(std::uint64_t seed)> scenario;
-  std::function<World(const Scenario&)> world;
+  std::function<experiment::Scenario(std::uint64_t seed)> scenario;
+  std::function<World(const experiment::Scenario&)> world;
 };
 
 /// A navigator and its parameters for a scenario.
 struct Contestant {
   std::string name;
-  std::function<NavigatorParams(const Scenario&, bool walls)> params;
+  std::function<navigation::NavigatorParams(const experiment::Scenario&, bool walls)> params;
 };
 
 /// Every navigator that supports such a swarm, in the order of NavigatorParams. All use the swarm's
 /// speed. D-RRT* has a margin that fits every passage; navigators with waypoints plan them where
 /// there are walls. The radar appears with circles suited to such obstacles and as published. Other
 /// parameters are defaults.
-std::vector<Contestant> contestants(const Scenario& example);
+std::vector<Contestant> contestants(const experiment::Scenario& example);
 
 /// Result of one run.
 struct Crossing {
@@ -45,7 +45,7 @@ struct Crossing {
   double min_gap = 0;    ///< [µm]
   double hold_time = 0;  ///< [s]
   double step = 0;       ///< mean wall-clock time of a decision [s]
-  std::vector<ContactVerdict> contacts;
+  std::vector<experiment::ContactVerdict> contacts;
 
   int avoidable() const;
 };
@@ -60,7 +60,7 @@ Crossings cross(const Course& course, const std::vector<Contestant>& who,
                 const Stop& stop);
 
 /// Writes the scenario as stem.yaml, with stem-tracks.csv if it has tracks, for `microswarm run`.
-void write_scenario(Scenario scenario, const std::filesystem::path& folder,
+void write_scenario(experiment::Scenario scenario, const std::filesystem::path& folder,
                     const std::string& stem);
 
 }  // namespace microswarm::reproduce

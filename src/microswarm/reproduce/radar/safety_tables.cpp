@@ -28,12 +28,12 @@ constexpr double min_percent = 0.01;  // of extra time; the logarithmic axis has
 
 /// One colour per method in all figures.
 std::size_t navigator_colour(std::string_view navigator) {
-  using namespace method_colours;  // NOLINT(google-build-using-namespace)
+  using namespace report::method_colours;  // NOLINT(google-build-using-namespace)
   constexpr std::array<std::pair<std::string_view, std::size_t>, 8> colours{
       {{"hierarchical_drrt_star", drrt_star},
-       {"radar", method_colours::radar},
+       {"radar", report::method_colours::radar},
        {"radar_as_published", radar_as_published},
-       {"predictive", method_colours::predictive},
+       {"predictive", report::method_colours::predictive},
        {"straight_stop", straight_stop},
        {"potential_field", potential_field},
        {"velocity_obstacle", velocity_obstacle},
@@ -169,7 +169,7 @@ std::string runs_csv(const std::vector<CourseResult>& results) {
                                  .contacts = c.contacts.size(),
                                  .avoidable = c.avoidable()});
                });
-  return csv_table(rows);
+  return io::csv_table(rows);
 }
 
 std::string summary_csv(const std::vector<CourseResult>& results) {
@@ -191,32 +191,32 @@ std::string summary_csv(const std::vector<CourseResult>& results) {
                                                      .extent = result.extent});
       if (t.turning) row.turning_median = radians(*t.turning);
     }
-  return csv_table(rows);
+  return io::csv_table(rows);
 }
 
 std::string contacts_csv(const std::vector<CourseResult>& results) {
   std::vector<ContactRow> rows;
   for_each_run(
       results, [&](const CourseResult& result, std::size_t k, std::size_t seed, const Crossing& c) {
-        for (const ContactVerdict& v : c.contacts) {
-          const RunEvent& contact = v.contact;
-          ContactRow& row = rows.emplace_back(
-              ContactRow{.course = result.course.name,
-                         .navigator = result.who[k].name,
-                         .seed = seed,
-                         .t = contact.t,
-                         .kind = contact.kind == EventKind::contact_wall ? "wall" : "obstacle",
-                         .body = contact.body,
-                         .x = contact.position.x,
-                         .y = contact.position.y,
-                         .speed = contact.speed,
-                         .avoidable = v.avoidable,
-                         .decided = {},
-                         .manoeuvre = std::string(v.manoeuvre)});
+        for (const experiment::ContactVerdict& v : c.contacts) {
+          const experiment::RunEvent& contact = v.contact;
+          ContactRow& row = rows.emplace_back(ContactRow{
+              .course = result.course.name,
+              .navigator = result.who[k].name,
+              .seed = seed,
+              .t = contact.t,
+              .kind = contact.kind == experiment::EventKind::contact_wall ? "wall" : "obstacle",
+              .body = contact.body,
+              .x = contact.position.x,
+              .y = contact.position.y,
+              .speed = contact.speed,
+              .avoidable = v.avoidable,
+              .decided = {},
+              .manoeuvre = std::string(v.manoeuvre)});
           if (v.avoidable) row.decided = v.decided;
         }
       });
-  return csv_table(rows);
+  return io::csv_table(rows);
 }
 
 void write_worlds(const std::vector<CourseResult>& results, const fs::path& folder) {
@@ -229,7 +229,7 @@ void write_worlds(const std::vector<CourseResult>& results, const fs::path& fold
         if (course != &result || of != k) course = &result, of = k, written = 0;
         if (c.avoidable() == 0 || written == worlds_written) return;
         ++written;
-        Scenario scenario = result.course.scenario(seed);
+        experiment::Scenario scenario = result.course.scenario(seed);
         scenario.navigator = result.who[k].params(scenario, result.course.walls);
         std::string stem = fmt::format("{}-{}-{}", result.course.name, result.who[k].name, seed);
         std::erase(stem, ',');
@@ -240,13 +240,14 @@ void write_worlds(const std::vector<CourseResult>& results, const fs::path& fold
 
 /// Mean contacts per run over the number of obstacles: lines through bins with enough runs, rings
 /// otherwise.
-Plot contacts_plot(const CourseResult& result) {
-  Plot plot{.title = result.course.name,
-            .x_label = fmt::format("obstacles (rings: fewer than {} worlds)", enough_worlds),
-            .y_label = "contacts a run",
-            .key_below = true,
-            .y_min = 0};
-  std::vector<Series> few;
+report::Plot contacts_plot(const CourseResult& result) {
+  report::Plot plot{
+      .title = result.course.name,
+      .x_label = fmt::format("obstacles (rings: fewer than {} worlds)", enough_worlds),
+      .y_label = "contacts a run",
+      .key_below = true,
+      .y_min = 0};
+  std::vector<report::Series> few;
   for (std::size_t k = 0; k < result.who.size(); ++k) {
     std::vector<double> contacts;
     std::vector<int> runs;
@@ -260,20 +261,20 @@ Plot contacts_plot(const CourseResult& result) {
     plot.series.push_back({.label = result.who[k].name,
                            .x = {},
                            .y = {},
-                           .style = PlotStyle::marked,
+                           .style = report::PlotStyle::marked,
                            .colour = navigator_colour(result.who[k].name)});
-    few.push_back({.label = "", .x = {}, .y = {}, .style = PlotStyle::rings});
+    few.push_back({.label = "", .x = {}, .y = {}, .style = report::PlotStyle::rings});
     for (std::size_t bin = 0; bin < runs.size(); ++bin) {
       if (runs[bin] == 0) continue;
-      Series& series = runs[bin] < enough_worlds ? few.back() : plot.series.back();
+      report::Series& series = runs[bin] < enough_worlds ? few.back() : plot.series.back();
       series.x.push_back(static_cast<double>(obstacles_a_bin) * (static_cast<double>(bin) + 0.5));
       series.y.push_back(contacts[bin] / runs[bin]);
     }
     if (plot.series.back().x.empty()) std::swap(few.back().label, plot.series.back().label);
   }
   double most = 0, longest = 0;
-  for (const std::vector<Series>* all : {&plot.series, &few})
-    for (const Series& series : *all) {
+  for (const std::vector<report::Series>* all : {&plot.series, &few})
+    for (const report::Series& series : *all) {
       for (const double x : series.x) longest = std::max(longest, x);
       for (const double y : series.y) most = std::max(most, y);
     }
@@ -286,22 +287,22 @@ Plot contacts_plot(const CourseResult& result) {
 }
 
 /// One column per navigator, even without data.
-void name_columns(const CourseResult& result, Plot& plot) {
+void name_columns(const CourseResult& result, report::Plot& plot) {
   plot.x_min = 0.5;
   plot.x_max = static_cast<double>(result.who.size()) + 0.5;
   for (std::size_t k = 0; k < result.who.size(); ++k)
     plot.x_ticks.push_back({result.who[k].name, static_cast<double>(k + 1)});
 }
 
-Plot times_plot(const CourseResult& result) {
-  Plot plot{.title = result.course.name, .y_label = "time lost (%)", .log_y = true};
+report::Plot times_plot(const CourseResult& result) {
+  report::Plot plot{.title = result.course.name, .y_label = "time lost (%)", .log_y = true};
   name_columns(result, plot);
   for (std::size_t k = 0; k < result.who.size(); ++k) {
-    Series series{.label = result.who[k].name,
-                  .x = {},
-                  .y = {},
-                  .style = PlotStyle::box,
-                  .colour = navigator_colour(result.who[k].name)};
+    report::Series series{.label = result.who[k].name,
+                          .x = {},
+                          .y = {},
+                          .style = report::PlotStyle::box,
+                          .colour = navigator_colour(result.who[k].name)};
     for (const Crossing& c : result.crossings[k])
       if (c.ran && c.arrived) series.y.push_back(std::max(min_percent, 100 * (slowness(c) - 1)));
     series.x.assign(series.y.size(), static_cast<double>(k + 1));
@@ -311,8 +312,9 @@ Plot times_plot(const CourseResult& result) {
 }
 
 /// Avoidable contacts per run on a logarithmic axis, with a separate position for zero.
-Plot avoidable_plot(const CourseResult& result) {
-  Plot plot{.title = result.course.name, .y_label = "avoidable contacts a run", .log_y = true};
+report::Plot avoidable_plot(const CourseResult& result) {
+  report::Plot plot{
+      .title = result.course.name, .y_label = "avoidable contacts a run", .log_y = true};
   name_columns(result, plot);
   double least = 1, most = 1;
   for (const auto& crossings : result.crossings) {
@@ -337,7 +339,7 @@ Plot avoidable_plot(const CourseResult& result) {
     plot.series.push_back({.label = "",
                            .x = {static_cast<double>(k + 1)},
                            .y = {some ? tally.avoidable : none},
-                           .style = some ? PlotStyle::points : PlotStyle::rings,
+                           .style = some ? report::PlotStyle::points : report::PlotStyle::rings,
                            .colour = navigator_colour(result.who[k].name)});
   }
   return plot;
@@ -402,10 +404,10 @@ bool is_ours(std::string_view navigator) {
 
 void write_safety(const std::vector<CourseResult>& results, const fs::path& folder,
                   const std::string& stem) {
-  std::vector<Plot> contacts;
-  std::vector<Plot> times;
-  std::vector<Plot> avoidable;
-  std::vector<PageSection> sections{
+  std::vector<report::Plot> contacts;
+  std::vector<report::Plot> times;
+  std::vector<report::Plot> avoidable;
+  std::vector<report::PageSection> sections{
       {"",
        "Contacts by the number of obstacles, and how long the crossing took. A contact counts as "
        "avoidable when holding or retreating could have avoided it. Time lost is that beyond the "
@@ -430,7 +432,7 @@ void write_safety(const std::vector<CourseResult>& results, const fs::path& fold
   write_everywhere(contacts, folder / (stem + "-contacts"));
   write_everywhere(avoidable, folder / (stem + "-avoidable"));
   write_everywhere(times, folder / (stem + "-times"));
-  write_page(folder / (stem + ".html"), "Crossing among obstacles", sections);
+  report::write_page(folder / (stem + ".html"), "Crossing among obstacles", sections);
   write_worlds(results, folder / (stem + "-worlds"));
 }
 

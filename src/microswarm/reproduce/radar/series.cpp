@@ -103,7 +103,7 @@ std::optional<double> greatest_step(const std::vector<double>& y) {
 }
 
 void add_rows(const RadarSweep& sweep, const RadarVersion& version, const SeriesCurve& curve,
-              std::vector<ReproduceRow>& rows) {
+              std::vector<report::ReproduceRow>& rows) {
   const auto name = [&](const std::string& what) {
     return fmt::format("{}: {}", sweep.name, what);
   };
@@ -144,32 +144,32 @@ void add_rows(const RadarSweep& sweep, const RadarVersion& version, const Series
       100.0 * static_cast<double>(same) / static_cast<double>(curve.side.size()));
 }
 
-Plot draw_plot(const RadarSweep& sweep, const std::vector<SeriesCurve>& curves) {
-  Series paper{.label = "paper: cases of Fig 5", .style = PlotStyle::published};
+report::Plot draw_plot(const RadarSweep& sweep, const std::vector<SeriesCurve>& curves) {
+  report::Series paper{.label = "paper: cases of Fig 5", .style = report::PlotStyle::published};
   if (sweep.cost_first) paper.x.push_back(sweep.first), paper.y.push_back(*sweep.cost_first);
   if (sweep.cost_last) paper.x.push_back(sweep.last), paper.y.push_back(*sweep.cost_last);
-  Plot plot{.title = sweep.title,
-            .x_label = "radius (px)",
-            .y_label = "mean avoidance cost",
-            .key_below = true,
-            .x_min = sweep.first - 10,
-            .x_max = sweep.last + 10,
-            .y_min = 0,
-            .y_max = 0.35};
+  report::Plot plot{.title = sweep.title,
+                    .x_label = "radius (px)",
+                    .y_label = "mean avoidance cost",
+                    .key_below = true,
+                    .x_min = sweep.first - 10,
+                    .x_max = sweep.last + 10,
+                    .y_min = 0,
+                    .y_max = 0.35};
   for (std::size_t k = 0; k < curves.size(); ++k)
     plot.series.push_back({.label = radar_versions[k].name,
                            .x = curves[k].radius,
                            .y = curves[k].cost,
-                           .style = PlotStyle::marked});
+                           .style = report::PlotStyle::marked});
   plot.series.push_back(std::move(paper));
   return plot;
 }
 
 }  // namespace
 
-std::vector<ReproduceRow> radar_series(const ReproduceOptions& options, const Stop& stop) {
-  std::vector<ReproduceRow> rows;
-  std::vector<Plot> plots;
+std::vector<report::ReproduceRow> radar_series(const ReproduceOptions& options, const Stop& stop) {
+  std::vector<report::ReproduceRow> rows;
+  std::vector<report::Plot> plots;
   for (const RadarSweep& sweep : published_series) {
     std::vector<SeriesCurve> curves;
     for (const RadarVersion& version : radar_versions) {
@@ -179,7 +179,7 @@ std::vector<ReproduceRow> radar_series(const ReproduceOptions& options, const St
     }
     plots.push_back(draw_plot(sweep, curves));
   }
-  if (!options.out.empty()) write_plots_everywhere(plots, fs::path(options.out) / "fig7");
+  if (!options.out.empty()) report::write_plots_everywhere(plots, fs::path(options.out) / "fig7");
   return rows;
 }
 

@@ -72,7 +72,7 @@ RadarSetting case_setting(const CaseFigure& figure, const Case& c, const RadarVe
 }
 
 /// From the first to the last moment with the obstacle in the detection circle.
-Period detected_period(const Record& record) {
+Period detected_period(const experiment::Record& record) {
   const std::vector<Period> periods = periods_detected(record);
   return periods.empty() ? Period{} : Period{periods.front().from, periods.back().to};
 }
@@ -81,11 +81,11 @@ Period detected_period(const Record& record) {
 class CaseRows {
  public:
   CaseRows(const CaseFigure& figure, const Case& c, const RadarVersion& version,
-           std::vector<ReproduceRow>& rows)
+           std::vector<report::ReproduceRow>& rows)
       : figure_(figure), case_(c), version_(version), rows_(rows) {}
 
   void add_run(const RadarRun& run) {
-    const Metrics& m = run.record.result.metrics;
+    const experiment::Metrics& m = run.record.result.metrics;
     const Period period = detected_period(run.record);
     add(near_cost, "mean avoidance cost", "1", case_.cost, m.avoidance.mean_cost, figure_.fit);
     add(near_time, "total time", "s", case_.total,
@@ -137,7 +137,7 @@ class CaseRows {
   const CaseFigure& figure_;
   const Case& case_;
   const RadarVersion& version_;
-  std::vector<ReproduceRow>& rows_;
+  std::vector<report::ReproduceRow>& rows_;
 };
 
 /// Draws curves of both versions, and moments of the published one.
@@ -145,8 +145,9 @@ void draw(const CaseFigure& figure, const RadarVersion& version, const std::vect
           const std::vector<RadarSetting>& settings, const fs::path& folder) {
   double most = 0;
   for (const RadarRun& run : runs)
-    for (const Frame& frame : run.record.frames) most = std::max(most, frame.avoidance_cost);
-  std::vector<Plot> plots;
+    for (const experiment::Frame& frame : run.record.frames)
+      most = std::max(most, frame.avoidance_cost);
+  std::vector<report::Plot> plots;
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const Case& c = figure.cases[k];
     const std::string title = fmt::format("{}, {}", c.name, version.name);
@@ -162,13 +163,14 @@ void draw(const CaseFigure& figure, const RadarVersion& version, const std::vect
     draw_radar_moments(runs[k], settings[k].world, moments, title, stem,
                        part_that_matters(runs[k], settings[k].world, moments));
   }
-  write_plots_everywhere(plots, folder / fmt::format("{}-cost-{}", figure.name, version.stem));
+  report::write_plots_everywhere(plots,
+                                 folder / fmt::format("{}-cost-{}", figure.name, version.stem));
 }
 
 /// The three cases of both versions: rows, δ over time, pictures.
-std::vector<ReproduceRow> cases(const CaseFigure& figure, const ReproduceOptions& options,
-                                const Stop& stop) {
-  std::vector<ReproduceRow> rows;
+std::vector<report::ReproduceRow> cases(const CaseFigure& figure, const ReproduceOptions& options,
+                                        const Stop& stop) {
+  std::vector<report::ReproduceRow> rows;
   for (const RadarVersion& version : radar_versions) {
     std::vector<RadarRun> runs;
     std::vector<RadarSetting> settings;
@@ -193,11 +195,12 @@ std::vector<ReproduceRow> cases(const CaseFigure& figure, const ReproduceOptions
 
 }  // namespace
 
-std::vector<ReproduceRow> radar_single(const ReproduceOptions& options, const Stop& stop) {
+std::vector<report::ReproduceRow> radar_single(const ReproduceOptions& options, const Stop& stop) {
   return cases(simulated, options, stop);
 }
 
-std::vector<ReproduceRow> radar_experiment(const ReproduceOptions& options, const Stop& stop) {
+std::vector<report::ReproduceRow> radar_experiment(const ReproduceOptions& options,
+                                                   const Stop& stop) {
   return cases(experiments, options, stop);
 }
 

@@ -42,9 +42,9 @@ Vec2 rounded(Vec2 p) { return {std::round(p.x), std::round(p.y)}; }
 /// Redraws the obstacles of a scenario: each moves back and forth on a random line across the
 /// swarm's path, at 30 to 100 % of the top speed and clear of start and goal. Values are rounded so
 /// that a written scene is unchanged.
-void scatter(Scenario& scenario, double top_speed, std::uint32_t trial) {
+void scatter(experiment::Scenario& scenario, double top_speed, std::uint32_t trial) {
   Rng rng(scenario.seed, Purpose::scene, trial);
-  const auto& map = std::get<PolygonsMap>(scenario.map);
+  const auto& map = std::get<formats::PolygonsMap>(scenario.map);
   const double length = map.hi.x - map.lo.x, height = map.hi.y - map.lo.y;
   for (Obstacle& obstacle : scenario.obstacles) {
     const double keep_off =
@@ -67,18 +67,20 @@ void scatter(Scenario& scenario, double top_speed, std::uint32_t trial) {
 }
 
 /// Runs a scenario, with new obstacles in each trial.
-std::vector<TrialResult> run_all(const Twelve& f, const RadarSetting& s, int trials,
-                                 const std::function<void(int, int)>& progress, const Stop& stop) {
-  return run_trials(s.scene.scenario, s.world,
-                    {.trials = trials,
-                     .progress = progress,
-                     .vary = [&](Scenario& scenario,
-                                 std::uint32_t trial) { scatter(scenario, f.top_speed, trial); }},
-                    stop);
+std::vector<experiment::TrialResult> run_all(const Twelve& f, const RadarSetting& s, int trials,
+                                             const std::function<void(int, int)>& progress,
+                                             const Stop& stop) {
+  return experiment::run_trials(
+      s.scene.scenario, s.world,
+      {.trials = trials,
+       .progress = progress,
+       .vary = [&](experiment::Scenario& scenario,
+                   std::uint32_t trial) { scatter(scenario, f.top_speed, trial); }},
+      stop);
 }
 
 /// The start, the maximum cost in each of the longest avoidance periods, and the end.
-std::vector<double> twelve_moments(const Record& record) {
+std::vector<double> twelve_moments(const experiment::Record& record) {
   constexpr std::size_t most = 4;
   std::vector<Period> periods = periods_detected(record);
   std::sort(periods.begin(), periods.end(),
@@ -90,9 +92,10 @@ std::vector<double> twelve_moments(const Record& record) {
         record.frames.begin() + static_cast<std::ptrdiff_t>(frame_at(record, period.from));
     const auto last =
         record.frames.begin() + static_cast<std::ptrdiff_t>(frame_at(record, period.to));
-    out.push_back(std::max_element(first, last, [](const Frame& a, const Frame& b) {
-                    return a.avoidance_cost < b.avoidance_cost;
-                  })->t);
+    out.push_back(
+        std::max_element(first, last, [](const experiment::Frame& a, const experiment::Frame& b) {
+          return a.avoidance_cost < b.avoidance_cost;
+        })->t);
   }
   std::sort(out.begin(), out.end());
   return out;
@@ -105,9 +108,10 @@ void draw(const Twelve& f, const RadarVersion& version, const RadarSetting& sett
   draw_radar_moments(run, setting.world, twelve_moments(run.record), title, stem);
   write_radar_run(run, stem);
   double most = 0;
-  for (const Frame& frame : run.record.frames) most = std::max(most, frame.avoidance_cost);
-  write_plots_everywhere({cost_plot(run, title, f.cost, 1.1 * most)},
-                         folder / fmt::format("{}-cost-{}", f.figure, version.stem));
+  for (const experiment::Frame& frame : run.record.frames)
+    most = std::max(most, frame.avoidance_cost);
+  report::write_plots_everywhere({cost_plot(run, title, f.cost, 1.1 * most)},
+                                 folder / fmt::format("{}-cost-{}", f.figure, version.stem));
 }
 
 /// Totals over all scenes; costs and times only of crossed scenes.
@@ -116,9 +120,9 @@ struct Totals {
   std::vector<double> turning;  ///< of all scenes [°]
   int contacts = 0;
 
-  explicit Totals(std::span<const TrialResult> trials) {
-    for (const TrialResult& t : trials) {
-      const Metrics& m = t.result.metrics;
+  explicit Totals(std::span<const experiment::TrialResult> trials) {
+    for (const experiment::TrialResult& t : trials) {
+      const experiment::Metrics& m = t.result.metrics;
       contacts += m.contacts;
       turning.push_back(degrees(m.turning));
       if (t.result.status != Status::solved) continue;
@@ -130,10 +134,10 @@ struct Totals {
 };
 
 void add_totals(const Twelve& f, const RadarVersion& version, const Totals& totals,
-                const ReproduceOptions& options, std::vector<ReproduceRow>& rows) {
+                const ReproduceOptions& options, std::vector<report::ReproduceRow>& rows) {
   const auto all = totals.turning.size();
   const auto share = static_cast<double>(totals.costs.size()) / static_cast<double>(all);
-  const auto judged = [&](ReproduceRow row) {
+  const auto judged = [&](report::ReproduceRow row) {
     rows.push_back(row.aim ? unjudged_if_quick(std::move(row), options) : std::move(row));
   };
   judged(row_at_least(0, f.figure, fmt::format("goal reached without contact, {}", version.name),
@@ -158,8 +162,8 @@ void add_totals(const Twelve& f, const RadarVersion& version, const Totals& tota
 }
 
 void add_drawn(const Twelve& f, const RadarVersion& version, const RadarRun& run,
-               std::vector<ReproduceRow>& rows) {
-  const Metrics& m = run.record.result.metrics;
+               std::vector<report::ReproduceRow>& rows) {
+  const experiment::Metrics& m = run.record.result.metrics;
   const std::string end =
       run.crossed() ? ""
                     : fmt::format("{} at {:.1f} s", to_string(run.record.result.status), m.time);
@@ -180,7 +184,7 @@ void add_drawn(const Twelve& f, const RadarVersion& version, const RadarRun& run
 
 /// Ratio of turning with and without the guard; runs continue after a contact.
 void add_guard_rows(const Twelve& f, const ReproduceOptions& options, int trials, const Stop& stop,
-                    std::vector<ReproduceRow>& rows) {
+                    std::vector<report::ReproduceRow>& rows) {
   std::array<double, 2> of_scene{}, of_random{};
   for (const bool guarded : {false, true}) {
     RadarSetting s = load_radar(options, f.scenario, radar_versions.back());
@@ -201,9 +205,9 @@ void add_guard_rows(const Twelve& f, const ReproduceOptions& options, int trials
   add("median of random scenes", of_random);
 }
 
-std::vector<ReproduceRow> twelve(const Twelve& f, const ReproduceOptions& options,
-                                 const Stop& stop) {
-  std::vector<ReproduceRow> rows;
+std::vector<report::ReproduceRow> twelve(const Twelve& f, const ReproduceOptions& options,
+                                         const Stop& stop) {
+  std::vector<report::ReproduceRow> rows;
   const int trials = options.quick ? 20 : 100;
   const Progress bar(options.progress, f.figure);
   double before = 0;
@@ -226,12 +230,12 @@ std::vector<ReproduceRow> twelve(const Twelve& f, const ReproduceOptions& option
 
 }  // namespace
 
-std::vector<ReproduceRow> radar_twelve(const ReproduceOptions& options, const Stop& stop) {
+std::vector<report::ReproduceRow> radar_twelve(const ReproduceOptions& options, const Stop& stop) {
   return twelve({"fig8", "twelve.yaml", 25, 0.13, 138.4, {}}, options, stop);
 }
 
-std::vector<ReproduceRow> radar_twelve_experiment(const ReproduceOptions& options,
-                                                  const Stop& stop) {
+std::vector<report::ReproduceRow> radar_twelve_experiment(const ReproduceOptions& options,
+                                                          const Stop& stop) {
   return twelve({"fig11-12", "experiment_twelve.yaml", 66.8, 0.25, 158.7, 75.31}, options, stop);
 }
 

@@ -3,7 +3,7 @@
 
 #include "microswarm/core/fields/fields.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 
 /// Settings of a simulated microscope camera: scale, light, noise and contrasts.
 struct MicroscopeParams {
@@ -47,4 +47,4 @@ struct MicroscopeParams {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -6,12 +6,12 @@
 #include "microswarm/vision/scene/wall_finder.hpp"
 #include "microswarm/vision/tracking/particles.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 
 /// Settings of the image processing of a rig.
 struct PerceptionParams {
-  SceneParams scene;
-  ParticleParams robots{.min_mass = 500};
+  vision::SceneParams scene;
+  vision::ParticleParams robots{.min_mass = 500};
   double edge = 0;
   double heading_distance = 15;
   double speed_gain = 2;
@@ -19,7 +19,7 @@ struct PerceptionParams {
   double radius_tolerance = 0.35;
   double min_seen_robots = 0.5;
   bool moving_walls = false;
-  WallParams walls;
+  vision::WallParams walls;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.scene, plain("scene", "Detection of a one-body swarm and of obstacles."));
@@ -41,4 +41,4 @@ struct PerceptionParams {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -10,14 +10,14 @@
 #include "microswarm/experiment/scenario/experiment.hpp"
 #include "microswarm/rig/params/rig_params.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 
 /// A scenario and its rig, read and validated.
 struct RigExperiment {
-  Experiment experiment;
+  experiment::Experiment experiment;
   Rig rig;
 
-  const Scenario& scenario() const { return experiment.scenario(); }
+  const experiment::Scenario& scenario() const { return experiment.scenario(); }
 };
 
 /// Reads both files; `rig_settings` are texts as from --set-rig. Throws InputError with one line
@@ -27,4 +27,4 @@ RigExperiment open_rig_experiment(const std::filesystem::path& scenario, const S
                                   const std::vector<std::string>& rig_settings,
                                   std::optional<std::uint64_t> seed = std::nullopt);
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

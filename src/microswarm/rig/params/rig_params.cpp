@@ -9,9 +9,7 @@
 #include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/maths/angles.hpp"
 
-namespace microswarm {
-
-template const Type& type_of<RigParams>();
+namespace microswarm::rig {
 
 namespace {
 
@@ -19,7 +17,7 @@ constexpr double min_sends = 10;            // per turn of the field
 constexpr double max_waveform_sends = 100;  // [Hz]; one takes 7.7 ms at 115200 baud
 
 /// Issues of a program or a socket of the rig's owner.
-Issues validate_own(const LineDriverParams& driver, double drive_rate) {
+Issues validate_own(const actuation::LineDriverParams& driver, double drive_rate) {
   Issues issues;
   constexpr double periods = 2;
   const double least = periods / drive_rate;
@@ -28,7 +26,7 @@ Issues validate_own(const LineDriverParams& driver, double drive_rate) {
                fmt::format("driver.watchdog_s is {:.6g}, two updates at drive_rate_hz {:.6g} take "
                            "{:.6g}",
                            driver.watchdog, drive_rate, least));
-  if (driver.send == DriverInput::field && driver.channels)
+  if (driver.send == actuation::DriverInput::field && driver.channels)
     issues.add({"driver.channels", "driver"},
                "driver.channels is of currents, the driver is sent the field");
   return issues;
@@ -37,29 +35,31 @@ Issues validate_own(const LineDriverParams& driver, double drive_rate) {
 Issues validate_driver(const RigParams& rig) {
   return std::visit(
       Overloaded{
-          [](const OneOf<SimulatedCoils, SerialCoilParams> auto&) { return Issues(); },
-          [&](const ProgramDriverParams& program) {
+          [](const OneOf<SimulatedCoils, actuation::SerialCoilParams> auto&) { return Issues(); },
+          [&](const actuation::ProgramDriverParams& program) {
             Issues issues;
             if (program.command.empty() || program.command.front().empty())
               issues.add({"driver.command", "driver"}, "the command of the driver is empty");
             issues.add(validate_own(program, rig.drive_rate));
             return issues;
           },
-          [&](const SocketDriverParams& socket) { return validate_own(socket, rig.drive_rate); }},
+          [&](const actuation::SocketDriverParams& socket) {
+            return validate_own(socket, rig.drive_rate);
+          }},
       rig.driver);
 }
 
 /// The field that drives a kind of swarm in the papers.
 struct UsualField {
   const char* swarm;
-  FieldKind kind;
+  actuation::FieldKind kind;
 };
 
-Issues validate(const RigParams& rig, const CoilSystem& system) {
+Issues validate(const RigParams& rig, const actuation::CoilSystem& system) {
   Issues issues;
-  const bool on_device = coil_input(rig) == CoilInput::waveform;
+  const bool on_device = coil_input(rig) == actuation::CoilInput::waveform;
   const double min_rate = min_sends * rig.field.frequency;
-  constexpr double max_frequency = 1e-3 * coil_link_max_frequency;
+  constexpr double max_frequency = 1e-3 * actuation::coil_link_max_frequency;
   if (on_device && rig.drive_rate > max_waveform_sends)
     issues.add({"drive_rate_hz", "driver.waveforms"},
                fmt::format("drive_rate_hz is {:.6g}, the line carries at most {:g} waveforms a "
@@ -90,11 +90,12 @@ Issues validate(const RigParams& rig, const CoilSystem& system) {
 Rig read_rig(const std::filesystem::path& file, const Settings& settings) {
   KeyLocations keys;
   auto params = read_yaml_file<RigParams>(file, settings, keys);
-  CoilSystem system = read_coil_system(file.parent_path() / params.coils);
+  actuation::CoilSystem system = actuation::read_coil_system(file.parent_path() / params.coils);
   keys.require_none(validate(params, system));
-  const bool limits_current = std::ranges::all_of(
-      system.amplifiers(),
-      [](const AmplifierParams& amplifier) { return amplifier.max_current.has_value(); });
+  const bool limits_current =
+      std::ranges::all_of(system.amplifiers(), [](const actuation::AmplifierParams& amplifier) {
+        return amplifier.max_current.has_value();
+      });
   system.limit_current(driver_full_scale(params));
   return {std::move(params), std::move(system), file.parent_path(), keys, limits_current};
 }
@@ -103,51 +104,59 @@ double driver_full_scale(const RigParams& rig) {
   return std::visit([](const auto& driver) { return driver.full_scale; }, rig.driver);
 }
 
-int channel_count(const RigParams& rig, const CoilSystem& system) {
-  return std::visit(Overloaded{[](const SimulatedCoils& coils) { return coils.channels; },
-                               [](const SerialCoilParams&) { return coil_link_channels; },
-                               [&](const OneOf<ProgramDriverParams, SocketDriverParams> auto& own) {
-                                 return own.channels.value_or(static_cast<int>(system.size()));
-                               }},
-                    rig.driver);
+int channel_count(const RigParams& rig, const actuation::CoilSystem& system) {
+  return std::visit(
+      Overloaded{
+          [](const SimulatedCoils& coils) { return coils.channels; },
+          [](const actuation::SerialCoilParams&) { return actuation::coil_link_channels; },
+          [&](const OneOf<actuation::ProgramDriverParams, actuation::SocketDriverParams> auto&
+                  own) { return own.channels.value_or(static_cast<int>(system.size())); }},
+      rig.driver);
 }
 
-CoilInput coil_input(const RigParams& rig) {
-  return std::visit(Overloaded{[](const SimulatedCoils& coils) {
-                                 return coils.waveforms ? CoilInput::waveform : CoilInput::currents;
-                               },
-                               [](const SerialCoilParams& serial) { return driver_input(serial); },
-                               [](const OneOf<ProgramDriverParams, SocketDriverParams> auto& own) {
-                                 return driver_input(own.send);
-                               }},
-                    rig.driver);
+actuation::CoilInput coil_input(const RigParams& rig) {
+  return std::visit(
+      Overloaded{
+          [](const SimulatedCoils& coils) {
+            return coils.waveforms ? actuation::CoilInput::waveform
+                                   : actuation::CoilInput::currents;
+          },
+          [](const actuation::SerialCoilParams& serial) { return coil_input(serial); },
+          [](const OneOf<actuation::ProgramDriverParams, actuation::SocketDriverParams> auto& own) {
+            return coil_input(own.send);
+          }},
+      rig.driver);
 }
 
 CameraKind camera_kind(const RigParams& rig) {
-  return std::visit(
-      Overloaded{[](const SimulatedCamera&) { return CameraKind::simulated; },
-                 [](const OneOf<CameraParams, GenicamParams> auto&) { return CameraKind::device; },
-                 [](const VideoCamera&) { return CameraKind::video; }},
-      rig.camera);
+  return std::visit(Overloaded{[](const SimulatedCamera&) { return CameraKind::simulated; },
+                               [](const OneOf<vision::CameraParams, vision::GenicamParams> auto&) {
+                                 return CameraKind::device;
+                               },
+                               [](const VideoCamera&) { return CameraKind::video; }},
+                    rig.camera);
 }
 
-std::optional<AnyCameraParams> device_camera(const RigParams& rig) {
-  using Device = std::optional<AnyCameraParams>;
+std::optional<vision::AnyCameraParams> device_camera(const RigParams& rig) {
+  using Device = std::optional<vision::AnyCameraParams>;
   return std::visit(
       Overloaded{[](const OneOf<SimulatedCamera, VideoCamera> auto&) { return Device(); },
-                 [](const OneOf<CameraParams, GenicamParams> auto& c) { return Device(c); }},
+                 [](const OneOf<vision::CameraParams, vision::GenicamParams> auto& c) {
+                   return Device(c);
+                 }},
       rig.camera);
 }
 
 bool shows_drawn_swarm(const RigParams& rig) {
-  return std::visit(Overloaded{[](const SimulatedCamera&) { return true; },
-                               [](const GenicamParams& genicam) { return is_fake(genicam); },
-                               [](const OneOf<CameraParams, VideoCamera> auto&) { return false; }},
-                    rig.camera);
+  return std::visit(
+      Overloaded{[](const SimulatedCamera&) { return true; },
+                 [](const vision::GenicamParams& genicam) { return vision::is_fake(genicam); },
+                 [](const OneOf<vision::CameraParams, VideoCamera> auto&) { return false; }},
+      rig.camera);
 }
 
-NewestFrameParams camera_watch(const RigParams& rig) {
-  const std::optional<AnyCameraParams> camera = device_camera(rig);
+vision::NewestFrameParams camera_watch(const RigParams& rig) {
+  const std::optional<vision::AnyCameraParams> camera = device_camera(rig);
   if (!camera) return {};
   return std::visit([](const auto& params) { return params.watch; }, *camera);
 }
@@ -159,9 +168,8 @@ std::string rig_name(const Rig& rig) {
 bool has_coil_device(const Rig& rig) {
   return std::visit(
       Overloaded{[](const SimulatedCoils&) { return false; },
-                 [](const OneOf<SerialCoilParams, ProgramDriverParams, SocketDriverParams> auto&) {
-                   return true;
-                 }},
+                 [](const OneOf<actuation::SerialCoilParams, actuation::ProgramDriverParams,
+                                actuation::SocketDriverParams> auto&) { return true; }},
       rig.params.driver);
 }
 
@@ -171,9 +179,9 @@ const SimulatedCamera& simulated_camera(const Rig& rig) {
   return *camera;
 }
 
-Issues validate(const Rig& rig, const Scenario& scenario) {
+Issues validate(const Rig& rig, const experiment::Scenario& scenario) {
   Issues issues;
-  const FieldGeneratorParams& field = rig.params.field;
+  const actuation::FieldGeneratorParams& field = rig.params.field;
   const double reach = field.max_speed();
   const double wanted =
       scenario.robots ? scenario.robots->max_speed : swarm_limits(scenario.swarm).max_speed;
@@ -185,19 +193,20 @@ Issues validate(const Rig& rig, const Scenario& scenario) {
   return issues;
 }
 
-std::string unusual_field(const Rig& rig, const Scenario& scenario) {
+std::string unusual_field(const Rig& rig, const experiment::Scenario& scenario) {
   const UsualField of_body =
       std::visit(Overloaded{[](const RibbonParams&) {
-                              return UsualField{"a ribbon", FieldKind::oscillating};
+                              return UsualField{"a ribbon", actuation::FieldKind::oscillating};
                             },
                             [](const VortexParams&) {
-                              return UsualField{"a vortex", FieldKind::rotating};
+                              return UsualField{"a vortex", actuation::FieldKind::rotating};
                             }},
                  scenario.swarm);
-  const auto [swarm, usual] = scenario.robots ? UsualField{"robots", FieldKind::rolling} : of_body;
-  const FieldKind kind = rig.params.field.kind;
+  const auto [swarm, usual] =
+      scenario.robots ? UsualField{"robots", actuation::FieldKind::rolling} : of_body;
+  const actuation::FieldKind kind = rig.params.field.kind;
   const double turn = pi / 2 / rig.params.field.max_turn_rate;
-  if (kind == FieldKind::rolling && turn > scenario.tick)
+  if (kind == actuation::FieldKind::rolling && turn > scenario.tick)
     return fmt::format(
         "the rolling field takes {:.3g} s to turn by 90°, a command lasts {:.3g} s: "
         "robots lag behind at turns, see field.max_turn_rate_deg_per_s",
@@ -206,5 +215,11 @@ std::string unusual_field(const Rig& rig, const Scenario& scenario) {
   return fmt::format("{} under a field that is {}: in the papers it is {}", swarm, enum_name(kind),
                      enum_name(usual));
 }
+
+}  // namespace microswarm::rig
+
+namespace microswarm {
+
+template const Type& type_of<rig::RigParams>();
 
 }  // namespace microswarm

@@ -22,7 +22,7 @@
 #include "microswarm/vision/camera/camera.hpp"
 #include "microswarm/vision/camera/camera_scale.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 
 /// Simulated coils that accept any current up to the full scale.
 struct SimulatedCoils {
@@ -101,11 +101,13 @@ struct SafetyParams {
 struct RigParams {
   std::string name;
   std::string coils;
-  FieldGeneratorParams field;
+  actuation::FieldGeneratorParams field;
   double drive_rate = 200;
-  std::variant<SimulatedCoils, SerialCoilParams, ProgramDriverParams, SocketDriverParams> driver;
-  std::variant<SimulatedCamera, CameraParams, GenicamParams, VideoCamera> camera;
-  std::optional<CameraScale> scale;
+  std::variant<SimulatedCoils, actuation::SerialCoilParams, actuation::ProgramDriverParams,
+               actuation::SocketDriverParams>
+      driver;
+  std::variant<SimulatedCamera, vision::CameraParams, vision::GenicamParams, VideoCamera> camera;
+  std::optional<vision::CameraScale> scale;
   PerceptionParams perception;
   bool virtual_obstacles = true;
   SafetyParams safety;
@@ -130,7 +132,7 @@ struct RigParams {
 /// A rig file with the coil system it names.
 struct Rig {
   RigParams params;
-  CoilSystem system;
+  actuation::CoilSystem system;
   std::filesystem::path folder;  ///< of the file
   KeyLocations keys;             ///< of the file
   /// Whether the coil system's file limits the current of every coil, apart from the driver's full
@@ -142,21 +144,21 @@ struct Rig {
 double driver_full_scale(const RigParams& rig);
 
 /// Channels of the rig's driver, as many as the system has coils unless it says otherwise.
-int channel_count(const RigParams& rig, const CoilSystem& system);
+int channel_count(const RigParams& rig, const actuation::CoilSystem& system);
 
 /// Input of the rig's driver.
-CoilInput coil_input(const RigParams& rig);
+actuation::CoilInput coil_input(const RigParams& rig);
 
 /// Origin of a rig's pictures: drawn from the simulated world, a camera, or a recording.
 enum class CameraKind { simulated, device, video };
 CameraKind camera_kind(const RigParams& rig);
 
 /// The rig's camera if it is a device; nothing for a simulated one or a video.
-std::optional<AnyCameraParams> device_camera(const RigParams& rig);
+std::optional<vision::AnyCameraParams> device_camera(const RigParams& rig);
 /// Whether the camera shows a simulated swarm: a simulated camera, Aravis's included.
 bool shows_drawn_swarm(const RigParams& rig);
 /// Detection of a silent, frozen or black camera of the rig.
-NewestFrameParams camera_watch(const RigParams& rig);
+vision::NewestFrameParams camera_watch(const RigParams& rig);
 
 /// Name of the rig in records.
 std::string rig_name(const Rig& rig);
@@ -174,13 +176,17 @@ const SimulatedCamera& simulated_camera(const Rig& rig);
 
 /// Reports an issue if the rig cannot drive the scenario's swarm at its speed; keys are the
 /// scenario's.
-Issues validate(const Rig& rig, const Scenario& scenario);
+Issues validate(const Rig& rig, const experiment::Scenario& scenario);
 
 /// Warning if the papers drive the scenario's kind of swarm with another kind of field than this
 /// rig's, or if a rolling field turns too slowly for its commands; empty otherwise.
-std::string unusual_field(const Rig& rig, const Scenario& scenario);
+std::string unusual_field(const Rig& rig, const experiment::Scenario& scenario);
+
+}  // namespace microswarm::rig
+
+namespace microswarm {
 
 /// Compiled once, in rig_params.cpp; describes the whole rig.
-extern template const Type& type_of<RigParams>();
+extern template const Type& type_of<rig::RigParams>();
 
 }  // namespace microswarm

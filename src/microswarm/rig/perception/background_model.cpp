@@ -7,7 +7,7 @@
 #include "microswarm/core/execution/each_cpu.hpp"
 #include "microswarm/vision/scene/background.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 constexpr double dark = 0.8;           // relative to the background
@@ -49,7 +49,7 @@ MICROSWARM_EACH_CPU void approach(std::span<const float> seen, const std::uint8_
 
 }  // namespace
 
-BackgroundModel::BackgroundModel(const Mask& walls, int reach) : reach_(reach) {
+BackgroundModel::BackgroundModel(const formats::Mask& walls, int reach) : reach_(reach) {
   cv::Mat on(walls.height, walls.width, CV_8U);
   for (std::size_t i = 0; i < walls.cells.size(); ++i) on.data[i] = walls.cells[i] ? 255 : 0;
   free_ = 255 - on;
@@ -60,15 +60,15 @@ BackgroundModel::BackgroundModel(const Mask& walls, int reach) : reach_(reach) {
   at_edge_ = reached & wide_walls;
 }
 
-void BackgroundModel::compare_with_light(const Image& picture) {
+void BackgroundModel::compare_with_light(const formats::Image& picture) {
   const cv::Mat grey(picture.height, picture.width, CV_8U,
                      const_cast<std::uint8_t*>(picture.pixels.data()));
-  const cv::Mat light = estimate_background(grey, free_);
+  const cv::Mat light = vision::estimate_background(grey, free_);
   share_.resize(picture.pixels.size());
   divide(picture.pixels, light.ptr<float>(), share_.data());
 }
 
-const Image& BackgroundModel::take_out(const Image& picture) {
+const formats::Image& BackgroundModel::take_out(const formats::Image& picture) {
   compare_with_light(picture);
   if (background_.empty()) {
     background_.assign(share_.size(), 1.0F);
@@ -98,4 +98,4 @@ void BackgroundModel::learn(std::span<const Vec2> robots) {
   approach(share_, empty.data, background_.data());
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -7,7 +7,7 @@
 #include "microswarm/rig/perception/robot_perception.hpp"
 #include "microswarm/rig/perception/swarm_perception.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 
 namespace {
 
@@ -38,7 +38,7 @@ Observation to_observation(const Detections& sight, std::shared_ptr<const Snapsh
 }
 
 std::unique_ptr<Perception> make_perception(const PerceptionParams& params,
-                                            const Scenario& scenario, const Map& map,
+                                            const experiment::Scenario& scenario, const Map& map,
                                             std::span<const Vec2> starts, const CameraView& view) {
   if (scenario.robots)
     return std::make_unique<RobotPerception>(params, *scenario.robots, map, starts, view);
@@ -48,4 +48,4 @@ std::unique_ptr<Perception> make_perception(const PerceptionParams& params,
                                            *scenario.start, view, scenario.obstacles);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -16,11 +16,11 @@
 #include "microswarm/rig/params/perception_params.hpp"
 #include "microswarm/vision/camera/camera_scale.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 
 /// Scale and size of a camera's pictures.
 struct CameraView {
-  CameraScale scale;
+  vision::CameraScale scale;
   int width = 0;   ///< [px]
   int height = 0;  ///< [px]
 };
@@ -64,7 +64,7 @@ class Perception {
  public:
   virtual ~Perception() = default;
   /// Processes the next grey picture, taken at `t` [s]. Valid until the next call.
-  virtual const Detections& process(const Image& picture, double t) = 0;
+  virtual const Detections& process(const formats::Image& picture, double t) = 0;
   /// Takes the command that drives the swarm from time `t` [s] on.
   virtual void commanded(const Command& command, double t) = 0;
   /// Commanded distance over which following can be judged [µm].
@@ -79,7 +79,7 @@ Observation to_observation(const Detections& sight, std::shared_ptr<const Snapsh
 /// camera shows the scenario's obstacles: a deforming channel among them means that walls move, and
 /// leaves are joined at the positions of valves.
 std::unique_ptr<Perception> make_perception(const PerceptionParams& params,
-                                            const Scenario& scenario, const Map& map,
+                                            const experiment::Scenario& scenario, const Map& map,
                                             std::span<const Vec2> starts, const CameraView& view);
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -11,7 +11,7 @@
 #include "microswarm/swarm/robots/robot_swarm.hpp"
 #include "microswarm/world/connectivity/free_place.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 constexpr double speed_margin = 3;     // of the speed of a robot between two pictures
@@ -47,7 +47,7 @@ RobotPerception::~RobotPerception() = default;
 
 void RobotPerception::commanded(const Command& command, double) { command_ = command; }
 
-const Detections& RobotPerception::process(const Image& picture, double t) {
+const Detections& RobotPerception::process(const formats::Image& picture, double t) {
   find_spots(picture);
   if (detections_.robots.empty()) detections_.robots = spots_;
   const std::size_t count = detections_.robots.size();
@@ -73,9 +73,9 @@ const Detections& RobotPerception::process(const Image& picture, double t) {
   return detections_;
 }
 
-void RobotPerception::find_spots(const Image& picture) {
+void RobotPerception::find_spots(const formats::Image& picture) {
   spots_.clear();
-  for (const Particle& particle : finder_.find(background_->take_out(picture)))
+  for (const vision::Particle& particle : finder_.find(background_->take_out(picture)))
     spots_.push_back(scale_.to_world(particle.at_px));
 }
 
@@ -180,4 +180,4 @@ void RobotPerception::learn_ground() {
   background_->learn(at_px);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -10,7 +10,7 @@
 #include "microswarm/swarm/robots/robot_stepper.hpp"
 #include "microswarm/vision/tracking/particles.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 
 class BackgroundModel;
 
@@ -29,14 +29,14 @@ class RobotPerception : public Perception {
   RobotPerception(const RobotPerception&) = delete;
   RobotPerception& operator=(const RobotPerception&) = delete;
 
-  const Detections& process(const Image& picture, double t) override;
+  const Detections& process(const formats::Image& picture, double t) override;
   void commanded(const Command& command, double t) override;
   double follow_distance() const override { return follow_diameters * diameter_; }
 
  private:
   static constexpr double follow_diameters = 10;
 
-  void find_spots(const Image& picture);
+  void find_spots(const formats::Image& picture);
   void expect(double passed);
   void pair(double reach);
   void place_the_unpaired(double t, double reach);
@@ -44,12 +44,12 @@ class RobotPerception : public Perception {
   void measure_following();
   void learn_ground();
 
-  CameraScale scale_;
+  vision::CameraScale scale_;
   const Map& map_;
   RobotStepper stepper_;
   ContactRule contact_;
   double max_speed_;  // [µm/s]
-  ParticleFinder finder_;
+  vision::ParticleFinder finder_;
   double diameter_;  // of a robot [µm]
   double min_seen_;  // share of the robots
   std::unique_ptr<BackgroundModel> background_;
@@ -65,4 +65,4 @@ class RobotPerception : public Perception {
   Detections detections_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -10,7 +10,7 @@
 #include "microswarm/vision/image/mat.hpp"
 #include "microswarm/vision/image/strokes.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 // From Okabe & Ito's palette, which is safe for colour-blind readers.
@@ -21,7 +21,8 @@ constexpr double mark_px = 7;
 
 class Canvas {
  public:
-  Canvas(Image& picture, const CameraScale& scale) : mat_(as_mat(picture)), scale_(scale) {}
+  Canvas(formats::Image& picture, const vision::CameraScale& scale)
+      : mat_(vision::as_mat(picture)), scale_(scale) {}
 
   /// A line between places in the world, which may be far outside the picture.
   void line(Vec2 a, Vec2 b, const cv::Scalar& colour) {
@@ -56,18 +57,18 @@ class Canvas {
     for (const double v : {a.x, a.y, b.x, b.y})
       if (!(std::abs(v) < farthest)) return;
     const auto exact = [](Vec2 p) {
-      return cv::Point2l(std::llround(p.x * (1 << fraction_bits)),
-                         std::llround(p.y * (1 << fraction_bits)));
+      return cv::Point2l(std::llround(p.x * (1 << vision::fraction_bits)),
+                         std::llround(p.y * (1 << vision::fraction_bits)));
     };
     cv::Point2l from = exact(a), to = exact(b);
-    const cv::Size2l size(std::int64_t{mat_.cols} << fraction_bits,
-                          std::int64_t{mat_.rows} << fraction_bits);
+    const cv::Size2l size(std::int64_t{mat_.cols} << vision::fraction_bits,
+                          std::int64_t{mat_.rows} << vision::fraction_bits);
     if (cv::clipLine(size, from, to))
-      cv::line(mat_, cv::Point(from), cv::Point(to), colour, 2, cv::LINE_AA, fraction_bits);
+      cv::line(mat_, cv::Point(from), cv::Point(to), colour, 2, cv::LINE_AA, vision::fraction_bits);
   }
 
   cv::Mat mat_;
-  const CameraScale& scale_;
+  const vision::CameraScale& scale_;
 };
 
 void draw_walls(Canvas& canvas, const Map& map) {
@@ -88,8 +89,8 @@ void draw_walls(Canvas& canvas, const Map& map) {
 
 }  // namespace
 
-void draw_scenario(Image& picture, const Scenario& scenario, const Map& map,
-                   const CameraScale& scale) {
+void draw_scenario(formats::Image& picture, const experiment::Scenario& scenario, const Map& map,
+                   const vision::CameraScale& scale) {
   Canvas canvas(picture, scale);
   draw_walls(canvas, map);
   if (scenario.start) {
@@ -106,4 +107,4 @@ void draw_scenario(Image& picture, const Scenario& scenario, const Map& map,
   for (const Vec2 goal : scenario.robots->goals) draw_goal(goal);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

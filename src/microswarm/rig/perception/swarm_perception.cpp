@@ -9,7 +9,7 @@
 #include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/rig/perception/walls_in_picture.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 
 namespace {
 
@@ -24,15 +24,15 @@ constexpr double part_size = 0.85;           // maximum of a part, in the swarm'
 constexpr double area_tolerance = 0.5;       // of the parts' area beside the swarm's
 
 /// Why a search found no swarm.
-std::optional<NotFound> not_found(SwarmSight sight) {
+std::optional<NotFound> not_found(vision::SwarmSight sight) {
   switch (sight) {
-    case SwarmSight::found:
+    case vision::SwarmSight::found:
       return std::nullopt;
-    case SwarmSight::none:
+    case vision::SwarmSight::none:
       return NotFound::none;
-    case SwarmSight::far:
+    case vision::SwarmSight::far:
       return NotFound::far;
-    case SwarmSight::several:
+    case vision::SwarmSight::several:
       return NotFound::several;
   }
   assert(false);
@@ -41,9 +41,9 @@ std::optional<NotFound> not_found(SwarmSight sight) {
 
 }  // namespace
 
-SwarmPrior expected_swarm(const SwarmLimits& limits, const PerceptionParams& params,
-                          const CameraScale& scale) {
-  SwarmPrior prior;
+vision::SwarmPrior expected_swarm(const SwarmLimits& limits, const PerceptionParams& params,
+                                  const vision::CameraScale& scale) {
+  vision::SwarmPrior prior;
   if (limits.radius <= 0) return prior;
   const double tolerance = params.radius_tolerance;
   const double least = limits.radius - limits.radius_variation;
@@ -66,12 +66,12 @@ SwarmPerception::SwarmPerception(const PerceptionParams& params, const SwarmLimi
       limits_(limits),
       before_px_(scale_.to_picture(start.position)) {}
 
-const Detections& SwarmPerception::process(const Image& picture, double t) {
+const Detections& SwarmPerception::process(const formats::Image& picture, double t) {
   detections_.moving.clear();
-  const SeenScene scene = find(picture, t);
+  const vision::SeenScene scene = find(picture, t);
   numbers_.number(detections_.moving, t);
   valves_.join(detections_.moving);
-  const std::optional<Blob>& swarm = scene.swarm.swarm;
+  const std::optional<vision::Blob>& swarm = scene.swarm.swarm;
   detections_.swarm.reset();
   detections_.parts.clear();
   detections_.not_found = not_found(scene.swarm.sight);
@@ -87,31 +87,31 @@ const Detections& SwarmPerception::process(const Image& picture, double t) {
 }
 
 /// Searches for the swarm and the bodies around it.
-SeenScene SwarmPerception::find(const Image& picture, double t) {
-  SceneParams params = search(t);
+vision::SeenScene SwarmPerception::find(const formats::Image& picture, double t) {
+  vision::SceneParams params = search(t);
   if (params_.moving_walls)
     return {.swarm = find_beside_walls(picture, params.swarm), .obstacles = {}};
   params.obstacles.min_radius *= known_size;
-  const std::vector<Ring> expected = expected_discs(t);
-  SeenScene scene = windows_.find(picture, params, prior(), expected);
-  for (const SeenObstacle& seen : scene.obstacles)
+  const std::vector<vision::Ring> expected = expected_discs(t);
+  vision::SeenScene scene = windows_.find(picture, params, prior(), expected);
+  for (const vision::SeenObstacle& seen : scene.obstacles)
     if (is_large_or_known(seen, expected))
       detections_.moving.push_back({.shape = seen.shape(scale_)});
   return scene;
 }
 
 /// Finds the swarm; everything else is a wall.
-SwarmSighting SwarmPerception::find_beside_walls(const Image& picture,
-                                                 const SwarmFinderParams& params) {
+vision::SwarmSighting SwarmPerception::find_beside_walls(const formats::Image& picture,
+                                                         const vision::SwarmFinderParams& params) {
   const double radius = radii_px_.empty() ? params.look.max_radius : median(radii_px_);
-  WallsBesideSwarm found = find_walls_beside(picture, params_.walls, walls_, *before_px_,
-                                             params.jump + 2 * radius, scale_);
+  vision::WallsBesideSwarm found = vision::find_walls_beside(
+      picture, params_.walls, walls_, *before_px_, params.jump + 2 * radius, scale_);
   for (Polygon& shape : found.shapes) detections_.moving.push_back({.shape = std::move(shape)});
-  return find_swarm(picture, params, before_px_, &found.walls);
+  return vision::find_swarm(picture, params, before_px_, &found.walls);
 }
 
-std::vector<Ring> SwarmPerception::expected_discs(double t) const {
-  std::vector<Ring> discs;
+std::vector<vision::Ring> SwarmPerception::expected_discs(double t) const {
+  std::vector<vision::Ring> discs;
   for (const Disc& disc : numbers_.expected_discs(t))
     discs.push_back({scale_.to_picture(disc.centre), disc.radius / scale_.um_per_px});
   return discs;
@@ -119,18 +119,18 @@ std::vector<Ring> SwarmPerception::expected_discs(double t) const {
 
 /// Whether a region is an obstacle: a region smaller than the smallest one may be dirt, or a known
 /// obstacle that has shrunk.
-bool SwarmPerception::is_large_or_known(const SeenObstacle& seen,
-                                        const std::vector<Ring>& expected) const {
+bool SwarmPerception::is_large_or_known(const vision::SeenObstacle& seen,
+                                        const std::vector<vision::Ring>& expected) const {
   const double usual = params_.scene.obstacles.min_radius;
   return seen.blob.radius_px >= usual ||
-         std::any_of(expected.begin(), expected.end(), [&](const Ring& disc) {
+         std::any_of(expected.begin(), expected.end(), [&](const vision::Ring& disc) {
            return distance(disc.centre_px, seen.blob.centre_px) <= usual;
          });
 }
 
 /// Parameters of the search for the swarm: within its reach, and without texture if it had none.
-SceneParams SwarmPerception::search(double t) const {
-  SceneParams params = params_.scene;
+vision::SceneParams SwarmPerception::search(double t) const {
+  vision::SceneParams params = params_.scene;
   params.swarm.jump = reach_px(t);
   if (found_ && params.smooth_swarm) {
     params.smooth_swarm = false;
@@ -139,23 +139,24 @@ SceneParams SwarmPerception::search(double t) const {
   return params;
 }
 
-SwarmPrior SwarmPerception::prior() const {
-  SwarmPrior prior = found_ ? SwarmPrior{} : expected_swarm(limits_, params_, scale_);
+vision::SwarmPrior SwarmPerception::prior() const {
+  vision::SwarmPrior prior =
+      found_ ? vision::SwarmPrior{} : expected_swarm(limits_, params_, scale_);
   prior.at_px = before_px_;
   if (!radii_px_.empty()) prior.around_px = part_distance * median(radii_px_);
   return prior;
 }
 
-void SwarmPerception::accept(const Blob& swarm, const SeenScene& scene, double t) {
+void SwarmPerception::accept(const vision::Blob& swarm, const vision::SeenScene& scene, double t) {
   keep_size(swarm);
-  const Ring around = *enclosing_circle(swarm.outline_px);
+  const vision::Ring around = *vision::enclosing_circle(swarm.outline_px);
   const Vec2 position = scale_.to_world(around.centre_px);
   measure_following(position, t);
   before_px_ = around.centre_px;
   found_ = t;
   texture_ = swarm.texture;
   beside_ = scene.swarm.others;
-  for (const SeenObstacle& seen : scene.obstacles) beside_.push_back(seen.blob);
+  for (const vision::SeenObstacle& seen : scene.obstacles) beside_.push_back(seen.blob);
   tell_heading(position);
   const double radius = std::max(0.0, around.radius_px + params_.edge);
   detections_.swarm = SwarmPose{{position, heading_}, radius * scale_.um_per_px};
@@ -163,38 +164,39 @@ void SwarmPerception::accept(const Blob& swarm, const SeenScene& scene, double t
 
 /// Whether the swarm has split into parts that have its area together. Bodies that were near it
 /// before are no parts.
-bool SwarmPerception::tell_split(const SwarmSighting& sighting) {
+bool SwarmPerception::tell_split(const vision::SwarmSighting& sighting) {
   if (sightings_ < min_radius_count) return false;
   const double usual = median(radii_px_);
-  std::vector<Blob> near = sighting.candidates;
+  std::vector<vision::Blob> near = sighting.candidates;
   near.insert(near.end(), sighting.others.begin(), sighting.others.end());
-  std::erase_if(near, [&](const Blob& blob) {
+  std::erase_if(near, [&](const vision::Blob& blob) {
     return distance(blob.centre_px, *before_px_) > part_distance * usual ||
-           std::any_of(beside_.begin(), beside_.end(), [&](const Blob& old) {
+           std::any_of(beside_.begin(), beside_.end(), [&](const vision::Blob& old) {
              return distance(old.centre_px, blob.centre_px) < 0.5 * old.radius_px;
            });
   });
   double area = 0;
   double largest = 0;
-  for (const Blob& blob : near) {
+  for (const vision::Blob& blob : near) {
     area += blob.radius_px * blob.radius_px / (usual * usual);
     largest = std::max(largest, blob.radius_px);
   }
   if (near.size() < 2 || largest > part_size * usual || std::abs(area - 1) > area_tolerance)
     return false;
-  for (const Blob& blob : near) detections_.parts.push_back(blob.radius_px * scale_.um_per_px);
+  for (const vision::Blob& blob : near)
+    detections_.parts.push_back(blob.radius_px * scale_.um_per_px);
   return true;
 }
 
 /// Whether a blob too large for the swarm is the swarm merged with a body that was near it, is no
 /// longer seen separately and has the additional area.
-bool SwarmPerception::tell_merger(const Blob& whole, const SeenScene& scene) {
+bool SwarmPerception::tell_merger(const vision::Blob& whole, const vision::SeenScene& scene) {
   const double usual = median(radii_px_);
   const double grown = whole.radius_px * whole.radius_px - usual * usual;
   if (grown <= 0) return false;
-  for (const Blob& old : beside_) {
-    const bool is_there =
-        std::any_of(scene.obstacles.begin(), scene.obstacles.end(), [&](const SeenObstacle& seen) {
+  for (const vision::Blob& old : beside_) {
+    const bool is_there = std::any_of(
+        scene.obstacles.begin(), scene.obstacles.end(), [&](const vision::SeenObstacle& seen) {
           return distance(seen.blob.centre_px, old.centre_px) < 0.5 * old.radius_px;
         });
     if (is_there || distance(old.centre_px, whole.centre_px) > 2 * whole.radius_px ||
@@ -226,7 +228,7 @@ bool SwarmPerception::is_of_its_size(double radius_px) const {
   return std::abs(radius_px - usual) <= params_.radius_tolerance * usual;
 }
 
-void SwarmPerception::keep_size(const Blob& swarm) {
+void SwarmPerception::keep_size(const vision::Blob& swarm) {
   if (radii_px_.size() < radius_window)
     radii_px_.push_back(swarm.radius_px);
   else
@@ -250,4 +252,4 @@ void SwarmPerception::tell_heading(Vec2 position) {
   from_ = position;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

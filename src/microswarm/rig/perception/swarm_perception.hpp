@@ -11,12 +11,12 @@
 #include "microswarm/swarm/body/swarm_limits.hpp"
 #include "microswarm/vision/scene/scene_windows.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 
 /// Expected size in the picture of a swarm with these limits; a smooth swarm must have it at its
 /// first detection.
-SwarmPrior expected_swarm(const SwarmLimits& limits, const PerceptionParams& params,
-                          const CameraScale& scale);
+vision::SwarmPrior expected_swarm(const SwarmLimits& limits, const PerceptionParams& params,
+                                  const vision::CameraScale& scale);
 
 /// Detects one swarm among moving obstacles, within its reach since the last detection and with
 /// about its last size. Position and radius are those of the smallest circle around its outline.
@@ -29,43 +29,45 @@ class SwarmPerception : public Perception {
                   const Pose2& start, const CameraView& view,
                   std::span<const Obstacle> obstacles = {});
 
-  const Detections& process(const Image& picture, double t) override;
+  const Detections& process(const formats::Image& picture, double t) override;
   void commanded(const Command& command, double t) override;
   double follow_distance() const override;
 
  private:
-  SeenScene find(const Image& picture, double t);
-  SwarmSighting find_beside_walls(const Image& picture, const SwarmFinderParams& params);
+  vision::SeenScene find(const formats::Image& picture, double t);
+  vision::SwarmSighting find_beside_walls(const formats::Image& picture,
+                                          const vision::SwarmFinderParams& params);
   double reach_px(double t) const;
-  SceneParams search(double t) const;
-  SwarmPrior prior() const;
+  vision::SceneParams search(double t) const;
+  vision::SwarmPrior prior() const;
   bool is_of_its_size(double radius_px) const;
-  void keep_size(const Blob& swarm);
-  bool tell_split(const SwarmSighting& sighting);
-  bool tell_merger(const Blob& whole, const SeenScene& scene);
-  void accept(const Blob& swarm, const SeenScene& scene, double t);
-  std::vector<Ring> expected_discs(double t) const;
-  bool is_large_or_known(const SeenObstacle& seen, const std::vector<Ring>& expected) const;
+  void keep_size(const vision::Blob& swarm);
+  bool tell_split(const vision::SwarmSighting& sighting);
+  bool tell_merger(const vision::Blob& whole, const vision::SeenScene& scene);
+  void accept(const vision::Blob& swarm, const vision::SeenScene& scene, double t);
+  std::vector<vision::Ring> expected_discs(double t) const;
+  bool is_large_or_known(const vision::SeenObstacle& seen,
+                         const std::vector<vision::Ring>& expected) const;
   void measure_following(Vec2 position, double t);
   void tell_heading(Vec2 position);
 
   PerceptionParams params_;
-  CameraScale scale_;
-  Mask walls_;
-  SceneWindows windows_;
+  vision::CameraScale scale_;
+  formats::Mask walls_;
+  vision::SceneWindows windows_;
   ValveLeaves valves_;
-  BodyNumbers numbers_;
+  navigation::BodyNumbers numbers_;
   Vec2 from_;  // position at the last update of the heading
   double heading_;
   SwarmLimits limits_;
   std::optional<Vec2> before_px_;
-  std::optional<double> found_;   // time of the last sighting [s]
-  std::vector<double> radii_px_;  // of the last sightings, a ring
-  std::size_t sightings_ = 0;     // so far
-  std::vector<Blob> beside_;      // other blobs at the last sighting
-  double texture_ = 0;            // texture of the swarm at that time
+  std::optional<double> found_;       // time of the last sighting [s]
+  std::vector<double> radii_px_;      // of the last sightings, a ring
+  std::size_t sightings_ = 0;         // so far
+  std::vector<vision::Blob> beside_;  // other blobs at the last sighting
+  double texture_ = 0;                // texture of the swarm at that time
   Command command_;
   Detections detections_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

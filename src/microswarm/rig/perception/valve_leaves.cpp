@@ -9,7 +9,7 @@
 #include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/maths/infinity.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 struct Extents {
@@ -92,4 +92,4 @@ void ValveLeaves::join(const Standing& valve, std::uint32_t number,
   std::move(leaves.begin(), leaves.end(), std::back_inserter(bodies));
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -9,7 +9,7 @@
 #include "microswarm/world/obstacles/body.hpp"
 #include "microswarm/world/obstacles/obstacle.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 
 /// Recognises detected bodies that are leaves of a valve by the scenario's positions of valves.
 /// Moving valves are not recognised.
@@ -39,4 +39,4 @@ class ValveLeaves {
   double tolerance_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-namespace microswarm {
+namespace microswarm::rig {
 
-void CoilLoadMeter::take(double t, const CoilOutput& output) {
-  const std::vector<AmplifierParams>& amplifiers = system_.amplifiers();
+void CoilLoadMeter::take(double t, const actuation::CoilOutput& output) {
+  const std::vector<actuation::AmplifierParams>& amplifiers = system_.amplifiers();
   double highest = -1, hottest = -1e300;
   for (Eigen::Index c = 0; c < output.currents.size(); ++c) {
     const double current = std::abs(output.currents[c]);
@@ -19,7 +19,7 @@ void CoilLoadMeter::take(double t, const CoilOutput& output) {
   share_.add(t, highest);
   load_.current = share_.value() * load_.max_current.value_or(1);
   for (Eigen::Index c = 0; c < output.temperatures.size(); ++c) {
-    const AmplifierParams& amplifier = amplifiers[static_cast<std::size_t>(c)];
+    const actuation::AmplifierParams& amplifier = amplifiers[static_cast<std::size_t>(c)];
     const double below = output.temperatures[c] - amplifier.max_temperature.value_or(1e4);
     if (below <= hottest) continue;
     hottest = below;
@@ -31,4 +31,4 @@ void CoilLoadMeter::take(double t, const CoilOutput& output) {
   load_.output = output;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -7,7 +7,7 @@
 
 #include "microswarm/actuation/coils/coil_controller.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 
 /// Load of the coils relative to their limits.
 struct CoilLoad {
@@ -15,8 +15,8 @@ struct CoilLoad {
   std::optional<double> max_current;      ///< its limit, if any [A]
   double temperature = 0;                 ///< of the coil nearest to its limit [°C]
   std::optional<double> max_temperature;  ///< its limit, if any [°C]
-  double scale = 1;   ///< minimum of the last second: scale by the coils' limits
-  CoilOutput output;  ///< the newest output; without currents before the first
+  double scale = 1;              ///< minimum of the last second: scale by the coils' limits
+  actuation::CoilOutput output;  ///< the newest output; without currents before the first
 };
 
 /// Maximum over the last 0.5 to 1 s.
@@ -42,17 +42,17 @@ class RecentPeak {
 class CoilLoadMeter {
  public:
   /// `system` must outlive the meter.
-  explicit CoilLoadMeter(const CoilSystem& system) : system_(system) {}
+  explicit CoilLoadMeter(const actuation::CoilSystem& system) : system_(system) {}
 
   /// Takes an output at `t` [s].
-  void take(double t, const CoilOutput& output);
+  void take(double t, const actuation::CoilOutput& output);
   /// Load at the last output.
   const CoilLoad& load() const { return load_; }
 
  private:
-  const CoilSystem& system_;
+  const actuation::CoilSystem& system_;
   RecentPeak share_, current_, weakening_;
   CoilLoad load_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -12,7 +12,7 @@
 #include "microswarm/rig/runtime/first_reason.hpp"
 #include "microswarm/rig/runtime/standstill.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 using Seconds = std::chrono::duration<double>;
@@ -23,7 +23,7 @@ class Trips {
   explicit Trips(const CoilLoopLimits& limits) : limits_(limits) {}
   /// Takes an output. Returns why there are too many trips, or an empty string.
   std::string take(const CoilMoment& moment) {
-    if (moment.output.status != DriveStatus::resumed) return {};
+    if (moment.output.status != actuation::DriveStatus::resumed) return {};
     std::erase_if(times_, [&](double t) { return t < moment.t - limits_.trip_window; });
     times_.push_back(moment.t);
     if (std::ssize(times_) <= limits_.max_trips) return {};
@@ -38,7 +38,7 @@ class Trips {
 
 }  // namespace
 
-CoilLoop::CoilLoop(CoilController& controller, const CoilLoopLimits& limits,
+CoilLoop::CoilLoop(actuation::CoilController& controller, const CoilLoopLimits& limits,
                    std::function<void(const CoilMoment&)> heard, std::function<double()> suspended)
     : controller_(controller),
       limits_(limits),
@@ -62,7 +62,7 @@ void CoilLoop::command(const Command& command, const Eigen::Vector3d& position, 
   changed_.notify_all();
 }
 
-StopReport CoilLoop::stop(const std::string& why) {
+actuation::StopReport CoilLoop::stop(const std::string& why) {
   std::unique_lock lock(mutex_);
   if (why_.empty()) {
     why_ = why;
@@ -117,7 +117,7 @@ void CoilLoop::run() {
     if (now > due + period) due = now;  // do not make up for missed outputs
     // An exchange without an answer takes long; one with an answer is short, or the coils were
     // off meanwhile.
-    const bool answered = moment.output.status != DriveStatus::no_answer;
+    const bool answered = moment.output.status != actuation::DriveStatus::no_answer;
     const std::string why = first_reason(
         {failed, controller_.trouble(), standstill.pass(answered ? 0 : moment.round_trip),
          device_limits.take(moment.t, moment.output), trips.take(moment)});
@@ -125,7 +125,7 @@ void CoilLoop::run() {
     if (why_.empty()) why_ = why;
   }
   lock.unlock();
-  StopReport report = controller_.stop();
+  actuation::StopReport report = controller_.stop();
   lock.lock();
   stopped_ = std::move(report);
   changed_.notify_all();
@@ -155,11 +155,11 @@ std::string CoilLoop::send(CoilMoment& moment, const Eigen::Vector3d& position, 
     moment.output = controller_.advance(dt);
     moment.driven = steady_seconds();
     moment.round_trip = moment.driven - began;
-    if (trouble_text(moment.output.status).empty() && heard_) heard_(moment);
+    if (actuation::trouble_text(moment.output.status).empty() && heard_) heard_(moment);
     return {};
   } catch (const std::exception& e) {
     return e.what();
   }
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

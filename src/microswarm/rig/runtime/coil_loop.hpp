@@ -13,14 +13,14 @@
 #include "microswarm/actuation/coils/coil_controller.hpp"
 #include "microswarm/core/execution/clock.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 
 /// One output of the loop.
 struct CoilMoment {
   double t = 0;     ///< [s], by steady_seconds()
   double seen = 0;  ///< arrival of the picture that the command answers [s], same clock
   Command command;
-  CoilOutput output;
+  actuation::CoilOutput output;
   double late = 0;        ///< delay after the due time [s]
   double round_trip = 0;  ///< of the driver's exchange [s]
   double driven = 0;      ///< time at which the driver acknowledged the currents [s], same clock
@@ -47,7 +47,7 @@ class CoilLoop {
   /// `controller` must outlive the loop and not be used elsewhere. `heard` is called in the loop's
   /// thread after each output; an exception from it is a failure. `suspended` returns the total
   /// time of suspensions [s]; tests replace it.
-  CoilLoop(CoilController& controller, const CoilLoopLimits& limits,
+  CoilLoop(actuation::CoilController& controller, const CoilLoopLimits& limits,
            std::function<void(const CoilMoment&)> heard = {},
            std::function<double()> suspended = suspended_seconds);
   ~CoilLoop();
@@ -59,7 +59,7 @@ class CoilLoop {
   void command(const Command& command, const Eigen::Vector3d& position, double seen = 0);
   /// Sets the coils to zero permanently; callable from any thread. Returns when they are at zero or
   /// cannot be reached, each time with the report of the first stop.
-  StopReport stop(const std::string& why);
+  actuation::StopReport stop(const std::string& why);
 
   /// Waits for `seconds`, or until the loop stops.
   void wait(double seconds);
@@ -75,7 +75,7 @@ class CoilLoop {
   std::string silence(double t) const;
   std::string send(CoilMoment& moment, const Eigen::Vector3d& position, double dt);
 
-  CoilController& controller_;
+  actuation::CoilController& controller_;
   const CoilLoopLimits limits_;
   std::function<void(const CoilMoment&)> heard_;
   const std::function<double()> suspended_;
@@ -87,8 +87,8 @@ class CoilLoop {
   bool is_new_ = false;              // whether it was not sent yet
   std::optional<double> commanded_;  // time of the last command [s]
   std::string why_;                  // reason of the stop
-  std::optional<StopReport> stopped_;
+  std::optional<actuation::StopReport> stopped_;
   std::thread thread_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -13,7 +13,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/file.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 namespace fs = std::filesystem;
@@ -92,13 +92,14 @@ CoilTemperatures::CoilTemperatures(const Rig& rig, bool cold)
     at_start_[i] = amplifiers[static_cast<std::size_t>(i)].ambient;
   if (!cold && !is_there(file_)) {
     known_ = false;
-    at_start_ = hottest(amplifiers);
+    at_start_ = actuation::hottest(amplifiers);
   } else if (!cold) {
     const KeptTemperatures kept = read_kept(file_, amplifiers.size());
     Eigen::VectorXd then = Eigen::Map<const Eigen::VectorXd>(kept.temperatures.data(), coils)
                                .cwiseMax(at_start_);  // no coil is below ambient temperature
-    if (kept.driven) then = heated(amplifiers, then, unwritten);
-    at_start_ = cooled(amplifiers, then, wall_clock() - kept.clock - (kept.driven ? unwritten : 0));
+    if (kept.driven) then = actuation::heated(amplifiers, then, unwritten);
+    at_start_ = actuation::cooled(amplifiers, then,
+                                  wall_clock() - kept.clock - (kept.driven ? unwritten : 0));
   }
   newest_ = at_start_;
   write(newest_, true);
@@ -154,4 +155,4 @@ void CoilTemperatures::write(const Eigen::VectorXd& temperatures, bool driven) c
   write_file_atomically(file_, to_yaml(kept), LinkAtFile::refused);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -10,7 +10,7 @@
 
 #include "microswarm/rig/params/rig_params.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 
 /// Temperatures of a rig's coils between runs, in a file of the user's state folder
 /// ($XDG_STATE_HOME/microswarm, or ~/.local/state/microswarm), one for each coil system file. A
@@ -54,4 +54,4 @@ class CoilTemperatures {
   std::thread thread_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

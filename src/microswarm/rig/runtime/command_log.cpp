@@ -13,7 +13,7 @@
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/io/columns.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 /// Columns before the currents.
@@ -59,16 +59,16 @@ struct Driven {
 double rounded(double value, double per_one) { return std::round(value * per_one) / per_one; }
 
 template <class Row>
-const std::vector<Column>& columns() {
-  static const std::vector<Column> all = to_columns<Row>(ColumnUnits::shown);
+const std::vector<io::Column>& columns() {
+  static const std::vector<io::Column> all = io::to_columns<Row>(io::ColumnUnits::shown);
   return all;
 }
 
 std::string log_line(const Commanded& before, const Eigen::VectorXd& currents,
                      const Driven& after) {
-  std::string line = csv_line(columns<Commanded>(), &before);
+  std::string line = io::csv_line(columns<Commanded>(), &before);
   for (const double i : currents) line += "," + number_text(rounded(i, 1e5));
-  return line + "," + csv_line(columns<Driven>(), &after) + "\n";
+  return line + "," + io::csv_line(columns<Driven>(), &after) + "\n";
 }
 
 /// Creates a new file, replacing one of this name. A link is not followed.
@@ -84,15 +84,16 @@ std::FILE* create(const std::filesystem::path& file) {
 
 }  // namespace
 
-CommandLog::CommandLog(const std::filesystem::path& folder, const CoilSystem& system, bool dry)
+CommandLog::CommandLog(const std::filesystem::path& folder, const actuation::CoilSystem& system,
+                       bool dry)
     : coils_(system.size()), dry_(dry) {
   if (folder.empty()) return;
   file_ = folder / "commands.csv";
   part_ = file_.string() + ".part";
   out_.reset(create(part_));
-  std::string head = csv_head(columns<Commanded>());
+  std::string head = io::csv_head(columns<Commanded>());
   for (const std::string& coil : system.coil_names()) head += ",i_" + coil + "_a";
-  write(head + "," + csv_head(columns<Driven>()) + "\n");
+  write(head + "," + io::csv_head(columns<Driven>()) + "\n");
 }
 
 CommandLog::~CommandLog() {
@@ -107,7 +108,8 @@ void CommandLog::add(const CoilMoment& m, double start) {
   start_ = start;
   const Eigen::Vector3d& b = m.output.wanted;
   std::optional<double> acknowledged;
-  if (is_acknowledged(m.output.status)) acknowledged = rounded(m.output.device_scale, 1e4);
+  if (actuation::is_acknowledged(m.output.status))
+    acknowledged = rounded(m.output.device_scale, 1e4);
   write(log_line({.t = rounded(m.t - start, 1e4),
                   .heading = m.command.heading,
                   .speed = rounded(m.command.speed, 1e3),
@@ -123,7 +125,7 @@ void CommandLog::add(const CoilMoment& m, double start) {
                   .seen = rounded(m.seen - start, 1e4)}));
 }
 
-std::string CommandLog::finish(const StopReport& zero) noexcept {
+std::string CommandLog::finish(const actuation::StopReport& zero) noexcept {
   if (file_.empty()) return {};
   try {
     if (start_)
@@ -146,4 +148,4 @@ void CommandLog::write(const std::string& text) {
     throw InputError(part_.string() + ": cannot write");
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

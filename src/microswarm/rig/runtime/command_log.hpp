@@ -11,13 +11,13 @@
 #include "microswarm/actuation/coils/coil_system.hpp"
 #include "microswarm/rig/runtime/coil_loop.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 
 /// Log of the coil outputs, commands.csv. During the run the file is named commands.csv.part.
 class CommandLog {
  public:
   /// Logs into `folder`; an empty path disables the log. Rows of a dry run are marked.
-  CommandLog(const std::filesystem::path& folder, const CoilSystem& system, bool dry);
+  CommandLog(const std::filesystem::path& folder, const actuation::CoilSystem& system, bool dry);
   /// Without finish() the file keeps its temporary name; it is removed if it has no row.
   ~CommandLog();
   CommandLog(const CommandLog&) = delete;
@@ -29,7 +29,7 @@ class CommandLog {
 
   /// Adds the zero at the end and renames the log to its final name. Returns the reason of a
   /// failure, or an empty string.
-  std::string finish(const StopReport& zero) noexcept;
+  std::string finish(const actuation::StopReport& zero) noexcept;
 
  private:
   void write(const std::string& text);
@@ -45,4 +45,4 @@ class CommandLog {
   std::optional<double> start_;  // set with the first row
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -9,7 +9,7 @@
 #include "microswarm/actuation/coils/coil_controller.hpp"
 #include "microswarm/core/maths/infinity.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 
 /// Detects a device whose own limits leave almost no current, so that the commanded field is
 /// absent.
@@ -19,7 +19,7 @@ class DeviceLimits {
   static constexpr double longest = 1;      ///< longest time below the minimum [s]
 
   /// Takes an output at `t` [s]. Returns why it is a fault, or an empty string.
-  std::string take(double t, const CoilOutput& output) {
+  std::string take(double t, const actuation::CoilOutput& output) {
     if (output.device_scale >= min_scale) {
       since_ = infinity;
       return {};
@@ -34,4 +34,4 @@ class DeviceLimits {
   double since_ = infinity;  // start of the time below the minimum [s]
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

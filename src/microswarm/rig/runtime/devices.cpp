@@ -8,15 +8,15 @@
 #include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/rig/simulation/simulated_rig.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 /// A video played at its own rate.
-class PacedVideo : public FrameSource {
+class PacedVideo : public vision::FrameSource {
  public:
-  explicit PacedVideo(std::unique_ptr<FrameSource> video)
+  explicit PacedVideo(std::unique_ptr<vision::FrameSource> video)
       : video_(std::move(video)), began_(steady_seconds()) {}
-  bool next(VideoFrame& frame) override {
+  bool next(vision::VideoFrame& frame) override {
     if (!video_->next(frame)) return false;
     const double left = began_ + frame.t - steady_seconds();
     if (left > 0) std::this_thread::sleep_for(std::chrono::duration<double>(left));
@@ -27,17 +27,17 @@ class PacedVideo : public FrameSource {
   std::optional<double> rate() const override { return video_->rate(); }
 
  private:
-  std::unique_ptr<FrameSource> video_;
+  std::unique_ptr<vision::FrameSource> video_;
   double began_;
 };
 
-using Coils = std::unique_ptr<CoilDriver>;
+using Coils = std::unique_ptr<actuation::CoilDriver>;
 
-Coils open_program(const ProgramDriverParams& program, const Rig& rig) {
-  auto lock = std::make_unique<DeviceLock>(rig.folder / rig.params.coils);
-  return std::make_unique<LineCoilDriver>(
+Coils open_program(const actuation::ProgramDriverParams& program, const Rig& rig) {
+  auto lock = std::make_unique<actuation::DeviceLock>(rig.folder / rig.params.coils);
+  return std::make_unique<actuation::LineCoilDriver>(
       [command = program.command, folder = rig.folder, file = lock->descriptor()](double) {
-        return start_program(command, folder, file);
+        return actuation::start_program(command, folder, file);
       },
       program, rig.system.size(), std::move(lock));
 }
@@ -47,37 +47,40 @@ std::string beside(const Rig& rig, const std::string& host) {
   return host.find('/') == std::string::npos ? host : (rig.folder / host).string();
 }
 
-Coils open_socket(const SocketDriverParams& socket, const Rig& rig) {
-  auto lock = std::make_unique<DeviceLock>(rig.folder / rig.params.coils);
-  return std::make_unique<LineCoilDriver>(
+Coils open_socket(const actuation::SocketDriverParams& socket, const Rig& rig) {
+  auto lock = std::make_unique<actuation::DeviceLock>(rig.folder / rig.params.coils);
+  return std::make_unique<actuation::LineCoilDriver>(
       [host = beside(rig, socket.host), port = socket.port](double timeout) {
-        return connect_socket(host, port, timeout);
+        return actuation::connect_socket(host, port, timeout);
       },
       socket, rig.system.size(), std::move(lock));
 }
 
-std::unique_ptr<FrameSource> open_video(const VideoCamera& video, const Rig& rig) {
+std::unique_ptr<vision::FrameSource> open_video(const VideoCamera& video, const Rig& rig) {
   if (video.file.empty()) throw rig.keys.error("camera.file", "which video is missing");
-  return std::make_unique<PacedVideo>(open_frames(rig.folder / video.file, video.rate));
+  return std::make_unique<PacedVideo>(vision::open_frames(rig.folder / video.file, video.rate));
 }
 
 }  // namespace
 
-std::unique_ptr<CoilDriver> open_coils(const Rig& rig) {
+std::unique_ptr<actuation::CoilDriver> open_coils(const Rig& rig) {
   return std::visit(
-      Overloaded{[&](const SimulatedCoils&) -> Coils { return simulated_coils(rig); },
-                 [](const SerialCoilParams& serial) -> Coils {
-                   return std::make_unique<SerialCoilDriver>(serial);
-                 },
-                 [&](const ProgramDriverParams& program) { return open_program(program, rig); },
-                 [&](const SocketDriverParams& socket) { return open_socket(socket, rig); }},
+      Overloaded{
+          [&](const SimulatedCoils&) -> Coils { return simulated_coils(rig); },
+          [](const actuation::SerialCoilParams& serial) -> Coils {
+            return std::make_unique<actuation::SerialCoilDriver>(serial);
+          },
+          [&](const actuation::ProgramDriverParams& program) { return open_program(program, rig); },
+          [&](const actuation::SocketDriverParams& socket) { return open_socket(socket, rig); }},
       rig.params.driver);
 }
 
-std::unique_ptr<FrameSource> open_rig_camera(const Rig& rig) {
+std::unique_ptr<vision::FrameSource> open_rig_camera(const Rig& rig) {
   return std::visit(
-      Overloaded{[](const SimulatedCamera&) { return std::unique_ptr<FrameSource>(); },
-                 [](const OneOf<CameraParams, GenicamParams> auto& c) { return open_camera(c); },
+      Overloaded{[](const SimulatedCamera&) { return std::unique_ptr<vision::FrameSource>(); },
+                 [](const OneOf<vision::CameraParams, vision::GenicamParams> auto& c) {
+                   return vision::open_camera(c);
+                 },
                  [&](const VideoCamera& video) { return open_video(video, rig); }},
       rig.params.camera);
 }
@@ -103,4 +106,4 @@ Devices open_devices(const RigExperiment& on, bool dry, bool idle) {
   return devices;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

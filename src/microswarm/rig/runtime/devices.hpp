@@ -6,17 +6,17 @@
 #include "microswarm/rig/params/rig_experiment.hpp"
 #include "microswarm/rig/runtime/realtime_rig_simulator.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 
 /// Open devices of a rig.
 struct Devices {
   std::unique_ptr<RealtimeRigSimulator> simulator;  ///< set for a simulated camera
-  std::unique_ptr<CoilDriver> coils;
-  std::unique_ptr<FrameSource> camera;
+  std::unique_ptr<actuation::CoilDriver> coils;
+  std::unique_ptr<vision::FrameSource> camera;
   std::optional<double> camera_rate;  ///< [Hz]; empty if unknown
-  CameraScale scale;
+  vision::CameraScale scale;
 
-  CoilDriver& driver() { return simulator ? simulator->coils() : *coils; }
+  actuation::CoilDriver& driver() { return simulator ? simulator->coils() : *coils; }
 };
 
 /// Opens camera and coils of a rig. With `dry`, nothing is sent to the coils; with `idle`, a
@@ -25,9 +25,9 @@ struct Devices {
 Devices open_devices(const RigExperiment& on, bool dry, bool idle = false);
 
 /// Opens the coil driver of a rig. Throws HardwareError if the device fails.
-std::unique_ptr<CoilDriver> open_coils(const Rig& rig);
+std::unique_ptr<actuation::CoilDriver> open_coils(const Rig& rig);
 
 /// Opens the camera or video of a rig; nothing if its camera is simulated. Errors as above.
-std::unique_ptr<FrameSource> open_rig_camera(const Rig& rig);
+std::unique_ptr<vision::FrameSource> open_rig_camera(const Rig& rig);
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

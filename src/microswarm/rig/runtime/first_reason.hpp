@@ -4,7 +4,7 @@
 #include <initializer_list>
 #include <string>
 
-namespace microswarm {
+namespace microswarm::rig {
 
 /// The first of the reasons that is not empty; empty if there is none.
 inline std::string first_reason(std::initializer_list<std::string> reasons) {
@@ -13,4 +13,4 @@ inline std::string first_reason(std::initializer_list<std::string> reasons) {
   return {};
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -7,7 +7,7 @@
 #include "microswarm/core/maths/maths.hpp"
 #include "microswarm/geometry/vec2.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 
 bool FollowMonitor::take(double commanded, double followed, double distance) {
   if (commanded <= 0) return true;
@@ -49,4 +49,4 @@ std::optional<FollowDirection> FollowAngle::direction() const {
                          moved / commanded_squares_};
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

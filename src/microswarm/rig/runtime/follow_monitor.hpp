@@ -4,7 +4,7 @@
 #include <deque>
 #include <optional>
 
-namespace microswarm {
+namespace microswarm::rig {
 
 /// Checks whether a swarm follows its commands: over a commanded distance, the observed distance
 /// along it must be at least a given share. A dead amplifier, exchanged coils or a turned camera
@@ -56,4 +56,4 @@ class FollowAngle {
   int stretches_ = 0;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

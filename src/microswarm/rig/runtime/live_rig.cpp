@@ -10,13 +10,13 @@
 #include "microswarm/core/execution/clock.hpp"
 #include "microswarm/rig/simulation/rig_simulator.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 constexpr double first_frame = 5;                   // [s] timeout of the first frame
 constexpr double stretches_of_follow_distance = 6;  // over which a direction is estimated
 
-const RigParams& checked(const Rig& rig, const Scenario& scenario) {
+const RigParams& checked(const Rig& rig, const experiment::Scenario& scenario) {
   KeyLocations().require_none(validate(rig, scenario));
   if (rig.params.safety.deadman < 2 * scenario.tick)
     throw rig.keys.error(
@@ -57,8 +57,8 @@ std::string why_not_found(const Detections& seen) {
   return {};
 }
 
-void check_picture(const Rig& rig, const Scenario& scenario, const CameraScale& scale,
-                   const Image& picture) {
+void check_picture(const Rig& rig, const experiment::Scenario& scenario,
+                   const vision::CameraScale& scale, const formats::Image& picture) {
   for (const Vec2 position : robot_positions(scenario)) {
     const Vec2 at = scale.to_picture(position);
     if (at.x < -0.5 || at.y < -0.5 || at.x > picture.width - 0.5 || at.y > picture.height - 0.5)
@@ -71,8 +71,9 @@ void check_picture(const Rig& rig, const Scenario& scenario, const CameraScale& 
 
 }  // namespace
 
-LiveRig::LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const Rig& rig,
-                 std::unique_ptr<FrameSource> camera, const CameraScale& scale, CoilDriver& driver,
+LiveRig::LiveRig(const experiment::Scenario& scenario, std::shared_ptr<const Map> map,
+                 const Rig& rig, std::unique_ptr<vision::FrameSource> camera,
+                 const vision::CameraScale& scale, actuation::CoilDriver& driver,
                  LiveRigListeners listeners)
     : rig_(rig),
       has_virtual_(rig.params.virtual_obstacles &&
@@ -94,10 +95,10 @@ LiveRig::LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const
   check_workspace(rig, scenario, *world_.map);
   if (!camera_.wait(frame_, first_frame))
     throw HardwareError(fmt::format("camera: no picture within {} s", first_frame));
-  const Image& picture = frame_.frame.picture;
+  const formats::Image& picture = frame_.frame.picture;
   check_picture(rig, scenario, scale, picture);
   const std::vector<Vec2> starts = scenario.robots ? scenario.robots->starts : std::vector<Vec2>{};
-  Scenario shown = scenario;
+  experiment::Scenario shown = scenario;
   if (has_virtual_) shown.obstacles.clear();
   perception_ = make_perception(rig.params.perception, shown, *world_.map, starts,
                                 {scale, picture.width, picture.height});
@@ -148,7 +149,7 @@ void LiveRig::take_frame() {
 void LiveRig::read_frame() {
   seen_ = frame_.taken - start_;
   const double began = steady_seconds();
-  take_channel(frame_.frame.picture, VideoChannel::grey, grey_);
+  vision::take_channel(frame_.frame.picture, vision::VideoChannel::grey, grey_);
   detections_ = &perception_->process(grey_, seen_);
   const double took = steady_seconds() - began;
   if (detections_->swarm) found_ = seen_;
@@ -166,10 +167,10 @@ void LiveRig::read_frame() {
 void LiveRig::look_for_faults(double now) {
   const SafetyParams& safety = rig_.params.safety;
   if (const std::string why = coils_.failure(); !why.empty()) return fail(why);
-  const CameraStatus camera = camera_.status();
-  if (camera.state == CameraState::frozen || camera.state == CameraState::black)
+  const vision::CameraStatus camera = camera_.status();
+  if (camera.state == vision::CameraState::frozen || camera.state == vision::CameraState::black)
     return fail(fmt::format("the camera's pictures are {}", enum_name(camera.state)));
-  if (camera.state == CameraState::ended) {
+  if (camera.state == vision::CameraState::ended) {
     const std::string why = camera.why.empty() ? camera.why : ": " + camera.why;
     return fail("the camera has no more pictures" + why);
   }
@@ -208,4 +209,4 @@ RigTiming LiveRig::timing() const {
   return timing;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -16,14 +16,14 @@
 #include "microswarm/rig/runtime/tick_schedule.hpp"
 #include "microswarm/vision/camera/newest_frame.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 
 /// Listeners to a rig.
 struct LiveRigListeners {
   /// Called in the coils' thread after each output; an exception from it is a fault.
   std::function<void(const CoilMoment&)> coils{};
   /// Called in the camera's thread for each frame, also before the clock starts.
-  FrameListener pictures{};
+  vision::FrameListener pictures{};
   /// Called in the rig's thread with the detections in a picture taken at `seen` [s].
   std::function<void(const Detections&, double seen)> detections{};
 };
@@ -38,13 +38,13 @@ class LiveRig : public Plant {
   /// `rig` and `driver` must outlive the plant. `scale` maps camera pixels to the world. Waits for
   /// the first frame. Throws HardwareError if there is none, InputError if rig and scenario do not
   /// fit.
-  LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const Rig& rig,
-          std::unique_ptr<FrameSource> camera, const CameraScale& scale, CoilDriver& driver,
-          LiveRigListeners listeners = {});
+  LiveRig(const experiment::Scenario& scenario, std::shared_ptr<const Map> map, const Rig& rig,
+          std::unique_ptr<vision::FrameSource> camera, const vision::CameraScale& scale,
+          actuation::CoilDriver& driver, LiveRigListeners listeners = {});
 
   /// Sets the temperatures of the coils [°C], before the first command.
   void warm(const Eigen::VectorXd& temperatures) { controller_.warm(temperatures); }
-  NewestFrame& camera() { return camera_; }
+  vision::NewestFrame& camera() { return camera_; }
   Observation observe() override;
   void apply(const Command& command, double dt) override;
   /// Replaces the virtual obstacles; false if the rig cannot have any.
@@ -53,7 +53,7 @@ class LiveRig : public Plant {
 
   /// Sets the coils to zero permanently; callable from any thread. A tick in progress ends with its
   /// picture, at most one camera period later. Returns the report of the first stop.
-  StopReport stop(const std::string& why) { return coils_.stop(why); }
+  actuation::StopReport stop(const std::string& why) { return coils_.stop(why); }
   /// Zero of the record's time [s], by steady_seconds().
   double start() const { return start_; }
   RigTiming timing() const;
@@ -63,8 +63,8 @@ class LiveRig : public Plant {
   /// Age of the newest processed picture [s].
   double frame_age() const { return since_start() - seen_; }
   /// The newest picture, its scale and its detections.
-  const Image& picture() const { return grey_; }
-  const CameraScale& scale() const { return scale_; }
+  const formats::Image& picture() const { return grey_; }
+  const vision::CameraScale& scale() const { return scale_; }
   const Detections& sight() const { return *detections_; }
 
  private:
@@ -78,15 +78,15 @@ class LiveRig : public Plant {
   const Rig& rig_;
   const bool has_virtual_;  // whether there are virtual obstacles
   World world_;             // map and virtual obstacles
-  CameraScale scale_;
+  vision::CameraScale scale_;
   TickSchedule schedule_;
-  NewestFrame camera_;
-  CoilController controller_;
+  vision::NewestFrame camera_;
+  actuation::CoilController controller_;
   FollowMonitor following_;
   FollowAngle angle_;
   std::unique_ptr<Perception> perception_;
-  LiveFrame frame_;
-  Image grey_;
+  vision::LiveFrame frame_;
+  formats::Image grey_;
   LiveRigListeners listeners_;
   double reported_ = -1;  // time of the newest frame whose detections were reported [s]
   Detections unseen_;     // before the first picture
@@ -101,4 +101,4 @@ class LiveRig : public Plant {
   CoilLoop coils_;  // last member, since its thread uses the others
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

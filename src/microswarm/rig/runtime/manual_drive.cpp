@@ -12,7 +12,7 @@
 #include "microswarm/rig/runtime/first_reason.hpp"
 #include "microswarm/rig/runtime/standstill.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 /// Share at `t` of a command that ends at `end`, with linear ramps of `ramp` [s].
@@ -22,7 +22,7 @@ double share_at(double t, double end, double ramp) {
 }
 
 /// Heading at the start.
-double heading_along(const Setpoint& setpoint) {
+double heading_along(const actuation::Setpoint& setpoint) {
   const auto* const command = std::get_if<Command>(&setpoint);
   return command ? command->heading : 0;
 }
@@ -38,7 +38,7 @@ std::string tell(const std::function<void(const ManualMoment&)>& heard,
   }
 }
 
-void take(const CoilOutput& output, ManualResult& result) {
+void take(const actuation::CoilOutput& output, ManualResult& result) {
   result.min_scale = std::min(result.min_scale, output.scale);
   result.min_device_scale = std::min(result.min_device_scale, output.device_scale);
   if (output.acknowledged.norm() > result.most.norm()) result.most = output.acknowledged;
@@ -46,11 +46,12 @@ void take(const CoilOutput& output, ManualResult& result) {
 
 }  // namespace
 
-ManualResult drive_by_hand(const Rig& rig, CoilDriver& driver, const ManualCommand& command,
-                           const Eigen::VectorXd& temperatures,
+ManualResult drive_by_hand(const Rig& rig, actuation::CoilDriver& driver,
+                           const ManualCommand& command, const Eigen::VectorXd& temperatures,
                            const std::function<void(const ManualMoment&)>& heard,
                            const Stop& stop) {
-  CoilController controller(rig.system, rig.params.field, driver, heading_along(command.wanted));
+  actuation::CoilController controller(rig.system, rig.params.field, driver,
+                                       heading_along(command.wanted));
   controller.warm(temperatures);
   controller.command(command.wanted);
   ManualResult result{.most = controller.output().acknowledged};
@@ -65,7 +66,7 @@ ManualResult drive_by_hand(const Rig& rig, CoilDriver& driver, const ManualComma
     const double dt = moment.t - std::exchange(before, moment.t);
     moment.output = controller.advance(dt, share_at(moment.t, end, command.ramp));
     take(moment.output, result);
-    const bool resumed = moment.output.status == DriveStatus::resumed;
+    const bool resumed = moment.output.status == actuation::DriveStatus::resumed;
     result.why = first_reason({controller.trouble(),
                                resumed ? "the coils had switched off by themselves" : "",
                                limits.take(moment.t, moment.output), tell(heard, moment)});
@@ -85,4 +86,4 @@ ManualResult drive_by_hand(const Rig& rig, CoilDriver& driver, const ManualComma
   return result;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -10,11 +10,11 @@
 #include "microswarm/core/execution/stop.hpp"
 #include "microswarm/rig/params/rig_params.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 
 /// Manual command of the coils, with the target position at the centre.
 struct ManualCommand {
-  Setpoint wanted;
+  actuation::Setpoint wanted;
   double seconds = 5;              ///< duration, both ramps included [s]
   double ramp = 0.5;               ///< duration of the ramp at the start and at the end [s]
   std::function<bool()> enough{};  ///< asked after each output; true starts the final ramp
@@ -23,17 +23,17 @@ struct ManualCommand {
 /// One output of a manual drive.
 struct ManualMoment {
   double t = 0;  ///< time since the first [s]
-  CoilOutput output;
+  actuation::CoilOutput output;
 };
 
 /// Result of a manual drive: `solved` after its time, `stopped`, or `fault`.
 struct ManualResult {
   Status status = Status::solved;
-  std::string why{};            ///< reason of a fault
-  StopReport zero{};            ///< of the zero at the end
-  double min_scale = 1;         ///< minimum scale by the coils' limits
-  double min_device_scale = 1;  ///< minimum scale by the device's own limits
-  Eigen::VectorXd most{};       ///< largest currents that the device acknowledged [A]
+  std::string why{};             ///< reason of a fault
+  actuation::StopReport zero{};  ///< of the zero at the end
+  double min_scale = 1;          ///< minimum scale by the coils' limits
+  double min_device_scale = 1;   ///< minimum scale by the device's own limits
+  Eigen::VectorXd most{};        ///< largest currents that the device acknowledged [A]
 };
 
 /// Drives the coils manually at the rig's drive rate, within the limits of the coil system, and
@@ -41,9 +41,9 @@ struct ManualResult {
 /// not answer, reports trouble, switched off by itself or leaves almost no current by its own
 /// limits, and a standstill of the program. `temperatures`: coils at the start [°C]. `heard` is
 /// called after each output; an exception from it is a fault.
-ManualResult drive_by_hand(const Rig& rig, CoilDriver& driver, const ManualCommand& command,
-                           const Eigen::VectorXd& temperatures,
+ManualResult drive_by_hand(const Rig& rig, actuation::CoilDriver& driver,
+                           const ManualCommand& command, const Eigen::VectorXd& temperatures,
                            const std::function<void(const ManualMoment&)>& heard = {},
                            const Stop& stop = {});
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 constexpr double max_settling = 10;  // after the ramp, until the currents are reached [s]
@@ -17,8 +17,9 @@ constexpr double resolution = 2e-3;     // share of full scale by which a device
 /// The measurement of one step while its currents flow.
 class StepMeasurement {
  public:
-  StepMeasurement(const Rig& rig, const CoilDriver& driver, const MeasurementStep& step,
-                  const MeasurementTiming& timing, FieldReader& reader)
+  StepMeasurement(const Rig& rig, const actuation::CoilDriver& driver,
+                  const actuation::MeasurementStep& step, const MeasurementTiming& timing,
+                  FieldReader& reader)
       : rig_(rig),
         driver_(driver),
         step_(step),
@@ -40,8 +41,8 @@ class StepMeasurement {
   SettledCurrents settled() const;
 
   const Rig& rig_;
-  const CoilDriver& driver_;
-  const MeasurementStep& step_;
+  const actuation::CoilDriver& driver_;
+  const actuation::MeasurementStep& step_;
   double counts_from_;  // [s]
   double tolerance_;    // between planned and reported currents [A]
   FieldReader& reader_;
@@ -94,7 +95,7 @@ Measurement StepMeasurement::result(const ManualResult& drive) const {
                   .why = drive.why};
   // A measurement counts even if something fails while the currents ramp down.
   if (answer_ && answer_->outcome == measured) {
-    out.reading = mean_reading(answer_->readings);
+    out.reading = actuation::mean_reading(answer_->readings);
     out.expected = settled().expected;
   }
   if (!drive.why.empty() || !drive.zero.good())
@@ -106,10 +107,11 @@ Measurement StepMeasurement::result(const ManualResult& drive) const {
 
 }  // namespace
 
-Measurement measure_field(const Rig& rig, CoilDriver& driver, const MeasurementStep& step,
-                          const MeasurementTiming& timing, FieldReader& reader,
-                          const Eigen::VectorXd& temperatures,
-                          const std::function<void(const CoilOutput&)>& heard, const Stop& stop) {
+Measurement measure_field(const Rig& rig, actuation::CoilDriver& driver,
+                          const actuation::MeasurementStep& step, const MeasurementTiming& timing,
+                          FieldReader& reader, const Eigen::VectorXd& temperatures,
+                          const std::function<void(const actuation::CoilOutput&)>& heard,
+                          const Stop& stop) {
   StepMeasurement measurement(rig, driver, step, timing, reader);
   const ManualCommand command{.wanted = step.currents,
                               .seconds = 2 * timing.ramp + timing.settle + timing.hold,
@@ -125,7 +127,7 @@ Measurement measure_field(const Rig& rig, CoilDriver& driver, const MeasurementS
 }
 
 std::optional<Eigen::Index> reversed_axis(const Measurement& measurement,
-                                          const MeasurementStep& step) {
+                                          const actuation::MeasurementStep& step) {
   if (!measurement.expected || !measurement.reading || step.currents.isZero(0)) return std::nullopt;
   Eigen::Index axis = 0;
   const double most = measurement.expected->cwiseAbs().maxCoeff(&axis);
@@ -135,20 +137,21 @@ std::optional<Eigen::Index> reversed_axis(const Measurement& measurement,
   return axis;
 }
 
-MeasurementRun::MeasurementRun(std::vector<MeasurementStep> steps, MeasurementLog& log)
+MeasurementRun::MeasurementRun(std::vector<actuation::MeasurementStep> steps,
+                               actuation::MeasurementLog& log)
     : steps_(std::move(steps)),
       log_(log),
-      missing_(missing_steps(steps_, log.measured().rows)),
+      missing_(actuation::missing_steps(steps_, log.measured().rows)),
       fewest_(missing_.size()) {}
 
 void MeasurementRun::take(const Measurement& measurement, bool operated) {
   if (measurement.reading && next())
     log_.add(measurement.currents, next()->currents, next()->position, *measurement.reading);
   if (measurement.outcome == MeasurementOutcome::back) log_.remove_last();
-  missing_ = missing_steps(steps_, log_.measured().rows);
+  missing_ = actuation::missing_steps(steps_, log_.measured().rows);
   const bool person = operated && measurement.outcome != MeasurementOutcome::measured;
   attempts_ = person || missing_.size() < fewest_ ? 0 : attempts_ + 1;
   fewest_ = person ? missing_.size() : std::min(fewest_, missing_.size());
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -12,7 +12,7 @@
 #include "microswarm/actuation/coils/measurement_plan.hpp"
 #include "microswarm/rig/runtime/manual_drive.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 
 /// Times of a measurement [s].
 struct MeasurementTiming {
@@ -21,7 +21,7 @@ struct MeasurementTiming {
   double hold = 60;     ///< longest time for which a current waits for a reading
 };
 
-/// How the measurement of a step ended.
+/// Outcome of the measurement of a step.
 enum class MeasurementOutcome {
   measured,    ///< its field was read
   repeat,      ///< the operator wants it again
@@ -35,13 +35,13 @@ enum class MeasurementOutcome {
 
 /// Currents that have settled.
 struct SettledCurrents {
-  const MeasurementStep& step;
+  const actuation::MeasurementStep& step;
   const Eigen::VectorXd& currents;          ///< as the device reports them [A]
   std::vector<Eigen::Index> limited;        ///< coils that the device limits
   std::optional<Eigen::Vector3d> expected;  ///< by the rig's coil file [mT]; only in the workspace
 };
 
-/// What a reader of fields says: readings [mT] if it is `measured`.
+/// Answer of a reader of fields: readings [mT] if it is `measured`.
 struct FieldAnswer {
   MeasurementOutcome outcome = MeasurementOutcome::measured;
   std::vector<Eigen::Vector3d> readings{};
@@ -63,25 +63,26 @@ class FieldReader {
 /// Result of the measurement of a step.
 struct Measurement {
   MeasurementOutcome outcome = MeasurementOutcome::ended;
-  Eigen::VectorXd currents{};                 ///< as the device reported them [A]
-  std::optional<FieldReading> reading{};      ///< also if it failed afterwards
-  std::optional<Eigen::Vector3d> expected{};  ///< as in SettledCurrents
-  StopReport zero{};                          ///< of the zero at the end
-  std::string why{};                          ///< reason of a fault
+  Eigen::VectorXd currents{};                        ///< as the device reported them [A]
+  std::optional<actuation::FieldReading> reading{};  ///< also if it failed afterwards
+  std::optional<Eigen::Vector3d> expected{};         ///< as in SettledCurrents
+  actuation::StopReport zero{};                      ///< of the zero at the end
+  std::string why{};                                 ///< reason of a fault
 };
 
 /// Drives the currents of a step, waits until they have settled and holds them until the reader
-/// answers. The coils are at zero afterwards, whatever happens. `temperatures`: coils at the start
-/// [°C]. `heard` is called after each output.
-Measurement measure_field(const Rig& rig, CoilDriver& driver, const MeasurementStep& step,
-                          const MeasurementTiming& timing, FieldReader& reader,
-                          const Eigen::VectorXd& temperatures,
-                          const std::function<void(const CoilOutput&)>& heard, const Stop& stop);
+/// answers. The coils are at zero afterwards, also after an exception. `temperatures`: coils at the
+/// start [°C]. `heard` is called after each output.
+Measurement measure_field(const Rig& rig, actuation::CoilDriver& driver,
+                          const actuation::MeasurementStep& step, const MeasurementTiming& timing,
+                          FieldReader& reader, const Eigen::VectorXd& temperatures,
+                          const std::function<void(const actuation::CoilOutput&)>& heard,
+                          const Stop& stop);
 
 /// Axis on which the mean of the readings has the opposite sign of the largest component of the
 /// expected field, as with a reversed coil or probe; nothing if it has not, or without current.
 std::optional<Eigen::Index> reversed_axis(const Measurement& measurement,
-                                          const MeasurementStep& step);
+                                          const actuation::MeasurementStep& step);
 
 /// Order of the measurements that a log lacks, and the end of attempts that lead to nothing.
 class MeasurementRun {
@@ -89,10 +90,12 @@ class MeasurementRun {
   /// Attempts without operator, one after the other, that may make no measurement.
   static constexpr int max_attempts = 5;
 
-  MeasurementRun(std::vector<MeasurementStep> steps, MeasurementLog& log);
+  MeasurementRun(std::vector<actuation::MeasurementStep> steps, actuation::MeasurementLog& log);
 
   /// The first step that is missing; null if none is.
-  const MeasurementStep* next() const { return missing_.empty() ? nullptr : &missing_.front(); }
+  const actuation::MeasurementStep* next() const {
+    return missing_.empty() ? nullptr : &missing_.front();
+  }
   std::size_t size() const { return steps_.size(); }
   std::size_t made() const { return steps_.size() - missing_.size(); }
   /// Takes what came of the next step: adds its reading to the log, or takes back the one before.
@@ -103,11 +106,11 @@ class MeasurementRun {
   int attempts() const { return attempts_; }
 
  private:
-  std::vector<MeasurementStep> steps_;
-  MeasurementLog& log_;
-  std::vector<MeasurementStep> missing_;
+  std::vector<actuation::MeasurementStep> steps_;
+  actuation::MeasurementLog& log_;
+  std::vector<actuation::MeasurementStep> missing_;
   std::size_t fewest_;
   int attempts_ = 0;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

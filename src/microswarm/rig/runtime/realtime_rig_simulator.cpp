@@ -11,12 +11,12 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/vision/camera/newest_frame.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 constexpr double longest_step = 0.005;  // [s]
 
-Scenario without_delay(Scenario scenario) {
+experiment::Scenario without_delay(experiment::Scenario scenario) {
   scenario.sensing.observation_delay = 0;
   return scenario;
 }
@@ -24,31 +24,31 @@ Scenario without_delay(Scenario scenario) {
 }  // namespace
 
 /// Wraps the driver and advances the simulation after each call.
-class RealtimeRigSimulator::Coils : public CoilDriver {
+class RealtimeRigSimulator::Coils : public actuation::CoilDriver {
  public:
-  Coils(RealtimeRigSimulator& owner, std::unique_ptr<CoilDriver> driver)
+  Coils(RealtimeRigSimulator& owner, std::unique_ptr<actuation::CoilDriver> driver)
       : owner_(owner), driver_(std::move(driver)) {}
 
-  Capabilities capabilities() const override { return driver_->capabilities(); }
-  const DeviceReport& report() const override { return driver_->report(); }
-  DriveStatus drive(const CoilRequest& request) override {
+  actuation::Capabilities capabilities() const override { return driver_->capabilities(); }
+  const actuation::DeviceReport& report() const override { return driver_->report(); }
+  actuation::DriveStatus drive(const actuation::CoilRequest& request) override {
     const std::lock_guard lock(owner_.mutex_);
     owner_.catch_up();
     turning_.reset();
-    const DriveStatus status = driver_->drive(request);
-    const auto* const waveform = std::get_if<CurrentWaveform>(&request);
-    if (waveform && is_acknowledged(status)) turn(*waveform);
+    const actuation::DriveStatus status = driver_->drive(request);
+    const auto* const waveform = std::get_if<actuation::CurrentWaveform>(&request);
+    if (waveform && actuation::is_acknowledged(status)) turn(*waveform);
     return status;
   }
   /// Currents of the coils at a time [s]; a waveform continues between two messages.
   std::span<const double> currents_at(double t) {
     if (!turning_) return report().currents;
-    TurningCurrents then = *turning_;
+    actuation::TurningCurrents then = *turning_;
     then.phase += 2 * pi * then.frequency * (t - told_at_);
     now_ = then.now();
     return {now_.data(), static_cast<std::size_t>(now_.size())};
   }
-  StopReport stop() noexcept override {
+  actuation::StopReport stop() noexcept override {
     const std::lock_guard lock(owner_.mutex_);
     turning_.reset();
     // Nothing may fail here; the simulation catches up later, without current.
@@ -58,8 +58,8 @@ class RealtimeRigSimulator::Coils : public CoilDriver {
 
  private:
   /// Notes the waveform as the device turns it.
-  void turn(const CurrentWaveform& waveform) {
-    const DeviceReport& device = report();
+  void turn(const actuation::CurrentWaveform& waveform) {
+    const actuation::DeviceReport& device = report();
     if (!device.phase) return;
     const auto vector = [&](std::span<const double> values) {
       return Eigen::VectorXd(device.scale *
@@ -75,13 +75,13 @@ class RealtimeRigSimulator::Coils : public CoilDriver {
   }
 
   RealtimeRigSimulator& owner_;
-  std::unique_ptr<CoilDriver> driver_;
-  std::optional<TurningCurrents> turning_;  // acknowledged
-  double told_at_ = 0;                      // time of that message [s], by steady_seconds()
+  std::unique_ptr<actuation::CoilDriver> driver_;
+  std::optional<actuation::TurningCurrents> turning_;  // acknowledged
+  double told_at_ = 0;  // time of that message [s], by steady_seconds()
   Eigen::VectorXd now_;
 };
 
-class RealtimeRigSimulator::Camera : public FrameSource {
+class RealtimeRigSimulator::Camera : public vision::FrameSource {
  public:
   Camera(RealtimeRigSimulator& owner, double rate)
       : owner_(owner), rate_(rate), due_(steady_seconds()) {
@@ -96,7 +96,7 @@ class RealtimeRigSimulator::Camera : public FrameSource {
   Camera(const Camera&) = delete;
   Camera& operator=(const Camera&) = delete;
 
-  bool next(VideoFrame& frame) override {
+  bool next(vision::VideoFrame& frame) override {
     due_ = std::max(due_ + 1 / rate_, steady_seconds());
     std::this_thread::sleep_for(std::chrono::duration<double>(due_ - steady_seconds()));
     std::unique_lock lock(owner_.mutex_);
@@ -118,9 +118,9 @@ class RealtimeRigSimulator::Camera : public FrameSource {
   int index_ = 0;
 };
 
-RealtimeRigSimulator::RealtimeRigSimulator(const Scenario& scenario, const World& world,
-                                           const Rig& rig, std::unique_ptr<CoilDriver> driver,
-                                           bool idle)
+RealtimeRigSimulator::RealtimeRigSimulator(const experiment::Scenario& scenario, const World& world,
+                                           const Rig& rig,
+                                           std::unique_ptr<actuation::CoilDriver> driver, bool idle)
     : idle_(idle),
       simulator_(without_delay(scenario), world, rig),
       now_(steady_seconds()),
@@ -131,11 +131,11 @@ RealtimeRigSimulator::~RealtimeRigSimulator() {
   no_camera_.wait(lock, [this] { return cameras_ == 0; });
 }
 
-std::unique_ptr<FrameSource> RealtimeRigSimulator::camera(double rate) {
+std::unique_ptr<vision::FrameSource> RealtimeRigSimulator::camera(double rate) {
   return std::make_unique<Camera>(*this, rate);
 }
 
-CoilDriver& RealtimeRigSimulator::coils() { return *coils_; }
+actuation::CoilDriver& RealtimeRigSimulator::coils() { return *coils_; }
 
 SwarmPose RealtimeRigSimulator::swarm() {
   const std::lock_guard lock(mutex_);
@@ -155,4 +155,4 @@ void RealtimeRigSimulator::catch_up() {
   }
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

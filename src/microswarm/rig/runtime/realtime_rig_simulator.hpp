@@ -9,7 +9,7 @@
 #include "microswarm/rig/simulation/rig_simulator.hpp"
 #include "microswarm/vision/camera/frames.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 
 /// A RigSimulator in real time: simulated time follows the clock, the camera takes pictures at a
 /// fixed rate, and the coils are those of a driver, which may be real hardware.
@@ -17,16 +17,16 @@ class RealtimeRigSimulator {
  public:
   /// The scenario's observation delay is ignored, since real time has its own. `driver` drives the
   /// coils; with `idle` the simulated swarm ignores them.
-  RealtimeRigSimulator(const Scenario& scenario, const World& world, const Rig& rig,
-                       std::unique_ptr<CoilDriver> driver, bool idle = false);
+  RealtimeRigSimulator(const experiment::Scenario& scenario, const World& world, const Rig& rig,
+                       std::unique_ptr<actuation::CoilDriver> driver, bool idle = false);
   /// Waits until its cameras have been destroyed.
   ~RealtimeRigSimulator();
   RealtimeRigSimulator(const RealtimeRigSimulator&) = delete;
   RealtimeRigSimulator& operator=(const RealtimeRigSimulator&) = delete;
 
   /// Creates a camera at `rate` [Hz]; the simulator must outlive it.
-  std::unique_ptr<FrameSource> camera(double rate);
-  CoilDriver& coils();
+  std::unique_ptr<vision::FrameSource> camera(double rate);
+  actuation::CoilDriver& coils();
   CameraView view() const { return simulator_.camera(); }
   /// Current pose of the swarm (ground truth).
   SwarmPose swarm();
@@ -46,4 +46,4 @@ class RealtimeRigSimulator {
   std::unique_ptr<Coils> coils_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -10,17 +10,19 @@
 #include "microswarm/core/execution/clock.hpp"
 #include "microswarm/core/maths/angles.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 std::string unlimited(const Rig& rig) {
   const auto& amplifiers = rig.system.amplifiers();
-  const bool voltage = std::ranges::all_of(amplifiers, [](const AmplifierParams& amplifier) {
-    return amplifier.max_voltage.has_value();
-  });
-  const bool temperature = std::ranges::all_of(amplifiers, [](const AmplifierParams& amplifier) {
-    return amplifier.max_temperature.has_value();
-  });
+  const bool voltage =
+      std::ranges::all_of(amplifiers, [](const actuation::AmplifierParams& amplifier) {
+        return amplifier.max_voltage.has_value();
+      });
+  const bool temperature =
+      std::ranges::all_of(amplifiers, [](const actuation::AmplifierParams& amplifier) {
+        return amplifier.max_temperature.has_value();
+      });
   if (voltage && temperature) return {};
   return fmt::format("; {} does not limit the {}", rig.params.coils,
                      voltage       ? "temperature"
@@ -37,15 +39,15 @@ struct Weakening {
 Weakening field_weakening(const Rig& rig) {
   constexpr double settled = 0.5;  // [s]
   constexpr double lasts = 2;      // [s]
-  SimulatedCoilDriver driver(static_cast<int>(rig.system.size()), driver_full_scale(rig.params),
-                             coil_input(rig.params));
-  CoilController controller(rig.system, rig.params.field, driver, 0);
+  actuation::SimulatedCoilDriver driver(static_cast<int>(rig.system.size()),
+                                        driver_full_scale(rig.params), coil_input(rig.params));
+  actuation::CoilController controller(rig.system, rig.params.field, driver, 0);
   Weakening most;
   const double dt = 1 / rig.params.drive_rate;
   for (const double heading : {0.0, 0.5 * pi, 1.0, -2.0}) {
     controller.command(Command{heading, 1e9});
     for (int i = 0; i < static_cast<int>(lasts / dt); ++i) {
-      const CoilOutput& output = controller.advance(dt);
+      const actuation::CoilOutput& output = controller.advance(dt);
       if (i * dt > settled) most.scale = std::min(most.scale, output.scale);
       most.reached = most.reached && output.reached;
     }
@@ -56,11 +58,11 @@ Weakening field_weakening(const Rig& rig) {
 /// Durations between frames, and the last frame.
 struct Watched {
   Durations gaps;
-  LiveFrame frame;
+  vision::LiveFrame frame;
   double seconds = 0;
 };
 
-Watched watch(NewestFrame& camera, double seconds, const Stop& stop) {
+Watched watch(vision::NewestFrame& camera, double seconds, const Stop& stop) {
   Watched watched;
   double before = 0;
   const double began = steady_seconds();
@@ -90,9 +92,10 @@ RigCheck check_field(const Rig& rig) {
 Issues missing_limits(const Rig& rig) {
   Issues issues;
   const auto& amplifiers = rig.system.amplifiers();
-  const bool temperature = std::ranges::all_of(amplifiers, [](const AmplifierParams& amplifier) {
-    return amplifier.max_temperature.has_value();
-  });
+  const bool temperature =
+      std::ranges::all_of(amplifiers, [](const actuation::AmplifierParams& amplifier) {
+        return amplifier.max_temperature.has_value();
+      });
   if (rig.limits_current && temperature) return issues;
   const char* const what = temperature          ? "current"
                            : rig.limits_current ? "temperature"
@@ -104,15 +107,15 @@ Issues missing_limits(const Rig& rig) {
   return issues;
 }
 
-std::vector<RigCheck> check_camera(NewestFrame& camera, const Rig& rig, std::optional<double> rate,
-                                   double seconds, const Stop& stop) {
+std::vector<RigCheck> check_camera(vision::NewestFrame& camera, const Rig& rig,
+                                   std::optional<double> rate, double seconds, const Stop& stop) {
   const Watched seen = watch(camera, seconds, stop);
-  const CameraStatus status = camera.status();
+  const vision::CameraStatus status = camera.status();
   const bool is_video = camera_kind(rig.params) == CameraKind::video;
-  const bool runs =
-      status.state == CameraState::live || (is_video && status.state == CameraState::ended);
+  const bool runs = status.state == vision::CameraState::live ||
+                    (is_video && status.state == vision::CameraState::ended);
   const bool timed = seen.gaps.count() > 0;
-  const Image& picture = seen.frame.frame.picture;
+  const formats::Image& picture = seen.frame.frame.picture;
   std::vector<RigCheck> checks;
   checks.push_back(
       {"camera", timed && runs,
@@ -132,27 +135,28 @@ std::vector<RigCheck> check_camera(NewestFrame& camera, const Rig& rig, std::opt
   return checks;
 }
 
-std::vector<RigCheck> check_driver(CoilDriver& driver, const Rig& rig, double seconds,
+std::vector<RigCheck> check_driver(actuation::CoilDriver& driver, const Rig& rig, double seconds,
                                    const Stop& stop) {
   Durations times;
   int failures = 0;
   int resumed = 0;
   std::string trouble;
-  const Capabilities device = driver.capabilities();
+  const actuation::Capabilities device = driver.capabilities();
   const std::vector<double> no_currents(static_cast<std::size_t>(device.channels));
   const std::array<double, 3> no_field{};
-  const CoilRequest nothing = constant_request(device, no_field, no_currents);
+  const actuation::CoilRequest nothing = actuation::constant_request(device, no_field, no_currents);
   for (const double end = steady_seconds() + seconds; steady_seconds() < end && !stop();) {
     const double began = steady_seconds();
-    const DriveStatus status = driver.drive(nothing);
-    failures += status == DriveStatus::no_answer;
-    resumed += status == DriveStatus::resumed;
+    const actuation::DriveStatus status = driver.drive(nothing);
+    failures += status == actuation::DriveStatus::no_answer;
+    resumed += status == actuation::DriveStatus::resumed;
     times.add(steady_seconds() - began);
-    const bool unanswered = failures >= max_missed_answers;
-    if (!trouble_text(status).empty() || unanswered) trouble = trouble_text(driver, status);
-    if (status == DriveStatus::gone || unanswered) break;
+    const bool unanswered = failures >= actuation::max_missed_answers;
+    if (!actuation::trouble_text(status).empty() || unanswered)
+      trouble = actuation::trouble_text(driver, status);
+    if (status == actuation::DriveStatus::gone || unanswered) break;
   }
-  const StopReport zero = driver.stop();
+  const actuation::StopReport zero = driver.stop();
   std::vector<RigCheck> checks;
   if (!trouble.empty()) checks.push_back({"driver", false, trouble});
   checks.push_back(
@@ -183,4 +187,4 @@ std::string quantiles(const Durations& times) {
                      1e3 * times.quantile(0.95), 1e3 * times.quantile(0.99));
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -11,7 +11,7 @@
 #include "microswarm/rig/params/rig_params.hpp"
 #include "microswarm/vision/camera/newest_frame.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 
 /// Result of one check of a rig.
 struct RigCheck {
@@ -28,14 +28,15 @@ RigCheck check_field(const Rig& rig);
 Issues missing_limits(const Rig& rig);
 
 /// Observes the rig's camera for `seconds`: its state, and the time between frames.
-std::vector<RigCheck> check_camera(NewestFrame& camera, const Rig& rig, std::optional<double> rate,
-                                   double seconds, const Stop& stop = {});
+std::vector<RigCheck> check_camera(vision::NewestFrame& camera, const Rig& rig,
+                                   std::optional<double> rate, double seconds,
+                                   const Stop& stop = {});
 
 /// Sends zero currents to the device for `seconds`, then stops it.
-std::vector<RigCheck> check_driver(CoilDriver& driver, const Rig& rig, double seconds,
+std::vector<RigCheck> check_driver(actuation::CoilDriver& driver, const Rig& rig, double seconds,
                                    const Stop& stop = {});
 
 /// Quantiles of durations as "p50 / p95 / p99 ms", "–" if there are none.
 std::string quantiles(const Durations& times);
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
-namespace microswarm {
+namespace microswarm::rig {
 
 void RigMeter::add_output(const CoilMoment& moment) {
-  const CoilOutput& output = moment.output;
-  const bool acknowledged = is_acknowledged(output.status);
+  const actuation::CoilOutput& output = moment.output;
+  const bool acknowledged = actuation::is_acknowledged(output.status);
   const std::lock_guard lock(mutex_);
   if (acknowledged && moment.seen != answered_) {
     answered_ = moment.seen;
@@ -19,7 +19,7 @@ void RigMeter::add_output(const CoilMoment& moment) {
   timing_.unmade += !output.reached;
   timing_.limited += output.scale < 1 - 1e-9;
   timing_.min_scale = std::min(timing_.min_scale, output.scale);
-  timing_.resumed += output.status == DriveStatus::resumed;
+  timing_.resumed += output.status == actuation::DriveStatus::resumed;
   if (acknowledged && output.device_scale < 1 - 1e-9) {
     ++timing_.scaled;
     device_scale_ = output.device_scale;
@@ -64,4 +64,4 @@ CoilLoad RigMeter::load() const {
   return load_.load();
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

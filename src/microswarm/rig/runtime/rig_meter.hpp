@@ -9,7 +9,7 @@
 #include "microswarm/rig/runtime/coil_loop.hpp"
 #include "microswarm/rig/runtime/follow_monitor.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 
 /// Durations and counts of a run on a rig.
 struct RigTiming {
@@ -45,7 +45,7 @@ struct DeviceEvents {
 class RigMeter {
  public:
   /// `system` must outlive the meter. `tick`: of the scenario [s].
-  RigMeter(const CoilSystem& system, double tick) : tick_(tick), load_(system) {}
+  RigMeter(const actuation::CoilSystem& system, double tick) : tick_(tick), load_(system) {}
 
   /// Adds an output to the coils.
   void add_output(const CoilMoment& moment);
@@ -72,4 +72,4 @@ class RigMeter {
   CoilLoadMeter load_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -9,7 +9,7 @@
 
 #include "microswarm/core/execution/clock.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 
 /// Detects a stopped process or suspended machine; later commands may be stale. Tests pass another
 /// clock.
@@ -35,4 +35,4 @@ class Standstill {
   double suspended_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <optional>
 
-namespace microswarm {
+namespace microswarm::rig {
 
 /// Start times of the ticks of a rig in real time. With a camera that delivers at least one picture
 /// a tick, a tick begins with the first picture within half a camera period around its due time,
@@ -53,4 +53,4 @@ class TickSchedule {
   double begun_ = 0;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

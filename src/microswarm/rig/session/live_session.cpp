@@ -9,7 +9,7 @@
 #include "microswarm/config/write.hpp"
 #include "microswarm/core/text/file.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 
 namespace {
 
@@ -27,14 +27,15 @@ RigExperiment checked(RigExperiment on, const LiveOptions& options) {
   return on;
 }
 
-std::unique_ptr<VideoRecorder> video_recorder(const std::filesystem::path& file,
-                                              std::optional<double> rate) {
+std::unique_ptr<vision::VideoRecorder> video_recorder(const std::filesystem::path& file,
+                                                      std::optional<double> rate) {
   constexpr double usual_rate = 30;  // [Hz]
   if (file.empty()) return nullptr;
-  return std::make_unique<VideoRecorder>(file, rate.value_or(usual_rate));
+  return std::make_unique<vision::VideoRecorder>(file, rate.value_or(usual_rate));
 }
 
-SessionParts to_parts(const Rig& rig, std::shared_ptr<Plant> plant, const LiveOptions& options) {
+experiment::SessionParts to_parts(const Rig& rig, std::shared_ptr<Plant> plant,
+                                  const LiveOptions& options) {
   return {.plant = std::move(plant), .rig = rig_name(rig) + (options.dry ? ", dry run" : "")};
 }
 
@@ -49,8 +50,8 @@ std::string date_now() {
 }
 
 /// Log of a rig at the start of an experiment.
-RigLog make_log(const Rig& rig, const std::string& note) {
-  RigLog log;
+experiment::RigLog make_log(const Rig& rig, const std::string& note) {
+  experiment::RigLog log;
   log.began = date_now();
   log.note = note;
   log.rig_file = to_yaml(rig.params);
@@ -59,7 +60,7 @@ RigLog make_log(const Rig& rig, const std::string& note) {
   return log;
 }
 
-RigLatency rig_latency(const RigTiming& timing) {
+experiment::RigLatency rig_latency(const RigTiming& timing) {
   const Durations& times = timing.camera_to_current;
   return {.median = times.quantile(0.5),
           .p99 = times.quantile(0.99),
@@ -86,7 +87,7 @@ LiveSession::LiveSession(RigExperiment on, const LiveOptions& options)
           devices_.scale, devices_.driver(),
           LiveRigListeners{
               .coils = [this](const CoilMoment& moment) { keep(moment); },
-              .pictures = video_ ? video_->input() : FrameListener(),
+              .pictures = video_ ? video_->input() : vision::FrameListener(),
               .detections = [this](const Detections& seen, double t) { keep(seen, t); }})),
       session_(on_.experiment, to_parts(on_.rig, plant_, options)) {
   if (video_) video_->begin(plant_->start());
@@ -137,7 +138,7 @@ void LiveSession::keep(const CoilMoment& moment) {
 }
 
 std::string LiveSession::close() {
-  const StopReport zero = stop("the run has ended");
+  const actuation::StopReport zero = stop("the run has ended");
   if (!kept_.empty()) {
     kept_.latency = rig_latency(plant_->timing());
     session_.rig_log() = std::exchange(kept_, {});
@@ -146,7 +147,7 @@ std::string LiveSession::close() {
   return log_.finish(zero);
 }
 
-std::optional<RecordedVideo> LiveSession::video() const {
+std::optional<vision::RecordedVideo> LiveSession::video() const {
   return video_ ? std::optional(video_->finish()) : std::nullopt;
 }
 
@@ -160,7 +161,7 @@ LiveStatus LiveSession::status() const {
                     .frame_age = plant_->frame_age(),
                     .tick_p95 = timing.tick.quantile(0.95),
                     .missed_deadlines = timing.missed_deadlines};
-  const Tick* const tick = session_.tick();
+  const experiment::Tick* const tick = session_.tick();
   if (!tick) return status;
   status.t = tick->frame.t;
   status.state = tick->frame.state;
@@ -172,4 +173,4 @@ LiveStatus LiveSession::status() const {
   return status;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -14,7 +14,7 @@
 #include "microswarm/rig/runtime/rig_checks.hpp"
 #include "microswarm/vision/camera/video_recorder.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 
 /// Options for opening a rig in real time.
 struct LiveOptions {
@@ -57,19 +57,19 @@ class LiveSession {
   LiveSession(const LiveSession&) = delete;
   LiveSession& operator=(const LiveSession&) = delete;
 
-  Session& session() { return session_; }
-  const Session& session() const { return session_; }
+  experiment::Session& session() { return session_; }
+  const experiment::Session& session() const { return session_; }
   /// Warnings about the rig, found when it was opened, one line each.
   const std::vector<std::string>& warnings() const { return warnings_; }
   /// Sets the coils to zero permanently; callable from any thread. Returns the report of the first
   /// stop.
-  StopReport stop(const std::string& why) { return plant_->stop(why); }
+  actuation::StopReport stop(const std::string& why) { return plant_->stop(why); }
   /// Sets the coils to zero after the last tick, finishes the log and adds currents and detections
   /// to the record, up to 10,000,000 values of each. Returns the reason of a failure, or an empty
   /// string.
   std::string close();
   /// After close(): the recorded video, if requested.
-  std::optional<RecordedVideo> video() const;
+  std::optional<vision::RecordedVideo> video() const;
   /// Numbers of the newest tick; to be called in the thread that steps.
   LiveStatus status() const;
   const Rig& rig() const { return on_.rig; }
@@ -84,13 +84,13 @@ class LiveSession {
 
   RigExperiment on_;
   Devices devices_;
-  RigLog kept_;  ///< currents are written by the coils' thread, the rest by the run's
+  experiment::RigLog kept_;  ///< currents are written by the coils' thread, the rest by the run's
   CommandLog log_;
-  std::unique_ptr<VideoRecorder> video_;
+  std::unique_ptr<vision::VideoRecorder> video_;
   std::vector<std::string> warnings_;
   std::optional<CoilTemperatures> temperatures_;
   std::shared_ptr<LiveRig> plant_;
-  Session session_;
+  experiment::Session session_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -4,23 +4,23 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/rig/simulation/simulated_rig.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 
-std::unique_ptr<Session> open_on_rig(const RigExperiment& on, std::uint32_t trial) {
-  SessionParts parts{.trial = trial, .rig = rig_name(on.rig)};
+std::unique_ptr<experiment::Session> open_on_rig(const RigExperiment& on, std::uint32_t trial) {
+  experiment::SessionParts parts{.trial = trial, .rig = rig_name(on.rig)};
   parts.plant = std::make_shared<SimulatedRig>(on.scenario(), on.experiment.world, on.rig, trial);
-  return std::make_unique<Session>(on.experiment, std::move(parts));
+  return std::make_unique<experiment::Session>(on.experiment, std::move(parts));
 }
 
-std::unique_ptr<Session> open_on_rig(const std::filesystem::path& file,
-                                     const RigSessionOptions& options) {
-  if (is_record(file) && !(options.rig.empty() && options.rig_settings.empty()))
+std::unique_ptr<experiment::Session> open_on_rig(const std::filesystem::path& file,
+                                                 const RigSessionOptions& options) {
+  if (experiment::is_record(file) && !(options.rig.empty() && options.rig_settings.empty()))
     throw InputError(file.string() + ": a record accepts no options");
   if (options.rig.empty() && !options.rig_settings.empty())
     throw InputError("values of a rig are set, but there is no rig");
-  if (options.rig.empty()) return open_session(file, options.settings);
+  if (options.rig.empty()) return experiment::open_session(file, options.settings);
   return open_on_rig(
       open_rig_experiment(file, options.settings, options.rig, options.rig_settings));
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -10,7 +10,7 @@
 #include "microswarm/experiment/session/session.hpp"
 #include "microswarm/rig/params/rig_experiment.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 
 /// Options for opening a scenario with or without a simulated rig.
 struct RigSessionOptions {
@@ -21,11 +21,11 @@ struct RigSessionOptions {
 
 /// Opens a session through a simulated rig, as fast as possible. Throws InputError if rig and
 /// scenario do not fit.
-std::unique_ptr<Session> open_on_rig(const RigExperiment& on, std::uint32_t trial = 0);
+std::unique_ptr<experiment::Session> open_on_rig(const RigExperiment& on, std::uint32_t trial = 0);
 
 /// Opens a scenario through a simulated rig if one is named, otherwise as open_session. Throws
 /// InputError with one line per issue.
-std::unique_ptr<Session> open_on_rig(const std::filesystem::path& file,
-                                     const RigSessionOptions& options);
+std::unique_ptr<experiment::Session> open_on_rig(const std::filesystem::path& file,
+                                                 const RigSessionOptions& options);
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -9,7 +9,7 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/maths.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 constexpr double rolling_inertia = 0.02;  // [s] response time of a body
@@ -25,18 +25,18 @@ Command FieldResponse::step(const Eigen::Vector3d& field, double dt) {
     return {heading_, 0};
   }
   switch (params_.kind) {
-    case FieldKind::rolling:
+    case actuation::FieldKind::rolling:
       return rolling(from, field, dt);
-    case FieldKind::rotating:
+    case actuation::FieldKind::rotating:
       return rotating(from, field, dt);
-    case FieldKind::oscillating:
+    case actuation::FieldKind::oscillating:
       return oscillating(field, dt);
   }
   return {};
 }
 
 Command FieldResponse::rolling(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double dt) {
-  const Vec2 rolled = rolled_distance(from, to, params_.length_per_turn);
+  const Vec2 rolled = actuation::rolled_distance(from, to, params_.length_per_turn);
   const Eigen::Vector3d sum = over({dt, {rolled.x, rolled.y, 0}}, rolling_inertia);
   double time = 0;
   for (const Piece& piece : turn_) time += piece.dt;
@@ -84,4 +84,4 @@ Eigen::Vector3d FieldResponse::over(const Piece& piece, double last) {
   return sum;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -8,7 +8,7 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/rig/params/field_response_params.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 
 /// Estimates the motion that a field drives. Rotating fields: the plane of rotation over the last
 /// turn is pitched towards the heading, speed = c · pitch. Oscillating fields: the same with the
@@ -40,4 +40,4 @@ class FieldResponse {
   double heading_ = 0;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -15,7 +15,7 @@
 #include "microswarm/rig/perception/walls_in_picture.hpp"
 #include "microswarm/vision/image/blur.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 constexpr int max_side = 4096;                  // [px]
@@ -56,10 +56,10 @@ Microscope::Microscope(const MicroscopeParams& params, const Map& map, std::uint
   };
   width_ = pixels(seen.width());
   height_ = pixels(seen.height());
-  scale_ = upright_scale(height_ - params.margin, cell);
+  scale_ = vision::upright_scale(height_ - params.margin, cell);
   scale_.origin_px += Vec2{static_cast<double>(params.margin), 0};
   scale_.origin_px = scale_.to_picture(-seen.lo);
-  const Mask walls = walls_in_picture(map, scale_, width_, height_);
+  const formats::Mask walls = walls_in_picture(map, scale_, width_, height_);
   const std::size_t size = walls.cells.size();
   ground_.reserve(size);
   for (const std::uint8_t wall : walls.cells)
@@ -81,8 +81,8 @@ Microscope::Microscope(const MicroscopeParams& params, const Map& map, std::uint
   picture_ = {width_, height_, 1, std::vector<std::uint8_t>(size)};
 }
 
-const Image& Microscope::look(const Snapshot& world, const std::optional<SwarmPose>& swarm,
-                              std::span<const Vec2> robots) {
+const formats::Image& Microscope::look(const Snapshot& world, const std::optional<SwarmPose>& swarm,
+                                       std::span<const Vec2> robots) {
   view_ = ground_;
   for (const Body& body : world.moving().bodies()) draw_body(body);
   if (swarm) draw_swarm({{swarm->pose.position, swarm_spin * world.time()}, swarm->radius});
@@ -90,7 +90,7 @@ const Image& Microscope::look(const Snapshot& world, const std::optional<SwarmPo
     draw_disc(scale_.to_picture(robot), 0.5 * params_.robot_diameter, params_.swarm_depth);
   if (params_.blur > 0) {
     cv::Mat view = as_floats(view_, width_, height_);
-    blurred(view, params_.blur).copyTo(view);
+    vision::blurred(view, params_.blur).copyTo(view);
   }
   expose(world.time());
   return picture_;
@@ -161,4 +161,4 @@ void Microscope::expose(double t) {
   }
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

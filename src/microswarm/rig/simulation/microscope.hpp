@@ -13,7 +13,7 @@
 #include "microswarm/rig/params/microscope_params.hpp"
 #include "microswarm/vision/camera/camera_scale.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 
 /// Draws microscope pictures of a simulated world: grey, y down, the map with a margin around it.
 class Microscope {
@@ -22,13 +22,13 @@ class Microscope {
   Microscope(const MicroscopeParams& params, const Map& map, std::uint64_t seed,
              std::uint32_t trial);
 
-  const CameraScale& scale() const { return scale_; }
+  const vision::CameraScale& scale() const { return scale_; }
   int width() const { return width_; }
   int height() const { return height_; }
 
   /// Draws a swarm, robots, or both, at the snapshot's time. Valid until the next call.
-  const Image& look(const Snapshot& world, const std::optional<SwarmPose>& swarm,
-                    std::span<const Vec2> robots);
+  const formats::Image& look(const Snapshot& world, const std::optional<SwarmPose>& swarm,
+                             std::span<const Vec2> robots);
 
  private:
   void draw_body(const Body& body);
@@ -38,7 +38,7 @@ class Microscope {
   void expose(double t);
 
   MicroscopeParams params_;
-  CameraScale scale_;
+  vision::CameraScale scale_;
   int width_;
   int height_;
   Rng rng_;
@@ -47,7 +47,7 @@ class Microscope {
   std::vector<float> grain_;     // precomputed noise; every picture uses another part
   std::vector<Vec2> particles_;  // in a swarm of radius 1
   std::vector<float> view_;
-  Image picture_;
+  formats::Image picture_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -11,12 +11,12 @@
 #include "microswarm/experiment/session/session.hpp"
 #include "microswarm/rig/simulation/simulated_rig.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 
 std::vector<ComparedTrial> compare_with_rig(const RigExperiment& on, int trials, int jobs,
                                             const std::function<void(double)>& progress,
                                             const Stop& stop) {
-  const Scenario& scenario = on.scenario();
+  const experiment::Scenario& scenario = on.scenario();
   const World& world = on.experiment.world;
   std::vector<std::optional<ComparedTrial>> results(static_cast<std::size_t>(trials));
   std::mutex mutex;
@@ -25,8 +25,9 @@ std::vector<ComparedTrial> compare_with_rig(const RigExperiment& on, int trials,
     const auto trial = static_cast<std::uint32_t>(i);
     if (stop()) return;
     auto rig = std::make_shared<SimulatedRig>(scenario, world, on.rig, trial);
-    ComparedTrial both{static_cast<int>(i), simulate(scenario, world, {.trial = trial}, {}, stop),
-                       simulate(scenario, world, {.trial = trial, .plant = rig}, {}, stop)};
+    ComparedTrial both{
+        static_cast<int>(i), experiment::simulate(scenario, world, {.trial = trial}, {}, stop),
+        experiment::simulate(scenario, world, {.trial = trial, .plant = rig}, {}, stop)};
     if (stop()) return;
     results[i] = std::move(both);
     const std::lock_guard lock(mutex);
@@ -38,11 +39,12 @@ std::vector<ComparedTrial> compare_with_rig(const RigExperiment& on, int trials,
   return completed;
 }
 
-RunSummary summarise(std::span<const ComparedTrial> trials, RunResult ComparedTrial::*plant) {
+RunSummary summarise(std::span<const ComparedTrial> trials,
+                     experiment::RunResult ComparedTrial::*plant) {
   RunSummary summary;
   std::vector<double> times;
   for (const ComparedTrial& both : trials) {
-    const RunResult& result = both.*plant;
+    const experiment::RunResult& result = both.*plant;
     summary.contacts += static_cast<int>(result.metrics.contacts);
     if (result.status == Status::solved) times.push_back(result.metrics.time);
   }
@@ -57,7 +59,7 @@ std::vector<ComparisonRow> comparison_rows(std::span<const ComparedTrial> trials
   std::vector<ComparisonRow> rows;
   for (const ComparedTrial& both : trials)
     for (const bool is_rig : {false, true}) {
-      const RunResult& result = is_rig ? both.rig : both.kinematic;
+      const experiment::RunResult& result = is_rig ? both.rig : both.kinematic;
       rows.push_back({.scenario = scenario,
                       .settings = settings,
                       .trial = both.trial,
@@ -70,4 +72,4 @@ std::vector<ComparisonRow> comparison_rows(std::span<const ComparedTrial> trials
   return rows;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

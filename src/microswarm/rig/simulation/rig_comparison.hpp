@@ -11,13 +11,13 @@
 #include "microswarm/experiment/run/run_listener.hpp"
 #include "microswarm/rig/params/rig_experiment.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 
 /// One trial in the kinematic simulation and through the simulated rig.
 struct ComparedTrial {
   int trial = 0;
-  RunResult kinematic;
-  RunResult rig;
+  experiment::RunResult kinematic;
+  experiment::RunResult rig;
 };
 
 /// Runs the trials 0 to `trials` − 1 in both simulations, on `jobs` threads (0: one per core).
@@ -35,7 +35,8 @@ struct RunSummary {
 };
 
 /// Summary of one of the two results of each trial.
-RunSummary summarise(std::span<const ComparedTrial> trials, RunResult ComparedTrial::*plant);
+RunSummary summarise(std::span<const ComparedTrial> trials,
+                     experiment::RunResult ComparedTrial::*plant);
 
 /// A row of simulation.csv.
 struct ComparisonRow {
@@ -65,4 +66,4 @@ std::vector<ComparisonRow> comparison_rows(std::span<const ComparedTrial> trials
                                            const std::string& scenario,
                                            const std::string& settings);
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

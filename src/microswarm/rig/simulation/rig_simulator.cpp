@@ -9,14 +9,14 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/experiment/plant/make_plant.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 namespace {
 
 constexpr double same_place = 20;  // [µm]; the field of a coil is constant over such a distance
 
 /// The scenario of the true swarm: noise is added in the pictures, and the swarm may be faster than
 /// the field assumes.
-Scenario true_scenario(Scenario scenario, const Rig& rig) {
+experiment::Scenario true_scenario(experiment::Scenario scenario, const Rig& rig) {
   KeyLocations().require_none(validate(rig, scenario));
   const double faster = std::max(1.0, 1 + simulated_camera(rig).speed_error);
   std::visit([&](auto& swarm) { swarm.max_speed *= faster; }, scenario.swarm);
@@ -38,13 +38,13 @@ FieldResponseParams field_response(const RigParams& rig) {
 
 }  // namespace
 
-RigSimulator::RigSimulator(const Scenario& scenario, const World& world, const Rig& rig,
+RigSimulator::RigSimulator(const experiment::Scenario& scenario, const World& world, const Rig& rig,
                            std::uint32_t trial)
     : rig_(rig),
       robots_(scenario.robots.has_value()),
       tick_(scenario.tick),
       response_(field_response(rig.params)),
-      physics_(make_kinematic_plant(true_scenario(scenario, rig), world, trial)),
+      physics_(experiment::make_kinematic_plant(true_scenario(scenario, rig), world, trial)),
       map_(world.map),
       microscope_(std::get<SimulatedCamera>(rig.params.camera).microscope, *map_, scenario.seed,
                   trial),
@@ -95,12 +95,13 @@ Eigen::Vector3d RigSimulator::place() const {
   return place_among_coils(rig_.system, *map_, physics_->ground_truth()->swarm.pose.position);
 }
 
-Eigen::Vector3d place_among_coils(const CoilSystem& system, const Map& map, Vec2 position) {
+Eigen::Vector3d place_among_coils(const actuation::CoilSystem& system, const Map& map,
+                                  Vec2 position) {
   const Vec2 off = position - map.bounds().centre();
   return system.centre() + Eigen::Vector3d(off.x, off.y, 0);
 }
 
-std::vector<Vec2> robot_positions(const Scenario& scenario) {
+std::vector<Vec2> robot_positions(const experiment::Scenario& scenario) {
   std::vector<Vec2> positions;
   if (scenario.start) positions.push_back(scenario.start->position);
   if (scenario.goal) positions.push_back(*scenario.goal);
@@ -112,7 +113,7 @@ std::vector<Vec2> robot_positions(const Scenario& scenario) {
   return positions;
 }
 
-void check_workspace(const Rig& rig, const Scenario& scenario, const Map& map) {
+void check_workspace(const Rig& rig, const experiment::Scenario& scenario, const Map& map) {
   for (const Vec2 position : robot_positions(scenario)) {
     const Eigen::Vector3d among = place_among_coils(rig.system, map, position);
     if (!rig.system.in_workspace(among))
@@ -123,4 +124,4 @@ void check_workspace(const Rig& rig, const Scenario& scenario, const Map& map) {
   }
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -12,7 +12,7 @@
 #include "microswarm/rig/simulation/field_response.hpp"
 #include "microswarm/rig/simulation/microscope.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 
 /// Simulation of the physical rig: coils, the swarm between them and the microscope. The currents
 /// produce the field at the swarm's true position, and this field drives the swarm of the
@@ -21,7 +21,7 @@ class RigSimulator {
  public:
   /// `rig`, whose camera must be a simulated one, must outlive it. `trial` selects the random
   /// streams. Throws InputError if rig and scenario do not fit.
-  RigSimulator(const Scenario& scenario, const World& world, const Rig& rig,
+  RigSimulator(const experiment::Scenario& scenario, const World& world, const Rig& rig,
                std::uint32_t trial = 0);
 
   /// Advances by `dt` seconds; at the end the coils carry these currents [A].
@@ -37,7 +37,7 @@ class RigSimulator {
   };
   Shot capture();
   /// Picture of a shot, valid until the next. Does not access the changing state.
-  const Image& render(const Shot& shot) {
+  const formats::Image& render(const Shot& shot) {
     return microscope_.look(shot.world, shot.swarm, shot.robots);
   }
 
@@ -63,17 +63,18 @@ class RigSimulator {
   std::shared_ptr<const Map> map_;
   Microscope microscope_;
   Eigen::Vector3d at_;  // position of `actuation_`
-  Actuation actuation_;
+  actuation::Actuation actuation_;
   std::vector<PoseStamped> trajectory_;
   Vec2 step_{};         // pending displacement of robots [µm]
   double waiting_ = 0;  // duration of `step_` [s]
 };
 
 /// Coil coordinates of a map position: the centre of the map is above the centre of the coils.
-Eigen::Vector3d place_among_coils(const CoilSystem& system, const Map& map, Vec2 position);
+Eigen::Vector3d place_among_coils(const actuation::CoilSystem& system, const Map& map,
+                                  Vec2 position);
 /// The scenario's starts and goals.
-std::vector<Vec2> robot_positions(const Scenario& scenario);
+std::vector<Vec2> robot_positions(const experiment::Scenario& scenario);
 /// Throws InputError if a start or goal of the scenario is outside the workspace of the coils.
-void check_workspace(const Rig& rig, const Scenario& scenario, const Map& map);
+void check_workspace(const Rig& rig, const experiment::Scenario& scenario, const Map& map);
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <utility>
 
-namespace microswarm {
+namespace microswarm::rig {
 
-SimulatedRig::SimulatedRig(const Scenario& scenario, const World& world, Rig rig,
-                           std::uint32_t trial, CoilDriver* driver)
+SimulatedRig::SimulatedRig(const experiment::Scenario& scenario, const World& world, Rig rig,
+                           std::uint32_t trial, actuation::CoilDriver* driver)
     : rig_(std::move(rig)),
       simulated_coils_(driver ? nullptr : simulated_coils(rig_)),
       driver_(driver ? *driver : *simulated_coils_),
@@ -40,9 +40,9 @@ void SimulatedRig::apply(const Command& command, double dt) {
   }
 }
 
-std::unique_ptr<CoilDriver> simulated_coils(const Rig& rig) {
-  return std::make_unique<SimulatedCoilDriver>(
+std::unique_ptr<actuation::CoilDriver> simulated_coils(const Rig& rig) {
+  return std::make_unique<actuation::SimulatedCoilDriver>(
       channel_count(rig.params, rig.system), driver_full_scale(rig.params), coil_input(rig.params));
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

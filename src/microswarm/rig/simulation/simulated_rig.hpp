@@ -8,7 +8,7 @@
 #include "microswarm/rig/perception/perception.hpp"
 #include "microswarm/rig/simulation/rig_simulator.hpp"
 
-namespace microswarm {
+namespace microswarm::rig {
 
 /// A complete simulated rig, as fast as possible. A command becomes a field, the field becomes
 /// currents, RigSimulator applies them, and the navigator receives the detections in the
@@ -17,8 +17,8 @@ class SimulatedRig : public Plant {
  public:
   /// `driver` must outlive the plant; if it is null, the coils are simulated. `trial` selects the
   /// random streams. Throws InputError if rig and scenario do not fit.
-  SimulatedRig(const Scenario& scenario, const World& world, Rig rig, std::uint32_t trial = 0,
-               CoilDriver* driver = nullptr);
+  SimulatedRig(const experiment::Scenario& scenario, const World& world, Rig rig,
+               std::uint32_t trial = 0, actuation::CoilDriver* driver = nullptr);
 
   Observation observe() override;
   void apply(const Command& command, double dt) override;
@@ -28,23 +28,23 @@ class SimulatedRig : public Plant {
   std::optional<GroundTruth> ground_truth() const override { return simulator_.ground_truth(); }
 
   /// The picture of the last observation.
-  const Image& picture() const { return *picture_; }
+  const formats::Image& picture() const { return *picture_; }
   const Detections& sight() const { return *detections_; }
-  const CoilOutput& coils() const { return controller_.output(); }
+  const actuation::CoilOutput& coils() const { return controller_.output(); }
 
  private:
   const Rig rig_;
-  std::unique_ptr<CoilDriver> simulated_coils_;
-  CoilDriver& driver_;
-  CoilController controller_;
+  std::unique_ptr<actuation::CoilDriver> simulated_coils_;
+  actuation::CoilDriver& driver_;
+  actuation::CoilController controller_;
   RigSimulator simulator_;
   std::shared_ptr<const Map> map_;
   std::unique_ptr<Perception> perception_;
-  const Image* picture_ = nullptr;
+  const formats::Image* picture_ = nullptr;
   const Detections* detections_ = nullptr;
 };
 
 /// Simulated coils with the properties of the rig's driver, of any kind; opens no device.
-std::unique_ptr<CoilDriver> simulated_coils(const Rig& rig);
+std::unique_ptr<actuation::CoilDriver> simulated_coils(const Rig& rig);
 
-}  // namespace microswarm
+}  // namespace microswarm::rig

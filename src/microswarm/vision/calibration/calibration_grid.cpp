@@ -18,7 +18,7 @@
 #include "microswarm/vision/image/mat.hpp"
 #include "microswarm/vision/scene/blobs.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 constexpr double dot_spread = 0.35;  // relative deviation of a dot's radius from the median
@@ -29,7 +29,7 @@ constexpr double corner_share =
 constexpr double lattice_slack = 0.25;   // [pitches] maximum offset of a point
 constexpr double neighbour_slack = 0.3;  // relative tolerance of the distance between neighbours
 
-std::vector<Vec2> dots_in(const Image& grey) {
+std::vector<Vec2> dots_in(const formats::Image& grey) {
   std::vector<Blob> dots;
   for (const ParticleTone tone : {ParticleTone::dark, ParticleTone::bright}) {
     std::vector<Blob> found = find_blobs(
@@ -49,7 +49,7 @@ std::vector<Vec2> dots_in(const Image& grey) {
 
 /// Saddle points of the grey value. The `wanted` strongest responses define the threshold of a
 /// corner.
-std::vector<Vec2> corners_in(const Image& grey, std::size_t wanted) {
+std::vector<Vec2> corners_in(const formats::Image& grey, std::size_t wanted) {
   cv::Mat smooth;
   as_mat(grey).convertTo(smooth, CV_32F);
   smooth = blurred(smooth, corner_blur);
@@ -154,7 +154,7 @@ Lattice largest_lattice(const std::vector<Vec2>& points) {
 
 }  // namespace
 
-std::vector<ScalePoint> find_grid(const Image& picture, const GridParams& p) {
+std::vector<ScalePoint> find_grid(const formats::Image& picture, const GridParams& p) {
   const std::size_t wanted = static_cast<std::size_t>(p.columns) * p.rows;
   const auto name = [](auto columns, auto rows) {
     return std::to_string(columns) + "x" + std::to_string(rows);
@@ -162,7 +162,7 @@ std::vector<ScalePoint> find_grid(const Image& picture, const GridParams& p) {
   const auto refuse = [&](const std::string& what) {
     throw InputError("grid: " + what + ", asked for is one of " + name(p.columns, p.rows));
   };
-  const Image grey = to_grey(picture);
+  const formats::Image grey = formats::to_grey(picture);
   const std::vector<Vec2> points =
       p.pattern == GridPattern::dots ? dots_in(grey) : corners_in(grey, wanted);
   if (points.size() > 20 * wanted + 1000)
@@ -195,4 +195,4 @@ std::vector<ScalePoint> find_grid(const Image& picture, const GridParams& p) {
   return grid;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -10,7 +10,7 @@
 #include "microswarm/formats/images/image.hpp"
 #include "microswarm/vision/camera/camera_scale.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Marks of a calibration slide.
 enum class GridPattern { dots, chessboard };
@@ -39,6 +39,6 @@ struct GridParams {
 /// direction nearest to the picture's x axis that matches the numbers of columns and rows. World
 /// positions are multiples of the pitch from the first point. The grid may be rotated in the
 /// picture, but must not be tilted. Throws InputError unless the picture shows exactly such a grid.
-std::vector<ScalePoint> find_grid(const Image& picture, const GridParams& params);
+std::vector<ScalePoint> find_grid(const formats::Image& picture, const GridParams& params);
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

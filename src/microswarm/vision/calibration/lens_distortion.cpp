@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 constexpr double max_k1 = 0.5;
@@ -82,4 +82,4 @@ std::optional<LensDistortion> fit_distortion(std::span<const ScalePoint> points,
   return found;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

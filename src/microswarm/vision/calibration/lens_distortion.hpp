@@ -6,7 +6,7 @@
 
 #include "microswarm/vision/camera/camera_scale.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Radial distortion of a lens: a point at distance r from the picture's centre would be at
 /// r (1 + k1 r²) without it, where r is 1 in the corners.
@@ -26,4 +26,4 @@ struct LensDistortion {
 std::optional<LensDistortion> fit_distortion(std::span<const ScalePoint> points, bool y_up,
                                              int width, int height);
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -16,7 +16,7 @@
 #include "microswarm/vision/camera/genicam_params.hpp"
 #include "microswarm/vision/camera/raw_pixels.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Deleter that releases a reference to a GLib object.
 struct Release {
@@ -120,4 +120,4 @@ void apply(const GenicamParams& params, const Features& camera);
 /// Frame rate [Hz], if the camera reports it.
 std::optional<double> read_rate(const Features& camera, bool was_set);
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

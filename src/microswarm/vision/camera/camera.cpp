@@ -11,7 +11,7 @@
 #include "microswarm/vision/camera/v4l2_controls.hpp"
 #include "microswarm/vision/camera/v4l2_device.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 constexpr double longest_pause = 5;     // [s] between pictures, in addition to the exposure
@@ -59,7 +59,7 @@ class Camera : public FrameSource {
 
  private:
   /// Decodes the data; returns why it failed, empty on success.
-  static std::string take(const RawPicture& raw, Image& picture) {
+  static std::string take(const RawPicture& raw, formats::Image& picture) {
     if (!raw.damage.empty()) return "the last: " + std::string(raw.damage);
     try {
       take_raw(raw, "the last", picture);
@@ -100,4 +100,4 @@ NewestFrame live_camera(const AnyCameraParams& params) {
   return {open_camera(params), device_name(params), watch};
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -9,7 +9,7 @@
 #include "microswarm/vision/camera/genicam_params.hpp"
 #include "microswarm/vision/camera/newest_frame.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Settings of a camera of any kind.
 using AnyCameraParams = std::variant<CameraParams, GenicamParams>;
@@ -27,4 +27,4 @@ std::unique_ptr<FrameSource> open_camera(const AnyCameraParams& params);
 /// Opens a camera that keeps its newest frame available; errors as above.
 NewestFrame live_camera(const AnyCameraParams& params);
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -8,7 +8,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/vision/camera/raw_pixels.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// An open camera whose stream has started.
 class CameraDevice {
@@ -32,4 +32,4 @@ class CameraDevice {
   std::string name_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// A picture format of a camera.
 struct ListedFormat {
@@ -24,4 +24,4 @@ struct ListedCamera {
 /// Lists the connected V4L2 and GenICam cameras. Takes about a second.
 std::vector<ListedCamera> list_cameras();
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

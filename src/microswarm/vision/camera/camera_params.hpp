@@ -9,7 +9,7 @@
 #include "microswarm/vision/camera/newest_frame.hpp"
 #include "microswarm/vision/camera/raw_pixels.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Part of a camera's sensor [px].
 struct SensorRegion {
@@ -45,8 +45,8 @@ struct CameraParams {
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.device, plain("device", "Device file."));
-    visit(self.width, px("width", 1, max_image_side, "Width of a picture."));
-    visit(self.height, px("height", 1, max_image_side, "Height of a picture."));
+    visit(self.width, px("width", 1, formats::max_image_side, "Width of a picture."));
+    visit(self.height, px("height", 1, formats::max_image_side, "Height of a picture."));
     visit(self.rate, hz("rate", 0.01, 1e4, "Requested frame rate."));
     visit(self.pixel_format,
           plain("pixel_format", "Format of the data; none: as the driver has it."));
@@ -61,4 +61,4 @@ struct CameraParams {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -9,7 +9,7 @@
 #include "microswarm/core/maths/maths.hpp"
 #include "microswarm/core/text/text.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Least squares of position = c · at + d in complex numbers, with the y axis of `at` pointing up.
 FittedScale fit_scale(std::span<const ScalePoint> points, bool y_up) {
@@ -74,4 +74,4 @@ Polygon polygon_in_world(const Polygon& in_picture, const CameraScale& scale) {
   return normalised(std::move(polygon));
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

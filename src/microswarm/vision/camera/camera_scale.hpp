@@ -8,7 +8,7 @@
 #include "microswarm/core/fields/fields.hpp"
 #include "microswarm/geometry/shapes.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Pose and scale of a camera: a similarity between pixels (x right, y down, (0, 0) is the middle
 /// of the first pixel) and world [µm].
@@ -73,4 +73,4 @@ CameraScale scale_of_distance(Vec2 a_px, Vec2 b_px, double distance, int height,
 /// Converts a polygon from pixels to the world [µm], with the orientation that Polygon requires.
 Polygon polygon_in_world(const Polygon& in_picture, const CameraScale& scale);
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

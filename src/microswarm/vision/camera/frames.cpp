@@ -18,7 +18,7 @@
 #include "microswarm/formats/media/media.hpp"
 #include "microswarm/vision/image/mat.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 namespace fs = std::filesystem;
@@ -53,7 +53,7 @@ class Source : public FrameSource {
   }
   /// Numbers a picture and checks its size; `file` is where it came from.
   void number(VideoFrame& frame, const fs::path& file) {
-    const Image& p = frame.picture;
+    const formats::Image& p = frame.picture;
     if (next_ == 0) {
       width_ = p.width;
       height_ = p.height;
@@ -96,16 +96,16 @@ bool is_tiff(const fs::path& file) {
 }
 
 /// Reads the next page; the first page that needs a depth sets it.
-void take_page(TiffPages& pages, std::optional<int>& depth, Image& picture) {
-  DecodedImage page = pages.next();
-  const auto* deep = std::get_if<DeepImage>(&page);
-  if (!depth && deep) depth = used_depth(deep->samples);
-  take_pixels(std::move(page), depth.value_or(16), picture);
+void take_page(formats::TiffPages& pages, std::optional<int>& depth, formats::Image& picture) {
+  formats::DecodedImage page = pages.next();
+  const auto* deep = std::get_if<formats::DeepImage>(&page);
+  if (!depth && deep) depth = formats::used_depth(deep->samples);
+  formats::take_pixels(std::move(page), depth.value_or(16), picture);
 }
 
 /// Reads the only picture of a TIFF; in a folder a file holds one picture.
-void read_only_page(const fs::path& file, std::optional<int>& depth, Image& picture) {
-  TiffPages pages(file);
+void read_only_page(const fs::path& file, std::optional<int>& depth, formats::Image& picture) {
+  formats::TiffPages pages(file);
   if (pages.count() > 1)
     fail(file,
          "holds " + std::to_string(pages.count()) + " pictures: name the file, not its folder");
@@ -123,8 +123,8 @@ class Pictures : public Source {
     if (is_tiff(files_[at])) {
       read_only_page(files_[at], depth_, frame.picture);
     } else {
-      if (!depth_) depth_ = sample_depth(files_[at]).value_or(16);
-      frame.picture = read_image(files_[at], *depth_);
+      if (!depth_) depth_ = formats::sample_depth(files_[at]).value_or(16);
+      frame.picture = formats::read_image(files_[at], *depth_);
     }
     number(frame, files_[at]);
     return true;
@@ -139,7 +139,7 @@ class Pictures : public Source {
 std::vector<fs::path> pictures_in(const fs::path& folder) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder))
-    if (has_image_extension(entry.path()) && entry.path().filename().string()[0] != '.')
+    if (formats::has_image_extension(entry.path()) && entry.path().filename().string()[0] != '.')
       files.push_back(entry.path());
   if (files.empty()) fail(folder, "no pictures in this folder (PNG, JPEG, BMP, TIFF, PGM or PPM)");
   std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
@@ -152,16 +152,16 @@ std::vector<fs::path> pictures_in(const fs::path& folder) {
 }
 
 bool fits(const cv::Size& size) {
-  return size.width >= 1 && size.height >= 1 && size.width <= max_image_side &&
-         size.height <= max_image_side &&
-         std::int64_t{size.width} * size.height <= max_image_pixels;
+  return size.width >= 1 && size.height >= 1 && size.width <= formats::max_image_side &&
+         size.height <= formats::max_image_side &&
+         std::int64_t{size.width} * size.height <= formats::max_image_pixels;
 }
 
 void require_fit(const fs::path& source, const cv::Size& size) {
   if (!fits(size))
     fail(source, std::to_string(size.width) + "x" + std::to_string(size.height) +
-                     " pixels, allowed up to " + std::to_string(max_image_side) + " a side and " +
-                     std::to_string(max_image_pixels) + " in all");
+                     " pixels, allowed up to " + std::to_string(formats::max_image_side) +
+                     " a side and " + std::to_string(formats::max_image_pixels) + " in all");
 }
 
 class TiffStack : public Source {
@@ -177,14 +177,14 @@ class TiffStack : public Source {
   std::optional<int> count() const override { return pages_.count(); }
 
  private:
-  TiffPages pages_;
+  formats::TiffPages pages_;
   std::optional<int> depth_;
 };
 
 class VideoFile : public Source {
  public:
   VideoFile(const fs::path& file, std::optional<double> rate)
-      : Source(file, rate), video_(media().open(file)) {
+      : Source(file, rate), video_(formats::media().open(file)) {
     if (!video_) fail(file, "is no video that can be read");
     require_fit(file, {video_->width, video_->height});
     set_rate(video_->rate);
@@ -205,7 +205,7 @@ class VideoFile : public Source {
   }
 
  private:
-  std::unique_ptr<VideoInput> video_;
+  std::unique_ptr<formats::VideoInput> video_;
   cv::Mat mat_;
 };
 
@@ -221,12 +221,12 @@ std::unique_ptr<FrameSource> open_frames(const fs::path& source, std::optional<d
   if (!fs::is_regular_file(status)) fail(source, "is neither a file nor a folder");
   if (fs::file_size(source) == 0) fail(source, "is empty");
   if (is_tiff(source)) return std::make_unique<TiffStack>(source, rate, depth);
-  if (has_image_extension(source))
+  if (formats::has_image_extension(source))
     return std::make_unique<Pictures>(source, std::vector<fs::path>{source}, rate, depth);
   return std::make_unique<VideoFile>(source, rate);
 }
 
-void take_channel(const Image& picture, VideoChannel channel, Image& grey) {
+void take_channel(const formats::Image& picture, VideoChannel channel, formats::Image& grey) {
   grey.width = picture.width;
   grey.height = picture.height;
   grey.channels = 1;
@@ -241,4 +241,4 @@ void take_channel(const Image& picture, VideoChannel channel, Image& grey) {
     cv::extractChannel(in, out, static_cast<int>(channel) - static_cast<int>(VideoChannel::red));
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

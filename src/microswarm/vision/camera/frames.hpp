@@ -12,13 +12,13 @@
 #include "microswarm/core/fields/fields.hpp"
 #include "microswarm/formats/images/image.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// A picture of a video.
 struct VideoFrame {
-  int index = 0;  ///< from 0
-  double t = 0;   ///< time since the first [s]
-  Image picture;  ///< grey or colour
+  int index = 0;           ///< from 0
+  double t = 0;            ///< time since the first [s]
+  formats::Image picture;  ///< grey or colour
 };
 
 /// A sequence of pictures of one size: a video, a folder, a camera. Derive from it to add a source.
@@ -59,6 +59,6 @@ constexpr auto enum_names(VideoChannel) {
 
 /// Copies one channel of a picture into `grey`, reusing its memory; a grey picture serves as each
 /// channel.
-void take_channel(const Image& picture, VideoChannel channel, Image& grey);
+void take_channel(const formats::Image& picture, VideoChannel channel, formats::Image& grey);
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

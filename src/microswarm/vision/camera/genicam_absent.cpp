@@ -3,7 +3,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/vision/camera/genicam_device.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 std::unique_ptr<CameraDevice> open_genicam(const GenicamParams& params) {
   throw InputError("genicam:" + params.device +
@@ -15,4 +15,4 @@ std::vector<ListedCamera> list_genicam_cameras() { return {}; }
 
 bool has_genicam() { return false; }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

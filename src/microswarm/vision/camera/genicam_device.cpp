@@ -3,7 +3,7 @@
 
 #include "microswarm/core/execution/module.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 const GenicamCameras& cameras() {
@@ -22,4 +22,4 @@ std::vector<ListedCamera> list_genicam_cameras() { return cameras().list(); }
 
 bool has_genicam() { return true; }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

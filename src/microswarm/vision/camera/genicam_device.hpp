@@ -8,7 +8,7 @@
 #include "microswarm/vision/camera/camera_list.hpp"
 #include "microswarm/vision/camera/genicam_params.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Opens a GenICam camera through Aravis and starts its stream. Finding it takes about a second.
 /// Throws HardwareError "genicam:ID: WHY" if there is no such camera, it is in use or it refuses a
@@ -33,4 +33,4 @@ class GenicamCameras {
 /// Whether this build can open GenICam cameras.
 bool has_genicam();
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

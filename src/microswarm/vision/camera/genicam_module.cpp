@@ -9,7 +9,7 @@
 #include "microswarm/core/execution/clock.hpp"
 #include "microswarm/vision/camera/aravis.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 constexpr int buffers = 8;
@@ -128,8 +128,8 @@ class GenicamDevice : public CameraDevice {
     for (int i = 0; i < buffers; ++i)
       arv_stream_push_buffer(stream_.get(), arv_buffer_new(size, nullptr));
     form_ = read_region(device_);
-    if (form_.width <= 0 || form_.height <= 0 || form_.width > max_image_side ||
-        form_.height > max_image_side)
+    if (form_.width <= 0 || form_.height <= 0 || form_.width > formats::max_image_side ||
+        form_.height > formats::max_image_side)
       fail("gives pictures of " + to_text(form_) + " pixels");
     code_ = device_.ask("pixel_format", arv_camera_get_pixel_format);
     device_.ask("start", arv_camera_start_acquisition);
@@ -217,10 +217,10 @@ class AravisCameras : public GenicamCameras {
 };
 
 }  // namespace
-}  // namespace microswarm
+}  // namespace microswarm::vision
 
 /// Symbol that open_genicam looks up.
-extern "C" const microswarm::GenicamCameras* microswarm_genicam() {
-  static const microswarm::AravisCameras only;
+extern "C" const microswarm::vision::GenicamCameras* microswarm_genicam() {
+  static const microswarm::vision::AravisCameras only;
   return &only;
 }

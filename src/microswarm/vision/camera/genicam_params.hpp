@@ -11,7 +11,7 @@
 #include "microswarm/formats/images/image.hpp"
 #include "microswarm/vision/camera/newest_frame.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Supported pixel formats of GenICam cameras, named as in GenICam's standard.
 enum class GenicamFormat {
@@ -64,8 +64,10 @@ struct GenicamParams {
   static void fields(Self& self, V&& visit) {
     visit(self.device,
           plain("device", "Id, serial number or address; empty: the first one found."));
-    visit(self.width, px("width", 1, max_image_side, "Width of a picture; none: as it is."));
-    visit(self.height, px("height", 1, max_image_side, "Height of a picture; none: as it is."));
+    visit(self.width,
+          px("width", 1, formats::max_image_side, "Width of a picture; none: as it is."));
+    visit(self.height,
+          px("height", 1, formats::max_image_side, "Height of a picture; none: as it is."));
     visit(self.x, px("x", 0, 1e6, "Left edge on the sensor; none: as it is."));
     visit(self.y, px("y", 0, 1e6, "Upper edge on the sensor; none: as it is."));
     visit(self.rate, hz("rate", 0.01, 1e4, "Frame rate; none: as it is."));
@@ -81,4 +83,4 @@ struct GenicamParams {
 /// Whether these are settings of Aravis's simulated test camera "Fake_1", found by this id only.
 inline bool is_fake(const GenicamParams& params) { return params.device.starts_with("Fake_"); }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

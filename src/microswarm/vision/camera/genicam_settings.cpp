@@ -4,7 +4,7 @@
 
 #include "microswarm/vision/camera/aravis.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 constexpr double tolerance = 0.05;  // relative, for values that the camera rounds
@@ -256,4 +256,4 @@ void apply(const GenicamParams& p, const Features& device) {
   set_packet_size(device, p.packet_size);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

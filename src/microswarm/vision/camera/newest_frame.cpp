@@ -14,7 +14,7 @@
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/core/text/text.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 constexpr auto longest_close = std::chrono::milliseconds(900);
@@ -199,4 +199,4 @@ CameraStatus NewestFrame::status() const {
   return shared_->status(name_, params_);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -13,7 +13,7 @@
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/vision/camera/frames.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// State of a camera's stream.
 enum class CameraState {
@@ -101,4 +101,4 @@ class NewestFrame {
   std::shared_ptr<Shared> shared_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -8,7 +8,7 @@
 #include "microswarm/formats/images/jpeg.hpp"
 #include "microswarm/vision/image/mat.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 bool is_bayer(PixelFormat format) {
@@ -89,7 +89,7 @@ void take_deep(const cv::Mat& samples, int bits, cv::Mat& out) {
   }
 }
 
-void convert(const RawPicture& raw, std::size_t step, Image& image) {
+void convert(const RawPicture& raw, std::size_t step, formats::Image& image) {
   auto* data = const_cast<std::byte*>(raw.bytes.data());
   cv::Mat out = as_mat(image);
   const auto rows = [&](int type) { return cv::Mat(raw.height, raw.width, type, data, step); };
@@ -140,12 +140,12 @@ std::string fourcc_text(std::uint32_t fourcc) {
   return text;
 }
 
-void take_raw(const RawPicture& raw, std::string_view name, Image& image) {
+void take_raw(const RawPicture& raw, std::string_view name, formats::Image& image) {
   const auto fail = [&](const std::string& why) {
     throw InputError(std::string(name) + ": " + why);
   };
   if (is_jpeg(raw.format)) {
-    decode_jpeg_frame(raw.bytes, name, image);
+    formats::decode_jpeg_frame(raw.bytes, name, image);
     if (image.width != raw.width || image.height != raw.height)
       fail("a JPEG of " + std::to_string(image.width) + "x" + std::to_string(image.height) +
            " pixels among pictures of " + std::to_string(raw.width) + "x" +
@@ -173,4 +173,4 @@ void take_raw(const RawPicture& raw, std::string_view name, Image& image) {
   convert(raw, step, image);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

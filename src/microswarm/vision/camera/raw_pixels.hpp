@@ -12,7 +12,7 @@
 
 #include "microswarm/formats/images/image.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Supported formats of camera data, by their V4L2 names.
 enum class PixelFormat {
@@ -71,6 +71,6 @@ struct RawPicture {
 /// memory. Bayer colours are interpolated from neighbours. Samples of 10, 12 and 16 bits keep their
 /// upper 8. Throws InputError "NAME: WHY" if data is missing or a JPEG is damaged or has another
 /// size.
-void take_raw(const RawPicture& raw, std::string_view name, Image& image);
+void take_raw(const RawPicture& raw, std::string_view name, formats::Image& image);
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -9,7 +9,7 @@
 
 #include "microswarm/core/text/text.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 /// A setting that can be automatic or given.
@@ -101,4 +101,4 @@ void set_controls(const V4l2Device& device, const CameraParams& params) {
   adjust(device, focus, to_number(params.focus));
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -17,7 +17,7 @@
 #include "microswarm/core/execution/clock.hpp"
 #include "microswarm/core/fields/fields.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 constexpr std::uint32_t wanted_buffers = 4;
@@ -219,4 +219,4 @@ std::optional<RawPicture> V4l2Device::take(double seconds) {
   return raw;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -12,7 +12,7 @@
 #include "microswarm/vision/camera/camera_device.hpp"
 #include "microswarm/vision/camera/camera_params.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// An open V4L2 camera and its buffers. No call blocks for long. All throw HardwareError
 /// "DEVICE: WHY".
@@ -53,4 +53,4 @@ class V4l2Device : public CameraDevice {
   RawPicture form_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

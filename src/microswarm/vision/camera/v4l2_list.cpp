@@ -14,7 +14,7 @@
 #include "microswarm/vision/camera/genicam_device.hpp"
 #include "microswarm/vision/camera/v4l2_device.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 constexpr int max_devices = 256;           // kernel's limit
@@ -94,4 +94,4 @@ std::vector<ListedCamera> list_cameras() {
   return list;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -5,9 +5,9 @@
 
 #include "microswarm/vision/camera/camera_list.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Lists the connected V4L2 cameras.
 std::vector<ListedCamera> list_v4l2_cameras();
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

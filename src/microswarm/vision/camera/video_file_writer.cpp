@@ -10,12 +10,12 @@
 #include "microswarm/formats/media/media.hpp"
 #include "microswarm/vision/image/mat.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 struct VideoFileWriter::Parts {
   Parts(std::filesystem::path path, double pictures_a_second)
       : file(std::move(path)), rate(pictures_a_second), staged(std::in_place, file) {
-    if (is_gif() && rate > max_gif_rate)
+    if (is_gif() && rate > formats::max_gif_rate)
       throw InputError(file.string() + ": a GIF has at most 50 pictures a second");
   }
 
@@ -27,10 +27,11 @@ struct VideoFileWriter::Parts {
       gif.emplace(staged->path(), rate);
       return true;
     }
-    VideoForm form{.rate = rate, .width = size.width, .height = size.height};
-    for (const VideoCodec codec : {VideoCodec::h264, VideoCodec::mpeg4}) {
+    formats::VideoForm form{.rate = rate, .width = size.width, .height = size.height};
+    for (const formats::VideoCodec codec :
+         {formats::VideoCodec::h264, formats::VideoCodec::mpeg4}) {
       form.codec = codec;
-      video = media().create(staged->path(), form);
+      video = formats::media().create(staged->path(), form);
       if (video) return true;
     }
     return false;
@@ -39,8 +40,8 @@ struct VideoFileWriter::Parts {
   std::filesystem::path file;
   double rate;
   std::optional<StagedFile> staged;  ///< empty without a codec
-  std::unique_ptr<VideoOutput> video;
-  std::optional<GifWriter> gif;
+  std::unique_ptr<formats::VideoOutput> video;
+  std::optional<formats::GifWriter> gif;
   cv::Mat bgr;
   int pictures = 0;
 };
@@ -50,7 +51,7 @@ VideoFileWriter::VideoFileWriter(std::filesystem::path file, double rate)
 
 VideoFileWriter::~VideoFileWriter() { parts_->video.reset(); }
 
-void VideoFileWriter::add(const Image& picture) {
+void VideoFileWriter::add(const formats::Image& picture) {
   Parts& p = *parts_;
   std::filesystem::path folder = p.file;
   folder.replace_extension();
@@ -68,7 +69,7 @@ void VideoFileWriter::add(const Image& picture) {
   } else {
     char name[32];
     std::snprintf(name, sizeof name, "%06d.png", p.pictures);
-    write_png(folder / name, picture);
+    formats::write_png(folder / name, picture);
   }
   ++p.pictures;
 }
@@ -86,4 +87,4 @@ std::optional<std::filesystem::path> VideoFileWriter::commit() {
   return p.file;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -7,7 +7,7 @@
 
 #include "microswarm/formats/images/image.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Writes pictures to a video file: an animated GIF (.gif), else H.264, which browsers play, else
 /// MPEG-4; without a codec, PNG files in a folder beside it, named as the file without extension.
@@ -22,7 +22,7 @@ class VideoFileWriter {
   VideoFileWriter& operator=(const VideoFileWriter&) = delete;
 
   /// Appends a colour picture; all must have one size.
-  void add(const Image& picture);
+  void add(const formats::Image& picture);
   /// Ends the video and returns the path of the file or folder; nothing without pictures.
   std::optional<std::filesystem::path> commit();
 
@@ -31,4 +31,4 @@ class VideoFileWriter {
   std::unique_ptr<Parts> parts_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

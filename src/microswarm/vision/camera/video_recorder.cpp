@@ -21,7 +21,7 @@
 #include "microswarm/formats/media/media.hpp"
 #include "microswarm/vision/image/mat.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 namespace fs = std::filesystem;
@@ -45,13 +45,14 @@ std::FILE* create_new(const fs::path& file, const fs::path& called) {
   return made;
 }
 
-std::unique_ptr<VideoOutput> open_video(const fs::path& file, double rate, cv::Size size,
-                                        bool colours) {
-  return media().create(file, {.codec = colours ? VideoCodec::huffyuv : VideoCodec::ffv1,
-                               .rate = rate,
-                               .width = size.width,
-                               .height = size.height,
-                               .colours = colours});
+std::unique_ptr<formats::VideoOutput> open_video(const fs::path& file, double rate, cv::Size size,
+                                                 bool colours) {
+  return formats::media().create(
+      file, {.codec = colours ? formats::VideoCodec::huffyuv : formats::VideoCodec::ffv1,
+             .rate = rate,
+             .width = size.width,
+             .height = size.height,
+             .colours = colours});
 }
 
 }  // namespace
@@ -59,7 +60,7 @@ std::unique_ptr<VideoOutput> open_video(const fs::path& file, double rate, cv::S
 /// State shared by the camera's thread and the writer; it lives as long as either.
 struct VideoRecorder::Shared {
   struct QueuedFrame {
-    Image picture;
+    formats::Image picture;
     int index = 0;
     double taken = 0;
   };
@@ -69,8 +70,8 @@ struct VideoRecorder::Shared {
   bool open = true;
   std::optional<double> zero;
   std::deque<QueuedFrame> queue;
-  std::size_t bytes = 0;       ///< in the queue
-  std::vector<Image> buffers;  ///< for reuse
+  std::size_t bytes = 0;                ///< in the queue
+  std::vector<formats::Image> buffers;  ///< for reuse
   int dropped = 0;
 
   void add(const VideoFrame& frame, double taken) {
@@ -106,7 +107,7 @@ struct VideoRecorder::Shared {
     return next;
   }
 
-  void give_back(Image buffer) {
+  void give_back(formats::Image buffer) {
     const std::lock_guard lock(mutex);
     buffers.push_back(std::move(buffer));
   }
@@ -152,7 +153,8 @@ class VideoRecorder::Writer {
     bool good = std::ferror(times_.get()) == 0;
     good = std::fclose(times_.release()) == 0 && good;
     if (result_.trouble.empty() && result_.frames == 0) result_.trouble = "no picture came";
-    if (result_.trouble.empty() && (!good || media().count_pictures(part_) < result_.frames))
+    if (result_.trouble.empty() &&
+        (!good || formats::media().count_pictures(part_) < result_.frames))
       result_.trouble = "write failed";
     if (result_.trouble.empty()) give_names();
     if (!result_.trouble.empty())
@@ -193,7 +195,7 @@ class VideoRecorder::Writer {
   }
 
   void write(const Shared::QueuedFrame& frame) {
-    const Image& p = frame.picture;
+    const formats::Image& p = frame.picture;
     if (!video_) video_ = open_video(part_, rate_, {p.width, p.height}, p.channels == 3);
     if (!video_) throw InputError("no encoder for its pictures");
     if (p.channels == 3) {
@@ -212,7 +214,7 @@ class VideoRecorder::Writer {
   fs::path part_;
   fs::path times_file_;
   RecordedVideo result_;
-  std::unique_ptr<VideoOutput> video_;
+  std::unique_ptr<formats::VideoOutput> video_;
   cv::Mat bgr_;
   std::unique_ptr<std::FILE, CloseFile> times_;
   std::thread thread_;
@@ -240,4 +242,4 @@ void VideoRecorder::begin(double zero) {
 
 const RecordedVideo& VideoRecorder::finish() { return writer_->finish(); }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

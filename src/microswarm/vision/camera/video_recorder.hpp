@@ -7,7 +7,7 @@
 
 #include "microswarm/vision/camera/newest_frame.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Result of a recording.
 struct RecordedVideo {
@@ -51,4 +51,4 @@ class VideoRecorder {
   std::unique_ptr<Writer> writer_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

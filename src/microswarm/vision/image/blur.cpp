@@ -9,7 +9,7 @@
 #include "microswarm/core/execution/each_cpu.hpp"
 #include "microswarm/core/maths/maths.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 constexpr int ends_at = 4;  // standard deviations
@@ -69,4 +69,4 @@ cv::Mat blurred(const cv::Mat& floats, double spread, int reach, int border) {
   return out;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

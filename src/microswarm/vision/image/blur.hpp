@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <opencv2/core.hpp>
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Gaussian blur of a float picture with standard deviation `spread` [px]. The kernel is cut at 4
 /// standard deviations, or at `reach` [px] if it is above 0. The picture is extrapolated by
@@ -18,4 +18,4 @@ cv::Mat blurred(const cv::Mat& floats, double spread, int reach = 0,
 void weigh_neighbours(const float* middle, std::ptrdiff_t stride, const float* weights, int reach,
                       int count, float* out);
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

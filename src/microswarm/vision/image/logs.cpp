@@ -6,7 +6,7 @@
 
 #include "microswarm/core/maths/maths.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 cv::Mat log_image(const cv::Mat& grey, double by) {
   assert(grey.type() == CV_8U);
@@ -27,4 +27,4 @@ void to_exponentials(cv::Mat& values) {
   }
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -5,7 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 struct Pieces {
@@ -118,4 +118,4 @@ void widen_corners(cv::Mat& set) {
 
 cv::Mat depth_in(const cv::Mat& set) { return distance_to_zero(set); }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

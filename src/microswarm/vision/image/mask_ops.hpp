@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-namespace microswarm {
+namespace microswarm::vision {
 
 // Pixel sets as 8-bit matrices of 0 and 255. Pieces are 8-connected, holes 4-connected.
 
@@ -43,4 +43,4 @@ void widen_corners(cv::Mat& set);
 /// Distance [px] of each set pixel to the nearest unset one: radii of the largest inscribed discs.
 cv::Mat depth_in(const cv::Mat& set);
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -9,14 +9,14 @@
 #include "microswarm/vision/image/mask_ops.hpp"
 #include "microswarm/vision/image/mat.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 constexpr double screen = 1200;  // [px] size of a picture in which a line is one pixel thick
 
-Image in_colour(const Image& picture) {
+formats::Image in_colour(const formats::Image& picture) {
   if (picture.channels == 3) return picture;
-  Image colour{picture.width, picture.height, 3, {}};
+  formats::Image colour{picture.width, picture.height, 3, {}};
   colour.pixels.reserve(3 * picture.pixels.size());
   for (const std::uint8_t grey : picture.pixels) colour.pixels.insert(colour.pixels.end(), 3, grey);
   return colour;
@@ -24,18 +24,19 @@ Image in_colour(const Image& picture) {
 
 }  // namespace
 
-Image overlay(const Image& picture, const Mask& mask, std::array<std::uint8_t, 3> rgb) {
+formats::Image overlay(const formats::Image& picture, const formats::Mask& mask,
+                       std::array<std::uint8_t, 3> rgb) {
   if (picture.width != mask.width || picture.height != mask.height)
     throw InputError("overlay: the mask is " + std::to_string(mask.width) + "x" +
                      std::to_string(mask.height) + " pixels, expected " +
                      std::to_string(picture.width) + "x" + std::to_string(picture.height));
   const double thickness = std::max(1.0, std::max(mask.width, mask.height) / screen);
   const cv::Mat set = to_mat(mask);
-  const Mask line = to_mask(grown(set, thickness) & ~set);
-  Image result = in_colour(picture);
+  const formats::Mask line = to_mask(grown(set, thickness) & ~set);
+  formats::Image result = in_colour(picture);
   for (std::size_t i = 0; i < line.cells.size(); ++i)
     if (line.cells[i]) std::copy(rgb.begin(), rgb.end(), result.pixels.begin() + 3 * i);
   return result;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -7,12 +7,12 @@
 #include "microswarm/formats/images/image.hpp"
 #include "microswarm/formats/images/mask.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// The picture in colour with the outline of the mask drawn just outside the mask. The line is
 /// thick enough to show when the whole picture is scaled to a screen. Throws InputError if the
 /// sizes differ.
-Image overlay(const Image& picture, const Mask& mask,
-              std::array<std::uint8_t, 3> rgb = {0, 255, 255});
+formats::Image overlay(const formats::Image& picture, const formats::Mask& mask,
+                       std::array<std::uint8_t, 3> rgb = {0, 255, 255});
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <numeric>
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 /// The first pixel from `x` on that is set; `width` if there is none.
@@ -83,4 +83,4 @@ std::vector<RunPiece> connected_runs(const cv::Mat& set) {
   return pieces;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Neighbouring pixels of a row that are set, from `begin` to before `end`.
 struct PixelRun {
@@ -24,4 +24,4 @@ struct RunPiece {
 /// pixels are set, as rows are skipped by words and pixels get no labels.
 std::vector<RunPiece> connected_runs(const cv::Mat& set);
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

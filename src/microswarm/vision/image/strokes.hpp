@@ -9,7 +9,7 @@
 
 #include "microswarm/geometry/vec2.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// OpenCV draws with a resolution of 1/16 pixel.
 inline constexpr int fraction_bits = 4;
@@ -31,4 +31,4 @@ inline void draw_text(cv::Mat& picture, const std::string& text, cv::Point at, d
   cv::putText(picture, text, at, cv::FONT_HERSHEY_SIMPLEX, size, white, thin, cv::LINE_AA);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -3,8 +3,8 @@
 
 #include <opencv2/core/utility.hpp>
 
-namespace microswarm {
+namespace microswarm::vision {
 
 void set_picture_threads(int threads) { cv::setNumThreads(threads); }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -14,7 +14,7 @@
 #include "microswarm/core/execution/each_cpu.hpp"
 #include "microswarm/core/maths/magnitudes.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 constexpr int tiles_across = 24;   // along the longer side
@@ -230,4 +230,4 @@ cv::Mat estimate_background(const cv::Mat& grey, const cv::Mat& seen) {
   return GroundSurface(grey, seen).over({.size = grey.size()});
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -4,7 +4,7 @@
 #include <array>
 #include <opencv2/core.hpp>
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Background intensity of a picture with uneven light: a quadratic surface fitted robustly to the
 /// medians of tiles. Valid if the background covers more than half of the seen pixels. `grey` is
@@ -37,4 +37,4 @@ class GroundSurface {
   std::array<double, 6> factor_{};
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

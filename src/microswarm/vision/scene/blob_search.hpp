@@ -8,7 +8,7 @@
 #include "microswarm/formats/images/mask.hpp"
 #include "microswarm/vision/scene/blobs.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 // Steps of `find_blobs`, over a whole picture or a part of it.
 
@@ -20,7 +20,7 @@ cv::Mat downsampled(const cv::Mat& mat, int side);
 
 /// The walls as an 8-bit matrix that shares the cells; empty without walls. Throws InputError if
 /// they have another size than the picture.
-cv::Mat walls_over(const Image& picture, const Mask* walls);
+cv::Mat walls_over(const formats::Image& picture, const formats::Mask* walls);
 
 /// Mask of the working pixels to search (255), or an empty matrix if all are searched.
 cv::Mat visible_pixels(const cv::Mat& walls, int side);
@@ -56,4 +56,4 @@ void add_blobs(const BlobContext& field, const BlobParams& params, float least, 
 /// Sorts by decreasing area.
 void sort_by_size(std::vector<Blob>& blobs);
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -23,7 +23,7 @@
 #include "microswarm/vision/scene/blob_search.hpp"
 #include "microswarm/vision/scene/level_line.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 constexpr int smooth_side = 5;     // working pixels that a smooth part must extend over
@@ -48,7 +48,7 @@ cv::Mat downsampled(const cv::Mat& mat, int side) {
   return small;
 }
 
-cv::Mat walls_over(const Image& picture, const Mask* walls) {
+cv::Mat walls_over(const formats::Image& picture, const formats::Mask* walls) {
   if (!walls) return {};
   if (walls->width != picture.width || walls->height != picture.height)
     throw InputError("walls: " + std::to_string(walls->width) + "x" +
@@ -363,7 +363,8 @@ void sort_by_size(std::vector<Blob>& blobs) {
 namespace {
 
 /// `grey` has one channel and must outlive the result.
-BlobContext make_context(const Image& grey, const BlobParams& p, const Mask* walls) {
+BlobContext make_context(const formats::Image& grey, const BlobParams& p,
+                         const formats::Mask* walls) {
   BlobContext field{.side = coarseness(p)};
   field.seen = visible_pixels(walls_over(grey, walls), field.side);
   field.fine = as_mat(grey);
@@ -380,17 +381,18 @@ float min_foreground(const BlobContext& field, const BlobParams& p) {
 
 }  // namespace
 
-double contrast_limit(const Image& picture, const BlobParams& params, const Mask* walls) {
+double contrast_limit(const formats::Image& picture, const BlobParams& params,
+                      const formats::Mask* walls) {
   if (picture.pixels.empty()) return params.min_contrast;
-  const Image one = picture.channels == 1 ? Image{} : to_grey(picture);
+  const formats::Image one = picture.channels == 1 ? formats::Image{} : formats::to_grey(picture);
   return min_foreground(make_context(picture.channels == 1 ? picture : one, params, walls), params);
 }
 
-std::vector<Blob> find_blobs(const Image& picture, const BlobParams& p, const Mask* walls,
-                             std::vector<Blob>* refused) {
+std::vector<Blob> find_blobs(const formats::Image& picture, const BlobParams& p,
+                             const formats::Mask* walls, std::vector<Blob>* refused) {
   walls_over(picture, walls);  // for its check
   if (picture.pixels.empty()) return {};
-  const Image one = picture.channels == 1 ? Image{} : to_grey(picture);
+  const formats::Image one = picture.channels == 1 ? formats::Image{} : formats::to_grey(picture);
   const BlobContext field = make_context(picture.channels == 1 ? picture : one, p, walls);
   const float least = min_foreground(field, p);
   const cv::Mat high = field.foreground > least;
@@ -402,4 +404,4 @@ std::vector<Blob> find_blobs(const Image& picture, const BlobParams& p, const Ma
   return blobs;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -11,7 +11,7 @@
 #include "microswarm/geometry/vec2.hpp"
 #include "microswarm/vision/tracking/particles.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Settings of `find_blobs`.
 struct BlobParams {
@@ -58,11 +58,13 @@ struct Blob {
 /// are ignored. Colour pictures are converted to grey. The result is bit-reproducible. `refused`
 /// receives the regions that are too smooth, too large, or too small but at least a quarter of
 /// `min_radius`. Throws InputError if `walls` has another size.
-std::vector<Blob> find_blobs(const Image& picture, const BlobParams& params,
-                             const Mask* walls = nullptr, std::vector<Blob>* refused = nullptr);
+std::vector<Blob> find_blobs(const formats::Image& picture, const BlobParams& params,
+                             const formats::Mask* walls = nullptr,
+                             std::vector<Blob>* refused = nullptr);
 
 /// Contrast above which something differs from the background [grey]: `min_contrast`, or five times
 /// the spread of the background. Walls and errors as in `find_blobs`.
-double contrast_limit(const Image& picture, const BlobParams& params, const Mask* walls = nullptr);
+double contrast_limit(const formats::Image& picture, const BlobParams& params,
+                      const formats::Mask* walls = nullptr);
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

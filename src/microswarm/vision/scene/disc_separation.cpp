@@ -6,7 +6,7 @@
 #include <numbers>
 #include <opencv2/core.hpp>
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 constexpr int fit_rounds = 8;
@@ -91,4 +91,4 @@ std::vector<Ring> separated_discs(std::span<const Vec2> outline, std::span<const
   return explained ? rings : std::vector<Ring>{};
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -7,7 +7,7 @@
 #include "microswarm/geometry/vec2.hpp"
 #include "microswarm/vision/tracking/ring_fit.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Limits of `separated_discs` [px].
 struct DiscSeparation {
@@ -21,4 +21,4 @@ struct DiscSeparation {
 std::vector<Ring> separated_discs(std::span<const Vec2> outline, std::span<const Ring> expected,
                                   const DiscSeparation& limits);
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -4,7 +4,7 @@
 #include <array>
 #include <cassert>
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 /// Offset to a neighbour: 0 is up; each increment turns right by 90° as displayed.
@@ -49,4 +49,4 @@ std::vector<Vec2> level_line(const cv::Mat& field, float level, cv::Point start)
   return line;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -6,7 +6,7 @@
 
 #include "microswarm/geometry/vec2.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// The closed contour of a piece of a field at `level`, by marching squares with linear
 /// interpolation between pixels; (0, 0) is the centre of the first pixel, y points down. The piece
@@ -14,4 +14,4 @@ namespace microswarm {
 /// of the field, the contour follows the outer edge of its last pixels. `field` is of floats.
 std::vector<Vec2> level_line(const cv::Mat& field, float level, cv::Point start);
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

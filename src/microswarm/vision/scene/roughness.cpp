@@ -6,7 +6,7 @@
 #include "microswarm/core/execution/each_cpu.hpp"
 #include "microswarm/vision/scene/blob_search.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 /// Repeats each value `side` times.
@@ -55,4 +55,4 @@ double roughness(const BlobContext& field, const cv::Rect& box, const cv::Mat& c
   return all > 0 ? sum / all : 0;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

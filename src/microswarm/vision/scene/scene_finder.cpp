@@ -10,7 +10,7 @@
 #include "microswarm/vision/scene/disc_separation.hpp"
 #include "microswarm/vision/scene/scene_parts.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 constexpr double hull_tolerance = 0.5;  // [px]
@@ -28,8 +28,9 @@ std::vector<cv::Point2f> to_points(const std::vector<Vec2>& ring) {
 
 }  // namespace
 
-Mask hidden_by(const Blob& blob, const Image& picture, const Mask* walls, double margin) {
-  Mask hidden = walls ? *walls : Mask(picture.width, picture.height);
+formats::Mask hidden_by(const Blob& blob, const formats::Image& picture, const formats::Mask* walls,
+                        double margin) {
+  formats::Mask hidden = walls ? *walls : formats::Mask(picture.width, picture.height);
   std::vector<cv::Point> ring;
   ring.reserve(blob.outline_px.size());
   for (const Vec2 p : blob.outline_px)
@@ -43,7 +44,7 @@ Mask hidden_by(const Blob& blob, const Image& picture, const Mask* walls, double
 namespace {
 
 /// The outline without the parts along hidden regions or the picture's edge.
-std::vector<Vec2> own_outline(const Blob& blob, const cv::Size& size, const Mask* hidden) {
+std::vector<Vec2> own_outline(const Blob& blob, const cv::Size& size, const formats::Mask* hidden) {
   constexpr int margin = 9;  // [px] range over which a hidden region distorts the outline
   std::vector<Vec2> own;
   for (const Vec2 p : blob.outline_px) {
@@ -95,8 +96,9 @@ SeenObstacle with_hull(Blob blob, std::optional<Ring> disc) {
 }
 
 /// Adds the obstacle that the blob shows, or each of the expected discs that have joined in it.
-void add_obstacles(Blob blob, const cv::Size& size, const Mask* hidden, const SceneParams& params,
-                   std::span<const Ring> expected, std::vector<SeenObstacle>& obstacles) {
+void add_obstacles(Blob blob, const cv::Size& size, const formats::Mask* hidden,
+                   const SceneParams& params, std::span<const Ring> expected,
+                   std::vector<SeenObstacle>& obstacles) {
   const std::vector<Vec2> own = blob.is_cut ? own_outline(blob, size, hidden) : blob.outline_px;
   std::optional<Ring> disc = fit_disc(blob, own, params.roundness);
   if (!disc) {
@@ -125,12 +127,13 @@ std::variant<Disc, Polygon> SeenObstacle::shape(const CameraScale& scale) const 
   return polygon_in_world({.outer = hull_px, .holes = {}}, scale);
 }
 
-SeenScene find_scene(const Image& picture, const SceneParams& params, const SwarmPrior& prior,
-                     const Mask* walls, std::span<const Ring> expected) {
+SeenScene find_scene(const formats::Image& picture, const SceneParams& params,
+                     const SwarmPrior& prior, const formats::Mask* walls,
+                     std::span<const Ring> expected) {
   SeenScene scene{.swarm = find_swarm(picture, params.swarm, prior.at_px, walls), .obstacles = {}};
   if (scene.swarm.sight == SwarmSight::none && looks_for_smooth(params))
     scene.swarm = choose_smooth(find_blobs(picture, smooth_look(params), walls), params, prior);
-  Mask hidden;
+  formats::Mask hidden;
   if (scene.swarm.swarm) {
     hidden = hidden_by(*scene.swarm.swarm, picture, walls, params.swarm.look.gap);
     walls = &hidden;
@@ -158,7 +161,7 @@ SwarmSighting choose_smooth(std::vector<Blob> blobs, const SceneParams& params,
 }
 
 std::vector<SeenObstacle> to_obstacles(std::vector<Blob> blobs, const cv::Size& size,
-                                       const Mask* hidden, const SceneParams& params,
+                                       const formats::Mask* hidden, const SceneParams& params,
                                        std::span<const Ring> expected) {
   std::vector<SeenObstacle> obstacles;
   for (Blob& blob : blobs)
@@ -166,4 +169,4 @@ std::vector<SeenObstacle> to_obstacles(std::vector<Blob> blobs, const cv::Size& 
   return obstacles;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -11,7 +11,7 @@
 #include "microswarm/vision/scene/swarm_finder.hpp"
 #include "microswarm/vision/tracking/ring_fit.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Settings of `find_scene`. If obstacles have the swarm's tone, `swarm.look.min_texture`
 /// distinguishes them from it. A dense swarm may have no texture at the camera's magnification:
@@ -63,8 +63,8 @@ bool fits(const Blob& smooth, const SceneParams& params, const SwarmPrior& prior
 /// Finds the swarm and the obstacles in a picture. Obstacles are all other regions that differ from
 /// the background, including those that touch the swarm. Where several of the `expected` discs have
 /// joined in one region, each is a separate obstacle. `walls` and errors as in `find_swarm`.
-SeenScene find_scene(const Image& picture, const SceneParams& params = {},
-                     const SwarmPrior& prior = {}, const Mask* walls = nullptr,
+SeenScene find_scene(const formats::Image& picture, const SceneParams& params = {},
+                     const SwarmPrior& prior = {}, const formats::Mask* walls = nullptr,
                      std::span<const Ring> expected = {});
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

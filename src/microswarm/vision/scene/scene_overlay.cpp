@@ -10,7 +10,7 @@
 #include "microswarm/vision/image/overlay.hpp"
 #include "microswarm/vision/image/strokes.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 // From Okabe & Ito's palette, which is safe for colour-blind readers.
@@ -49,8 +49,10 @@ void draw_blob(cv::Mat& picture, const Blob& blob, const cv::Scalar& colour) {
 
 }  // namespace
 
-Image draw_scene(const Image& picture, const SeenScene& scene, const Mask* walls) {
-  Image shown = overlay(picture, walls ? *walls : Mask(picture.width, picture.height), blue);
+formats::Image draw_scene(const formats::Image& picture, const SeenScene& scene,
+                          const formats::Mask* walls) {
+  formats::Image shown =
+      overlay(picture, walls ? *walls : formats::Mask(picture.width, picture.height), blue);
   cv::Mat canvas = as_mat(shown);
   for (const SeenObstacle& o : scene.obstacles) {
     if (o.disc)
@@ -67,7 +69,7 @@ Image draw_scene(const Image& picture, const SeenScene& scene, const Mask* walls
   return shown;
 }
 
-void draw_reasons(Image& shown, const std::vector<NotSwarm>& blobs) {
+void draw_reasons(formats::Image& shown, const std::vector<NotSwarm>& blobs) {
   constexpr double size = 0.4;
   cv::Mat canvas = as_mat(shown);
   for (const NotSwarm& no : blobs) {
@@ -86,4 +88,4 @@ void draw_reasons(Image& shown, const std::vector<NotSwarm>& blobs) {
   }
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

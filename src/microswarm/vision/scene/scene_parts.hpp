@@ -7,12 +7,13 @@
 
 #include "microswarm/vision/scene/scene_finder.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 // Steps of `find_scene`, for blobs found in any way.
 
 /// The walls and the area of a blob, grown slightly.
-Mask hidden_by(const Blob& blob, const Image& picture, const Mask* walls, double margin);
+formats::Mask hidden_by(const Blob& blob, const formats::Image& picture, const formats::Mask* walls,
+                        double margin);
 
 /// Whether a swarm without texture is looked for where nothing has texture, and how it looks then.
 bool looks_for_smooth(const SceneParams& params);
@@ -23,7 +24,7 @@ SwarmSighting choose_smooth(std::vector<Blob> blobs, const SceneParams& params,
 
 /// The obstacles that the blobs show in a picture of this size.
 std::vector<SeenObstacle> to_obstacles(std::vector<Blob> blobs, const cv::Size& size,
-                                       const Mask* hidden, const SceneParams& params,
+                                       const formats::Mask* hidden, const SceneParams& params,
                                        std::span<const Ring> expected);
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -12,7 +12,7 @@
 #include "microswarm/vision/scene/blob_search.hpp"
 #include "microswarm/vision/scene/scene_parts.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 constexpr int coarse = 4;             // [px] side of a coarse pixel
@@ -56,8 +56,8 @@ struct Backdrop {
 /// The search of one picture.
 class WindowSearch {
  public:
-  WindowSearch(const Image& picture, const Mask* walls, const Mask& coarse_walls,
-               const SceneParams& params)
+  WindowSearch(const formats::Image& picture, const formats::Mask* walls,
+               const formats::Mask& coarse_walls, const SceneParams& params)
       : picture_(picture), walls_(walls), fine_(as_mat(picture)) {
     if (walls) coarse_seen_ = ~to_mat(coarse_walls);
     look_coarsely(params);
@@ -66,13 +66,14 @@ class WindowSearch {
 
   /// Around all that differs from the light.
   const std::vector<Window>& windows() const { return windows_; }
-  std::vector<Blob> search(const BlobParams& look, const Mask* hidden,
+  std::vector<Blob> search(const BlobParams& look, const formats::Mask* hidden,
                            const std::vector<Window>& windows) const;
 
  private:
   void look_coarsely(const SceneParams& params);
   void place_windows(const SceneParams& params);
-  std::optional<std::vector<Blob>> search_within(const BlobParams& look, const Mask* hidden,
+  std::optional<std::vector<Blob>> search_within(const BlobParams& look,
+                                                 const formats::Mask* hidden,
                                                  const std::vector<Window>& windows) const;
   Backdrop backdrop(const BlobParams& look) const;
   cv::Mat ground(const cv::Rect& box, int side) const;
@@ -81,8 +82,8 @@ class WindowSearch {
                            std::clamp(static_cast<int>(at_px.x) / coarse, 0, pieces_.cols - 1));
   }
 
-  const Image& picture_;
-  const Mask* walls_;
+  const formats::Image& picture_;
+  const formats::Mask* walls_;
   cv::Mat fine_;
   cv::Mat coarse_seen_;
   std::optional<GroundSurface> light_;
@@ -133,7 +134,7 @@ void WindowSearch::place_windows(const SceneParams& params) {
 }
 
 /// Blobs in the windows; of the whole picture if a blob continues beyond its window.
-std::vector<Blob> WindowSearch::search(const BlobParams& look, const Mask* hidden,
+std::vector<Blob> WindowSearch::search(const BlobParams& look, const formats::Mask* hidden,
                                        const std::vector<Window>& windows) const {
   std::optional<std::vector<Blob>> blobs = search_within(look, hidden, windows);
   if (!blobs) blobs = search_within(look, hidden, {{.box = {0, 0, fine_.cols, fine_.rows}}});
@@ -142,7 +143,7 @@ std::vector<Blob> WindowSearch::search(const BlobParams& look, const Mask* hidde
 }
 
 std::optional<std::vector<Blob>> WindowSearch::search_within(
-    const BlobParams& look, const Mask* hidden, const std::vector<Window>& windows) const {
+    const BlobParams& look, const formats::Mask* hidden, const std::vector<Window>& windows) const {
   const int side = coarseness(look);
   const Backdrop behind = backdrop(look);
   const cv::Mat walls = walls_over(picture_, hidden);
@@ -209,15 +210,15 @@ cv::Mat WindowSearch::ground(const cv::Rect& box, int side) const {
 
 }  // namespace
 
-SceneWindows::SceneWindows(Mask walls) : walls_(std::move(walls)) {
+SceneWindows::SceneWindows(formats::Mask walls) : walls_(std::move(walls)) {
   if (walls_.cells.empty()) return;
   const cv::Mat cells(walls_.height, walls_.width, CV_8U, walls_.cells.data());
   coarse_walls_ = to_mask(~visible_pixels(cells, coarse));
 }
 
-SeenScene SceneWindows::find(const Image& picture, const SceneParams& params,
+SeenScene SceneWindows::find(const formats::Image& picture, const SceneParams& params,
                              const SwarmPrior& prior, std::span<const Ring> expected) {
-  const Mask* walls = walls_.cells.empty() ? nullptr : &walls_;
+  const formats::Mask* walls = walls_.cells.empty() ? nullptr : &walls_;
   walls_over(picture, walls);  // for its check
   if (picture.pixels.empty()) return {};
   const WindowSearch in(picture, walls, coarse_walls_, params);
@@ -232,7 +233,7 @@ SeenScene SceneWindows::find(const Image& picture, const SceneParams& params,
     scene.swarm = choose_swarm(in.search(params.swarm.look, walls, far), params.swarm, before_px);
   if (scene.swarm.sight == SwarmSight::none && looks_for_smooth(params))
     scene.swarm = choose_smooth(in.search(smooth_look(params), walls, in.windows()), params, prior);
-  Mask hidden;
+  formats::Mask hidden;
   if (scene.swarm.swarm) {
     hidden = hidden_by(*scene.swarm.swarm, picture, walls, params.swarm.look.gap);
     walls = &hidden;
@@ -242,4 +243,4 @@ SeenScene SceneWindows::find(const Image& picture, const SceneParams& params,
   return scene;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -5,7 +5,7 @@
 
 #include "microswarm/vision/scene/scene_finder.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Finds the scene of each picture of a video as `find_scene` does, in a fraction of the time: the
 /// light is fitted to a coarse picture, and only windows around what differs from it there are
@@ -15,15 +15,15 @@ namespace microswarm {
 class SceneWindows {
  public:
   /// `walls` is empty or has the size of the pictures, which are grey.
-  explicit SceneWindows(Mask walls);
+  explicit SceneWindows(formats::Mask walls);
 
   /// As `find_scene`.
-  SeenScene find(const Image& picture, const SceneParams& params, const SwarmPrior& prior,
+  SeenScene find(const formats::Image& picture, const SceneParams& params, const SwarmPrior& prior,
                  std::span<const Ring> expected);
 
  private:
-  Mask walls_;
-  Mask coarse_walls_;  // 1 where a coarse pixel is not seen
+  formats::Mask walls_;
+  formats::Mask coarse_walls_;  // 1 where a coarse pixel is not seen
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -8,7 +8,7 @@
 
 #include "microswarm/core/maths/maths.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 constexpr double view_share = 0.2;  // of the picture, from which a cut region may be the background
@@ -61,9 +61,9 @@ NotSwarm outranked(const Blob& blob, const SeenScene& scene, const SceneParams& 
 
 }  // namespace
 
-std::vector<NotSwarm> why_not_swarm(const SeenScene& scene, const Image& picture,
+std::vector<NotSwarm> why_not_swarm(const SeenScene& scene, const formats::Image& picture,
                                     const SceneParams& params, const SwarmPrior& prior,
-                                    const Mask* walls) {
+                                    const formats::Mask* walls) {
   const bool is_found = scene.swarm.sight == SwarmSight::found;
   const bool smooth_count = scene.swarm.sight == SwarmSight::none && params.smooth_swarm;
   std::vector<NotSwarm> all;
@@ -138,4 +138,4 @@ std::string short_reason(const NotSwarm& no) {
   return whole.substr(0, whole.find(" ("));
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

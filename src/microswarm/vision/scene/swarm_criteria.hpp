@@ -9,7 +9,7 @@
 
 #include "microswarm/vision/scene/scene_finder.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Criteria of a swarm.
 enum class SwarmCriterion {
@@ -49,9 +49,9 @@ struct NotSwarm {
 
 /// Why the blobs of a picture are not the swarm, for the scene that `find_scene` found with the
 /// same arguments. Where no swarm was found, also what is too faint or of the other tone.
-std::vector<NotSwarm> why_not_swarm(const SeenScene& scene, const Image& picture,
+std::vector<NotSwarm> why_not_swarm(const SeenScene& scene, const formats::Image& picture,
                                     const SceneParams& params = {}, const SwarmPrior& prior = {},
-                                    const Mask* walls = nullptr);
+                                    const formats::Mask* walls = nullptr);
 
 /// The criterion with value, limit and key, such as "texture 0.0 < 5
 /// (scene.swarm.look.min_texture)".
@@ -59,4 +59,4 @@ std::string reason(const NotSwarm& blob);
 /// The same in a few characters.
 std::string short_reason(const NotSwarm& blob);
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <utility>
 
-namespace microswarm {
+namespace microswarm::vision {
 
-SwarmSighting find_swarm(const Image& picture, const SwarmFinderParams& params,
-                         std::optional<Vec2> before_px, const Mask* walls) {
+SwarmSighting find_swarm(const formats::Image& picture, const SwarmFinderParams& params,
+                         std::optional<Vec2> before_px, const formats::Mask* walls) {
   return choose_swarm(find_blobs(picture, params.look, walls), params, before_px);
 }
 
@@ -39,4 +39,4 @@ SwarmSighting choose_swarm(std::vector<Blob> blobs, const SwarmFinderParams& par
   return seen;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

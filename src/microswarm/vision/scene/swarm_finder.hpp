@@ -10,7 +10,7 @@
 #include "microswarm/core/fields/fields.hpp"
 #include "microswarm/vision/scene/blobs.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Settings of `find_swarm`.
 struct SwarmFinderParams {
@@ -55,7 +55,8 @@ SwarmSighting choose_swarm(std::vector<Blob> blobs, const SwarmFinderParams& par
 /// Searches a microscope picture for one swarm: a cloud of particles or clumps. With `before_px`,
 /// its last known position, only blobs within `jump` of it are candidates. `walls`, pictures and
 /// errors as in `find_blobs`.
-SwarmSighting find_swarm(const Image& picture, const SwarmFinderParams& params = {},
-                         std::optional<Vec2> before_px = std::nullopt, const Mask* walls = nullptr);
+SwarmSighting find_swarm(const formats::Image& picture, const SwarmFinderParams& params = {},
+                         std::optional<Vec2> before_px = std::nullopt,
+                         const formats::Mask* walls = nullptr);
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

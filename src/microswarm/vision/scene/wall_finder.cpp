@@ -13,7 +13,7 @@
 #include "microswarm/vision/vessels/outline.hpp"
 #include "microswarm/vision/vessels/region_vessels.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 constexpr int tile = 16;  // [px] side of a tile in which the slope of the light is estimated
@@ -143,10 +143,10 @@ cv::Mat without_islands(const cv::Mat& set, const Disc& circle) {
 
 }  // namespace
 
-Image still_background(std::span<const Image> pictures) {
+formats::Image still_background(std::span<const formats::Image> pictures) {
   if (pictures.empty()) throw InputError("background: no pictures");
-  Image still = pictures[0];
-  for (const Image& p : pictures)
+  formats::Image still = pictures[0];
+  for (const formats::Image& p : pictures)
     if (p.width != still.width || p.height != still.height || p.channels != still.channels)
       throw InputError("background: the pictures differ in size");
   std::vector<std::uint8_t> values(pictures.size());
@@ -159,19 +159,20 @@ Image still_background(std::span<const Image> pictures) {
   return still;
 }
 
-Mask find_walls(const Image& background, const WallParams& p) {
+formats::Mask find_walls(const formats::Image& background, const WallParams& p) {
   if (background.pixels.empty()) return {};
-  const Image one = to_grey(background);
+  const formats::Image one = formats::to_grey(background);
   const Sorts sorts = classify_pixels(as_mat(one), p);
   if (sorts.walls.empty()) return {background.width, background.height};
   const cv::Mat walls = without_small_pieces(sorts.walls, p.min_area);
   return to_mask(~without_small_pieces(~walls, p.min_area));
 }
 
-WallsBesideSwarm find_walls_beside(const Image& picture, const WallParams& p, const Mask& fixed,
-                                   Vec2 swarm_px, double reach_px, const CameraScale& scale) {
+WallsBesideSwarm find_walls_beside(const formats::Image& picture, const WallParams& p,
+                                   const formats::Mask& fixed, Vec2 swarm_px, double reach_px,
+                                   const CameraScale& scale) {
   if (picture.pixels.empty()) return {};
-  const Image one = to_grey(picture);
+  const formats::Image one = formats::to_grey(picture);
   cv::Mat grey;
   cv::resize(as_mat(one), grey, {(one.width + 1) / wall_pixel, (one.height + 1) / wall_pixel}, 0, 0,
              cv::INTER_AREA);
@@ -203,7 +204,8 @@ WallsBesideSwarm find_walls_beside(const Image& picture, const WallParams& p, co
   return found;
 }
 
-std::vector<Polygon> walls_in_world(const Mask& walls, const CameraScale& scale, double tolerance) {
+std::vector<Polygon> walls_in_world(const formats::Mask& walls, const CameraScale& scale,
+                                    double tolerance) {
   // Outlines have y up from the picture's lower left corner and a pixel size of 1.
   std::vector<Polygon> polygons = outline(walls, 1, tolerance / scale.um_per_px);
   const auto to_picture = [&](std::vector<Vec2>& ring) {
@@ -217,4 +219,4 @@ std::vector<Polygon> walls_in_world(const Mask& walls, const CameraScale& scale,
   return polygons;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

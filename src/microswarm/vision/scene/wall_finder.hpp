@@ -11,7 +11,7 @@
 #include "microswarm/vision/camera/camera_scale.hpp"
 #include "microswarm/vision/tracking/particles.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Settings of `find_walls`.
 struct WallParams {
@@ -32,28 +32,29 @@ struct WallParams {
 
 /// Static background: the median of each pixel over the pictures. Throws InputError if there are no
 /// pictures or their sizes differ.
-Image still_background(std::span<const Image> pictures);
+formats::Image still_background(std::span<const formats::Image> pictures);
 
 /// Segments the walls in a picture without swarm and obstacles, 1 = wall, by a threshold between
 /// two greys. Uneven light is removed first. It is estimated from grey gradients everywhere except
 /// at edges, so walls may cover most of the picture. The result is empty if there is only one grey
 /// or the two differ by less than `min_contrast`.
-Mask find_walls(const Image& background, const WallParams& params = {});
+formats::Mask find_walls(const formats::Image& background, const WallParams& params = {});
 
 /// The walls of a picture with a swarm in it.
 struct WallsBesideSwarm {
-  Mask walls;                   ///< 1 = wall; the picture's size
+  formats::Mask walls;          ///< 1 = wall; the picture's size
   std::vector<Polygon> shapes;  ///< their smooth outlines [µm]
 };
 
 /// Segments walls that may move, independently in each picture. `fixed` (the picture's size) marks
 /// known walls. A region much darker than the walls, or separate from them within `reach_px` of
 /// `swarm_px`, is the swarm. The result is without walls if the picture has only one grey.
-WallsBesideSwarm find_walls_beside(const Image& picture, const WallParams& params,
-                                   const Mask& fixed, Vec2 swarm_px, double reach_px,
+WallsBesideSwarm find_walls_beside(const formats::Image& picture, const WallParams& params,
+                                   const formats::Mask& fixed, Vec2 swarm_px, double reach_px,
                                    const CameraScale& scale);
 
 /// Smooth outlines [µm] of walls for a Map, within `tolerance` [µm] of the mask's outline.
-std::vector<Polygon> walls_in_world(const Mask& walls, const CameraScale& scale, double tolerance);
+std::vector<Polygon> walls_in_world(const formats::Mask& walls, const CameraScale& scale,
+                                    double tolerance);
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

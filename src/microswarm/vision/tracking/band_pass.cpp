@@ -9,7 +9,7 @@
 #include "microswarm/core/maths/maths.hpp"
 #include "microswarm/vision/image/blur.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 constexpr double cut = 4;  // standard deviations at which the Gaussian is cut
@@ -29,7 +29,7 @@ std::vector<float> gaussian(double spread) {
   return taps;
 }
 
-const std::uint8_t* pixel_row(const Image& grey, int row) {
+const std::uint8_t* pixel_row(const formats::Image& grey, int row) {
   return grey.pixels.data() + grey.index(0, std::clamp(row, 0, grey.height - 1));
 }
 
@@ -91,7 +91,7 @@ BandPass::BandPass(const BandPassParams& params)
   assert(params.box_px % 2 == 1);
 }
 
-const std::vector<float>& BandPass::filter(const Image& grey) {
+const std::vector<float>& BandPass::filter(const formats::Image& grey) {
   assert(grey.channels == 1);
   begin(grey);
   for (int row = 0; row < grey.height; ++row) {
@@ -102,7 +102,7 @@ const std::vector<float>& BandPass::filter(const Image& grey) {
   return result_;
 }
 
-void BandPass::begin(const Image& grey) {
+void BandPass::begin(const formats::Image& grey) {
   const int reach = static_cast<int>(taps_.size()) - 1;
   const int half = params_.box_px / 2;
   const auto width = static_cast<std::size_t>(grey.width);
@@ -121,7 +121,7 @@ void BandPass::begin(const Image& grey) {
 
 /// The row as numbers, in the place of one that is needed no more, and once more behind all of
 /// them: so those around a row are always in order.
-void BandPass::take_row(const Image& grey, int row) {
+void BandPass::take_row(const formats::Image& grey, int row) {
   const auto width = static_cast<std::size_t>(grey.width);
   const int rows = 2 * static_cast<int>(taps_.size()) - 1;
   float* position = rows_.data() + static_cast<std::size_t>((row + rows) % rows) * width;
@@ -129,7 +129,7 @@ void BandPass::take_row(const Image& grey, int row) {
   std::copy_n(position, width, position + static_cast<std::size_t>(rows) * width);
 }
 
-void BandPass::smooth_down(const Image& grey, int row) {
+void BandPass::smooth_down(const formats::Image& grey, int row) {
   const int reach = static_cast<int>(taps_.size()) - 1;
   const int rows = 2 * reach + 1;
   take_row(grey, row + reach);
@@ -139,7 +139,7 @@ void BandPass::smooth_down(const Image& grey, int row) {
   extend(smoothed_, reach, grey.width);
 }
 
-void BandPass::find_ground(const Image& grey, int row) {
+void BandPass::find_ground(const formats::Image& grey, int row) {
   const int half = params_.box_px / 2;
   move_down(pixel_row(grey, row + half), pixel_row(grey, row - half - 1), grey.width,
             column_sums_.data());
@@ -158,4 +158,4 @@ void BandPass::write_row(int width, float* out) const {
            params_.dark_rises ? -1.0F : 1.0F, static_cast<float>(params_.min_foreground), out);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

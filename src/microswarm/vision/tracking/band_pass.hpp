@@ -6,7 +6,7 @@
 
 #include "microswarm/formats/images/image.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Settings of BandPass.
 struct BandPassParams {
@@ -30,13 +30,13 @@ class BandPass {
 
   /// Difference of each pixel of a one-channel picture from the background [grey]: row-major, 0 for
   /// background. Valid until the next call.
-  const std::vector<float>& filter(const Image& grey);
+  const std::vector<float>& filter(const formats::Image& grey);
 
  private:
-  void begin(const Image& grey);
-  void take_row(const Image& grey, int row);
-  void smooth_down(const Image& grey, int row);
-  void find_ground(const Image& grey, int row);
+  void begin(const formats::Image& grey);
+  void take_row(const formats::Image& grey, int row);
+  void smooth_down(const formats::Image& grey, int row);
+  void find_ground(const formats::Image& grey, int row);
   void write_row(int width, float* out) const;
 
   BandPassParams params_;
@@ -49,4 +49,4 @@ class BandPass {
   std::vector<float> result_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -7,7 +7,7 @@
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/core/maths/maths.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 constexpr double kernel = 0.05;         // [decades] standard deviation of the smoothing
@@ -133,4 +133,4 @@ MassKinds mass_kinds(std::span<const double> masses, std::span<const double> oth
   return kinds;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

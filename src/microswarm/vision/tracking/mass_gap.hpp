@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// A gap in the distribution of the masses of features, between noise and robots.
 struct MassGap {
@@ -34,4 +34,4 @@ struct MassDensity {
 };
 MassDensity mass_density(std::span<const double> masses);
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

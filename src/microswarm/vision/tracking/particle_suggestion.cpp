@@ -9,7 +9,7 @@
 
 #include "microswarm/core/maths/statistics.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 constexpr int max_rounds = 6;       // until the diameter fits itself
@@ -23,7 +23,7 @@ struct Features {
   std::vector<std::pair<std::size_t, Particle>> particles;  // with their picture
 };
 
-Features find_features(std::span<const Image> pictures, ParticleParams params) {
+Features find_features(std::span<const formats::Image> pictures, ParticleParams params) {
   params.min_mass = 0;
   params.shape = ParticleShape::spot;
   ParticleFinder finder(params);
@@ -46,13 +46,13 @@ struct Profile {
   std::vector<double> error;
 };
 
-Profile make_profile(std::span<const Image> pictures, const Features& features, double min_mass,
-                     int reach) {
+Profile make_profile(std::span<const formats::Image> pictures, const Features& features,
+                     double min_mass, int reach) {
   const auto rings = static_cast<std::size_t>(reach) + 1;
   std::vector<double> sum(rings), squares(rings), count(rings);
   std::size_t robots = 0;
   for (const auto& [k, particle] : features.particles) {
-    const Image& picture = pictures[k];
+    const formats::Image& picture = pictures[k];
     const int x = static_cast<int>(std::lround(particle.at_px.x));
     const int y = static_cast<int>(std::lround(particle.at_px.y));
     if (particle.mass <= min_mass || x < reach || y < reach || x >= picture.width - reach ||
@@ -118,7 +118,7 @@ double ParticleSuggestion::heavier_than(double mass) const {
   return pictures > 0 ? static_cast<double>(heavier) / pictures : 0;
 }
 
-ParticleSuggestion suggest_particles(std::span<const Image> pictures,
+ParticleSuggestion suggest_particles(std::span<const formats::Image> pictures,
                                      const ParticleParams& params) {
   ParticleSuggestion best{.params = params};
   best.pictures = static_cast<int>(pictures.size());
@@ -163,4 +163,4 @@ ParticleSuggestion suggest_particles(std::span<const Image> pictures,
   return best;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

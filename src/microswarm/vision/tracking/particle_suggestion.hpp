@@ -8,7 +8,7 @@
 #include "microswarm/vision/tracking/mass_gap.hpp"
 #include "microswarm/vision/tracking/particles.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Settings of ParticleFinder that suit pictures, and what they were chosen by.
 struct ParticleSuggestion {
@@ -26,6 +26,7 @@ struct ParticleSuggestion {
 /// Suggests `min_mass` from the gap in the masses of features, `diameter` from the mean picture of
 /// a robot, and `tone` if only the other tone has robots. The pictures have one channel and one
 /// size. Throws InputError as ParticleFinder does.
-ParticleSuggestion suggest_particles(std::span<const Image> pictures, const ParticleParams& params);
+ParticleSuggestion suggest_particles(std::span<const formats::Image> pictures,
+                                     const ParticleParams& params);
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -17,7 +17,7 @@
 #include "microswarm/vision/image/mask_ops.hpp"
 #include "microswarm/vision/tracking/ring_fit.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 constexpr std::size_t together = 4;  // particles that are described at once
@@ -96,7 +96,7 @@ ParticleFinder::ParticleFinder(const ParticleParams& params)
     }
 }
 
-const std::vector<Particle>& ParticleFinder::find(const Image& grey) {
+const std::vector<Particle>& ParticleFinder::find(const formats::Image& grey) {
   width_ = grey.width;
   height_ = grey.height;
   scale_to_bytes(band_pass_.filter(grey));
@@ -210,7 +210,7 @@ void ParticleFinder::describe(std::size_t first) {
   }
 }
 
-void ParticleFinder::fit_rings(const Image& grey) {
+void ParticleFinder::fit_rings(const formats::Image& grey) {
   for (Particle& particle : particles_) {
     const auto ring = fit_ring(grey, particle.at_px, radius_, params_.tone == ParticleTone::bright);
     if (!ring) continue;
@@ -243,4 +243,4 @@ void ParticleFinder::keep_apart() {
   particles_.resize(kept);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

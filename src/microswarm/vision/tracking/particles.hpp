@@ -14,7 +14,7 @@
 #include "microswarm/vision/tracking/band_pass.hpp"
 #include "microswarm/vision/tracking/round_window.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Tone of particles relative to the background.
 enum class ParticleTone { dark, bright };
@@ -87,7 +87,7 @@ class ParticleFinder {
 
   /// The particles of a one-channel picture, in the order of their peaks, row by row. Particles
   /// closer to the border than their radius are omitted. Valid until the next call.
-  const std::vector<Particle>& find(const Image& grey);
+  const std::vector<Particle>& find(const formats::Image& grey);
 
   /// Maximum distance of a particle's pixels from its centre: half the diameter [px].
   int radius_px() const { return radius_; }
@@ -113,7 +113,7 @@ class ParticleFinder {
   Particle refine(Peak& peak) const;
   /// Measures the rest of this particle and of some that follow.
   void describe(std::size_t first);
-  void fit_rings(const Image& grey);
+  void fit_rings(const formats::Image& grey);
   void keep_apart();
 
   ParticleParams params_;
@@ -130,4 +130,4 @@ class ParticleFinder {
   std::vector<Particle> particles_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -10,7 +10,7 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/statistics.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 std::optional<Ring> circle_through(const std::vector<Vec2>& points) {
   if (points.size() < 3) return std::nullopt;
   const double n = static_cast<double>(points.size());
@@ -55,7 +55,7 @@ constexpr double min_agreeing = 1.0 / 3;
 constexpr double far_off = 3;  // median deviations; farther points are outliers
 
 /// Bilinearly interpolated grey; empty outside the picture.
-std::optional<double> grey_at(const Image& grey, Vec2 p) {
+std::optional<double> grey_at(const formats::Image& grey, Vec2 p) {
   const double column = std::floor(p.x);
   const double row = std::floor(p.y);
   if (column < 0 || row < 0 || column + 1 >= grey.width || row + 1 >= grey.height)
@@ -70,7 +70,7 @@ std::optional<double> grey_at(const Image& grey, Vec2 p) {
 
 /// Distance from the centre to the darkest point on a ray between `from` and `to`; empty if that is
 /// an end of the range.
-std::optional<double> darkest(const Image& grey, Vec2 centre, Vec2 direction, double from,
+std::optional<double> darkest(const formats::Image& grey, Vec2 centre, Vec2 direction, double from,
                               double to, double sign) {
   std::vector<double> values;
   for (double r = from; r <= to; r += ray_step) {
@@ -85,8 +85,8 @@ std::optional<double> darkest(const Image& grey, Vec2 centre, Vec2 direction, do
   return from + ray_step * (static_cast<double>(least - values.begin()) + shift);
 }
 
-std::vector<Vec2> ring_points(const Image& grey, const Ring& guess, double reach, double sign,
-                              int rays) {
+std::vector<Vec2> ring_points(const formats::Image& grey, const Ring& guess, double reach,
+                              double sign, int rays) {
   std::vector<Vec2> points;
   for (int i = 0; i < rays; ++i) {
     const Vec2 direction = unit_vector(2 * pi * i / rays);
@@ -114,7 +114,7 @@ std::optional<Ring> robust_circle(std::vector<Vec2> points) {
 
 }  // namespace
 
-std::optional<Ring> fit_ring(const Image& grey, Vec2 start, double radius, bool dark) {
+std::optional<Ring> fit_ring(const formats::Image& grey, Vec2 start, double radius, bool dark) {
   assert(grey.channels == 1);
   const int rays = std::max(12, static_cast<int>(2 * pi * radius));
   const double reach = 0.5 * radius;
@@ -132,4 +132,4 @@ std::optional<Ring> fit_ring(const Image& grey, Vec2 start, double radius, bool 
   return ring;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -7,7 +7,7 @@
 #include "microswarm/formats/images/image.hpp"
 #include "microswarm/geometry/vec2.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// A circle in a picture [px]; (0, 0) is the centre of the first pixel, y points down.
 struct Ring {
@@ -25,6 +25,6 @@ std::optional<Ring> enclosing_circle(const std::vector<Vec2>& points);
 /// times `radius`. Takes the extreme grey on each of many rays, fits a circle by least squares
 /// (Kåsa 1976) without outliers, and repeats from the new centre until it converges. Empty if fewer
 /// than a third of the rays agree. `grey` has one channel.
-std::optional<Ring> fit_ring(const Image& grey, Vec2 start, double radius, bool dark);
+std::optional<Ring> fit_ring(const formats::Image& grey, Vec2 start, double radius, bool dark);
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

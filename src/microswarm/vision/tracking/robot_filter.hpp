@@ -3,7 +3,7 @@
 
 #include "microswarm/geometry/vec2.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Standard deviations in the model of RobotFilter, each along one axis.
 struct RobotNoise {
@@ -63,4 +63,4 @@ class RobotFilter {
   double var_velocity_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -8,7 +8,7 @@
 
 #include "microswarm/core/maths/maths.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 RobotTracker::RobotTracker(const TrackerParams& p, double diameter, double frame_time)
     : noise_{.measurement = p.measurement.value_or(diameter / 50),
@@ -159,4 +159,4 @@ void RobotTracker::bury() {
   std::erase_if(robots_, [&](const Robot& robot) { return robot.missed > memory_; });
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -14,7 +14,7 @@
 #include "microswarm/geometry/vec2.hpp"
 #include "microswarm/vision/tracking/robot_filter.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Settings of RobotTracker. Unset values are derived from the robots' diameter and the frame time.
 struct TrackerParams {
@@ -142,4 +142,4 @@ class RobotTracker {
   std::vector<TrackEvent> events_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -3,7 +3,7 @@
 
 #include "microswarm/core/execution/each_cpu.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 constexpr int lanes = RoundWindow::read_beyond;
@@ -60,4 +60,4 @@ RoundWindow::Moments RoundWindow::moments(const std::uint8_t* middle, std::ptrdi
   return out;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

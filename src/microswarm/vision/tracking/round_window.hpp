@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Sums over the pixels of a picture within a radius of one of them, as whole numbers.
 class RoundWindow {
@@ -29,4 +29,4 @@ class RoundWindow {
   std::vector<std::uint8_t> mask_;  ///< 255 in the window, by piece, row and column
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

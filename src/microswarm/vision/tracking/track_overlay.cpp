@@ -12,7 +12,7 @@
 #include "microswarm/vision/image/mat.hpp"
 #include "microswarm/vision/image/strokes.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 constexpr std::size_t trail_length = 20;  // frames
@@ -32,7 +32,7 @@ std::string short_number(const char* form, double value) {
   return text;
 }
 
-void take_in_colour(const Image& picture, Image& colour) {
+void take_in_colour(const formats::Image& picture, formats::Image& colour) {
   colour.width = picture.width;
   colour.height = picture.height;
   colour.channels = 3;
@@ -81,7 +81,8 @@ void TrackOverlay::follow(const std::vector<TrackRow>& rows, int frame, int heig
     if (trail && trail->last_frame + forgotten_after < frame) trail.reset();
 }
 
-const Image& TrackOverlay::draw(const VideoFrame& frame, const std::vector<TrackRow>& rows) {
+const formats::Image& TrackOverlay::draw(const VideoFrame& frame,
+                                         const std::vector<TrackRow>& rows) {
   follow(rows, frame.index, frame.picture.height);
   take_in_colour(frame.picture, shown_);
   cv::Mat picture = as_mat(shown_);
@@ -108,4 +109,4 @@ const Image& TrackOverlay::draw(const VideoFrame& frame, const std::vector<Track
   return shown_;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -9,7 +9,7 @@
 
 #include "microswarm/vision/tracking/video_tracker.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Draws tracks over the pictures: a circle around each robot, its trail, its number where there is
 /// room, a scale bar, time and count.
@@ -17,7 +17,7 @@ class TrackOverlay {
  public:
   explicit TrackOverlay(double um_per_px) : um_per_px_(um_per_px) {}
   /// The frame in colour with its robots `rows`. Valid until the next call.
-  const Image& draw(const VideoFrame& frame, const std::vector<TrackRow>& rows);
+  const formats::Image& draw(const VideoFrame& frame, const std::vector<TrackRow>& rows);
 
  private:
   struct Trail {
@@ -28,11 +28,11 @@ class TrackOverlay {
 
   double um_per_px_;
   std::vector<std::optional<Trail>> trails_;  ///< by id; empty for robots not seen for long
-  Image shown_;
+  formats::Image shown_;
 };
 
 /// Length of the scale bar for a picture `width` [µm] wide: 1, 2 or 5 times a power of ten, about a
 /// fifth of the width.
 double scale_bar_length(double width);
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -6,7 +6,7 @@
 
 #include "microswarm/core/errors/error.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 double picture_scale(const TrackSettings& settings) {
@@ -86,4 +86,4 @@ TrackSummary summarise(const std::vector<TrackRow>& rows, int frames) {
   return summary;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

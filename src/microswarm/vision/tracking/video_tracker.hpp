@@ -9,7 +9,7 @@
 #include "microswarm/vision/tracking/particles.hpp"
 #include "microswarm/vision/tracking/robot_tracker.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Settings of video tracking, as in a file for `microswarm track --config`.
 struct TrackSettings {
@@ -81,7 +81,7 @@ class VideoTracker {
   double um_per_px_;
   ParticleFinder finder_;
   RobotTracker tracker_;
-  Image grey_;
+  formats::Image grey_;
   std::vector<Vec2> places_;
   std::vector<TrackRow> rows_;
 };
@@ -116,4 +116,4 @@ TrackSummary summarise(const std::vector<TrackRow>& rows, int frames);
 /// Whether most tracks of a video are of one frame, as those of noise are.
 bool looks_like_noise(const TrackSummary& summary);
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

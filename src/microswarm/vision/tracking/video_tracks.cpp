@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/vision/tracking/video_tracks.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 TrackResult track_video(FrameSource& frames, const std::string& source,
                         const TrackSettings& settings, const OnTracked& on_tracked,
@@ -25,4 +25,4 @@ TrackResult track_video(FrameSource& frames, const std::string& source,
   return result;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -9,7 +9,7 @@
 #include "microswarm/core/execution/stop.hpp"
 #include "microswarm/vision/tracking/video_tracker.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Result of tracking a video.
 struct TrackResult {
@@ -32,4 +32,4 @@ TrackResult track_video(FrameSource& frames, const std::string& source,
                         const TrackSettings& settings, const OnTracked& on_tracked,
                         const Stop& stop = {});
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -5,7 +5,7 @@
 
 #include "microswarm/core/errors/error.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 std::optional<double> share(std::int64_t part, std::int64_t whole) {
@@ -13,9 +13,9 @@ std::optional<double> share(std::int64_t part, std::int64_t whole) {
   return static_cast<double>(part) / static_cast<double>(whole);
 }
 
-void require_same_size(const Mask& a, const Mask& b) {
+void require_same_size(const formats::Mask& a, const formats::Mask& b) {
   if (a.width == b.width && a.height == b.height) return;
-  const auto size = [](const Mask& m) {
+  const auto size = [](const formats::Mask& m) {
     return std::to_string(m.width) + "x" + std::to_string(m.height);
   };
   throw InputError("masks to compare: " + size(b) + " pixels, expected " + size(a));
@@ -35,7 +35,8 @@ std::optional<double> Agreement::dice() const {
   return share(2 * true_positive, 2 * true_positive + false_positive + false_negative);
 }
 
-Agreement compare(const Mask& truth, const Mask& test, const Mask* view) {
+Agreement compare(const formats::Mask& truth, const formats::Mask& test,
+                  const formats::Mask* view) {
   require_same_size(truth, test);
   if (view) require_same_size(truth, *view);
   Agreement result;
@@ -49,4 +50,4 @@ Agreement compare(const Mask& truth, const Mask& test, const Mask* view) {
   return result;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -6,7 +6,7 @@
 
 #include "microswarm/formats/images/mask.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Pixelwise confusion matrix of a mask and a ground-truth mask.
 struct Agreement {
@@ -25,6 +25,7 @@ struct Agreement {
 
 /// Compares `test` with `truth` inside `view`, or everywhere if it is null. Throws InputError if
 /// the sizes differ.
-Agreement compare(const Mask& truth, const Mask& test, const Mask* view = nullptr);
+Agreement compare(const formats::Mask& truth, const formats::Mask& test,
+                  const formats::Mask* view = nullptr);
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -12,7 +12,7 @@
 
 #include "microswarm/vision/image/mask_ops.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 const cv::Point neighbours[] = {{1, 0}, {0, 1},  {-1, 0},  {0, -1},
@@ -154,4 +154,4 @@ int bridge_gaps(cv::Mat& set, const cv::Mat& cost, double most) {
   return bridges;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

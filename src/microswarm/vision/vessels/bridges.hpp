@@ -3,7 +3,7 @@
 
 #include <opencv2/core.hpp>
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Connects the pieces of a set across gaps. Shortest paths grow from all pieces at once; the cost
 /// of a pixel is `cost` (32-bit, above 0) times its length. Paths of two pieces that meet at a
@@ -12,4 +12,4 @@ namespace microswarm {
 /// bridges.
 int bridge_gaps(cv::Mat& set, const cv::Mat& cost, double most);
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

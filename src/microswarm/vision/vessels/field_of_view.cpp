@@ -6,7 +6,7 @@
 #include "microswarm/vision/image/mask_ops.hpp"
 #include "microswarm/vision/image/mat.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 constexpr int darkest_view = 20;       // of 255: a surround is darker in every channel
@@ -33,7 +33,7 @@ double solidity(const cv::Mat& piece) {
 
 }  // namespace
 
-Mask field_of_view(const Image& image) {
+formats::Mask field_of_view(const formats::Image& image) {
   const cv::Mat picture = as_mat(image);
   const cv::Mat whole(picture.size(), CV_8U, cv::Scalar(255));
   cv::Mat bright = brightest_channel(picture);
@@ -51,4 +51,4 @@ Mask field_of_view(const Image& image) {
   return to_mask(solidity(view) < min_solidity ? whole : view);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -4,11 +4,11 @@
 #include "microswarm/formats/images/image.hpp"
 #include "microswarm/formats/images/mask.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// The part of the picture inside the optical field of view; a fundus camera leaves a black
 /// surround. If the dark rim along the border does not enclose one nearly convex bright piece, the
 /// field of view is the whole picture.
-Mask field_of_view(const Image& image);
+formats::Mask field_of_view(const formats::Image& image);
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

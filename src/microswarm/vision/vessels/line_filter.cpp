@@ -10,7 +10,7 @@
 #include "microswarm/core/maths/maths.hpp"
 #include "microswarm/vision/image/blur.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 // Half widths of the bank relative to the wide radius.
@@ -138,4 +138,4 @@ cv::Mat line_score(const cv::Mat& picture, const cv::Mat& view, const LineFilter
   return score;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -3,7 +3,7 @@
 
 #include <opencv2/core.hpp>
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Settings of `line_score`, in pixels of its picture.
 struct LineFilter {
@@ -20,4 +20,4 @@ struct LineFilter {
 /// picture is constant.
 cv::Mat line_score(const cv::Mat& picture, const cv::Mat& view, const LineFilter& filter);
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -15,7 +15,7 @@
 #include "microswarm/vision/vessels/line_filter.hpp"
 #include "microswarm/vision/vessels/walls.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 constexpr double working_radius = 4.3;      // [px] of the wide vessels; optimal for the filter
@@ -173,4 +173,4 @@ FoundVessels line_vessels(const cv::Mat& grey, const cv::Mat& view, bool bright,
   return found;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

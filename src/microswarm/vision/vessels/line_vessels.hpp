@@ -5,7 +5,7 @@
 
 #include "microswarm/vision/vessels/vessels.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Vessel pixels of the whole picture (8-bit, 0 and 255) and measured quantities.
 struct FoundVessels {
@@ -21,4 +21,4 @@ struct FoundVessels {
 FoundVessels line_vessels(const cv::Mat& grey, const cv::Mat& view, bool bright,
                           const VesselParams& params, const Stop& stop = {});
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -10,7 +10,7 @@
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/vision/vessels/rings.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 constexpr double max_smoothing = 0.5;  // cells; maximum move of a vertex
@@ -25,7 +25,7 @@ struct Cell {
 /// direction k with the cell on its left; direction k − 1 points outwards.
 constexpr std::array<Cell, 4> side_directions{{{1, 0}, {0, -1}, {-1, 0}, {0, 1}}};
 
-bool is_set(const Mask& mask, Cell c) {
+bool is_set(const formats::Mask& mask, Cell c) {
   return c.column >= 0 && c.row >= 0 && c.column < mask.width && c.row < mask.height &&
          mask.at(c.column, c.row) != 0;
 }
@@ -36,7 +36,7 @@ struct PixelSide {
 };
 
 /// The next side with set cells on the left. Cells that touch only at a corner are separate.
-PixelSide next(const Mask& mask, PixelSide side) {
+PixelSide next(const formats::Mask& mask, PixelSide side) {
   const Cell ahead = side.cell + side_directions[side.k];
   if (!is_set(mask, ahead)) return {side.cell, (side.k + 1) % 4};
   const int outwards = (side.k + 3) % 4;
@@ -46,7 +46,7 @@ PixelSide next(const Mask& mask, PixelSide side) {
 }
 
 /// Piece index of each set cell, from 0 in the order of the pieces' first cells; −1 where unset.
-std::pair<std::vector<int>, int> pieces_by_edges(const Mask& mask) {
+std::pair<std::vector<int>, int> pieces_by_edges(const formats::Mask& mask) {
   std::vector<int> piece(mask.cells.size(), -1);
   std::vector<Cell> open;
   int count = 0;
@@ -73,7 +73,7 @@ std::pair<std::vector<int>, int> pieces_by_edges(const Mask& mask) {
 /// Traces all rings; each exposed side belongs to exactly one.
 class Tracer {
  public:
-  Tracer(const Mask& mask, double cell, Vec2 lo)
+  Tracer(const formats::Mask& mask, double cell, Vec2 lo)
       : mask_(mask), cell_(cell), lo_(lo), traced_(mask.cells.size(), 0) {}
 
   bool is_start(PixelSide side) const {
@@ -103,7 +103,7 @@ class Tracer {
                               mask_.height - side.cell.row - 0.5 - 0.5 * out.row};
   }
 
-  const Mask& mask_;
+  const formats::Mask& mask_;
   double cell_;
   Vec2 lo_;
   std::vector<std::uint8_t> traced_;
@@ -119,7 +119,7 @@ void require_sizes(double cell, double tolerance, Vec2 lo) {
 
 }  // namespace
 
-std::vector<Polygon> outline(const Mask& mask, double cell, double tolerance, Vec2 lo,
+std::vector<Polygon> outline(const formats::Mask& mask, double cell, double tolerance, Vec2 lo,
                              const Stop& stop) {
   require_sizes(cell, tolerance, lo);
   const auto [piece, count] = pieces_by_edges(mask);
@@ -150,13 +150,13 @@ std::vector<Polygon> outline(const Mask& mask, double cell, double tolerance, Ve
   return polygons;
 }
 
-std::vector<Polygon> walls_around(const Mask& network, double cell, double tolerance, Vec2 lo,
-                                  const Stop& stop) {
-  Mask walls(network.width + 2, network.height + 2);
+std::vector<Polygon> walls_around(const formats::Mask& network, double cell, double tolerance,
+                                  Vec2 lo, const Stop& stop) {
+  formats::Mask walls(network.width + 2, network.height + 2);
   for (int row = 0; row < walls.height; ++row)
     for (int column = 0; column < walls.width; ++column)
       walls.cells[walls.index(column, row)] = !is_set(network, {column - 1, row - 1});
   return outline(walls, cell, tolerance, lo - Vec2{cell, cell}, stop);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -8,7 +8,7 @@
 #include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/vision/image/mask_ops.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 constexpr int bad_pixels = 5;   // [px] window of the medians
@@ -82,4 +82,4 @@ FoundVessels region_vessels(const TwoGreys& greys, const cv::Mat& view, bool bri
   return found;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -5,7 +5,7 @@
 
 #include "microswarm/vision/vessels/line_vessels.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// A picture split into two greys by Otsu's threshold.
 struct TwoGreys {
@@ -24,4 +24,4 @@ bool bright_is_network(const TwoGreys& greys, const cv::Mat& view);
 FoundVessels region_vessels(const TwoGreys& greys, const cv::Mat& view, bool bright,
                             const VesselParams& params);
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

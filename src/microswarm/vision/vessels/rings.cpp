@@ -14,7 +14,7 @@
 #include "microswarm/geometry/distance.hpp"
 #include "microswarm/geometry/predicates.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 constexpr int ring_sigma = 2;               // vertices
@@ -270,4 +270,4 @@ void thin_rings(Rings& rings, double cell, double tolerance, const Stop& stop) {
   }
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

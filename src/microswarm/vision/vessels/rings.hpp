@@ -6,7 +6,7 @@
 #include "microswarm/core/execution/stop.hpp"
 #include "microswarm/geometry/vec2.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Closed chains of vertices that touch neither themselves nor each other.
 using Rings = std::vector<std::vector<Vec2>>;
@@ -23,4 +23,4 @@ void smooth_rings(Rings& rings, double cell, double limit);
 /// the new edge, rings never touch, and none passes over another. `stop` leaves more vertices.
 void thin_rings(Rings& rings, double cell, double tolerance, const Stop& stop = {});
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

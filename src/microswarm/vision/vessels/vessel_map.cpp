@@ -7,7 +7,7 @@
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/vision/vessels/outline.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 Map vessel_map(const VesselSegmentation& found, double um_per_px, double smooth,
                const std::string& name, const Stop& stop) {
@@ -18,7 +18,7 @@ Map vessel_map(const VesselSegmentation& found, double um_per_px, double smooth,
   if (found.kept_share == 0) throw InputError(name + ": no vessels found");
   auto walls = walls_around(found.vessels, um_per_px, smooth * um_per_px, {}, stop);
   if (stop()) return {};
-  return Map(cell_bounds(found.vessels, um_per_px), std::move(walls));
+  return Map(formats::cell_bounds(found.vessels, um_per_px), std::move(walls));
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -6,7 +6,7 @@
 #include "microswarm/vision/vessels/vessels.hpp"
 #include "microswarm/world/map/map.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Map of segmented vessels, which are free; the lower left corner of the picture is at 0.
 /// `um_per_px` is the side of a pixel, 1e-6 to 1e6, `smooth` the tolerance of the outlines [px], 0
@@ -15,4 +15,4 @@ namespace microswarm {
 Map vessel_map(const VesselSegmentation& found, double um_per_px, double smooth,
                const std::string& name, const Stop& stop = {});
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

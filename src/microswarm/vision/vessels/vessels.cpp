@@ -11,12 +11,12 @@
 #include "microswarm/vision/vessels/line_vessels.hpp"
 #include "microswarm/vision/vessels/region_vessels.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 constexpr double clearly_two = 0.9;  // separability above which two greys are segmented as regions
 
-void require_picture(const Image& image) {
+void require_picture(const formats::Image& image) {
   if (image.width < 1 || image.height < 1) throw InputError("picture to segment: no pixels");
   if (image.channels != 1 && image.channels != 3)
     throw InputError("picture to segment: " + std::to_string(image.channels) +
@@ -24,7 +24,7 @@ void require_picture(const Image& image) {
 }
 
 /// The channel with the highest contrast of blood.
-cv::Mat green_channel(const Image& image) {
+cv::Mat green_channel(const formats::Image& image) {
   cv::Mat picture = as_mat(image);
   if (image.channels == 1) return picture;
   cv::Mat green;
@@ -47,7 +47,7 @@ FoundVessels found_in(const cv::Mat& grey, const cv::Mat& view, const VesselPara
 
 }  // namespace
 
-VesselSegmentation segment_vessels(const Image& image, const VesselParams& params,
+VesselSegmentation segment_vessels(const formats::Image& image, const VesselParams& params,
                                    const Stop& stop) {
   require_picture(image);
   VesselSegmentation result;
@@ -72,4 +72,4 @@ VesselSegmentation segment_vessels(const Image& image, const VesselParams& param
   return result;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -10,7 +10,7 @@
 #include "microswarm/formats/images/image.hpp"
 #include "microswarm/formats/images/mask.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Method of separating vessels from tissue.
 enum class VesselMethod {
@@ -80,8 +80,8 @@ struct VesselParams {
 
 /// Result of `segment_vessels`.
 struct VesselSegmentation {
-  Mask vessels;        ///< 1 = vessel
-  Mask field_of_view;  ///< 1 = inside the optical field of view
+  formats::Mask vessels;        ///< 1 = vessel
+  formats::Mask field_of_view;  ///< 1 = inside the optical field of view
   VesselMethod method = VesselMethod::lines;
   double wide_width_px = 0;  ///< measured, or as set
   double scale = 1;          ///< working pixels per picture pixel
@@ -97,7 +97,7 @@ struct VesselSegmentation {
 /// resolution at which wide vessels have the detectors' design width, so the same settings apply to
 /// pictures of any size. `stop` ends it without vessels. Throws InputError if the picture has no
 /// pixels or neither 1 nor 3 channels.
-VesselSegmentation segment_vessels(const Image& image, const VesselParams& params = {},
+VesselSegmentation segment_vessels(const formats::Image& image, const VesselParams& params = {},
                                    const Stop& stop = {});
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

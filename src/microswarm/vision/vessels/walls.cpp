@@ -6,7 +6,7 @@
 #include "microswarm/vision/image/blur.hpp"
 #include "microswarm/vision/image/mask_ops.hpp"
 
-namespace microswarm {
+namespace microswarm::vision {
 namespace {
 
 constexpr double outward = 1.0 / 3;  // relative to the wide radius: how far a wall may move
@@ -34,4 +34,4 @@ cv::Mat fitted_walls(const cv::Mat& picture, const cv::Mat& lines, const cv::Mat
   return (smooth > outside + level * (within - outside)) & reach;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

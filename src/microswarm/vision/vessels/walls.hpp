@@ -3,7 +3,7 @@
 
 #include <opencv2/core.hpp>
 
-namespace microswarm {
+namespace microswarm::vision {
 
 /// Fits the walls of roughly found bright lines to the picture: the wall is at `level` between the
 /// local mean brightness around the line (0) and inside it (1). A wall moves outwards by at most a
@@ -11,4 +11,4 @@ namespace microswarm {
 cv::Mat fitted_walls(const cv::Mat& picture, const cv::Mat& lines, const cv::Mat& view,
                      double wide_radius, double level);
 
-}  // namespace microswarm
+}  // namespace microswarm::vision

@@ -5,12 +5,12 @@
 
 #include "microswarm/core/errors/error.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 AggregationMap::AggregationMap(Map m, Vec2 goal, const AggregationParams& params, Rng& rng,
                                MoveRule rule, const Stop& stop)
     : map(std::move(m)),
-      tree(obstacle_weighted_rrt(map, goal, params.tree, rng, stop)),
+      tree(planning::obstacle_weighted_rrt(map, goal, params.tree, rng, stop)),
       obstacle_weighted(params.obstacle_weighted) {
   if (tree.status == Status::goal_blocked) throw InputError("goal is not free");
   was_stopped = stop();
@@ -19,7 +19,7 @@ AggregationMap::AggregationMap(Map m, Vec2 goal, const AggregationParams& params
     throw InputError("the tree has " + std::to_string(tree.nodes.size()) + " nodes after " +
                      std::to_string(params.tree.max_iterations) + " samples, " +
                      std::to_string(params.tree.nodes) + " were asked for");
-  segmentation = segment_map(map, tree, routes(), params.segmentation, stop);
+  segmentation = planning::segment_map(map, tree, routes(), params.segmentation, stop);
   was_stopped = stop();
   if (was_stopped) return;
   longest = *std::ranges::max_element(routes().length);
@@ -28,4 +28,4 @@ AggregationMap::AggregationMap(Map m, Vec2 goal, const AggregationParams& params
   hops = cells->distances(cells->nearest(map, goal));
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

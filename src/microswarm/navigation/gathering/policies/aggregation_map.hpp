@@ -12,7 +12,7 @@
 #include "microswarm/planning/gathering/obstacle_weighted_rrt.hpp"
 #include "microswarm/world/map/map.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Motion of robots under one input.
 enum class MoveRule {
@@ -26,16 +26,16 @@ enum class MoveRule {
 /// Built once and shared by all robots.
 struct AggregationMap {
   Map map;
-  ObstacleWeightedRrt tree;
+  planning::ObstacleWeightedRrt tree;
   bool obstacle_weighted;  ///< which of the tree's routes are used
-  MapSegmentation segmentation;
+  planning::MapSegmentation segmentation;
   double longest = 0;                        ///< longest path to the goal along the routes [µm]
   std::shared_ptr<const CellGraph> cells{};  ///< by the cell rule, else null
   std::vector<std::uint32_t> hops{};         ///< by the cell rule: from each cell to the goal
 
   bool was_stopped = false;  ///< then it is incomplete
 
-  const Routes& routes() const { return obstacle_weighted ? tree.weighted : tree.plain; }
+  const planning::Routes& routes() const { return obstacle_weighted ? tree.weighted : tree.plain; }
 
   /// Throws InputError if the goal is not free or the tree could not be grown.
   AggregationMap(Map map, Vec2 goal, const AggregationParams& params, Rng& rng,
@@ -66,4 +66,4 @@ inline double on_lattice(double v) {
   return (v + shift) - shift;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

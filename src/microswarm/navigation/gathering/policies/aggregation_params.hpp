@@ -10,7 +10,7 @@
 #include "microswarm/planning/gathering/map_segmentation_params.hpp"
 #include "microswarm/planning/gathering/obstacle_weighted_rrt_params.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Policy that chooses the leader of the robots.
 enum class Aggregation {
@@ -65,8 +65,8 @@ struct AggregationParams {
   double discount_length = 5;
   int patience = 2;
   RolloutParams rollout;
-  ObstacleWeightedRrtParams tree;
-  MapSegmentationParams segmentation;
+  planning::ObstacleWeightedRrtParams tree;
+  planning::MapSegmentationParams segmentation;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.method, plain("method", "Policy that chooses the moves."));
@@ -97,4 +97,4 @@ struct AggregationParams {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

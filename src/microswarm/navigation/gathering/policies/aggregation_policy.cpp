@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 /// Steps without progress that are allowed: those of so many longest paths.
@@ -50,4 +50,4 @@ void AggregationPolicy::remap(std::span<const std::uint32_t> new_positions) {
   if (leader_ < new_positions.size()) leader_ = new_positions[leader_];
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -15,7 +15,7 @@
 #include "microswarm/navigation/gathering/policies/waypoint_follower.hpp"
 #include "microswarm/swarm/robots/robot_stepper.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Gathers robots at the goal with one input for all: Alg 3 and 5 [gather] and dynamic shortest
 /// path. Each step chooses a leader and leads it towards the goal, or to another robot. All
@@ -64,4 +64,4 @@ class AggregationPolicy {
   std::size_t leader_ = no_leader;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -7,7 +7,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/maths/infinity.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 constexpr double max_cells = 100'000;  // the lattice allows 40 times as many
@@ -100,4 +100,4 @@ std::uint32_t CellGraph::towards(const std::vector<std::uint32_t>& distances,
   return node;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

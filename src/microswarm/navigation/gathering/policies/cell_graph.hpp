@@ -9,7 +9,7 @@
 #include "microswarm/world/map/lattice.hpp"
 #include "microswarm/world/map/map.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Neighbouring cells of a CellGraph, and how far they are apart.
 enum class CellSteps {
@@ -65,4 +65,4 @@ class CellGraph {
   std::vector<std::array<std::uint32_t, directions>> neighbours_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

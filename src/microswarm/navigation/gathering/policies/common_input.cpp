@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/navigation/gathering/policies/common_input.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 void CommonInput::step(Robots& robots, Vec2 move) const {
   if (stepper_) return stepper_->step(robots, move, ContactRule::stop);
@@ -24,4 +24,4 @@ Robots robots_at(const CellGraph& cells, std::span<const std::uint32_t> nodes) {
   return robots;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

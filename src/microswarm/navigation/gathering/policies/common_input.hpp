@@ -7,7 +7,7 @@
 #include "microswarm/navigation/gathering/policies/cell_graph.hpp"
 #include "microswarm/swarm/robots/robot_stepper.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Effect of one input on all robots of a gathering: until they meet a wall, or by the cell rule.
 class CommonInput {
@@ -28,4 +28,4 @@ class CommonInput {
 /// Robots at these cells, for the cell rule.
 Robots robots_at(const CellGraph& cells, std::span<const std::uint32_t> nodes);
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -7,7 +7,7 @@
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/core/maths/maths.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 std::size_t DivideAndConquer::leader(const RobotsOnMap& robots, std::size_t last) {
   if (leads_ && is_led_on(robots, last)) return last;
@@ -63,7 +63,7 @@ bool DivideAndConquer::is_empty(const RobotsOnMap& robots, std::uint32_t region)
 }
 
 std::size_t DivideAndConquer::nearest_to_gate(const RobotsOnMap& robots) const {
-  const MapSegmentation& map = map_->segmentation;
+  const planning::MapSegmentation& map = map_->segmentation;
   std::size_t nearest = 0;
   double least = infinity;
   for (std::size_t i = 0; i < robots.nodes.size(); ++i) {
@@ -92,7 +92,7 @@ std::size_t DivideAndConquer::farthest_in_region(const RobotsOnMap& robots) cons
 
 // Eq 6 [gather]
 std::uint32_t DivideAndConquer::richest_branch(const RobotsOnMap& robots) const {
-  const MapSegmentation& map = map_->segmentation;
+  const planning::MapSegmentation& map = map_->segmentation;
   std::vector<double> value(std::max(1u, map.regions[region_].branches), -1);
   for (std::size_t i = 0; i < robots.nodes.size(); ++i) {
     if (map.region[robots.nodes[i]] != region_) continue;
@@ -105,9 +105,9 @@ std::uint32_t DivideAndConquer::richest_branch(const RobotsOnMap& robots) const 
 }
 
 double DivideAndConquer::distance_to_gate(const RobotsOnMap& robots, std::size_t robot) const {
-  const MapSegmentation& map = map_->segmentation;
+  const planning::MapSegmentation& map = map_->segmentation;
   const Region& region = map.regions[map.region[robots.nodes[robot]]];
   return std::max(0.0, robots.lengths[robot] - map_->routes().length[region.node]);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -5,7 +5,7 @@
 
 #include "microswarm/navigation/gathering/policies/aggregation_map.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Choice of the leader in Alg 5 [gather]: region after region, branch after branch. Keeps its
 /// state between decisions.
@@ -43,4 +43,4 @@ class DivideAndConquer {
   int followed_ = 0;            ///< number of times the team was followed
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -6,7 +6,7 @@
 
 #include "microswarm/navigation/gathering/policies/farthest_pair.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 constexpr double cell_steps = 2;  // width of a cell, in steps
@@ -89,4 +89,4 @@ void DynamicShortestPath::remap(std::span<const std::uint32_t> new_positions) {
   step_to_.rename(follower_);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

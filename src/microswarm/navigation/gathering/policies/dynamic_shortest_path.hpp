@@ -12,7 +12,7 @@
 #include "microswarm/navigation/gathering/policies/step_to_waypoint.hpp"
 #include "microswarm/swarm/robots/robot_stepper.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Dynamic shortest path of Becker, Fekete, Huang, Keldenich, Kleist, Krupke, Rieck and Schmidt,
 /// "Targeted Drug Delivery: Algorithmic Methods for Collecting a Swarm of Particles with Uniform
@@ -60,4 +60,4 @@ class DynamicShortestPath {
   StepToWaypoint step_to_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

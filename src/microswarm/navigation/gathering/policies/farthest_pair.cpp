@@ -5,7 +5,7 @@
 #include <numeric>
 #include <vector>
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 using Distances = std::vector<std::uint32_t>;
@@ -58,4 +58,4 @@ NodePair farthest_pair(const CellGraph& graph, std::span<const std::uint32_t> no
   return best;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

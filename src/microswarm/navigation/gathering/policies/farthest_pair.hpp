@@ -6,7 +6,7 @@
 
 #include "microswarm/navigation/gathering/policies/cell_graph.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Two of a set of nodes, by their place in it, and their distance.
 struct NodePair {
@@ -21,4 +21,4 @@ struct NodePair {
 /// until twice that distance is no more than the farthest found.
 NodePair farthest_pair(const CellGraph& graph, std::span<const std::uint32_t> nodes);
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

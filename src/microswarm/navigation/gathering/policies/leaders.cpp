@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 bool is_on_its_way(const RobotsOnMap& robots, std::size_t robot, double step) {
@@ -41,4 +41,4 @@ bool LivelockGuard::update(double mean_distance) {
   return is_livelock_;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -7,7 +7,7 @@
 #include "microswarm/core/maths/rng.hpp"
 #include "microswarm/navigation/gathering/policies/aggregation_map.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// The robot farthest from the goal, the first of several.
 std::size_t farthest_robot(const RobotsOnMap& robots);
@@ -39,4 +39,4 @@ class LivelockGuard {
   bool is_livelock_ = false;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 constexpr std::uint32_t nobody = ~0u;
@@ -84,4 +84,4 @@ Robots MergedRobots::robots() const {
   return all;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -7,7 +7,7 @@
 
 #include "microswarm/swarm/robots/robot_stepper.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Robots grouped by position. Robots at the same position stay together, since all receive the
 /// same input. A simulation therefore handles each position once, and a gathering swarm soon has
@@ -47,4 +47,4 @@ class MergedRobots {
   std::vector<std::uint32_t> slots_;        ///< hash table of positions
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

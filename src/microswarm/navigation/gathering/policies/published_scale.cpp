@@ -3,7 +3,7 @@
 
 #include "microswarm/world/connectivity/channel_width.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 double published_scale(const AggregationParams& params, const Map& map, Rng& rng) {
   return params.scale > 0 ? params.scale : channel_width(map, rng) / published_channel_width;
@@ -11,11 +11,11 @@ double published_scale(const AggregationParams& params, const Map& map, Rng& rng
 
 AggregationParams fitted(AggregationParams params, const Map& map, Rng& rng) {
   const double factor = published_scale(params, map, rng);
-  params.tree = scaled(params.tree, factor);
+  params.tree = planning::scaled(params.tree, factor);
   for (double* length : {&params.step, &params.sigma, &params.discount_length, &params.team_depth})
     *length *= factor;
   params.scale = 1;
   return params;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -4,7 +4,7 @@
 #include "microswarm/core/maths/rng.hpp"
 #include "microswarm/navigation/gathering/policies/aggregation_policy.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Channel width for which the published lengths hold [µm].
 inline constexpr double published_channel_width = 10;
@@ -15,4 +15,4 @@ double published_scale(const AggregationParams& params, const Map& map, Rng& rng
 /// Parameters with all lengths multiplied by their scale, which is then set to 1.
 AggregationParams fitted(AggregationParams params, const Map& map, Rng& rng);
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

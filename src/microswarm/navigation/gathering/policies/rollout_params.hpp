@@ -6,7 +6,7 @@
 #include "microswarm/core/fields/fields.hpp"
 #include "microswarm/navigation/gathering/policies/rollout_tuning.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Parameters of the rollout planner. Work is counted in robot-steps: positions moved, plus 20 for
 /// the rest of each simulated step. One core does 50 to 110 million per second.
@@ -53,4 +53,4 @@ struct RolloutParams {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -5,7 +5,7 @@
 
 #include "microswarm/core/fields/fields.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Constants of the rollout policy that rarely need a change.
 struct RolloutTuning {
@@ -50,4 +50,4 @@ struct RolloutTuning {
   }
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

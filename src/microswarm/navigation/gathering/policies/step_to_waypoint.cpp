@@ -5,7 +5,7 @@
 
 #include "microswarm/core/maths/angles.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 void StepToWaypoint::observe(std::size_t robot, Vec2 p) {
   held_ = robot == robot_ && p == position_ ? held_ + 1 : 0;
@@ -23,4 +23,4 @@ Vec2 StepToWaypoint::to(Vec2 waypoint) {
   return rotated(move, held_ * golden_angle);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

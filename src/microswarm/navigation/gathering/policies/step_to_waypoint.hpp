@@ -5,7 +5,7 @@
 
 #include "microswarm/geometry/vec2.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Moves that lead one robot at a time to waypoints, and off a corner that holds it.
 class StepToWaypoint {
@@ -34,4 +34,4 @@ class StepToWaypoint {
   Vec2 waypoint_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

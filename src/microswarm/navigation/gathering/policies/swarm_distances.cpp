@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 void SwarmDistances::update(const Robots& robots, std::span<const std::uint32_t> counts) {
   const std::size_t n = robots.size();
@@ -59,4 +59,4 @@ bool SwarmDistances::remap(std::span<const std::uint32_t> new_positions) {
   return true;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -8,7 +8,7 @@
 #include "microswarm/navigation/gathering/policies/aggregation_map.hpp"
 #include "microswarm/swarm/robots/robot_stepper.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Path lengths of all robots to the goal and their mean F(n, t) [gather], updated for those robots
 /// that moved.
@@ -39,4 +39,4 @@ class SwarmDistances {
   double mean_ = 0;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

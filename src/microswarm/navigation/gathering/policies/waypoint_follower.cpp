@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/navigation/gathering/policies/waypoint_follower.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 constexpr std::uint32_t nowhere = ~0u;
@@ -34,8 +34,8 @@ void WaypointFollower::remap(std::span<const std::uint32_t> new_positions) {
 // ahead. A robot keeps to the node it was led to, else it would waver between branches of the tree.
 Vec2 WaypointFollower::next_waypoint(std::size_t robot, Vec2 p) {
   constexpr int max_nodes = 16;
-  const ObstacleWeightedRrt& tree = map_->tree;
-  const Routes& routes = map_->routes();
+  const planning::ObstacleWeightedRrt& tree = map_->tree;
+  const planning::Routes& routes = map_->routes();
   const auto sees = [&](std::uint32_t node) {
     return map_->map.is_free(Segment{p, tree.nodes[node]}, 0);
   };
@@ -50,4 +50,4 @@ Vec2 WaypointFollower::next_waypoint(std::size_t robot, Vec2 p) {
   return tree.nodes[node];
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

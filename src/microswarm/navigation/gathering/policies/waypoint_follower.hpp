@@ -9,7 +9,7 @@
 #include "microswarm/navigation/gathering/policies/aggregation_map.hpp"
 #include "microswarm/navigation/gathering/policies/step_to_waypoint.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Leads one robot at a time to the goal along the tree, from visible node to visible node; by
 /// the cell rule, along the shortest path from cell to cell.
@@ -36,4 +36,4 @@ class WaypointFollower {
   StepToWaypoint step_to_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

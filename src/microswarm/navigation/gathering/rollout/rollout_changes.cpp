@@ -9,7 +9,7 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/infinity.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 using Pursuit = RolloutSimulator::Pursuit;
@@ -161,4 +161,4 @@ std::optional<PartialPlan> best_change(const RolloutExecution& plan, RolloutSimu
   return std::move(std::ranges::min_element(trials, {}, steps)->shorter);
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

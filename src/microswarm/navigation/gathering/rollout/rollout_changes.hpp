@@ -8,7 +8,7 @@
 #include "microswarm/navigation/gathering/rollout/rollout_execution.hpp"
 #include "microswarm/navigation/gathering/rollout/rollout_simulator.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// A plan with other moves from some step on, simulated with all robots.
 struct VerifiedPlan {
@@ -31,4 +31,4 @@ VerifiedPlan verified(std::size_t from, std::span<const Vec2> moves, const Rollo
 std::optional<PartialPlan> best_change(const RolloutExecution& plan, RolloutSimulator& simulator,
                                        std::size_t count, Rng& rng);
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

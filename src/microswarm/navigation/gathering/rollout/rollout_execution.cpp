@@ -5,7 +5,7 @@
 #include <iterator>
 #include <utility>
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 void RolloutExecution::start(const Robots& robots, RolloutPlan&& plan) {
   plan_ = std::move(plan);
@@ -34,10 +34,10 @@ bool RolloutExecution::shorten(PartialPlan&& partial) {
 double RolloutExecution::deviation(const Robots& robots) const {
   double sum = 0;
   for (std::size_t i = 0; i < robots.size(); ++i) {
-    const PointF p = expected_.position_at(i);
+    const PointF p = expected_.position(i);
     sum += distance(Vec2{robots.x[i], robots.y[i]}, Vec2{p.x, p.y});
   }
   return sum;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

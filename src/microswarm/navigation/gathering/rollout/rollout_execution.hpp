@@ -6,7 +6,7 @@
 
 #include "microswarm/navigation/gathering/rollout/rollout_simulator.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// A rollout plan that is being executed: its moves, the number of executed ones, and the expected
 /// positions of the robots.
@@ -44,4 +44,4 @@ class RolloutExecution {
   MergedRobots expected_;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 constexpr std::size_t layer_steps = RolloutPlan::checkpoint_interval;
@@ -188,4 +188,4 @@ void RolloutLayers::correct(const LayerPath& path, std::size_t first,
   });
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -10,7 +10,7 @@
 #include "microswarm/navigation/gathering/rollout/rollout_execution.hpp"
 #include "microswarm/navigation/gathering/rollout/rollout_simulator.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Moves from the first layer on, and the states that they pass, one in each layer.
 struct LayerPath {
@@ -98,4 +98,4 @@ class RolloutLayers {
   bool is_exhausted_ = false;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 RolloutPlan to_plan(PartialPlan&& partial) {
@@ -84,4 +84,4 @@ std::optional<RolloutPlan> corrected_plan(RolloutSimulator& simulator, const Rob
   return to_plan(std::move(partial));
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -6,7 +6,7 @@
 
 #include "microswarm/navigation/gathering/rollout/rollout_simulator.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Complete plan made by one base policy.
 struct BasePlan {
@@ -24,4 +24,4 @@ std::optional<BasePlan> shortest_base_plan(RolloutSimulator& simulator, const Ro
 std::optional<RolloutPlan> corrected_plan(RolloutSimulator& simulator, const Robots& robots,
                                           std::span<const Vec2> rest);
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

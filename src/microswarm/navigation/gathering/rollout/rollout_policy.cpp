@@ -6,7 +6,7 @@
 
 #include "microswarm/navigation/gathering/rollout/rollout_planning.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 RolloutPolicy::RolloutPolicy(const AggregationMap& map, const CommonInput& input,
                              const AggregationParams& params, Rng rng)
@@ -77,4 +77,4 @@ void RolloutPolicy::plan_anew(const Robots& robots) {
   search_.forget_layers();
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

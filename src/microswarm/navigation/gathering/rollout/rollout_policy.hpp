@@ -8,7 +8,7 @@
 #include "microswarm/navigation/gathering/rollout/rollout_search.hpp"
 #include "microswarm/navigation/gathering/rollout/rollout_simulator.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Gathers robots at the goal by a complete plan, beyond [gather]. The initial plan is the shorter
 /// one of simulated HRA and DCA. Every decision then spends a budget of simulated robot-steps on
@@ -61,4 +61,4 @@ class RolloutPolicy {
   int replans_ = 0;
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -8,7 +8,7 @@
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/navigation/gathering/rollout/rollout_changes.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 constexpr std::size_t interval = RolloutPlan::checkpoint_interval;
@@ -121,4 +121,4 @@ void RolloutSearch::perturb(RolloutExecution& plan, RolloutSimulator& simulator,
     improvements_ += plan.shorten(*std::move(shorter));
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

@@ -7,7 +7,7 @@
 #include "microswarm/navigation/gathering/rollout/rollout_execution.hpp"
 #include "microswarm/navigation/gathering/rollout/rollout_layers.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// Searches shorter plans while one is executed: by layers
 /// and by random changes in turn. A plan is shortened only after the new one was simulated with all
@@ -43,4 +43,4 @@ class RolloutSearch {
   int improved_ = 0;  ///< improvements when the layers began
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

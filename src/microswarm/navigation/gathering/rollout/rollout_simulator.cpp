@@ -8,7 +8,7 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/maths.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 namespace {
 
 AggregationParams with(AggregationParams params, Aggregation method) {
@@ -205,4 +205,4 @@ double RolloutSimulator::left_to_do(MergedRobots merged) const {
   return sum;
 }
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation

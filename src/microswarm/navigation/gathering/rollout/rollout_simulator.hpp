@@ -12,7 +12,7 @@
 #include "microswarm/navigation/gathering/policies/common_input.hpp"
 #include "microswarm/planning/gathering/obstacle_weighted_rrt.hpp"
 
-namespace microswarm {
+namespace microswarm::navigation {
 
 /// All moves up to the end, with the merged robots before every 16th move.
 struct RolloutPlan {
@@ -92,4 +92,4 @@ class RolloutSimulator {
   std::vector<double> powers_;           ///< of the number of robots at a place
 };
 
-}  // namespace microswarm
+}  // namespace microswarm::navigation
