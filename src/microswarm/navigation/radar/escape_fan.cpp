@@ -77,7 +77,7 @@ EscapeFan::EscapeFan(std::vector<Vec2> velocities, double speed)
 }
 
 /// Blocks the velocities that get too near to a body; false once fewer than `count` remain.
-/// `gap_at` returns the required gap [µm]. the last times come first, since most bodies are near
+/// `gap_at` returns the required gap [µm]. The last times come first, since most bodies are near
 /// then.
 template <class GapAt>
 bool EscapeFan::screen(const ReachableObstacles& seen, const Trajectories& trajectories,
