@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/experiment/results/metrics.hpp"
 
 namespace microswarm::experiment {
@@ -29,10 +30,11 @@ Episode::Episode(const Scenario& scenario, Plant& plant, Navigator& navigator, O
       navigator_(&navigator),
       operation_(operation),
       obstacles_(scenario.sensing.obstacle_memory),
+      state_(scenario, plant),
+      clock_(scenario),
       goal_(scenario),
       hold_(scenario) {
-  if (scenario.start) present_.pose = *scenario.start;
-  goal_.take_goal(present_.pose.position);
+  goal_.take_goal(pose().position);
   const auto ground_truth = plant.ground_truth();
   if (ground_truth && !scenario.robots) contacts_.emplace(*ground_truth->world);
 }
@@ -42,51 +44,50 @@ void Episode::change(const std::string& setting, Navigator& navigator) {
   prepared_ = prepared_ && navigator_ == &navigator;
   if (navigator_ != &navigator) shown_ = nullptr;
   navigator_ = &navigator;
-  if (setting.starts_with("goal_um")) at_goal_ = false;
-  goal_.take_goal(present_.pose.position);
+  if (setting.starts_with("goal_um")) clock_.leave();
+  goal_.take_goal(pose().position);
   if (contacts_) contacts_->take_obstacles();
 }
 
 const Tick* Episode::step(const Stop& stop) {
   if (tick_.end) return nullptr;
   tick_ = {};
-  events_.clear();
-  trajectory_.clear();
-  changes_ = std::exchange(coming_changes_, {});
-  tick_.changes = changes_;
+  data_.events.clear();
+  data_.trajectory.clear();
+  data_.changes = std::exchange(coming_changes_, {});
+  tick_.changes = data_.changes;
   if (operation_) mode_ = operation_->mode();
-  tick_.holding = at_goal_;
+  tick_.holding = clock_.at_goal();
   if (!ending_) take_time();
   if (!ending_ && (stop() || (operation_ && operation_->is_ended()))) ending_ = stopped();
   if (ending_ || !advance(stop)) end();
   if (shown_) tick_.diagnostics = Lazy<Diagnostics>([by = shown_] { return by->diagnostics(); });
-  tick_.events = events_;
-  tick_.trajectory = trajectory_;
+  tick_.events = data_.events;
+  tick_.trajectory = data_.trajectory;
   if (contacts_) tick_.contacts = &*contacts_;
   return &tick_;
 }
 
 /// Ends the episode at its time limit; pauses do not count.
 void Episode::take_time() {
-  if (mode_ == OperatingMode::paused) return;
-  const auto ticks = [&](double time) { return std::ceil(time / scenario_.tick - 1e-9); };
-  if (at_goal_ && held_++ >= ticks(scenario_.hold_at_goal)) ending_ = Status::solved;
-  if (!at_goal_ && done_++ >= ticks(scenario_.time_limit))
-    ending_ = hold_.holds() ? Status::held : Status::time_limit;
+  if (mode_ == OperatingMode::paused || !clock_.count()) return;
+  ending_ = clock_.at_goal() ? Status::solved : hold_.holds() ? Status::held : Status::time_limit;
 }
 
 /// False if the episode ends before the tick starts.
 bool Episode::advance(const Stop& stop) {
   const Observation seen = obstacles_.complete(plant_.observe());
-  was_seen_ = was_seen_ || seen.swarm || plant_.ground_truth();
-  take_robots(seen);
-  present_ = present(seen);
-  note_unseen(seen);
+  state_.take_robots(seen, goal_);
+  state_.take(seen, goal_);
+  if (state_.take_sight(seen)) {
+    note(EventKind::robots_unseen);
+    data_.events.back().body = static_cast<std::uint32_t>(state_.unseen());
+  }
   if (!plant_.fault().empty()) {
     fault_ = plant_.fault();
     ending_ = Status::fault;
-  } else if (is_autonomous() && !at_goal_ && goal_.reached(present_.goal_distance) &&
-             unseen_ == 0) {
+  } else if (is_autonomous() && !clock_.at_goal() && goal_.reached(state_.now().goal_distance) &&
+             state_.unseen() == 0) {
     ending_ = arrive();
   }
   if (ending_) return false;
@@ -113,7 +114,7 @@ bool Episode::advance(const Stop& stop) {
   tick_.frame.state = tick_.view.state;
   tick_.frame.planned = tick_.view.planned;
   fill(seen);
-  if (is_autonomous() && !at_goal_) {
+  if (is_autonomous() && !clock_.at_goal()) {
     if (const auto change = hold_.take(command)) note(*change);
     if (hold_.at_limit()) {
       ending_ = Status::held;
@@ -132,7 +133,7 @@ Command Episode::decide(const Observation& seen, const Stop& stop) {
     tick_.view = navigator_->view();
     return command;
   }
-  Command command{present_.pose.heading, 0};
+  Command command{pose().heading, 0};
   if (mode_ == OperatingMode::manual) {
     command = operation_->by_hand().step(seen, stop);
     tick_.view = operation_->by_hand().view();
@@ -145,66 +146,39 @@ Command Episode::decide(const Observation& seen, const Stop& stop) {
   return command;
 }
 
-/// Notes the robots that a rig does not detect; they may be anywhere. A simulation's ground truth
-/// has all of them.
-void Episode::note_unseen(const Observation& seen) {
-  if (plant_.ground_truth() || seen.unseen == unseen_) return;
-  unseen_ = seen.unseen;
-  note(EventKind::robots_unseen);
-  events_.back().body = static_cast<std::uint32_t>(unseen_);
-}
-
-void Episode::take_robots(const Observation& seen) {
-  if (!goal_.take_robots(seen.world->map())) return;
-  const auto ground_truth = plant_.ground_truth();
-  if (ground_truth || seen.swarm)
-    present_.pose = ground_truth ? ground_truth->swarm.pose : seen.swarm->pose;
-}
-
-Episode::Present Episode::present(const Observation& seen) {
-  if (const auto ground_truth = plant_.ground_truth())
-    return {ground_truth->now, ground_truth->swarm.pose,
-            scenario_.robots ? 0 : ground_truth->swarm.radius, ground_truth->speed,
-            goal_.left(ground_truth->swarm.pose.position, ground_truth->robots)};
-  if (!seen.swarm)
-    return {seen.now, present_.pose, present_.radius, present_.speed, present_.goal_distance};
-  const double passed = seen.now - present_.t;
-  const double moved = distance(present_.pose.position, seen.swarm->pose.position);
-  return {seen.now, seen.swarm->pose, scenario_.robots ? 0 : seen.swarm->radius,
-          passed > 0 ? moved / passed : 0, goal_.left(seen.swarm->pose.position, seen.robots)};
-}
-
 /// Detects contact and arrival on the last trajectory, in order of time.
 std::optional<Status> Episode::follow(const GroundTruth& ground_truth) {
-  const double t0 = present_.t;
-  trajectory_.assign(ground_truth.trajectory.begin(), ground_truth.trajectory.end());
-  const bool arrives = is_autonomous() && !at_goal_;
-  const double arrival = arrives ? goal_.first_arrival(trajectory_).value_or(infinity) : infinity;
+  const double t0 = state_.now().t;
+  std::vector<PoseStamped>& trajectory = data_.trajectory;
+  std::vector<RunEvent>& events = data_.events;
+  trajectory.assign(ground_truth.trajectory.begin(), ground_truth.trajectory.end());
+  const bool arrives = is_autonomous() && !clock_.at_goal();
+  const double arrival = arrives ? goal_.first_arrival(trajectory).value_or(infinity) : infinity;
   const bool is_there = arrival < infinity;
-  if (is_there && scenario_.hold_at_goal <= 0) cut(trajectory_, arrival);
+  if (is_there && scenario_.hold_at_goal <= 0) cut(trajectory, arrival);
   const ContactMonitor before = *contacts_;
-  const std::vector<RunEvent> touches = contacts_->follow(t0, trajectory_);
+  const std::vector<RunEvent> touches = contacts_->follow(t0, trajectory);
   const bool ends = !touches.empty() && scenario_.stop_at_contact;
   if (ends) {
-    cut(trajectory_, touches.front().t - t0);
+    cut(trajectory, touches.front().t - t0);
     *contacts_ = before;  // motion after the contact does not count for its clearances
-    contacts_->follow(t0, trajectory_);
+    contacts_->follow(t0, trajectory);
   }
   touched_ = touched_ || !touches.empty();
-  events_.insert(events_.end(), touches.begin(), ends ? touches.begin() + 1 : touches.end());
-  if (!trajectory_.empty()) {
-    const PoseStamped& last = trajectory_.back();
-    present_ = {t0 + last.t, last.pose, last.radius,
-                ends ? touches.front().speed : ground_truth.speed,
-                goal_.left(last.pose.position, {})};
+  events.insert(events.end(), touches.begin(), ends ? touches.begin() + 1 : touches.end());
+  if (!trajectory.empty()) {
+    const PoseStamped& last = trajectory.back();
+    state_.take({t0 + last.t, last.pose, last.radius,
+                 ends ? touches.front().speed : ground_truth.speed,
+                 goal_.left(last.pose.position, {})});
   }
   if (!is_there || (ends && touches.front().t <= t0 + arrival))
     return ends ? std::optional(Status::collided) : std::nullopt;
   const std::optional<Status> ending = arrive();
   if (!ending) {  // within the tick, which continues
-    events_.back().t = t0 + arrival;
-    events_.back().position = moment_on(trajectory_, arrival).pose.position;
-    std::ranges::stable_sort(events_, {}, &RunEvent::t);
+    events.back().t = t0 + arrival;
+    events.back().position = moment_on(trajectory, arrival).pose.position;
+    std::ranges::stable_sort(events, {}, &RunEvent::t);
   }
   return ends ? Status::collided : ending;
 }
@@ -212,19 +186,16 @@ std::optional<Status> Episode::follow(const GroundTruth& ground_truth) {
 /// The swarm is at the goal: ends the episode, unless the swarm is to be held there.
 std::optional<Status> Episode::arrive() {
   note(EventKind::goal_reached);
-  if (scenario_.hold_at_goal <= 0) return Status::solved;
-  at_goal_ = true;
-  held_ = 0;
-  return std::nullopt;
+  return clock_.arrive() ? std::nullopt : std::optional(Status::solved);
 }
 
 /// Fills the last tick with the final state.
 void Episode::end() {
   const Observation seen = plant_.observe();
-  take_robots(seen);
+  state_.take_robots(seen, goal_);
   const bool ends_between_ticks =
-      *ending_ == Status::collided || (*ending_ == Status::solved && !at_goal_);
-  if (!ends_between_ticks) present_ = present(seen);
+      *ending_ == Status::collided || (*ending_ == Status::solved && !clock_.at_goal());
+  if (!ends_between_ticks) state_.take(seen, goal_);
   tick_.frame.state = NavigatorState::end;
   fill(seen);
   tick_.end = touched_ && *ending_ != Status::stopped ? Status::collided : *ending_;
@@ -233,26 +204,26 @@ void Episode::end() {
 
 /// Fills the tick with the current state of the world.
 void Episode::fill(const Observation& seen) {
-  const auto ground_truth = plant_.ground_truth();
-  world_ = ground_truth ? ground_truth->world->at(present_.t) : *seen.world;
-  tick_.world = &*world_;
+  const SwarmState::Values& now = state_.now();
+  const Snapshot& world = data_.world.emplace(state_.world(seen));
+  tick_.world = &world;
   if (goal_.has_robots()) {
-    const std::span<const Vec2> robots = ground_truth ? ground_truth->robots : seen.robots;
-    robots_.assign(robots.begin(), robots.end());
-    tick_.robots = robots_;
+    const std::span<const Vec2> robots = state_.robots(seen);
+    data_.robots.assign(robots.begin(), robots.end());
+    tick_.robots = data_.robots;
   }
   Frame& frame = tick_.frame;
-  frame.t = present_.t;
-  frame.pose = present_.pose;
-  frame.radius = present_.radius;
-  frame.speed = present_.speed;
+  frame.t = now.t;
+  frame.pose = now.pose;
+  frame.radius = now.radius;
+  frame.speed = now.speed;
   frame.seen = seen.seen;
   if (seen.swarm) frame.observed = seen.swarm->pose;
-  frame.goal_distance = present_.goal_distance;
-  const bool one_is_there = !goal_.has_robots() && was_seen_;
-  frame.wall_clearance = one_is_there ? world_->map().clearance(frame.pose.position) : infinity;
+  frame.goal_distance = now.goal_distance;
+  const bool one_is_there = !goal_.has_robots() && state_.was_seen();
+  frame.wall_clearance = one_is_there ? world.map().clearance(frame.pose.position) : infinity;
   frame.obstacle_clearance =
-      one_is_there ? world_->moving().clearance(frame.pose.position, infinity) : infinity;
+      one_is_there ? world.moving().clearance(frame.pose.position, infinity) : infinity;
   const double range =
       scenario_.detection_range.value_or(navigation::required_detection_range(scenario_.navigator));
   tick_.detects = !goal_.has_robots() && frame.obstacle_clearance - frame.radius < range;
@@ -263,8 +234,9 @@ void Episode::fill(const Observation& seen) {
 }
 
 void Episode::note(EventKind kind) {
-  events_.push_back(
-      {.t = present_.t, .kind = kind, .position = present_.pose.position, .speed = present_.speed});
+  const SwarmState::Values& now = state_.now();
+  data_.events.push_back(
+      {.t = now.t, .kind = kind, .position = now.pose.position, .speed = now.speed});
 }
 
 }  // namespace microswarm::experiment

@@ -2,17 +2,17 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "microswarm/contracts/navigator.hpp"
 #include "microswarm/contracts/plant.hpp"
-#include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/experiment/monitors/contact_monitor.hpp"
 #include "microswarm/experiment/monitors/goal_monitor.hpp"
 #include "microswarm/experiment/monitors/hold_monitor.hpp"
 #include "microswarm/experiment/run/operation.hpp"
+#include "microswarm/experiment/run/run_clock.hpp"
+#include "microswarm/experiment/run/swarm_state.hpp"
 #include "microswarm/experiment/run/tick.hpp"
 #include "microswarm/experiment/scenario/scenario.hpp"
 #include "microswarm/navigation/prediction/obstacle_memory.hpp"
@@ -44,31 +44,27 @@ class Episode {
   void change(const std::string& setting, Navigator& navigator);
 
   /// Pose of the swarm, or the last observed one.
-  const Pose2& pose() const { return present_.pose; }
+  const Pose2& pose() const { return state_.now().pose; }
 
  private:
-  /// Current state of the swarm: the ground truth if the plant provides it, else the last
-  /// observation.
-  struct Present {
-    double t = 0;
-    Pose2 pose;
-    double radius = 0;
-    double speed = 0;
-    double goal_distance = infinity;
+  /// Values that the tick refers to.
+  struct TickData {
+    std::optional<Snapshot> world;
+    std::vector<Vec2> robots;
+    std::vector<std::string> changes;
+    std::vector<RunEvent> events;
+    std::vector<PoseStamped> trajectory;
   };
 
   bool advance(const Stop& stop);
   Command decide(const Observation& seen, const Stop& stop);
   void take_time();
   void end();
-  void take_robots(const Observation& seen);
-  Present present(const Observation& seen);
   std::optional<Status> follow(const GroundTruth& ground_truth);
   void fill(const Observation& seen);
   std::optional<Status> arrive();
-  Status stopped() const { return at_goal_ ? Status::solved : Status::stopped; }
+  Status stopped() const { return clock_.at_goal() ? Status::solved : Status::stopped; }
   bool is_autonomous() const { return mode_ == OperatingMode::autonomous; }
-  void note_unseen(const Observation& seen);
   void note(EventKind kind);
 
   const Scenario& scenario_;
@@ -78,27 +74,18 @@ class Episode {
   Operation* operation_;
   OperatingMode mode_ = OperatingMode::autonomous;  ///< of the tick
   navigation::ObstacleMemory obstacles_;
+  SwarmState state_;
+  RunClock clock_;
   GoalMonitor goal_;
   HoldMonitor hold_;
   std::optional<ContactMonitor> contacts_;
-  Present present_;
-  bool was_seen_ = false;  ///< whether the swarm was seen at least once
-  int unseen_ = 0;         ///< number of robots not detected
-  double done_ = 0;        ///< number of ticks that count for the time limit
-  bool at_goal_ = false;   ///< whether the swarm is held at the goal
-  double held_ = 0;        ///< number of ticks since then
   bool touched_ = false;
   bool prepared_ = false;         ///< navigator_->prepare() was called
   std::optional<Status> ending_;  ///< set if the next tick is the last one
-
-  Tick tick_;
-  std::optional<Snapshot> world_;
-  std::vector<Vec2> robots_;
-  std::vector<std::string> coming_changes_;
-  std::vector<std::string> changes_;
-  std::vector<RunEvent> events_;
-  std::vector<PoseStamped> trajectory_;
   std::string fault_;
+  std::vector<std::string> coming_changes_;
+  Tick tick_;
+  TickData data_;
 };
 
 }  // namespace microswarm::experiment
