@@ -211,7 +211,7 @@ class PlainSafetyFilter {
     const auto consider = [&](const TwoLegTrajectory& trajectory) {
       const EscapeOutcome o = outcome(map, trajectory);
       if (o.until_contact != best.until_contact ? o.until_contact < best.until_contact
-                                                : o.worth() <= best.worth() + tuning.gap_tolerance)
+                                                : o.score() <= best.score() + tuning.gap_tolerance)
         return;
       best = o;
       chosen = trajectory;

@@ -36,7 +36,7 @@ bool is_foreseen(double far, double speed, double growth = 0) {
                     .robots = {},
                     .world = borrowed(*world)});
   }
-  seen.look({position, swarm_radius, dead_time}, *world, tracker, escape_speed);
+  seen.predict({position, swarm_radius, dead_time}, *world, tracker, escape_speed);
   return !seen.empty();
 }
 

@@ -13,7 +13,7 @@ constexpr double gap_rounding = 1e-6;  // [µm]
 
 EscapeSearch::Trace EscapeSearch::begin(Vec2 first, double until) {
   const SampleTimes& schedule = seen_.sample_times(until);
-  Trace trace = nothing_behind();
+  Trace trace = empty_trace();
   const std::span<const SampleTime> all = schedule.times;
   follow(trace, {first, until, {}}, all.first(schedule.shared), tuning_.counted_gap);
   trace.times = schedule.shared;
@@ -38,7 +38,7 @@ void EscapeSearch::consider(const TwoLegTrajectory& trajectory, Trace trace) {
   }
   const EscapeOutcome& o = trace.outcome;
   if (o.until_contact != outcome_.until_contact ? o.until_contact < outcome_.until_contact
-                                                : !(o.worth() > bar()))
+                                                : !(o.score() > score_to_beat()))
     return;
   outcome_ = o;
   best_ = trajectory;
@@ -56,7 +56,7 @@ void EscapeSearch::turns(Vec2 first, double until, EscapeFan& fan, Bundle& out) 
 
 void EscapeSearch::runs(double until, EscapeFan& fan, Bundle& out) {
   out.trajectories = {{{}, until, {}}, true};
-  out.prefix = nothing_behind();
+  out.prefix = empty_trace();
   out.candidates.assign(fan.velocities().size(), 0);
   screen(fan, out);
 }
@@ -76,7 +76,7 @@ void EscapeSearch::screen(EscapeFan& fan, Bundle& out) const {
 }
 
 RequiredGap EscapeSearch::least() const {
-  const double floor = only_gaps_count() ? bar() - tuning_.counted_gap : -infinity;
+  const double floor = only_gaps_count() ? score_to_beat() - tuning_.counted_gap : -infinity;
   return {tuning_.contact_gap - gap_rounding, tuning_.contact_gap_rate, floor - gap_rounding};
 }
 
@@ -123,7 +123,7 @@ bool EscapeSearch::is_hopeless(const Trace& trace, double max_last_gap) const {
   const EscapeOutcome& out = trace.outcome;
   const double longest = trace.touched || trace.blocked ? out.until_contact : seen_.end();
   if (longest != outcome_.until_contact) return longest < outcome_.until_contact;
-  return out.least + max_last_gap <= bar();
+  return out.least + max_last_gap <= score_to_beat();
 }
 
 }  // namespace microswarm::navigation

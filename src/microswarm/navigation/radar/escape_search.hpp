@@ -17,7 +17,7 @@ struct EscapeOutcome {
   double until_contact = 0;    ///< [s]
   double least = 0, last = 0;  ///< minimum and final gap, each at most the counted one [µm]
   /// Score among trajectories that are free equally long [µm].
-  double worth() const { return least + last; }
+  double score() const { return least + last; }
 };
 
 /// Finds the trajectory that is free of contact for longest; among equally long ones, the one with
@@ -63,7 +63,7 @@ class EscapeSearch {
  private:
   void screen(EscapeFan& fan, Bundle& out) const;
   RequiredGap least() const;
-  Trace nothing_behind() const {
+  Trace empty_trace() const {
     return {.outcome = {.until_contact = 0, .least = tuning_.counted_gap, .last = 0}};
   }
   void follow(Trace& trace, const TwoLegTrajectory& trajectory, std::span<const SampleTime> times,
@@ -75,7 +75,7 @@ class EscapeSearch {
     return gap < tuning_.contact_gap + tuning_.contact_gap_rate * t;
   }
   /// Score that an equally long-lived trajectory must exceed [µm].
-  double bar() const { return outcome_.worth() + tuning_.gap_tolerance; }
+  double score_to_beat() const { return outcome_.score() + tuning_.gap_tolerance; }
 
   ReachableObstacles& seen_;
   const SafetyFilterTuning& tuning_;

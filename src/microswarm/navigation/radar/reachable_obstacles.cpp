@@ -29,21 +29,21 @@ double ReachableObstacles::max_limit() const {
   return std::max(params_.gap + asked_beyond, params_.tuning.counted_gap);
 }
 
-void ReachableObstacles::look(const EscapeStart& start, const Snapshot& world,
-                              const ObstacleTracker& tracker, double top_speed) {
+void ReachableObstacles::predict(const EscapeStart& start, const Snapshot& world,
+                                 const ObstacleTracker& tracker, double top_speed) {
   start_ = start;
   world_ = &world;
   seen_ = tracker.seen();
   top_speed_ = top_speed;
   near_.clear();
-  samples_seen_.clear();
+  sampled_.clear();
   scheduled_ = 0;
   if (threats_.size() < tracker.size()) threats_.resize(tracker.size());
   find_threats(tracker);
   if (empty()) return;
-  gap_now_ = gap(start.position, foresee(0), params_.gap, MotionError::none);
+  gap_now_ = gap(start.position, predict_at(0), params_.gap, MotionError::none);
   look_at_walls(top_speed);
-  for (int s = 1; s <= samples_; ++s) samples_seen_.push_back(foresee(s * params_.step));
+  for (int s = 1; s <= samples_; ++s) sampled_.push_back(predict_at(s * params_.step));
 }
 
 void ReachableObstacles::find_threats(const ObstacleTracker& tracker) {
@@ -93,7 +93,7 @@ double ReachableObstacles::grown_for(double t) const {
   return std::min(params_.tuning.growth_time, start_.time - seen_ + t);
 }
 
-SampleTime ReachableObstacles::foresee(double t) {
+SampleTime ReachableObstacles::predict_at(double t) {
   SampleTime out{.t = t,
                  .required = std::min(params_.gap, gap_now_ + params_.tuning.recovery_rate * t),
                  .first = static_cast<std::uint32_t>(near_.size()),
@@ -122,8 +122,8 @@ const SampleTimes& ReachableObstacles::sample_times(double until) {
   SampleTimes& fresh = schedules_[scheduled_++];
   fresh.until = until;
   fresh.times.clear();
-  for (const SampleTime& i : samples_seen_) {
-    if (i.t - params_.step < until && until < i.t) fresh.times.push_back(foresee(until));
+  for (const SampleTime& i : sampled_) {
+    if (i.t - params_.step < until && until < i.t) fresh.times.push_back(predict_at(until));
     fresh.times.push_back(i);
   }
   fresh.shared =

@@ -72,14 +72,14 @@ class ReachableObstacles {
   double range() const;
   /// Predicts for a new start. `top_speed` bounds the velocities of all later queries [µm/s]. The
   /// tracker must have processed the frame of `world`.
-  void look(const EscapeStart& start, const Snapshot& world, const ObstacleTracker& tracker,
-            double top_speed);
+  void predict(const EscapeStart& start, const Snapshot& world, const ObstacleTracker& tracker,
+               double top_speed);
   /// Whether no moving body is within reach.
   bool empty() const { return bodies_ == 0 && nonconvex_.empty(); }
   const EscapeStart& start() const { return start_; }
   /// End time of all trajectories [s].
   double end() const { return samples_ * params_.step; }
-  /// Sample times for a turn at `until` [s]; valid until the next look().
+  /// Sample times for a turn at `until` [s]; valid until the next predict().
   const SampleTimes& sample_times(double until);
   std::span<const NearBody> near(const SampleTime& i) const {
     return {near_.data() + i.first, near_.data() + i.last};
@@ -118,7 +118,7 @@ class ReachableObstacles {
 
   void find_threats(const ObstacleTracker& tracker);
   void look_at_walls(double top_speed);
-  SampleTime foresee(double t);
+  SampleTime predict_at(double t);
   double grown_for(double t) const;
 
   SafetyFilterParams params_;
@@ -136,7 +136,7 @@ class ReachableObstacles {
   std::vector<Threat> threats_;
   std::size_t bodies_ = 0;      ///< number of threats_ in use
   std::vector<NearBody> near_;  ///< bodies of all sample times
-  std::vector<SampleTime> samples_seen_;
+  std::vector<SampleTime> sampled_;
   std::deque<SampleTimes> schedules_;
   std::size_t scheduled_ = 0;  ///< number of schedules_ in use
   std::vector<Body> nonconvex_bodies_;

@@ -60,7 +60,7 @@ void SafetyFilter::update(const Observation& observation) {
 
 std::optional<Command> SafetyFilter::filter(const Command& wanted, const Start& start,
                                             const Snapshot& world, double tick) {
-  seen_.look(start, world, tracker_, std::max(speed_, std::abs(wanted.speed)));
+  seen_.predict(start, world, tracker_, std::max(speed_, std::abs(wanted.speed)));
   const std::optional<Command> instead = checked(wanted, std::max(tick, params_.commitment));
   if (!instead) waited_ = 0;
   if (instead && instead->speed == 0) waited_ += tick;
