@@ -8,6 +8,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "microswarm/config/json_value.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/maths/rng.hpp"
 #include "tests/config/sample.hpp"
@@ -167,10 +168,13 @@ TEST(Write, JsonIsJson) {
     EXPECT_EQ(json["planner"]["step_um"], scene.planner.step);
     EXPECT_EQ(json["obstacles"].size(), scene.obstacles.size());
     EXPECT_EQ(json["limit_s"].is_null(), !scene.limit);
+    EXPECT_EQ(to_json_value(scene), json);
   }
   Fan fan;
   fan.turning = std::numeric_limits<double>::infinity();
   EXPECT_TRUE(nlohmann::json::parse(to_json_text(fan))["turning_deg_per_s"].is_null());
+  EXPECT_TRUE(to_json_value(fan)["turning_deg_per_s"].is_null());
+  EXPECT_EQ(to_json_value(Nothing{}), nlohmann::json::object());
   EXPECT_NE(to_yaml(fan).find("turning_deg_per_s: .inf\n"), std::string::npos);
 }
 

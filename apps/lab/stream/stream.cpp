@@ -7,7 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "microswarm/config/write.hpp"
+#include "microswarm/config/json_value.hpp"
 #include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/experiment/session/running_experiment.hpp"
 
@@ -69,8 +69,6 @@ Json bodies(std::span<const Body> list) {
                body.shape);
   return {{"discs", discs.take()}, {"polygons", std::move(polygons)}};
 }
-
-Json described(const std::string& json) { return Json::parse(json); }
 
 /// Quotes a word for a POSIX shell.
 std::string shell_word(const std::string& text) {
@@ -139,7 +137,7 @@ void add(Json& json, const Diagnostics& diagnostics) {
       diagnostics);
 }
 
-Json event(const experiment::RunEvent& happened) { return described(to_json_text(happened)); }
+Json event(const experiment::RunEvent& happened) { return to_json_value(happened); }
 
 std::string_view word(experiment::OperatingMode mode) {
   switch (mode) {
@@ -204,7 +202,7 @@ Json hello_json(const experiment::Session& session, const Source& source) {
           {"live", source.live},
           {"photo", std::move(photo)},
           {"playback", session.is_playback()},
-          {"scenario", described(to_json_text(scenario))},
+          {"scenario", to_json_value(scenario)},
           {"changeable", experiment::changeable_keys()},
           {"map",
            {{"lo", point(map.bounds().lo)},
@@ -217,13 +215,13 @@ MessagePtr hello_message(const experiment::Session& session, const Source& sourc
 }
 
 MessagePtr scenario_message(const experiment::Scenario& scenario) {
-  return make_message({{"type", "scenario"}, {"scenario", described(to_json_text(scenario))}});
+  return make_message({{"type", "scenario"}, {"scenario", to_json_value(scenario)}});
 }
 
 MessagePtr frame_message(const experiment::SessionView& view, const Diagnostics& diagnostics) {
   Json json{{"type", "frame"},
             {"number", view.number},
-            {"frame", described(to_json_text(view.frame))},
+            {"frame", to_json_value(view.frame)},
             {"holding", view.holding},
             {"bodies", bodies(view.bodies)},
             {"robots", points(view.robots)},
@@ -329,7 +327,7 @@ MessagePtr standing_message(const Standing& standing, const experiment::RunResul
                        {"changes", standing.changes},
                        {"status", to_string(result.status)},
                        {"state", result.state},
-                       {"metrics", described(to_json_text(result.metrics))},
+                       {"metrics", to_json_value(result.metrics)},
                        {"trouble", standing.trouble}},
                       Message::Kind::standing);
 }
