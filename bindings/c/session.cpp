@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "handles.hpp"
+#include "microswarm/config/json_value.hpp"
 #include "microswarm/config/write.hpp"
 
 using namespace microswarm;
@@ -174,7 +175,7 @@ int32_t ms_session_metrics(uint64_t handle, const char** json) {
 int32_t ms_session_metric(uint64_t handle, const char* name, double* value) {
   return c::with_session(handle, [&](experiment::Session& session, c::Object&) -> int32_t {
     c::require(name, "name"), c::require(value, "value");
-    const auto all = nlohmann::json::parse(to_json_text(session.result().metrics));
+    const auto all = to_json_value(session.result().metrics);
     const nlohmann::json* here = &all;
     const std::string path = name;
     for (std::size_t begin = 0; here && begin <= path.size();) {
