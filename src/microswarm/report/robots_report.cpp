@@ -47,9 +47,10 @@ std::string moment_text(const experiment::RobotMoment& moment) {
 
 Plot left_over_time(const RobotsSubject& s) {
   const bool each = !s.scenario().robots->goals.empty();
-  Plot plot{.title = each ? "The worst robot's distance from its goal" : "Mean way to the goal, F",
-            .x_label = "time (s)",
-            .y_label = "distance (µm)"};
+  Plot plot{
+      .title = each ? "The worst robot's distance from its goal" : "Mean distance to the goal, F",
+      .x_label = "time (s)",
+      .y_label = "distance (µm)"};
   Series left{.label = each ? "worst robot" : "F"};
   for (const experiment::Frame& f : s.record.frames) {
     left.x.push_back(f.t);
@@ -68,7 +69,7 @@ std::vector<std::vector<std::string>> robots_numbers(const experiment::Record& r
           {"robots", fmt::format("{}", record.robots.front().positions.size())},
           {"time", fmt::format("{:.1f} s", m.time)},
           {"commands", fmt::format("{}", record.frames.size() - 1)},
-          {"left to the goal", fmt::format("{:.1f} µm", m.goal_distance)},
+          {"distance to the goal", fmt::format("{:.1f} µm", m.goal_distance)},
           {"time held", fmt::format("{:.1f} s", m.hold_time)},
           {"planning events", fmt::format("{}", m.planning_events)},
           {"rig", record.rig.empty() ? "none: simulated" : record.rig},

@@ -168,7 +168,8 @@ int Dialogue::make() {
     }
     const bool failed = made.outcome == rig::MeasurementOutcome::failed;
     if (!failed && (goes_on || !run_.next())) continue;
-    note("\n{} of {} measurements are made; the same command goes on\n", run_.made(), run_.size());
+    note("\n{} of {} measurements are made; run the same command again for the rest\n", run_.made(),
+         run_.size());
     return failed ? hardware : not_reached;
   }
   return ok;
