@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
   const std::filesystem::path folder = scenarios ? scenarios : "scenarios";
   try {
     const auto session = experiment::open_session(argc > 1 ? argv[1] : folder / "first_flight.yaml",
-                                                  {.settings = {"navigator.speed_um_per_s=50"}});
+                                                  {"navigator.speed_um_per_s=50"});
     const experiment::RunResult& result = session->finish();
     std::printf("%s after %.1f s, %.0f µm; nearest wall %.1f µm\n", to_string(result.status).data(),
                 result.metrics.time, result.metrics.length, result.metrics.walls.clearance);

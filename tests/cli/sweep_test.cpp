@@ -82,7 +82,8 @@ TEST_F(Sweeps, ATrialIsThatOfRun) {
                         "navigator.clearance_um=80", "--set", "navigator.guide=route"}));
   const auto rows = table("sweep.db");
   for (std::size_t trial = 0; trial < 6; ++trial)
-    EXPECT_EQ(rows[1 + 12 + trial].back(), run.at("trials")[trial].at("record_hash"));
+    EXPECT_EQ(rows[1 + 12 + trial].back(),
+              run.at("trials")[trial].at("record_hash").get<std::string>());
 }
 
 TEST_F(Sweeps, StoppedAndKilledItGoesOn) {
