@@ -39,11 +39,11 @@ nlohmann::json json_value(const Type& type, Unit unit, const void* value) {
     case TypeKind::choice:
       return type.words[type.count(value)];
     case TypeKind::optional:
-      return type.count(value) ? json_value(*type.parts[0], unit, type.part_of(value)) : Json();
+      return type.count(value) ? json_value(*type.parts[0], unit, type.find_part(value)) : Json();
     case TypeKind::list: {
       Json list = Json::array();
       for (std::size_t i = 0; i < type.count(value); ++i)
-        list.push_back(json_value(*type.parts[0], unit, type.part_of(value, i)));
+        list.push_back(json_value(*type.parts[0], unit, type.find_part(value, i)));
       return list;
     }
     case TypeKind::record: {
@@ -54,7 +54,7 @@ nlohmann::json json_value(const Type& type, Unit unit, const void* value) {
     }
     case TypeKind::variant: {
       const std::size_t held = type.count(value);
-      Json object = json_value(*type.parts[held], unit, type.part_of(value));
+      Json object = json_value(*type.parts[held], unit, type.find_part(value));
       object["type"] = type.words[held];
       return object;
     }
