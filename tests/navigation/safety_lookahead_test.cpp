@@ -16,7 +16,8 @@ constexpr Aim far_away{.position = {1800, 500}};
 bool is_safe(const HierarchicalParams& params, const SwarmLimits& swarm, const Snapshot& world,
              Vec2 from, const SafetyLookahead::Steering& steer) {
   const SafetyLookahead lookahead(params, swarm);
-  const ObstaclePredictor at_rest;
+  ObstaclePredictor at_rest;
+  at_rest.update({.swarm = SwarmPose{{from, 0}, swarm.radius}, .world = borrowed(world)});
   return lookahead.is_safe({world, at_rest, far_away, {from, 0}}, steer);
 }
 

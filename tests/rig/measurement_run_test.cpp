@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 
+#include "microswarm/actuation/amplifiers/amplifiers.hpp"
 #include "microswarm/actuation/drivers/coil_driver.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "tests/rig/coil_rig.hpp"
@@ -75,7 +76,8 @@ class MeasurementRuns : public testing::Test {
   MeasurementRuns() { step.currents[0] = 2; }
   Measurement measure(ReportingDriver& driver, Reader& reader, const Stop& stop = {}) {
     const Measurement made = measure_field(
-        rig, driver, step, timing, reader, Eigen::VectorXd::Constant(6, 20),
+        rig, driver, step, timing, reader,
+        actuation::Amplifiers(rig.system.amplifiers()).temperatures(),
         [this](const actuation::CoilOutput&) { ++heard; }, stop);
     EXPECT_EQ(driver.sent, 0) << "the coils are at zero afterwards";
     return made;
@@ -88,7 +90,8 @@ class MeasurementRuns : public testing::Test {
   test::Folder folder;
   Rig rig = test::coil_rig(folder, "[{}, {}, {}]");
   MeasurementTiming timing{.ramp = 0.05, .settle = 0.05, .hold = 0.3};
-  actuation::MeasurementStep step{Eigen::VectorXd::Zero(6), Eigen::Vector3d::Zero()};
+  actuation::MeasurementStep step{
+      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rig.system.size())), Eigen::Vector3d::Zero()};
   int heard = 0;
 };
 
