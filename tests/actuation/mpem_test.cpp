@@ -40,8 +40,7 @@ TEST(Mpem, ReadsSourcesAndTheirFields) {
   EXPECT_LE((left - Eigen::Vector3d(40, 0, -1)).norm(), 1e-12);
   const Eigen::Vector3d right = field_at(system.coils[1].sources, {0, 0, 0}).field;
   EXPECT_LE((right - Eigen::Vector3d(0, -20, 0)).norm(), 1e-12);
-  EXPECT_LE((field_at(system.offset, {5, 6, 7}).field - Eigen::Vector3d(0, 0.05, 0)).norm(),
-            1e-15);
+  EXPECT_LE((field_at(system.offset, {5, 6, 7}).field - Eigen::Vector3d(0, 0.05, 0)).norm(), 1e-15);
   EXPECT_TRUE(system.in_workspace({1e4, 0, 0}));
   EXPECT_FALSE(system.in_workspace({1.0001e4, 0, 0}));
   EXPECT_FALSE(system.in_workspace({0, 0, -1}));
