@@ -15,7 +15,8 @@ void TrapezoidLook::begin(const Trapezoids& cells, Vec2 from, Vec2 to, double ke
     beyond_.push_back({{cell}, rightwards, 0});
   };
   if (const std::uint32_t number = cells.point_at(from); number != Trapezoids::none) {
-    for (const std::uint32_t cell : cells.cells_right_of(number)) put_off(cell, true);
+    const auto [first, last] = cells.cells_right_of(number);
+    for (std::uint32_t cell = first; cell < last; ++cell) put_off(cell, true);
     for (const std::uint32_t cell : cells.cells_left_of(number)) put_off(cell, false);
     return;
   }

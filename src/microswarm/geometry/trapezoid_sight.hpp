@@ -275,7 +275,8 @@ void TrapezoidSight::look_around(const Rays& rays, OnPoint&& point, OnCell&& on_
   std::vector<Cone> cones;
   cones.reserve(64);
   if (const std::uint32_t number = cells_->point_at(rays.centre); number != none) {
-    for (const std::uint32_t cell : cells_->cells_right_of(number)) cones.push_back({cell});
+    const auto [first, last] = cells_->cells_right_of(number);
+    for (std::uint32_t cell = first; cell < last; ++cell) cones.push_back({cell});
     look<true>(rays, cones, point, on_cell);
     for (const std::uint32_t cell : cells_->cells_left_of(number)) cones.push_back({cell});
     return look<false>(rays, cones, point, on_cell);

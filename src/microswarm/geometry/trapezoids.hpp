@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <ranges>
 #include <span>
 #include <vector>
 
@@ -45,9 +44,13 @@ class Trapezoids {
   /// The cell that holds `p`, the one above if it is on a segment.
   std::uint32_t cell_at(Vec2 p) const;
 
+  /// Range of cell numbers, `last` excluded.
+  struct Range {
+    std::uint32_t first, last;
+  };
   /// The cells that begin at a point, and those that end at it.
-  auto cells_right_of(std::uint32_t point) const {
-    return std::views::iota(first_right_of_[point], first_right_of_[point + 1]);
+  Range cells_right_of(std::uint32_t point) const {
+    return {first_right_of_[point], first_right_of_[point + 1]};
   }
   std::span<const std::uint32_t> cells_left_of(std::uint32_t point) const {
     return std::span(ends_).subspan(first_left_of_[point],

@@ -38,6 +38,7 @@ std::uint32_t TangentGraph::begin_query(const BodySet* moving) {
   circles_.resize(still_count());
   for (const Corner& corner : corners) circles_.push_back(around(corner));
   wheels_.resize(2 * circles_.size());
+  marks_.resize(2 * circles_.size());
   return ++query_;
 }
 
@@ -48,9 +49,12 @@ void TangentGraph::find_hops(std::uint32_t wheel) {
   ++look_;
   corners_->seen_from(wheel / 2, circle.radius, clearance_, sense(wheel) > 0,
                       [&](std::uint32_t corner, auto&& sides) {
-                        take_unseen(corner, sides, seen_, look_, [&](std::uint32_t to) {
-                          if (corner != wheel / 2) add_hop(wheel, to);
-                        });
+                        take_unseen(
+                            corner, sides,
+                            [this](std::uint32_t at) -> std::uint32_t& { return seen_[at]; }, look_,
+                            [&](std::uint32_t to) {
+                              if (corner != wheel / 2) add_hop(wheel, to);
+                            });
                       });
   bytes_ += at.hops.capacity() * sizeof(Hop);
   std::ranges::sort(at.hops, [turn = sense(wheel)](const Hop& a, const Hop& b) {

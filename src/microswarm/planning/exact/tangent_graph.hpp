@@ -44,6 +44,14 @@ class TangentGraph {
     }
   };
 
+  /// Marks that the query of that number has left at a wheel. They stay from query to query, so
+  /// that a short one does not pay for all wheels.
+  struct Mark {
+    std::uint32_t opened = 0;  ///< query that opened the line from its start
+    std::uint32_t query = 0;   ///< for which `last_label` holds
+    std::uint32_t last_label = none;
+  };
+
   /// `map` must outlive the graph. `clearance` [µm].
   TangentGraph(const Map& map, double clearance);
   /// Continues with an equal copy of the map.
@@ -60,6 +68,9 @@ class TangentGraph {
   /// Number of a new query. Replaces the circles of moving bodies, which follow those of the map's
   /// corners and have no hops; null without any.
   std::uint32_t begin_query(const BodySet* moving);
+  /// Marks of the latest query, by wheel.
+  std::vector<Mark>& marks() { return marks_; }
+  const std::vector<Mark>& marks() const { return marks_; }
   std::uint32_t circle_count() const { return static_cast<std::uint32_t>(circles_.size()); }
   /// Number of circles around the map's corners.
   std::uint32_t still_count() const { return static_cast<std::uint32_t>(seen_.size() / 2); }
@@ -121,22 +132,24 @@ class TangentGraph {
   std::vector<Circle> circles_;  ///< around the corners of the map, then of the moving bodies
   std::vector<Wheel> wheels_;
   std::vector<Arc> arcs_;
+  std::vector<Mark> marks_;          ///< by wheel
   std::vector<std::uint32_t> seen_;  ///< by wheel: the look that saw it last
   std::uint32_t look_ = 0;
   std::uint32_t query_ = 0;
   std::size_t bytes_ = 0;
 };
 
-/// Calls `take` with the wheels of a corner that a line may reach and this look has not seen yet.
-template <class SidesOf, class Take>
-void take_unseen(std::uint32_t corner, SidesOf&& find_sides, std::vector<std::uint32_t>& seen,
-                 std::uint32_t look, Take&& take) {
-  std::uint32_t& left = seen[2 * corner];
-  std::uint32_t& right = seen[2 * corner + 1];
-  if (left == look && right == look) return;
+/// Calls `take` with the wheels of a corner that a line may reach and that have not the stamp
+/// yet. `stamp_at` refers to the stamp of a wheel.
+template <class FindSides, class StampAt, class Take>
+void take_unseen(std::uint32_t corner, FindSides&& find_sides, StampAt&& stamp_at,
+                 std::uint32_t stamp, Take&& take) {
+  std::uint32_t& left = stamp_at(2 * corner);
+  std::uint32_t& right = stamp_at(2 * corner + 1);
+  if (left == stamp && right == stamp) return;
   const Sides sides = find_sides();
-  if (sides.left && std::exchange(left, look) != look) take(2 * corner);
-  if (sides.right && std::exchange(right, look) != look) take(2 * corner + 1);
+  if (sides.left && std::exchange(left, stamp) != stamp) take(2 * corner);
+  if (sides.right && std::exchange(right, stamp) != stamp) take(2 * corner + 1);
 }
 
 }  // namespace microswarm::planning

@@ -17,8 +17,6 @@ TangentQuery::TangentQuery(TangentGraph& graph, Vec2 start, Vec2 goal, bool ends
       goal_(goal),
       ends_there_(ends_there),
       moving_(moving),
-      starts_seen_(2 * graph.still_count(), 0),
-      last_labels_(2 * graph.circle_count(), none),
       circles_now_(moving ? graph.circle_count() : 0) {
   from_start_.begin(graph.corners().cells(), start_, goal_, graph.clearance());
   for (std::uint32_t to = 2 * graph.still_count(); to < 2 * graph.circle_count(); ++to)
@@ -74,7 +72,10 @@ void TangentQuery::head_for(Vec2 position) {
 void TangentQuery::look_from_start(double length) {
   constexpr double more = 1.05;
   graph_->corners().look_on(from_start_, more * length, [&](std::uint32_t corner, auto&& sides) {
-    take_unseen(corner, sides, starts_seen_, 1, [&](std::uint32_t to) { open_from_start(to); });
+    take_unseen(
+        corner, sides,
+        [this](std::uint32_t wheel) -> std::uint32_t& { return graph_->marks()[wheel].opened; },
+        query_, [&](std::uint32_t to) { open_from_start(to); });
   });
 }
 
@@ -92,7 +93,7 @@ void TangentQuery::open_from_start(std::uint32_t to) {
 bool TangentQuery::is_dominated(const Label& label) const {
   const TurningCircle& circle = graph_->wheel_circle(label.wheel);
   const double to = TangentGraph::sense(label.wheel);
-  for (std::uint32_t i = last_labels_[label.wheel]; i != none; i = labels_[i].next) {
+  for (std::uint32_t i = last_label(label.wheel); i != none; i = labels_[i].next) {
     const Label& other = labels_[i];
     if (other.arc != label.arc) continue;
     const double angle = circle.angle_around(to, other.arrive, label.arrive);
@@ -119,7 +120,7 @@ void TangentQuery::expand_hops(const Label& label, std::uint32_t number) {
   const std::uint32_t at = label.wheel / 2;
   std::vector<Hop>& hops = graph_->hops(label.wheel);
   const bool is_first =  // visit of this circle in this query: none of its hops is open
-      label.next == none && last_labels_[label.wheel ^ 1] == none;
+      label.next == none && last_label(label.wheel ^ 1) == none;
   if (is_first) graph_->visit(at);
   const TurningCircle& circle = graph_->circle(at);
   const bool is_near = is_near_moving(at);
@@ -194,7 +195,10 @@ std::optional<std::uint32_t> TangentQuery::next(double most) {
     const auto number = static_cast<std::uint32_t>(labels_.size());
     if (label.wheel != none) {
       if (is_dominated(label)) continue;
-      label.next = std::exchange(last_labels_[label.wheel], number);
+      label.next = last_label(label.wheel);
+      TangentGraph::Mark& mark = graph_->marks()[label.wheel];
+      mark.query = query_;
+      mark.last_label = number;
     }
     labels_.push_back(label);
     return number;

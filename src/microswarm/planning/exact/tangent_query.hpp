@@ -60,7 +60,10 @@ class TangentQuery {
 
   std::span<const Label> labels() const { return labels_; }
   /// Index of a wheel's latest label, which links to the earlier ones; none without labels.
-  std::uint32_t last_label(std::uint32_t wheel) const { return last_labels_[wheel]; }
+  std::uint32_t last_label(std::uint32_t wheel) const {
+    const TangentGraph::Mark& mark = graph_->marks()[wheel];
+    return mark.query == query_ ? mark.last_label : none;
+  }
   /// Distance of a position from a wheel's circle [µm], 0 inside.
   double distance_to(std::uint32_t wheel, Vec2 position) const {
     const TurningCircle& circle = graph_->wheel_circle(wheel);
@@ -140,10 +143,7 @@ class TangentQuery {
   bool ends_there_;        ///< whether goal_ is the goal
   const BodySet* moving_;  ///< null without moving bodies
   TrapezoidLook from_start_;
-  std::vector<std::uint32_t>
-      starts_seen_;  ///< by wheel: whether its line from the start was opened
-  std::vector<std::uint32_t> last_labels_;  ///< by wheel
-  std::vector<CircleNow> circles_now_;      ///< with moving bodies, by circle
+  std::vector<CircleNow> circles_now_;  ///< with moving bodies, by circle
   std::vector<Arc> arcs_now_;
   std::vector<Guess> guesses_;
   std::vector<Label> labels_;
