@@ -47,15 +47,16 @@ void TangentGraph::find_hops(std::uint32_t wheel) {
   Wheel& at = wheels_[wheel];
   at.is_known = true;
   ++look_;
-  corners_->seen_from(wheel / 2, circle.radius, clearance_, sense(wheel) > 0,
-                      [&](std::uint32_t corner, auto&& sides) {
-                        take_unseen(
-                            corner, sides,
-                            [this](std::uint32_t at) -> std::uint32_t& { return seen_[at]; }, look_,
-                            [&](std::uint32_t to) {
-                              if (corner != wheel / 2) add_hop(wheel, to);
-                            });
-                      });
+  corners_->seen_from(
+      wheel / 2, circle.radius, clearance_, sense(wheel) > 0,
+      [&](std::uint32_t corner, auto&& sides) {
+        take_unseen(
+            corner, sides, [this](std::uint32_t number) -> std::uint32_t& { return seen_[number]; },
+            look_,
+            [&](std::uint32_t to) {
+              if (corner != wheel / 2) add_hop(wheel, to);
+            });
+      });
   bytes_ += at.hops.capacity() * sizeof(Hop);
   std::ranges::sort(at.hops, [turn = sense(wheel)](const Hop& a, const Hop& b) {
     return a.leave != b.leave ? turn * a.leave < turn * b.leave : a.to < b.to;
