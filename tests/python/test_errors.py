@@ -3,6 +3,7 @@
 
 import pickle
 
+import numpy
 import pytest
 
 import microswarm as ms
@@ -76,3 +77,20 @@ def test_settings_that_are_planned_with_speak_no_command_line():
     with pytest.raises(ms.InputError) as caught:
         ms.plan(walls, (10, 10), (90, 90), planner="a_star", spacing=-1)
     assert "--set" not in str(caught.value) and caught.value.issues[0].key.startswith("planner.")
+
+
+@pytest.mark.parametrize(
+    "call, name, value, limit",
+    [
+        (lambda: ms.run("scenarios/first_flight.yaml", seed="x"), "seed", "'x'", "a whole number from 0 to 18446744073709551615"),
+        (lambda: ms.run("scenarios/first_flight.yaml", trial=-1), "trial", "-1", None),
+        (lambda: ms.Map.from_image(numpy.zeros((4, 4), numpy.uint8), 1, free="grey"), "free", "'grey'", "'bright' or 'dark'"),
+    ],
+)
+def test_an_argument_is_refused_by_name_value_and_limit(call, name, value, limit):
+    with pytest.raises(ms.InputError) as caught:
+        call()
+    (issue,) = caught.value.issues
+    assert (issue.key, issue.place, issue.value) == (name, name, value)
+    assert issue.limit and limit in (None, issue.limit)
+    assert issue.text == str(caught.value) == f"{name} is {value}, must be {issue.limit}"

@@ -10,7 +10,7 @@ from typing import Any, Optional, Union
 import numpy as np
 
 from . import _core
-from .values import InputError, flag, numbers, path_text, rows, text, told
+from .values import InputError, flag, numbers, path_text, refused, rows, text
 
 PathLike = Union[str, "os.PathLike[str]"]
 
@@ -73,7 +73,7 @@ class Coils:
             names = [f"coil{k + 1}" for k in range(currents.shape[1])]
         words = list(names) if isinstance(names, Iterable) and not isinstance(names, str) else []
         if len(words) != currents.shape[1]:
-            raise InputError(f"names is {told(names)}, must be {currents.shape[1]} words, one for each column of currents_a")
+            raise refused("names", names, f"{currents.shape[1]} words, one for each column of currents_a")
         words = [text("one of names", one) for one in words]
         parts = flag("offset", offset), flag("gradients", gradients)
         if not 1 <= len(words) <= 64:

@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _core
 from .pictures import Drawable
-from .values import InputError, grid_of, number, numbers, path_text, rows, setting, told, whole
+from .values import InputError, grid_of, number, numbers, path_text, refused, rows, setting, whole
 
 MAX_SIDE_PX = 65_535
 planners = _core.planners  # names that plan() takes
@@ -40,7 +40,7 @@ class Map(Drawable):
         try:
             outlines = list(walls_um)
         except TypeError:
-            raise InputError(f"walls_um is {told(walls_um)}, must be a list of outlines, each of the shape (n, 2)") from None
+            raise refused("walls_um", walls_um, "a list of outlines, each of the shape (n, 2)") from None
         return cls(_core.Map.from_walls(box, [rows("an outline of walls_um", one) for one in outlines], rows("discs_um", discs_um, "(n, 3)")))
 
     @classmethod
@@ -54,7 +54,7 @@ class Map(Drawable):
         """
         array = grid_of("image", image, MAX_SIDE_PX)
         if free not in ("bright", "dark"):
-            raise InputError(f"free is {told(free)}, must be 'bright' or 'dark'")
+            raise refused("free", free, "'bright' or 'dark'")
         if threshold is None and array.dtype != bool:
             if array.dtype != np.uint8 or (array.size > 0 and array.max() <= 1):
                 raise InputError("threshold is missing: this is no image of uint8 with grey values, and no mask of booleans")
@@ -98,7 +98,7 @@ class Map(Drawable):
 def core_of(map: Map) -> Any:
     """The native map of an argument."""
     if not isinstance(map, Map):
-        raise InputError(f"map is {told(map)}, must be a Map: Map.load(file) or Map.from_image(array, um_per_px)")
+        raise refused("map", map, "a Map: Map.load(file) or Map.from_image(array, um_per_px)")
     return map._core
 
 

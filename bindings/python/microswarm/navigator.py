@@ -10,7 +10,7 @@ import numpy as np
 
 from . import _core
 from .runs import Source, scenario_of
-from .values import InputError, told, whole
+from .values import InputError, refused, whole
 
 _made = tuple.__new__  # without the checks of Command()
 
@@ -72,7 +72,7 @@ class Navigator:
             raise
         except (TypeError, ValueError):
             if not (numbers is None or isinstance(numbers, Iterable)):
-                raise InputError(f"numbers is {told(numbers)}, must be a whole number for each obstacle") from None
+                raise refused("numbers", numbers, "a whole number for each obstacle") from None
             raise InputError("t, seen and unseen must be numbers, obstacles and robots arrays of numbers") from None
 
     def path(self) -> np.ndarray:

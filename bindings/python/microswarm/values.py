@@ -12,7 +12,7 @@ from typing import Any, Optional
 
 import numpy as np
 
-from .errors import InputError
+from .errors import InputError, Issue
 
 
 def told(value: Any) -> str:
@@ -24,14 +24,20 @@ def told(value: Any) -> str:
     return line if len(line) <= 80 else line[:79] + "…"
 
 
+def refused(name: str, value: Any, limit: str) -> InputError:
+    """The error of an argument that is not what it must be."""
+    line = f"{name} is {told(value)}, must be {limit}"
+    return InputError(line, [Issue(name, name, line, told(value), limit)])
+
+
 def text(name: str, value: Any) -> str:
     """Checks a text that UTF-8 can encode."""
     if not isinstance(value, str):
-        raise InputError(f"{name} is {told(value)}, must be a text")
+        raise refused(name, value, "a text")
     try:
         value.encode()
     except UnicodeEncodeError:
-        raise InputError(f"{name} is {told(value)}, must be a text of UTF-8") from None
+        raise refused(name, value, "a text of UTF-8") from None
     return value
 
 
@@ -42,7 +48,7 @@ def path_text(path: Any, name: str = "path", what: str = "the name of a file") -
     except TypeError:
         made = None
     if not isinstance(made, str) or not made or "\0" in made:
-        raise InputError(f"{name} is {told(path)}, must be {what}")
+        raise refused(name, path, what)
     return text(name, made)
 
 
@@ -51,9 +57,9 @@ def whole(name: str, value: Any, most: int, least: int = 0) -> int:
     try:
         made = operator.index(value)
     except TypeError:
-        raise InputError(f"{name} is {told(value)}, must be a whole number from {least} to {most}") from None
+        raise refused(name, value, f"a whole number from {least} to {most}") from None
     if not least <= made <= most:
-        raise InputError(f"{name} is {told(made)}, must be {least} to {most}")
+        raise refused(name, made, f"{least} to {most}")
     return made
 
 
@@ -65,7 +71,7 @@ def seed_of(value: Any) -> Optional[int]:
 def flag(name: str, value: Any) -> bool:
     """Checks True or False."""
     if not isinstance(value, (bool, np.bool_)):
-        raise InputError(f"{name} is {told(value)}, must be True or False")
+        raise refused(name, value, "True or False")
     return bool(value)
 
 
@@ -74,7 +80,7 @@ def mapping(name: str, value: Any) -> Mapping[str, Any]:
     if value is None:
         return {}
     if not isinstance(value, Mapping):
-        raise InputError(f"{name} is {told(value)}, must be a dictionary")
+        raise refused(name, value, "a dictionary")
     return value
 
 
@@ -85,7 +91,7 @@ def numbers(name: str, values: Any, counts: tuple[int, ...], what: str) -> list[
     except (TypeError, ValueError, OverflowError):
         made = []
     if isinstance(values, str) or len(made) not in counts:
-        raise InputError(f"{name} is {told(values)}, must be {what}")
+        raise refused(name, values, what)
     return made
 
 
@@ -94,11 +100,11 @@ def number(name: str, value: Any) -> float:
     try:
         made = float(value)
     except (TypeError, ValueError):
-        raise InputError(f"{name} is {told(value)}, must be a number") from None
+        raise refused(name, value, "a number") from None
     except OverflowError:
         made = math.inf
     if not math.isfinite(made):
-        raise InputError(f"{name} is {told(value)}, must be finite")
+        raise refused(name, value, "finite")
     return made
 
 
@@ -109,7 +115,7 @@ def array_of(name: str, values: Any, what: str, kinds: str = "buif", shape: Opti
     except (TypeError, ValueError):  # rows of different lengths
         array = np.asarray("ragged")
     if array.dtype.kind not in kinds or shape not in (None, array.shape):
-        raise InputError(f"{name} is {told(values)}, must be {what}")
+        raise refused(name, values, what)
     return array
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from . import _core
 from .maps import Map
 from .runs import Progress, shown
-from .values import InputError, array_of, number, path_text, setting, told
+from .values import InputError, array_of, number, path_text, refused, setting
 
 PathLike = Union[str, "os.PathLike[str]"]
 
@@ -131,7 +131,7 @@ def track_arrays(frames: Any, settings: list[tuple[str, str]], report: Any, time
     try:
         pictures = iter(frames)
     except TypeError:
-        raise InputError(f"frames is {told(frames)}, must be an array, an iterable of arrays or a file") from None
+        raise refused("frames", frames, "an array, an iterable of arrays or a file") from None
     tracker = _core.ArrayTracker(settings)
     done = 0
     for done, frame in enumerate(pictures, 1):

@@ -10,7 +10,7 @@ import numpy as np
 
 from .. import _core
 from ..runs import Source, scenario_of
-from ..values import InputError, array_of, setting, told, whole
+from ..values import array_of, refused, setting, whole
 from .environment import SingleEnvironment, Steps, VectorEnvironment, count_of
 from .spaces import Box
 
@@ -51,7 +51,7 @@ class NavigationEnv(SingleEnvironment):
 
     def __init__(self, scenario: Source, *, render_mode: Optional[str] = None, **rules: Any) -> None:
         if render_mode is not None:
-            raise InputError(f"render_mode is {told(render_mode)}, must be None")
+            raise refused("render_mode", render_mode, "None")
         self._core = _batch(scenario, 1, 1, rules)
         self.observation_space, self.action_space = _spaces(self._shape()[0])
 
@@ -60,7 +60,7 @@ class NavigationEnv(SingleEnvironment):
         try:
             heading, share = (float(one) for one in action)
         except (TypeError, ValueError, OverflowError):
-            raise InputError(f"action is {told(action)}, must be heading_rad and a share of the speed") from None
+            raise refused("action", action, "heading_rad and a share of the speed") from None
         return self._core.step_one(heading, share)
 
     @property
