@@ -142,7 +142,7 @@ TEST_F(Firmware, KilledHostTurnsOff) {
   const auto zero = mega.when(off);
   ASSERT_TRUE(zero);
   EXPECT_LE(*zero - killed, zero_within_ms);
-  actuation::SerialCoilDriver next(params(port));  // whatever was half said
+  actuation::SerialCoilDriver next(params(port));  // drops a half-sent answer
   EXPECT_TRUE(drives(next));
 }
 

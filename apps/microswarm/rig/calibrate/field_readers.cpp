@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/lines.hpp"
@@ -37,35 +36,31 @@ std::optional<Eigen::Vector3d> field_in(std::string line, std::string& why) {
   return std::nullopt;
 }
 
-/// Notes the currents that the device limits.
-void tell_limits(const rig::SettledCurrents& settled, const std::vector<std::string>& coils) {
+}  // namespace
+
+void OperatedField::begin(const rig::SettledCurrents& settled) {
   std::vector<std::string> limited;
   for (const Eigen::Index k : settled.limited)
-    limited.push_back(fmt::format("{} to {:.4g} A of {:.4g} A", coils[static_cast<std::size_t>(k)],
+    limited.push_back(fmt::format("{} to {:.4g} A of {:.4g} A", coils_[static_cast<std::size_t>(k)],
                                   settled.currents[k], settled.step.currents[k]));
   if (!limited.empty()) note("note: the device limits {}\n", fmt::join(limited, ", "));
 }
 
-}  // namespace
-
-TypedField::TypedField(AnswerLine& answers, const std::vector<std::string>& coils, std::string what)
-    : answers_(answers), coils_(coils), question_(std::move(what)) {}
-
 void TypedField::begin(const rig::SettledCurrents& settled) {
-  tell_limits(settled, coils_);
+  OperatedField::begin(settled);
   if (const auto& b = settled.expected) {
     const auto shown = [&](Eigen::Index k) { return tidy((*b)[k], 1e3 * b->norm()); };
     question_ +=
         fmt::format(", ({:.4g}, {:.4g}, {:.4g}) mT expected", shown(0), shown(1), shown(2));
   }
   question_ += ". Bx By Bz in mT: ";
-  answers_.ask(question_);
+  answers().ask(question_);
 }
 
 std::optional<rig::FieldAnswer> TypedField::poll(double) {
   using enum rig::MeasurementOutcome;
-  const auto line = answers_.poll();
-  if (!line) return answers_.ended() ? std::optional(rig::FieldAnswer{ended}) : std::nullopt;
+  const auto line = answers().poll();
+  if (!line) return answers().ended() ? std::optional(rig::FieldAnswer{ended}) : std::nullopt;
   const std::string_view text = trimmed(*line);
   if (text == "q") return rig::FieldAnswer{ended};
   if (text == "r") return rig::FieldAnswer{repeat};
@@ -74,16 +69,12 @@ std::optional<rig::FieldAnswer> TypedField::poll(double) {
   if (const auto field = field_in(std::string(text), why))
     return rig::FieldAnswer{measured, {*field}};
   note("{}\n", why);
-  answers_.ask(question_);
+  answers().ask(question_);
   return std::nullopt;
 }
 
-LoggedField::LoggedField(AnswerLine& answers, const std::vector<std::string>& coils,
-                         actuation::ProbeFile& probe, double dwell)
-    : answers_(answers), coils_(coils), probe_(probe), dwell_(dwell) {}
-
 void LoggedField::begin(const rig::SettledCurrents& settled) {
-  tell_limits(settled, coils_);
+  OperatedField::begin(settled);
   probe_.skip_to_end();
 }
 

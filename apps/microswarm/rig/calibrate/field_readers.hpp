@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "microswarm/actuation/coils/probe_file.hpp"
@@ -12,36 +13,50 @@
 
 namespace microswarm::cli {
 
-/// Fields that an operator types. Notes the currents that the device limits.
-class TypedField : public rig::FieldReader {
+/// Reads fields beside an operator, who can stop the coils. Notes the currents that the device
+/// limits.
+class OperatedField : public rig::FieldReader {
  public:
-  /// `what` begins the question; `coils` are the coils' names.
-  TypedField(AnswerLine& answers, const std::vector<std::string>& coils, std::string what);
+  /// `coils`: the coils' names.
+  OperatedField(AnswerLine& answers, const std::vector<std::string>& coils)
+      : answers_(answers), coils_(coils) {}
 
   void begin(const rig::SettledCurrents& settled) override;
-  std::optional<rig::FieldAnswer> poll(double t) override;
   void watch() override { answers_.watch(); }
+
+ protected:
+  AnswerLine& answers() const { return answers_; }
 
  private:
   AnswerLine& answers_;
   const std::vector<std::string>& coils_;
+};
+
+/// Fields that the operator types.
+class TypedField : public OperatedField {
+ public:
+  /// `what` begins the question.
+  TypedField(AnswerLine& answers, const std::vector<std::string>& coils, std::string what)
+      : OperatedField(answers, coils), question_(std::move(what)) {}
+
+  void begin(const rig::SettledCurrents& settled) override;
+  std::optional<rig::FieldAnswer> poll(double t) override;
+
+ private:
   std::string question_;
 };
 
-/// Fields that the logger of a probe writes, over `dwell` s. Notes the currents that the device
-/// limits.
-class LoggedField : public rig::FieldReader {
+/// Fields that the logger of a probe writes, over `dwell` s.
+class LoggedField : public OperatedField {
  public:
   LoggedField(AnswerLine& answers, const std::vector<std::string>& coils,
-              actuation::ProbeFile& probe, double dwell);
+              actuation::ProbeFile& probe, double dwell)
+      : OperatedField(answers, coils), probe_(probe), dwell_(dwell) {}
 
   void begin(const rig::SettledCurrents& settled) override;
   std::optional<rig::FieldAnswer> poll(double t) override;
-  void watch() override { answers_.watch(); }
 
  private:
-  AnswerLine& answers_;
-  const std::vector<std::string>& coils_;
   actuation::ProbeFile& probe_;
   double dwell_;
   std::vector<Eigen::Vector3d> readings_;

@@ -80,7 +80,7 @@ std::optional<std::string> Dialogue::wait_for_line() {
   return std::nullopt;
 }
 
-/// Has the probe moved; how the step ends if it is not.
+/// Asks for the probe at a position; the step's outcome if it is not moved there.
 std::optional<rig::MeasurementOutcome> Dialogue::move_to(const Eigen::Vector3d& position) {
   if (position_ && *position_ == position) return std::nullopt;
   const bool asks = answers_.is_terminal() || position_ || position != rig_.system.centre();
