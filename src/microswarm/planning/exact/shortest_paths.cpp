@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <numeric>
 #include <span>
-
-#include "microswarm/planning/exact/tangent_query.hpp"
+#include <utility>
 
 namespace microswarm::planning {
 namespace {
@@ -54,7 +53,7 @@ ShortestPath ShortestPaths::find(Vec2 start, Vec2 goal, const BodySet& moving, c
     path.lines = 1;
     return path;
   }
-  TangentQuery query(graph_, start, goal, moving);
+  TangentQuery query(graph_, start, goal, moving, std::move(memory_));
   for (;;) {
     if (path.expanded % 8 == 0)
       if (const auto told = stop.status()) {
@@ -76,6 +75,7 @@ ShortestPath ShortestPaths::find(Vec2 start, Vec2 goal, const BodySet& moving, c
   }
   if (path.status != Status::solved) path.points = path_near(query, goal);
   path.lines = query.labels().size();
+  memory_ = query.release();
   return path;
 }
 

@@ -6,7 +6,7 @@
 
 #include "microswarm/core/execution/status.hpp"
 #include "microswarm/core/execution/stop.hpp"
-#include "microswarm/planning/exact/tangent_graph.hpp"
+#include "microswarm/planning/exact/tangent_query.hpp"
 
 namespace microswarm::planning {
 
@@ -40,6 +40,7 @@ class ShortestPaths {
 
  private:
   TangentGraph graph_;
+  TangentQuery::Memory memory_;  ///< of the last query
 };
 
 }  // namespace microswarm::planning

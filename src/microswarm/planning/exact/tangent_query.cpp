@@ -10,26 +10,43 @@
 namespace microswarm::planning {
 
 TangentQuery::TangentQuery(TangentGraph& graph, Vec2 start, Vec2 goal, bool ends_there,
-                           const BodySet* moving)
+                           const BodySet* moving, Memory memory)
     : graph_(&graph),
       query_(graph.begin_query(moving)),
       start_(start),
       goal_(goal),
       ends_there_(ends_there),
       moving_(moving),
-      circles_now_(moving ? graph.circle_count() : 0) {
+      from_start_(std::move(memory.from_start)),
+      circles_now_(std::move(memory.circles_now)),
+      arcs_now_(std::move(memory.arcs_now)),
+      guesses_(std::move(memory.guesses)),
+      labels_(std::move(memory.labels)),
+      open_(std::move(memory.open)) {
+  circles_now_.assign(moving ? graph.circle_count() : 0, {});
+  arcs_now_.clear();
+  guesses_.clear();
+  labels_.clear();
+  open_.clear();
   from_start_.begin(graph.corners().cells(), start_, goal_, graph.clearance());
   for (std::uint32_t to = 2 * graph.still_count(); to < 2 * graph.circle_count(); ++to)
     open_from_start(to);
   look_from_start(distance(start_, goal_));
 }
 
-TangentQuery::TangentQuery(TangentGraph& graph, Vec2 start, Vec2 goal, const BodySet& moving)
-    : TangentQuery(graph, start, goal, true, moving.empty() ? nullptr : &moving) {}
+TangentQuery::TangentQuery(TangentGraph& graph, Vec2 start, Vec2 goal, const BodySet& moving,
+                           Memory memory)
+    : TangentQuery(graph, start, goal, true, moving.empty() ? nullptr : &moving,
+                   std::move(memory)) {}
 
 TangentQuery::TangentQuery(TangentGraph& graph, Vec2 start)
-    : TangentQuery(graph, start, start, false, nullptr) {
+    : TangentQuery(graph, start, start, false, nullptr, {}) {
   look_from_start(infinity);
+}
+
+TangentQuery::Memory TangentQuery::release() {
+  return {std::move(from_start_), std::move(circles_now_), std::move(arcs_now_),
+          std::move(guesses_),    std::move(labels_),      std::move(open_)};
 }
 
 /// Index of the free arc that contains this angle; −1 if none does.

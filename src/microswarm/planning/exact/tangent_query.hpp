@@ -40,9 +40,11 @@ class TangentQuery {
     double length = 0;
   };
 
+  struct Memory;
+
   /// A query for a path from `start` to `goal`, with the tangents from the start open, those near
-  /// the line to the goal first. `moving` must outlive it.
-  TangentQuery(TangentGraph& graph, Vec2 start, Vec2 goal, const BodySet& moving);
+  /// the line to the goal first. `moving` must outlive it. `memory` is that of an earlier query.
+  TangentQuery(TangentGraph& graph, Vec2 start, Vec2 goal, const BodySet& moving, Memory memory);
   /// A query for paths to any position, among walls alone.
   TangentQuery(TangentGraph& graph, Vec2 start);
 
@@ -79,6 +81,8 @@ class TangentQuery {
   std::size_t bytes() const {
     return labels_.capacity() * sizeof(Label) + open_.capacity() * sizeof(Open);
   }
+  /// Its memory for the next query. This one ends.
+  Memory release();
 
   /// Path to the end of a label [µm]; arcs are replaced by tangent lines, which keep the clearance.
   std::vector<Vec2> path_to(std::uint32_t label) const;
@@ -119,7 +123,8 @@ class TangentQuery {
     }
   };
 
-  TangentQuery(TangentGraph& graph, Vec2 start, Vec2 goal, bool ends_there, const BodySet* moving);
+  TangentQuery(TangentGraph& graph, Vec2 start, Vec2 goal, bool ends_there, const BodySet* moving,
+               Memory memory);
   int arc_at(std::uint32_t circle, double angle);
   bool is_near_moving(std::uint32_t circle);
   void look_from_start(double length);
@@ -148,6 +153,16 @@ class TangentQuery {
   std::vector<Guess> guesses_;
   std::vector<Label> labels_;
   std::vector<Open> open_;
+};
+
+/// What an ended query hands to the next one, which then allocates little.
+struct TangentQuery::Memory {
+  TrapezoidLook from_start;
+  std::vector<CircleNow> circles_now;
+  std::vector<Arc> arcs_now;
+  std::vector<Guess> guesses;
+  std::vector<Label> labels;
+  std::vector<Open> open;
 };
 
 }  // namespace microswarm::planning
