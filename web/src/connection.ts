@@ -52,14 +52,14 @@ export class Connection {
     this.listeners.push(listener);
   }
 
-  /** Sends a request; the answer lists its issues, if any. */
+  /** Sends a request, once the stream is open; the answer lists its issues, if any. */
   ask(request: Request): Promise<Answer> {
     const id = this.next++;
     if (this.socket.readyState > WebSocket.OPEN) return Promise.resolve({ ...closed, id });
-    return new Promise((resolve) => {
-      this.waiting.set(id, resolve);
-      this.socket.send(JSON.stringify({ id, ...request }));
-    });
+    const send = () => this.socket.send(JSON.stringify({ id, ...request }));
+    if (this.socket.readyState === WebSocket.OPEN) send();
+    else this.socket.addEventListener('open', send, { once: true });
+    return new Promise((resolve) => this.waiting.set(id, resolve));
   }
 
   /** Sends a request that has no answer; does nothing unless the stream is open. */

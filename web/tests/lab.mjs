@@ -68,11 +68,15 @@ export async function startMortalBrowser() {
   return { browser, kill: () => server.process().kill('SIGKILL') };
 }
 
-/** A page of the lab; close() fails if there was an error or a request to elsewhere. */
-export async function openPage(browser, url, size = { width: 1280, height: 800 }) {
+/**
+ * A page of the lab; close() fails if there was an error or a request to elsewhere. `first` is called in it before
+ * any other script.
+ */
+export async function openPage(browser, url, size = { width: 1280, height: 800 }, first = undefined) {
   const context = await browser.newContext({ viewport: size, acceptDownloads: true });
   const page = await context.newPage();
   const complaints = [];
+  if (first) await page.addInitScript(first);
   page.on('console', (message) => {
     if (message.type() === 'error') complaints.push(message.text());
   });

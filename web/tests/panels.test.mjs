@@ -48,6 +48,24 @@ test('keys play, tick, seek, change the speed and show themselves', () =>
     await page.waitForSelector('[data-mode="autonomous"]');
   }));
 
+test('a key is not lost before the session has answered', async () => {
+  const lab = await startLab('scenarios/first_flight.yaml');
+  const tickAtOnce = () => {
+    const observer = new MutationObserver(() => {
+      if (!document.querySelector('.timebar')) return;
+      observer.disconnect();
+      for (let tick = 0; tick < 2; ++tick)
+        document.body.dispatchEvent(new KeyboardEvent('keydown', { key: '.', bubbles: true }));
+    });
+    observer.observe(document, { childList: true, subtree: true });
+  };
+  const { page, close } = await openPage(browser, lab.url, undefined, tickAtOnce);
+  await page.waitForSelector('.timebar');
+  await until(page, () => document.querySelector('.scrub').max >= 1);
+  await close();
+  assert.equal(await lab.stop(), 0);
+});
+
 test('one scrubs over what was recorded, and a click in a plot seeks', () =>
   inLab('scenarios/first_flight.yaml', async (page, { picture }) => {
     await page.selectOption('.speed', '0');
