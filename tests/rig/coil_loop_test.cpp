@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "microswarm/actuation/drivers/simulated_coil_driver.hpp"
 #include "microswarm/config/yaml.hpp"
 
 namespace microswarm::rig {

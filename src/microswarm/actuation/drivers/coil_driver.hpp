@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -117,27 +118,14 @@ class CoilDriver {
   virtual void interrupt() noexcept {}
 };
 
+/// What a driver is opened for.
+struct CoilSite {
+  std::filesystem::path folder;  ///< of the rig's file
+  std::filesystem::path coils;   ///< file of the coil system
+  std::size_t count = 0;         ///< number of coils
+};
+
 /// Why this status ends a run, with the driver's own reason; also for no_answer.
 std::string trouble_text(const CoilDriver& driver, DriveStatus status);
-
-/// Driver without hardware. It takes requests of all kinds; a waveform has the commanded phase.
-class SimulatedCoilDriver final : public CoilDriver {
- public:
-  /// `full_scale` is the maximum current [A].
-  SimulatedCoilDriver(int channels, double full_scale, CoilInput input = CoilInput::currents);
-
-  Capabilities capabilities() const override { return capabilities_; }
-  DriveStatus drive(const CoilRequest& request) override;
-  const DeviceReport& report() const override { return report_; }
-  StopReport stop() noexcept override;
-
- private:
-  DriveStatus hold(std::span<const double> currents);
-  DriveStatus turn(const CurrentWaveform& waveform);
-
-  Capabilities capabilities_;
-  double full_scale_;
-  DeviceReport report_;
-};
 
 }  // namespace microswarm::actuation

@@ -33,10 +33,8 @@ double scale_between(std::span<const double> values, std::span<const double> app
   return square > 0 ? std::clamp(product / square, 0.0, 1.0) : 1;
 }
 
-std::size_t channel_count(const LineDriverParams& params, std::size_t coils) {
-  if (params.send == DriverInput::field || !params.channels) return coils;
-  return static_cast<std::size_t>(*params.channels);
-}
+/// Updates that fit into the watchdog's time, at least.
+constexpr double min_updates = 2;
 
 std::string to_list(std::span<const double> values) {
   return one_line(fmt::format("{:.6g}", fmt::join(values, " ")), 100);
@@ -44,13 +42,55 @@ std::string to_list(std::span<const double> values) {
 
 }  // namespace
 
+Issues LineDriverParams::validate(double drive_rate) const {
+  Issues issues;
+  const double least = min_updates / drive_rate;
+  if (watchdog < least)
+    issues.add({"driver.watchdog_s", "drive_rate_hz"},
+               fmt::format("driver.watchdog_s is {:.6g}, two updates at drive_rate_hz {:.6g} take "
+                           "{:.6g}",
+                           watchdog, drive_rate, least));
+  if (send == DriverInput::field && channels)
+    issues.add({"driver.channels", "driver"},
+               "driver.channels is of currents, the driver is sent the field");
+  return issues;
+}
+
+Issues ProgramDriverParams::validate(double drive_rate) const {
+  Issues issues;
+  if (command.empty() || command.front().empty())
+    issues.add({"driver.command", "driver"}, "the command of the driver is empty");
+  issues.add(LineDriverParams::validate(drive_rate));
+  return issues;
+}
+
+std::unique_ptr<CoilDriver> ProgramDriverParams::open(const CoilSite& site) const {
+  auto lock = std::make_unique<DeviceLock>(site.coils);
+  return std::make_unique<LineCoilDriver>(
+      [command = command, folder = site.folder, file = lock->descriptor()](double) {
+        return start_program(command, folder, file);
+      },
+      *this, site.count, std::move(lock));
+}
+
+std::unique_ptr<CoilDriver> SocketDriverParams::open(const CoilSite& site) const {
+  // A Unix socket's path is relative to the rig's file.
+  const bool is_path = host.find('/') != std::string::npos;
+  return std::make_unique<LineCoilDriver>(
+      [host = is_path ? (site.folder / host).string() : host, port = port](double timeout) {
+        return connect_socket(host, port, timeout);
+      },
+      *this, site.count, std::make_unique<DeviceLock>(site.coils));
+}
+
 LineCoilDriver::LineCoilDriver(OpenConnection open, const LineDriverParams& params,
                                std::size_t coils, std::unique_ptr<DeviceLock> lock)
     : lock_(std::move(lock)),
       open_(std::move(open)),
       connection_(open_(params.connect_timeout)),
       params_(params),
-      report_{.currents = std::vector<double>(channel_count(params, coils))},
+      report_{.currents =
+                  std::vector<double>(static_cast<std::size_t>(params.channel_count(coils)))},
       sent_(params.send == DriverInput::field ? 3 : report_.currents.size()) {
   greet(params_.connect_timeout);
 }
@@ -78,7 +118,7 @@ bool LineCoilDriver::is_possible(std::span<const double> currents) const {
 }
 
 Capabilities LineCoilDriver::capabilities() const {
-  return {static_cast<int>(report_.currents.size()), coil_input(params_.send)};
+  return {static_cast<int>(report_.currents.size()), params_.input()};
 }
 
 DriveStatus LineCoilDriver::drive(const CoilRequest& request) {

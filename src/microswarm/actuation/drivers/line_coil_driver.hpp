@@ -16,6 +16,7 @@
 #include "microswarm/actuation/drivers/coil_driver.hpp"
 #include "microswarm/actuation/drivers/line_connection.hpp"
 #include "microswarm/actuation/drivers/line_protocol.hpp"
+#include "microswarm/core/errors/issue.hpp"
 #include "microswarm/core/execution/stop.hpp"
 #include "microswarm/core/fields/fields.hpp"
 
@@ -28,13 +29,9 @@ constexpr auto enum_names(DriverInput) {
       {{DriverInput::currents, "currents"}, {DriverInput::field, "field"}}};
 }
 
-/// Input of a device that is sent these.
-inline CoilInput coil_input(DriverInput sent) {
-  return sent == DriverInput::field ? CoilInput::field : CoilInput::currents;
-}
-
 /// Common parameters of driver programs and sockets.
 struct LineDriverParams {
+  static constexpr bool is_device = true;
   DriverInput send = DriverInput::currents;
   std::optional<int> channels;
   double full_scale = 20;
@@ -55,6 +52,11 @@ struct LineDriverParams {
     visit(self.connect_timeout,
           s("connect_timeout", 0.1, 300, "Longest wait for the first answer."));
   }
+  CoilInput input() const {
+    return send == DriverInput::field ? CoilInput::field : CoilInput::currents;
+  }
+  int channel_count(std::size_t coils) const { return channels.value_or(static_cast<int>(coils)); }
+  Issues validate(double drive_rate) const;
 };
 
 /// A user-supplied program that drives the coils.
@@ -67,6 +69,8 @@ struct ProgramDriverParams : LineDriverParams {
           plain("command", "Program and its arguments, started beside the rig's file.").needed());
     LineDriverParams::fields(self, visit);
   }
+  Issues validate(double drive_rate) const;
+  std::unique_ptr<CoilDriver> open(const CoilSite& site) const;
 };
 
 /// A user-supplied server that drives the coils.
@@ -80,6 +84,7 @@ struct SocketDriverParams : LineDriverParams {
     visit(self.port, plain("port", 1, 65535, "TCP port; not for a Unix socket."));
     LineDriverParams::fields(self, visit);
   }
+  std::unique_ptr<CoilDriver> open(const CoilSite& site) const;
 };
 
 /// Driver that speaks the line protocol (docs/reference/line-protocol.md) with a user-supplied

@@ -75,6 +75,10 @@ class SerialCoilDriver::Port {
   std::optional<ByteStream> stream_;
 };
 
+std::unique_ptr<CoilDriver> SerialCoilParams::open(const CoilSite&) const {
+  return std::make_unique<SerialCoilDriver>(*this);
+}
+
 SerialCoilDriver::SerialCoilDriver(const SerialCoilParams& params)
     : params_(params),
       port_(std::make_unique<Port>(params.port)),

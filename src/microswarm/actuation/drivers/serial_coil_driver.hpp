@@ -13,6 +13,7 @@
 #include "microswarm/actuation/drivers/coil_driver.hpp"
 #include "microswarm/actuation/drivers/coil_link.hpp"
 #include "microswarm/actuation/drivers/output_check.hpp"
+#include "microswarm/core/errors/issue.hpp"
 #include "microswarm/core/execution/stop.hpp"
 #include "microswarm/core/fields/fields.hpp"
 
@@ -21,6 +22,7 @@ namespace microswarm::actuation {
 /// Serial port and timeouts of the device.
 struct SerialCoilParams {
   static constexpr std::string_view type_name = "serial";
+  static constexpr bool is_device = true;
   std::string port = "/dev/ttyACM0";
   double full_scale = 20;
   double reply_timeout = 0.02;
@@ -41,12 +43,11 @@ struct SerialCoilParams {
     visit(self.waveforms,
           plain("waveforms", "The device turns the field; the host only steers it."));
   }
+  CoilInput input() const { return waveforms ? CoilInput::waveform : CoilInput::currents; }
+  int channel_count(std::size_t) const { return coil_link_channels; }
+  Issues validate(double) const { return {}; }
+  std::unique_ptr<CoilDriver> open(const CoilSite& site) const;
 };
-
-/// Input of its device.
-inline CoilInput coil_input(const SerialCoilParams& params) {
-  return params.waveforms ? CoilInput::waveform : CoilInput::currents;
-}
 
 /// Driver of six coils on an Arduino Mega 2560 with firmware/coil_driver
 /// (docs/reference/protocol.md). A Mega that was reset runs its bootloader, which takes any byte
@@ -63,7 +64,7 @@ class SerialCoilDriver final : public CoilDriver {
   SerialCoilDriver(const SerialCoilDriver&) = delete;
   SerialCoilDriver& operator=(const SerialCoilDriver&) = delete;
 
-  Capabilities capabilities() const override { return {coil_link_channels, coil_input(params_)}; }
+  Capabilities capabilities() const override { return {coil_link_channels, params_.input()}; }
   DriveStatus drive(const CoilRequest& request) override;
   const DeviceReport& report() const override { return report_; }
   /// Sent also after three exchanges without an answer. Waits at most 2 s for the confirmation.

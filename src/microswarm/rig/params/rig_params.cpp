@@ -16,39 +16,6 @@ namespace {
 constexpr double min_sends = 10;            // per turn of the field
 constexpr double max_waveform_sends = 100;  // [Hz]; one takes 7.7 ms at 115200 baud
 
-/// Issues of a program or a socket of the rig's owner.
-Issues validate_own(const actuation::LineDriverParams& driver, double drive_rate) {
-  Issues issues;
-  constexpr double periods = 2;
-  const double least = periods / drive_rate;
-  if (driver.watchdog < least)
-    issues.add({"driver.watchdog_s", "drive_rate_hz"},
-               fmt::format("driver.watchdog_s is {:.6g}, two updates at drive_rate_hz {:.6g} take "
-                           "{:.6g}",
-                           driver.watchdog, drive_rate, least));
-  if (driver.send == actuation::DriverInput::field && driver.channels)
-    issues.add({"driver.channels", "driver"},
-               "driver.channels is of currents, the driver is sent the field");
-  return issues;
-}
-
-Issues validate_driver(const RigParams& rig) {
-  return std::visit(
-      Overloaded{
-          [](const OneOf<SimulatedCoils, actuation::SerialCoilParams> auto&) { return Issues(); },
-          [&](const actuation::ProgramDriverParams& program) {
-            Issues issues;
-            if (program.command.empty() || program.command.front().empty())
-              issues.add({"driver.command", "driver"}, "the command of the driver is empty");
-            issues.add(validate_own(program, rig.drive_rate));
-            return issues;
-          },
-          [&](const actuation::SocketDriverParams& socket) {
-            return validate_own(socket, rig.drive_rate);
-          }},
-      rig.driver);
-}
-
 /// The field that drives a kind of swarm in the papers.
 struct UsualField {
   const char* swarm;
@@ -76,7 +43,8 @@ Issues validate(const RigParams& rig, const actuation::CoilSystem& system) {
                            rig.drive_rate, rig.field.frequency, min_rate));
   issues.add_within("perception.scene.swarm.look", validate(rig.perception.scene.swarm.look));
   issues.add_within("perception.scene.obstacles", validate(rig.perception.scene.obstacles));
-  issues.add(validate_driver(rig));
+  issues.add(
+      std::visit([&](const auto& driver) { return driver.validate(rig.drive_rate); }, rig.driver));
   const int channels = channel_count(rig, system);
   if (static_cast<int>(system.size()) > channels)
     issues.add(
@@ -105,27 +73,12 @@ double driver_full_scale(const RigParams& rig) {
 }
 
 int channel_count(const RigParams& rig, const actuation::CoilSystem& system) {
-  return std::visit(
-      Overloaded{
-          [](const SimulatedCoils& coils) { return coils.channels; },
-          [](const actuation::SerialCoilParams&) { return actuation::coil_link_channels; },
-          [&](const OneOf<actuation::ProgramDriverParams, actuation::SocketDriverParams> auto&
-                  own) { return own.channels.value_or(static_cast<int>(system.size())); }},
-      rig.driver);
+  return std::visit([&](const auto& driver) { return driver.channel_count(system.size()); },
+                    rig.driver);
 }
 
 actuation::CoilInput coil_input(const RigParams& rig) {
-  return std::visit(
-      Overloaded{
-          [](const SimulatedCoils& coils) {
-            return coils.waveforms ? actuation::CoilInput::waveform
-                                   : actuation::CoilInput::currents;
-          },
-          [](const actuation::SerialCoilParams& serial) { return coil_input(serial); },
-          [](const OneOf<actuation::ProgramDriverParams, actuation::SocketDriverParams> auto& own) {
-            return coil_input(own.send);
-          }},
-      rig.driver);
+  return std::visit([](const auto& driver) { return driver.input(); }, rig.driver);
 }
 
 CameraKind camera_kind(const RigParams& rig) {
@@ -166,11 +119,7 @@ std::string rig_name(const Rig& rig) {
 }
 
 bool has_coil_device(const Rig& rig) {
-  return std::visit(
-      Overloaded{[](const SimulatedCoils&) { return false; },
-                 [](const OneOf<actuation::SerialCoilParams, actuation::ProgramDriverParams,
-                                actuation::SocketDriverParams> auto&) { return true; }},
-      rig.params.driver);
+  return std::visit([](const auto& driver) { return driver.is_device; }, rig.params.driver);
 }
 
 const SimulatedCamera& simulated_camera(const Rig& rig) {

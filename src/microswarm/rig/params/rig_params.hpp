@@ -11,6 +11,7 @@
 #include "microswarm/actuation/coils/coil_system.hpp"
 #include "microswarm/actuation/drivers/line_coil_driver.hpp"
 #include "microswarm/actuation/drivers/serial_coil_driver.hpp"
+#include "microswarm/actuation/drivers/simulated_coil_driver.hpp"
 #include "microswarm/actuation/field/field_generator.hpp"
 #include "microswarm/config/key_locations.hpp"
 #include "microswarm/config/settings.hpp"
@@ -23,20 +24,6 @@
 #include "microswarm/vision/camera/camera_scale.hpp"
 
 namespace microswarm::rig {
-
-/// Simulated coils that accept any current up to the full scale.
-struct SimulatedCoils {
-  static constexpr std::string_view type_name = "simulated";
-  int channels = 6;
-  double full_scale = 20;
-  bool waveforms = false;
-  template <class Self, class V>
-  static void fields(Self& self, V&& visit) {
-    visit(self.channels, plain("channels", 1, 64, "Number of coil channels."));
-    visit(self.full_scale, a("full_scale", 1e-6, 1e6, "Current of a channel at full output."));
-    visit(self.waveforms, plain("waveforms", "The coils turn the field; the host only steers it."));
-  }
-};
 
 /// Simulated microscope that draws the scenario's world.
 struct SimulatedCamera {
@@ -97,15 +84,20 @@ struct SafetyParams {
   }
 };
 
+/// Every kind of coil driver. A new kind is its own files and an entry here. Each says its
+/// `full_scale` [A], whether it `is_device`, its `input()`, its `channel_count(coils)`, what is
+/// wrong with it at a drive rate, `validate(rate)`, and how a driver is opened, `open(site)`.
+using CoilDriverParams =
+    std::variant<actuation::SimulatedCoils, actuation::SerialCoilParams,
+                 actuation::ProgramDriverParams, actuation::SocketDriverParams>;
+
 /// Contents of a rig file: camera, coils, and the processing between them.
 struct RigParams {
   std::string name;
   std::string coils;
   actuation::FieldGeneratorParams field;
   double drive_rate = 200;
-  std::variant<SimulatedCoils, actuation::SerialCoilParams, actuation::ProgramDriverParams,
-               actuation::SocketDriverParams>
-      driver;
+  CoilDriverParams driver;
   std::variant<SimulatedCamera, vision::CameraParams, vision::GenicamParams, VideoCamera> camera;
   std::optional<vision::CameraScale> scale;
   PerceptionParams perception;

@@ -31,31 +31,6 @@ class PacedVideo : public vision::FrameSource {
   double began_;
 };
 
-using Coils = std::unique_ptr<actuation::CoilDriver>;
-
-Coils open_program(const actuation::ProgramDriverParams& program, const Rig& rig) {
-  auto lock = std::make_unique<actuation::DeviceLock>(rig.folder / rig.params.coils);
-  return std::make_unique<actuation::LineCoilDriver>(
-      [command = program.command, folder = rig.folder, file = lock->descriptor()](double) {
-        return actuation::start_program(command, folder, file);
-      },
-      program, rig.system.size(), std::move(lock));
-}
-
-/// A Unix socket's path is relative to the rig's file.
-std::string beside(const Rig& rig, const std::string& host) {
-  return host.find('/') == std::string::npos ? host : (rig.folder / host).string();
-}
-
-Coils open_socket(const actuation::SocketDriverParams& socket, const Rig& rig) {
-  auto lock = std::make_unique<actuation::DeviceLock>(rig.folder / rig.params.coils);
-  return std::make_unique<actuation::LineCoilDriver>(
-      [host = beside(rig, socket.host), port = socket.port](double timeout) {
-        return actuation::connect_socket(host, port, timeout);
-      },
-      socket, rig.system.size(), std::move(lock));
-}
-
 std::unique_ptr<vision::FrameSource> open_video(const VideoCamera& video, const Rig& rig) {
   if (video.file.empty()) throw rig.keys.error("camera.file", "which video is missing");
   return std::make_unique<PacedVideo>(vision::open_frames(rig.folder / video.file, video.rate));
@@ -64,15 +39,8 @@ std::unique_ptr<vision::FrameSource> open_video(const VideoCamera& video, const 
 }  // namespace
 
 std::unique_ptr<actuation::CoilDriver> open_coils(const Rig& rig) {
-  return std::visit(
-      Overloaded{
-          [&](const SimulatedCoils&) -> Coils { return simulated_coils(rig); },
-          [](const actuation::SerialCoilParams& serial) -> Coils {
-            return std::make_unique<actuation::SerialCoilDriver>(serial);
-          },
-          [&](const actuation::ProgramDriverParams& program) { return open_program(program, rig); },
-          [&](const actuation::SocketDriverParams& socket) { return open_socket(socket, rig); }},
-      rig.params.driver);
+  const actuation::CoilSite site{rig.folder, rig.folder / rig.params.coils, rig.system.size()};
+  return std::visit([&](const auto& driver) { return driver.open(site); }, rig.params.driver);
 }
 
 std::unique_ptr<vision::FrameSource> open_rig_camera(const Rig& rig) {
