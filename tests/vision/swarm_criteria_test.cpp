@@ -160,6 +160,26 @@ TEST(NotSwarm, EachCriterionIsToldWithValueAndLimit) {
     formats::write_png(std::filesystem::path(given) / "reasons.png", shown);
 }
 
+TEST(NotSwarm, ASmoothPartCutOffFromASwarmHasItsOwnOutline) {
+  int cut_off = 0;
+  for (const double angle : {-2.5, -1.5, -0.5, 0.5, 1.5, 2.5})
+    for (const double apart : {35.0, 42.0, 50.0}) {
+      DrawnScene drawn;
+      const Vec2 smooth = Vec2{320, 240} + apart * unit_vector(angle);
+      drawn.cloud({320, 240}, 30);
+      drawn.frame.disc(smooth, 22, 0.4);
+      std::vector<Blob> refused;
+      find_blobs(drawn.look(2), SceneParams().swarm.look, nullptr, &refused);
+      for (const Blob& blob : refused) {
+        if (blob.radius_px < 15) continue;
+        ++cut_off;
+        for (const Vec2 q : blob.outline_px)
+          EXPECT_LT(std::min(distance(q, smooth) - 22, distance(q, {320, 240}) - 30), 4);
+      }
+    }
+  EXPECT_GT(cut_off, 6);
+}
+
 TEST(NotSwarm, TheOtherToneIsTold) {
   DrawnScene drawn;
   drawn.cloud({120, 120}, 30);

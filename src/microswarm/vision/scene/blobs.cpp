@@ -270,11 +270,25 @@ cv::Mat smooth_parts(const BlobContext& field, const Piece& piece, double least)
   return core & smooth;
 }
 
+/// The contour of a piece at `level` in working pixels. What is as high beside the piece but was
+/// cut off from it counts as background.
+std::vector<Vec2> outline_of(const cv::Mat& foreground, const Piece& piece, float level) {
+  const cv::Rect all(0, 0, foreground.cols, foreground.rows);
+  const cv::Rect around = (piece.box + cv::Size(2, 2) - cv::Point(1, 1)) & all;
+  cv::Mat own = foreground(around).clone();
+  cv::Mat others = cv::Mat::ones(around.size(), CV_8U);
+  others(piece.box - around.tl()).setTo(0, piece.in);
+  own.setTo(0, others & (own > level));
+  std::vector<Vec2> line = level_line(own, level, piece.first() - around.tl());
+  for (Vec2& q : line) q += Vec2{1.0 * around.x, 1.0 * around.y};
+  return line;
+}
+
 /// Blob of a piece with its outline at `level`; `noise` is the roughness of the background.
 std::optional<Blob> measure_blob(const BlobContext& field, const Piece& piece, float level,
                                  double noise) {
   Blob blob;
-  blob.outline_px = level_line(field.foreground, level, piece.first());
+  blob.outline_px = outline_of(field.foreground, piece, level);
   for (Vec2& q : blob.outline_px) q = field.side * q + 0.5 * (field.side - 1) * Vec2{1, 1};
   if (!measure(blob)) return std::nullopt;
   blob.contrast = median_within(field.foreground, piece);

@@ -29,7 +29,7 @@ std::vector<Vec2> level_line(const cv::Mat& field, float level, cv::Point start)
     }
     return Vec2{p.x + share * (outer.x - p.x), p.y + share * (outer.y - p.y)};
   };
-  assert(inside(start));
+  assert(inside(start) && !inside(start + step(0)));  // else there is no end
   std::vector<Vec2> line;
   cv::Point at = start;
   int out = 0;
