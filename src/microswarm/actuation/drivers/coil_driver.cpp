@@ -28,7 +28,7 @@ std::string_view trouble_text(DriveStatus status) {
     case DriveStatus::emergency:
       return "the emergency stop of the coils' device was pressed";
     case DriveStatus::mismatched:
-      return "the coils' device does something else than it was told";
+      return "the coils' device reports other values than those sent";
     case DriveStatus::gone:
       return "the coil driver has ended";
     case DriveStatus::driven:

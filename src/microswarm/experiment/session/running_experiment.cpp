@@ -96,7 +96,7 @@ Issues RunningExperiment::set(const std::string& wanted_key, const std::string& 
     issues.add(key, key + " is set in more than one line");
   const bool steers_anew = key == "navigator" || key == "goal_um" || key == "goal_tolerance_um";
   if (steers_anew && has_external_navigator_)
-    issues.add(key, "an external navigator cannot be told of another " + key);
+    issues.add(key, "an external navigator cannot take another " + key);
   if (issues.empty()) issues = misread.unplaced();
   if (!issues.empty()) return issues;
 

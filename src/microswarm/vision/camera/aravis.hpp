@@ -48,7 +48,7 @@ class Complaint {
   Complaint& operator=(const Complaint&) = delete;
   GError** out() { return &error_; }
   explicit operator bool() const { return error_ != nullptr; }
-  std::string text() const { return error_ ? one_line(error_->message) : "no reason is told"; }
+  std::string text() const { return error_ ? one_line(error_->message) : "no reason is given"; }
 
  private:
   GError* error_ = nullptr;

@@ -124,7 +124,7 @@ class GenicamDevice : public CameraDevice {
     stream_.reset(device_.ask("stream", arv_camera_create_stream, nullptr, nullptr));
     if (!stream_) fail("gives no stream of pictures");
     const guint size = device_.ask("stream", arv_camera_get_payload);
-    if (size == 0 || size > max_payload) fail("tells no size of its pictures");
+    if (size == 0 || size > max_payload) fail("reports no picture size");
     for (int i = 0; i < buffers; ++i)
       arv_stream_push_buffer(stream_.get(), arv_buffer_new(size, nullptr));
     form_ = read_region(device_);

@@ -109,7 +109,7 @@ void V4l2Device::set_format(std::optional<PixelFormat> format, int width, int he
   v4l2_format form{};
   form.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   if (const int error = ask(VIDIOC_G_FMT, &form); error != 0)
-    fail("tells no format of its pictures: " + reason(error));
+    fail("reports no picture format: " + reason(error));
   v4l2_pix_format& pix = form.fmt.pix;
   const std::uint32_t wanted = format ? to_fourcc(*format) : pix.pixelformat;
   readable(wanted);

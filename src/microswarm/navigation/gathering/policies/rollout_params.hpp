@@ -43,7 +43,7 @@ struct RolloutParams {
               .formerly("lookahead_places"));
     visit(self.candidates,
           plain("candidates", 0, 1e4, "Trials of a state; 0: no search by layers."));
-    visit(self.horizon, plain("horizon", 1, 1e6, "Most steps of a trial."));
+    visit(self.horizon, plain("horizon", 1, 1e6, "Maximum number of steps of a trial."));
     visit(self.layer_width, plain("layer_width", 1, 1e6, "States kept after equally many steps."));
     visit(self.max_deviation,
           plain("max_deviation", 0, 1e6, "Mean deviation in steps above which it plans again.")
