@@ -67,7 +67,9 @@ std::string csv(const std::vector<Cells>& lines) {
   return out;
 }
 
-std::string plain(const std::optional<double>& v) { return v ? fmt::format("{:.6g}", *v) : ""; }
+std::string csv_number(const std::optional<double>& v) {
+  return v ? fmt::format("{:.6g}", *v) : "";
+}
 
 }  // namespace
 
@@ -126,8 +128,9 @@ std::string rows_table(const std::vector<BenchRow>& rows) {
 std::string rows_csv(const std::vector<ReproduceRow>& rows) {
   std::vector<Cells> lines{{"figure", "quantity", "unit", "paper", "ours", "aim", "ok", "note"}};
   for (const auto& r : rows)
-    lines.push_back({r.figure, r.quantity, r.unit, plain(r.paper), plain(r.ours), plain(r.aim),
-                     r.has_verdict() ? (r.ok() ? "true" : "false") : "", r.note});
+    lines.push_back({r.figure, r.quantity, r.unit, csv_number(r.paper), csv_number(r.ours),
+                     csv_number(r.aim), r.has_verdict() ? (r.ok() ? "true" : "false") : "",
+                     r.note});
   return csv(lines);
 }
 
@@ -135,8 +138,8 @@ std::string rows_csv(const std::vector<BenchRow>& rows) {
   std::vector<Cells> lines{
       {"name", "quantity", "unit", "ours", "peer", "peer_name", "ratio", "aim", "ok"}};
   for (const auto& r : rows)
-    lines.push_back({r.name, r.quantity, r.unit, plain(r.ours), plain(r.peer), r.peer_name,
-                     plain(r.ratio()), plain(r.aim),
+    lines.push_back({r.name, r.quantity, r.unit, csv_number(r.ours), csv_number(r.peer),
+                     r.peer_name, csv_number(r.ratio()), csv_number(r.aim),
                      r.has_verdict() ? (r.ok() ? "true" : "false") : ""});
   return csv(lines);
 }
