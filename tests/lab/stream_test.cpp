@@ -102,6 +102,43 @@ TEST(Stream, ARecordShowsTheDiagnosticsThatItKeeps) {
   }
 }
 
+TEST(Stream, DecisionsAreWholeInAFrame) {
+  experiment::SessionView view;
+  Json predicted = decoded(frame_message(
+      view, PredictiveDiagnostics{.bodies = {{.body = 3,
+                                              .t = 1,
+                                              .centre = {2, 4},
+                                              .turn = 5,
+                                              .radius = 6,
+                                              .growth = 7,
+                                              .uncertainty = 8}},
+                                  .corners = {{3, {9, 10}}, {3, {11, 12}}}}))["predicted"];
+  EXPECT_EQ(numbers<float>(predicted["bodies"]), (std::vector<float>{3, 1, 2, 4, 6, 8, 5, 7}));
+  EXPECT_EQ(numbers<float>(predicted["corners"]), (std::vector<float>{3, 9, 10, 3, 11, 12}));
+
+  HierarchicalDiagnostics decision{.towards = {1, 2}, .path_clearance = 3, .in_time = true};
+  EXPECT_EQ(decoded(frame_message(view, decision))["hierarchical"],
+            (Json{{"towards", {1.0, 2.0}}, {"path_clearance", 3.0}, {"in_time", true}}));
+  decision.wait_at = Vec2{4, 5};
+  decision.wait_since = 6;
+  const Json waits = decoded(frame_message(view, decision))["hierarchical"];
+  EXPECT_EQ(waits["wait"], (Json{4.0, 5.0}));
+  EXPECT_EQ(waits["wait_since"], 6.0);
+
+  const AggregationDiagnostics plan{.mean_distance = 1,
+                                    .leader = 2,
+                                    .team_region = 3,
+                                    .team_branch = 4,
+                                    .moves_left = 5,
+                                    .is_livelock = true};
+  EXPECT_EQ(decoded(frame_message(view, plan))["gathering"], (Json{{"mean_distance", 1.0},
+                                                                   {"leader", 2},
+                                                                   {"region", 3},
+                                                                   {"branch", 4},
+                                                                   {"moves_left", 5},
+                                                                   {"livelock", true}}));
+}
+
 TEST(Stream, RowsAreDoublesInTheOrderOfTheirColumns) {
   const std::vector<Row> rows{{.t = 1,
                                .position = {7, 8},

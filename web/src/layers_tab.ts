@@ -18,7 +18,7 @@ export function layersTab(scenes: Scene[]): { root: HTMLElement; show: () => voi
           },
         });
         box.checked = layer.shown;
-        return element('label', { class: 'layer', 'data-layer': layer.name }, box, layer.label);
+        return element('label', { class: 'layer', 'data-layer': layer.name, title: layer.help }, box, layer.label);
       }),
     );
   };

@@ -71,7 +71,27 @@ export interface Radar {
 export interface Predicted {
   effect: number;
   radius: number; // of the swarm with its gap
-  bodies: Bytes; // body, time, x, y, radius, uncertainty for each
+  bodies: Bytes; // body, time, x, y, radius, uncertainty, turn, growth for each
+  corners: Bytes; // of convex outlines, before they turn and grow: body, x, y for each; none for discs
+}
+
+/** State of a gathering; numbers from 0. */
+export interface Gathering {
+  mean_distance: number;
+  livelock: boolean;
+  leader?: number;
+  region?: number; // of the team that is led
+  branch?: number;
+  moves_left?: number;
+}
+
+/** Decision of hierarchical D-RRT*. */
+export interface Hierarchical {
+  towards: Point;
+  path_clearance: number;
+  in_time: boolean;
+  wait?: Point;
+  wait_since?: number;
 }
 
 export interface Frame {
@@ -86,6 +106,8 @@ export interface Frame {
   target?: Point;
   radar?: Radar;
   predicted?: Predicted;
+  gathering?: Gathering;
+  hierarchical?: Hierarchical;
 }
 
 export interface Plan {

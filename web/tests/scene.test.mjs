@@ -29,10 +29,14 @@ async function playTo(run, file, t, { speed = 0, size, options = [] } = {}) {
       connection.listen((message) => {
         if (message.type === 'clearance')
           window.clearance = { ...message, values: numbers(message.values) };
-        if (message.type === 'frame')
+        if (message.type === 'frame') {
           window.discs = numbers(message.bodies.discs);
-        if (message.type === 'frame' && message.predicted)
+          window.frame = message;
+        }
+        if (message.type === 'frame' && message.predicted) {
           window.predicted = numbers(message.predicted.bodies);
+          window.corners = numbers(message.predicted.corners);
+        }
         if (message.type !== 'frame' || message.frame.t_s < t || window.reached) return;
         window.reached = true;
         void connection.ask({ do: 'pause' });
@@ -50,6 +54,165 @@ async function playTo(run, file, t, { speed = 0, size, options = [] } = {}) {
   };
 }
 
+/** Whether a layer draws something within 2 px of each of these points [µm]. */
+function drawnAt(run, layer, points) {
+  return run.scene(
+    async (scene, { layer, points }) => {
+      const pixels = async (on) => {
+        scene.show(layer, on);
+        const bitmap = await createImageBitmap(await scene.picture());
+        const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d');
+        context.drawImage(bitmap, 0, 0);
+        return context.getImageData(0, 0, bitmap.width, bitmap.height);
+      };
+      const [bare, drawn] = [await pixels(false), await pixels(true)];
+      const differs = (x, y) => {
+        const i = 4 * (y * drawn.width + x);
+        return [0, 1, 2].some((channel) => Math.abs(drawn.data[i + channel] - bare.data[i + channel]) > 12);
+      };
+      return points.map((point) => {
+        const [x, y] = scene.view.toScreen(point).map(Math.round);
+        for (let dx = -2; dx <= 2; ++dx) for (let dy = -2; dy <= 2; ++dy) if (differs(x + dx, y + dy)) return true;
+        return false;
+      });
+    },
+    { layer, points },
+  );
+}
+
+/** The texts in the scene, with their places on the screen. */
+function textsOf(run) {
+  return run.scene((scene) => {
+    const found = [];
+    const look = (node) => {
+      if (!node.visible) return;
+      const { x, y } = node.getGlobalPosition();
+      if (typeof node.text === 'string' && node.text) found.push({ text: node.text, at: [x, y] });
+      for (const child of node.children ?? []) look(child);
+    };
+    look(scene.stage);
+    return found;
+  });
+}
+
+const near = ([ax, ay], [bx, by], px) => Math.hypot(ax - bx, ay - by) <= px;
+
+test('predicted obstacles have the turned and grown outlines of their bodies', async (t) => {
+  const options = ['--set', 'navigator.type=predictive'];
+  const run = await playTo(t, 'scenarios/papers/drrt/moving_obstacles.yaml', 8, { speed: 20, options });
+  await run.picture('scene-outlines');
+  const [predicted, corners] = await run.page.evaluate(() => [window.predicted, window.corners]);
+  const boxes = [...new Set(corners.filter((_, i) => i % 3 === 0))];
+  assert.equal(boxes.length, 1);
+  const offsets = [];
+  for (let i = 0; i < corners.length; i += 3) offsets.push([corners[i + 1], corners[i + 2]]);
+  const first = predicted.findIndex((body, i) => i % 8 === 0 && body === boxes[0]);
+  const [, , x, y, radius, , turn, growth] = predicted.slice(first, first + 8);
+  const turned = ([dx, dy]) => [Math.cos(turn) * dx - Math.sin(turn) * dy, Math.sin(turn) * dx + Math.cos(turn) * dy];
+  const along = (offset, more) => {
+    const [dx, dy] = turned(offset);
+    const share = 1 + more / Math.hypot(dx, dy);
+    return [x + share * dx, y + share * dy];
+  };
+  const sides = offsets.map(([ax, ay], k) => {
+    const [bx, by] = offsets[(k + 1) % offsets.length];
+    return [(ax + bx) / 2, (ay + by) / 2];
+  });
+  const outline = [...offsets, ...sides].map((offset) => along(offset, growth));
+  assert.ok((await drawnAt(run, 'predictions', outline)).every(Boolean));
+  const circle = sides.map((side) => along(side, radius - Math.hypot(...side)));
+  assert.ok((await drawnAt(run, 'predictions', circle)).some((drawn) => !drawn), 'the circle around it');
+  await run.close();
+});
+
+test('a path of hierarchical D-RRT* is in the band of its clearance', async (t) => {
+  const run = await playTo(t, 'scenarios/papers/drrt/moving_obstacles.yaml', 4, { speed: 20 });
+  await run.picture('scene-clearance-band');
+  const [path, clearance] = await run.page.evaluate(() => {
+    const { path, hierarchical } = window.frame;
+    return [[...new Float32Array(path.slice().buffer)], hierarchical.path_clearance];
+  });
+  assert.ok(clearance >= 90 && path.length >= 4);
+  const [ax, ay, bx, by] = path;
+  const length = Math.hypot(bx - ax, by - ay);
+  const beside = (share) => [
+    (ax + bx) / 2 - (share * clearance * (by - ay)) / length,
+    (ay + by) / 2 + (share * clearance * (bx - ax)) / length,
+  ];
+  const places = [-0.9, -0.5, 0.5, 0.9].map(beside);
+  assert.deepEqual(await drawnAt(run, 'path', places), [true, true, true, true]);
+  const outside = await drawnAt(run, 'path', [-1.2, 1.2].map(beside));
+  assert.ok(outside.includes(false), `${outside}`);
+  await run.close();
+});
+
+test('the route point and the wait of hierarchical D-RRT* are marked', async (t) => {
+  const run = await playTo(t, 'scenarios/papers/drrt/moving_obstacles.yaml', 2, { speed: 20 });
+  const labels = async () => {
+    await run.page.waitForTimeout(200);
+    const texts = await textsOf(run);
+    return texts.filter(({ text }) => text === 'route point' || text.startsWith('waits'));
+  };
+  const screen = (at) => run.scene((scene, at) => scene.view.toScreen(at), at);
+  const take = (changed) =>
+    run.scene((scene, changed) => {
+      scene.take({ ...window.frame, hierarchical: { ...window.frame.hierarchical, ...changed } });
+    }, changed);
+  const [route] = await labels();
+  assert.ok(near(route.at, await screen(await run.page.evaluate(() => window.frame.hierarchical.towards)), 16));
+  await take({ towards: [350, 350] });
+  assert.deepEqual(await labels(), []); // the goal has its own mark
+  const [towards, wait] = [[1400, 700], [1900, 1100]];
+  await take({ towards, wait, wait_since: 12.34 });
+  const shown = await labels();
+  await run.picture('scene-wait');
+  assert.deepEqual(shown.map(({ text }) => text).sort(), ['route point', 'waits here since 12.3 s']);
+  for (const { text, at } of shown) assert.ok(near(at, await screen(text === 'route point' ? towards : wait), 16));
+  const rim = await run.scene((scene, [x, y]) => [x + scene.view.um(7), y], towards);
+  assert.deepEqual(await drawnAt(run, 'wait', [rim, wait]), [true, true]);
+  await run.scene((scene) => scene.show('wait', false));
+  assert.deepEqual(await labels(), []);
+  await run.close();
+});
+
+test('a gathering shows its leader, its team and its state in words', async (t) => {
+  const run = await playTo(t, 'scenarios/papers/gather/vascular_network.yaml', 5, { speed: 8 });
+  await run.picture('scene-team');
+  const words = async () => {
+    await run.page.waitForTimeout(200);
+    return (await textsOf(run)).filter(({ text }) => text === 'leader' || text.includes('Mean way'));
+  };
+  const [robots, gathering] = await run.page.evaluate(() => {
+    const { robots, gathering } = window.frame;
+    return [[...new Float32Array(robots.slice().buffer)], gathering];
+  });
+  const { leader, region, branch } = gathering;
+  assert.ok(leader >= 0 && region >= 0 && branch >= 0);
+  const [mark, state] = (await words()).sort((a, b) => a.text.length - b.text.length);
+  const at = robots.slice(2 * leader, 2 * leader + 2);
+  assert.ok(near(mark.at, await run.scene((scene, at) => scene.view.toScreen(at), at), 16));
+  assert.match(state.text, new RegExp(`Robot ${leader} leads the team of region ${region}, branch ${branch}\n`));
+  const edge = await run.scene((scene, [region, branch]) => {
+    const { plan } = scene.all.find(({ name }) => name === 'team');
+    const node = plan.region.findIndex((one, i) => one === region && plan.branch[i] === branch);
+    const at = (i) => [plan.nodes[2 * i], plan.nodes[2 * i + 1]];
+    return [at(node), at(plan.next[node])];
+  }, [region, branch]);
+  assert.deepEqual(await drawnAt(run, 'team', edge), [true, true]);
+  await run.scene((scene) => {
+    const { leader, region, branch, ...rest } = window.frame.gathering;
+    scene.take({ ...window.frame, gathering: { ...rest, moves_left: 27, livelock: true } });
+  });
+  const rollout = await words();
+  assert.deepEqual(rollout.map(({ text }) => text.split('\n').slice(0, -1)), [
+    ['Random robots lead, to break a livelock', '27 moves of the plan are left'],
+  ]);
+  await run.picture('scene-livelock');
+  await run.scene((scene) => scene.show('team', false));
+  assert.deepEqual(await words(), []);
+  await run.close();
+});
+
 test('obstacles as the predictive navigator expects them', async (t) => {
   const options = ['--set', 'navigator.type=predictive'];
   const run = await playTo(t, 'scenarios/papers/radar/twelve.yaml', 20, { speed: 20, options });
@@ -59,10 +222,10 @@ test('obstacles as the predictive navigator expects them', async (t) => {
   await run.page.waitForTimeout(200);
   const shown = await run.picture('scene-predictions-close');
   const [predicted, discs] = await run.page.evaluate(() => [window.predicted, window.discs]);
-  assert.ok(predicted.length >= 6 && predicted.length % 6 === 0);
+  assert.ok(predicted.length >= 8 && predicted.length % 8 === 0);
   // The first steps are beside the discs of the frame.
   const first = predicted[1];
-  for (let i = 0; i < predicted.length && predicted[i + 1] === first; i += 6) {
+  for (let i = 0; i < predicted.length && predicted[i + 1] === first; i += 8) {
     const [x, y, radius] = predicted.slice(i + 2, i + 5);
     const gaps = [];
     for (let k = 0; k < discs.length; k += 4) gaps.push(Math.hypot(x - discs[k], y - discs[k + 1]));

@@ -101,7 +101,7 @@ Json radar(const RadarDiagnostics& scan) {
   return json;
 }
 
-/// Bodies as body, time, x, y, radius and uncertainty in turn.
+/// Bodies as body, time, x, y, radius, uncertainty, turn and growth, corners as body, x and y.
 Json predicted(const PredictiveDiagnostics& ahead) {
   Floats bodies;
   for (const PredictedMoment& body : ahead.bodies) {
@@ -110,8 +110,18 @@ Json predicted(const PredictiveDiagnostics& ahead) {
     bodies.add(body.centre);
     bodies.add(static_cast<float>(body.radius));
     bodies.add(static_cast<float>(body.uncertainty));
+    bodies.add(static_cast<float>(body.turn));
+    bodies.add(static_cast<float>(body.growth));
   }
-  return {{"effect", ahead.effect}, {"radius", ahead.radius}, {"bodies", bodies.take()}};
+  Floats corners;
+  for (const PredictedCorner& corner : ahead.corners) {
+    corners.add(static_cast<float>(corner.body));
+    corners.add(corner.offset);
+  }
+  return {{"effect", ahead.effect},
+          {"radius", ahead.radius},
+          {"bodies", bodies.take()},
+          {"corners", corners.take()}};
 }
 
 /// State of an aggregation; its tree is in `aggregation_message`.
@@ -124,16 +134,22 @@ Json gathering(const AggregationDiagnostics& plan) {
   return json;
 }
 
+Json hierarchical(const HierarchicalDiagnostics& decision) {
+  Json json{{"towards", point(decision.towards)},
+            {"path_clearance", decision.path_clearance},
+            {"in_time", decision.in_time}};
+  if (decision.wait_at) json["wait"] = point(*decision.wait_at);
+  if (decision.wait_since) json["wait_since"] = *decision.wait_since;
+  return json;
+}
+
 void add(Json& json, const Diagnostics& diagnostics) {
   std::visit(
-      Overloaded{[](std::monostate) {},
-                 [&](const RadarDiagnostics& of) { json["radar"] = radar(of); },
-                 [&](const AggregationDiagnostics& of) { json["gathering"] = gathering(of); },
-                 [&](const PredictiveDiagnostics& of) { json["predicted"] = predicted(of); },
-                 [&](const HierarchicalDiagnostics& of) {
-                   json["towards"] = point(of.towards);
-                   if (of.wait_at) json["wait"] = point(*of.wait_at);
-                 }},
+      Overloaded{
+          [](std::monostate) {}, [&](const RadarDiagnostics& of) { json["radar"] = radar(of); },
+          [&](const AggregationDiagnostics& of) { json["gathering"] = gathering(of); },
+          [&](const PredictiveDiagnostics& of) { json["predicted"] = predicted(of); },
+          [&](const HierarchicalDiagnostics& of) { json["hierarchical"] = hierarchical(of); }},
       diagnostics);
 }
 

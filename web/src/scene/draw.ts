@@ -87,6 +87,25 @@ export function ring(x: number, y: number, radius: number, scale: number): Float
   return points;
 }
 
+/** A convex outline, counterclockwise, with rounded corners where it is grown by `by` µm on all sides. */
+export function grown(corners: number[], by: number): Float32Array {
+  const count = corners.length / 2;
+  const at = (k: number): [number, number] => {
+    const i = 2 * ((k + count) % count);
+    return [corners[i]!, corners[i + 1]!];
+  };
+  const normal = (k: number) => {
+    const [[ax, ay], [bx, by]] = [at(k), at(k + 1)];
+    return Math.atan2(ax - bx, by - ay);
+  };
+  const points: number[] = [];
+  for (let k = 0; k < count; ++k) {
+    const [from, to] = [normal(k - 1), normal(k)];
+    points.push(...arc(...at(k), by, from, to < from ? to + 2 * Math.PI : to));
+  }
+  return new Float32Array(points);
+}
+
 /** Draws a path through alternating x and y. */
 export function polyline(to: Graphics, points: ArrayLike<number>): void {
   for (let i = 0; i + 1 < points.length; i += 2) {

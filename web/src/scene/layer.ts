@@ -22,6 +22,8 @@ export interface Occasions {
 export abstract class Layer {
   abstract readonly name: string;
   abstract readonly label: string;
+  /** Meaning of its marks, in a sentence; empty if the label says it. */
+  readonly help: string = '';
   readonly occasions: Occasions = {};
   readonly world = new Container(); // in µm, y up
   readonly screen = new Container(); // in pixels, above all worlds

@@ -24,8 +24,10 @@ import { Robots } from './layers/robots';
 import { ScaleBar } from './layers/scale_bar';
 import { Swarm } from './layers/swarm';
 import { Target } from './layers/target';
+import { Team } from './layers/team';
 import { Trail } from './layers/trail';
 import { Tree } from './layers/tree';
+import { Wait } from './layers/wait';
 import { Walls } from './layers/walls';
 import { type Moment, Motion } from './motion';
 import { type Grip, Pointer, type Touch } from './pointer';
@@ -55,6 +57,7 @@ export class Scene {
     this.camera,
     new Clearance(),
     new Walls([this.background, this.camera]),
+    new Team(),
     new Aggregation(),
     new Tree(),
     new Detections(),
@@ -64,6 +67,7 @@ export class Scene {
     new Trail(),
     new Path(),
     new Target(this.goal),
+    new Wait(this.goal),
     new Robots(),
     new Swarm(),
     new Radar(),
@@ -179,9 +183,9 @@ export class Scene {
     this.followListeners.push(listener);
   }
 
-  layers(): { name: string; label: string; shown: boolean }[] {
+  layers(): { name: string; label: string; help: string; shown: boolean }[] {
     const listed = this.listed.filter((layer) => layer !== this.camera || this.hasCamera);
-    return listed.map(({ name, label, shown }) => ({ name, label, shown }));
+    return listed.map(({ name, label, help, shown }) => ({ name, label, help, shown }));
   }
 
   show(name: string, on: boolean): void {

@@ -10,6 +10,8 @@ import { type Drawing, Layer } from '../layer';
 export class Aggregation extends Layer {
   readonly name = 'aggregation';
   readonly label = 'Regions';
+  override readonly help =
+    'Regions of the map by colour, their branches by shade, and the routes from junction to junction to the goal.';
   override readonly occasions = { zoom: true };
   private readonly edges = this.world.addChild(new Pin());
   private readonly routes = this.world.addChild(new Graphics());

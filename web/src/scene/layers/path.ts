@@ -6,29 +6,42 @@ import { type Drawing, Layer } from '../layer';
 
 const mostDots = 100; // on its vertices
 
-/** The path that the navigator follows. */
+/** The path that the navigator follows, in a band as wide as the clearance with which it was planned. */
 export class Path extends Layer {
   readonly name = 'path';
   readonly label = 'Planned path';
+  override readonly help =
+    'The path that the navigator follows; the band around it is the clearance with which it was planned.';
   override readonly occasions = { zoom: true };
+  private readonly band = this.world.addChild(new Graphics());
   private readonly line = this.world.addChild(new Graphics());
   private points = new Float32Array();
+  private clearance = 0; // 0 for none
 
   take(message: Message): boolean {
     if (message.type !== 'frame') return false;
     const points = floats(message.path);
-    const isSame = points.length === this.points.length && points.every((v, i) => v === this.points[i]);
+    const clearance = message.hierarchical?.path_clearance ?? 0;
+    const isLike = points.length === this.points.length && clearance === this.clearance;
+    const isSame = isLike && points.every((v, i) => v === this.points[i]);
     this.points = points;
+    this.clearance = clearance;
     return !isSame;
   }
 
   draw({ view, colours }: Drawing): void {
     this.line.clear();
+    this.band.clear();
     if (this.points.length < 4) return;
+    const round = { join: 'round', cap: 'round' } as const;
+    if (this.clearance > 0) {
+      polyline(this.band, this.points);
+      this.band.stroke({ width: 2 * this.clearance, color: colours.path, alpha: 0.12, ...round });
+    }
     for (const [width, color] of [[5, colours.paper], [2, colours.path]] as const) {
       polyline(this.line, this.points);
       const alpha = width > 2 ? 0.7 : 1;
-      this.line.stroke({ width: view.um(width), color, join: 'round', cap: 'round', alpha });
+      this.line.stroke({ width: view.um(width), color, alpha, ...round });
     }
     if (this.points.length > 2 * mostDots) return;
     for (let i = 2; i + 3 < this.points.length; i += 2)

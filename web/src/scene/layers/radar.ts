@@ -20,6 +20,8 @@ interface Beam {
 export class Radar extends Layer {
   readonly name = 'radar';
   readonly label = 'Radar';
+  override readonly help =
+    'Directions the radar looked into: kept ones are long where they score well, the others are screened by an obstacle or a wall or turn too far. The arrow is the one it took.';
   override readonly isSeenThrough = true;
   override readonly occasions = { zoom: true };
   private readonly sectors = this.world.addChild(new Graphics());
