@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/report/radar_marks.hpp"
+#include "microswarm/report/least_gap.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,10 @@
 #include <cmath>
 
 #include "microswarm/core/fields/overloaded.hpp"
+#include "microswarm/experiment/session/playback.hpp"
 #include "microswarm/navigation/radar/radar_circles.hpp"
 #include "microswarm/navigation/radar/safety_radius.hpp"
+#include "microswarm/report/decision_marks.hpp"
 #include "microswarm/report/radar_view.hpp"
 
 namespace microswarm::report {
@@ -47,30 +49,39 @@ void draw_circles(Picture& picture, const experiment::Frame& frame,
       navigation::SafetyRadius(params.safety_radius)
           .radius(circles.safety, circles.prediction, frame.obstacle_clearance - frame.radius);
   if (const auto* scan = std::get_if<RadarDiagnostics>(&kept)) circles = scan->circles;
-  const Vec2 at = frame.pose.position;
-  Colour body = colours::swarm;
-  body.alpha = 0.5;
-  picture.swarm(frame.pose, frame.radius, body);
-  draw_radar_circles(picture, circles, at);
+  draw_radar_circles(picture, circles, frame.pose.position);
   picture.legend(fmt::format("circles at {:.1f} s, the least gap: detection", frame.t),
                  colours::detection_circle);
   picture.legend("safety", colours::safety_circle);
   picture.legend("prediction", colours::prediction_circle);
 }
 
+void draw_places(Picture& picture, const navigation::RadarParams& params) {
+  draw_wait_zones(picture, params, 2);
+  for (std::size_t i = 0; i < params.waypoints.size(); ++i)
+    picture.mark(params.waypoints[i], fmt::format("waypoint {}", i + 1), colours::wait_zone);
+  if (!params.wait_zones.empty()) picture.legend("wait zones", colours::wait_zone);
+}
+
 }  // namespace
 
-void draw_radar_marks(Picture& picture, const experiment::Record& record, const World& world) {
-  const auto* params = std::get_if<navigation::RadarParams>(&record.scene.scenario.navigator);
-  if (!params || record.frames.empty()) return;
-  draw_wait_zones(picture, *params, 2);
-  for (std::size_t i = 0; i < params->waypoints.size(); ++i)
-    picture.mark(params->waypoints[i], fmt::format("waypoint {}", i + 1), colours::wait_zone);
-  if (!params->wait_zones.empty()) picture.legend("wait zones", colours::wait_zone);
+void draw_least_gap(Picture& picture, const experiment::Record& record, const World& world) {
+  if (record.frames.empty()) return;
+  const auto* radar = std::get_if<navigation::RadarParams>(&record.scene.scenario.navigator);
   const experiment::Frame& frame = tightest(record);
+  const Diagnostics kept = decision_at(record, frame.t);
+  if (!radar && std::holds_alternative<std::monostate>(kept)) return;
+  if (radar) draw_places(picture, *radar);
   const Snapshot then = world.at(frame.t);
   for (const Body& body : then.moving().bodies()) draw_outline(picture, body);
-  draw_circles(picture, frame, *params, record.diagnostics.at(frame.t));
+  Colour body = colours::swarm;
+  body.alpha = 0.5;
+  picture.swarm(frame.pose, frame.radius, body);
+  if (radar)
+    draw_circles(picture, frame, *radar, kept);
+  else
+    picture.legend(fmt::format("swarm at {:.1f} s, the least gap", frame.t), body, true);
+  draw_decision(picture, kept, experiment::scenario_at(record, frame.t), frame.pose.position);
   if (!then.moving().bodies().empty()) picture.legend("obstacles then", then_there);
 }
 

@@ -7,9 +7,10 @@
 
 namespace microswarm::report {
 
-/// Draws the wait zones and waypoints of a radar, its three circles around the swarm at the minimum
-/// gap to an obstacle (or to a wall without obstacles), and the outlines of obstacles at that time.
-/// Does nothing for other navigators. `world` is the record's.
-void draw_radar_marks(Picture& picture, const experiment::Record& record, const World& world);
+/// Draws the moment of the minimum gap to an obstacle (or to a wall without obstacles): the swarm
+/// and the outlines of obstacles then, for a radar its three circles, and the decision if the
+/// record keeps diagnostics. Of a radar also the wait zones and waypoints. Does nothing for other
+/// navigators without diagnostics. `world` is the record's.
+void draw_least_gap(Picture& picture, const experiment::Record& record, const World& world);
 
 }  // namespace microswarm::report

@@ -12,6 +12,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/experiment/session/playback.hpp"
+#include "microswarm/report/decision_marks.hpp"
 #include "microswarm/report/latency_rows.hpp"
 #include "microswarm/report/map_background.hpp"
 #include "microswarm/report/page.hpp"
@@ -91,6 +92,7 @@ std::unique_ptr<Picture> draw_robots_at(const experiment::Record& record,
   draw_ground(*picture, *s.world.map, options);
   if (at) {
     draw_paths(*picture, s, at->t);
+    draw_decision(*picture, decision_at(record, at->t), s.scenario(), {}, at->positions);
     draw_robot_marks(*picture, s.scenario(), s.world.map->bounds(), at->positions);
   }
   draw_robot_goals(*picture, experiment::scenario_at(record, at ? at->t : 0));

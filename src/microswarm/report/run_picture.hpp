@@ -12,7 +12,8 @@ namespace microswarm::report {
 
 /// Draws a whole run: the travelled path with the swarm at its end, the last positions of obstacles
 /// and, faint, earlier ones; of individually tracked robots the last recorded positions. The
-/// planning events of `numbered` are marked on the path. A run in progress shows the path that is
+/// planning events of `numbered` are marked on the path, and the moment of the least gap is drawn
+/// where a radar or kept diagnostics say how it was met. A run in progress shows the path that is
 /// followed, a record without frames the start.
 std::unique_ptr<Picture> draw_run(const experiment::Record& record,
                                   const ReportOptions& options = {},

@@ -12,6 +12,7 @@
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/experiment/session/playback.hpp"
 #include "microswarm/planning/common/detection.hpp"
+#include "microswarm/report/decision_marks.hpp"
 #include "microswarm/report/latency_rows.hpp"
 #include "microswarm/report/map_background.hpp"
 #include "microswarm/report/page.hpp"
@@ -64,7 +65,9 @@ void moment(const RunSubject& s, const experiment::PlanEvent& event,
   picture.line(event.plan.path, colours::path, 3);
   picture.swarm(frame.pose, frame.radius);
   if (frame.target) picture.mark(*frame.target, "local target", colours::circle);
-  draw_ends(picture, experiment::scenario_at(s.record, event.t));
+  const experiment::Scenario scenario = experiment::scenario_at(s.record, event.t);
+  draw_decision(picture, decision_at(s.record, event.t), scenario, frame.pose.position);
+  draw_ends(picture, scenario);
   picture.legend("swarm", colours::swarm, true);
   picture.legend("planned path", colours::path);
   picture.legend("tree", colours::tree);

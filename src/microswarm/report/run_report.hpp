@@ -17,7 +17,8 @@ struct ReportOptions {
 };
 
 /// Writes a report into `folder`: overview.png, .svg and .pdf (the whole run); moment-1…3.png
-/// (world, tree, path, detection circle and swarm at a planning event); plots.png (planning times;
+/// (world, tree, path, detection circle and swarm at a planning event, and the decision if the
+/// record keeps diagnostics); plots.png (planning times;
 /// clearance and avoidance cost over time); and index.html with all of them and the metrics.
 /// Individually tracked robots have before.png, half-way.png and after.png instead of overview and
 /// moments. Throws InputError if the folder cannot be written.
