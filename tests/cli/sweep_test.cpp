@@ -176,6 +176,8 @@ TEST_F(Sweeps, ExportsARecordToo) {
   EXPECT_TRUE(read("frames.csv").starts_with("t_s,x_um,"));
   good({"export", "out/run.h5", "--csv", "events.csv", "--table", "events"});
   EXPECT_TRUE(read("events.csv").starts_with("t_s,kind,"));
+  refused({"export", "out/run.h5", "--csv", "x.csv", "--table", "diagnostics/beams"},
+          naming("", {"'diagnostics/beams'", "frames", "paths/points", "record.diagnostics"}));
   refused({"export", "out/run.h5", "--csv", "out/../out/run.h5"},
           "out/../out/run.h5: is the input, which would be lost");
   refused({"export", "out/run.h5", "--hdf5", "x.h5"}, naming("out/run.h5", {"HDF5"}));

@@ -281,5 +281,30 @@ TEST(RecordExport, TablesAsCsv) {
               }).starts_with("the record has no table 'frame', only frames, paths, "));
 }
 
+TEST(RecordExport, DiagnosticsAsCsv) {
+  experiment::Record record = experiment::record_of(experiment::small_flight());
+  const auto refusal = [&] {
+    return experiment::error_of([&] { record_csv(record, "diagnostics/beams"); });
+  };
+  record.diagnostics = {};
+  EXPECT_TRUE(test::is_one_line_naming(
+      refusal(), "", {"'diagnostics/beams'", "frames", "record.diagnostics=true"}))
+      << refusal();
+  EXPECT_EQ(refusal().find("diagnostics/radar"), std::string::npos);
+  record.diagnostics.add(0.5, RadarDiagnostics{.radius = 7, .beams = {{.heading = 1}, {}}});
+  record.diagnostics.add(
+      1, RadarDiagnostics{.best = 0, .beams = {{.fate = BeamFate::wall, .score = 0.25}}});
+  EXPECT_TRUE(test::is_one_line_naming(
+      refusal(), "",
+      {"'diagnostics/beams'", "frames", "diagnostics/radar,", "diagnostics/radar/beams"}))
+      << refusal();
+  const std::string radar = record_csv(record, "diagnostics/radar");
+  EXPECT_TRUE(radar.starts_with("t_s,centre_x_um,centre_y_um,radius_um,")) << radar;
+  EXPECT_NE(radar.find("\n0.5,0,0,7,"), std::string::npos) << radar;
+  EXPECT_EQ(std::count(radar.begin(), radar.end(), '\n'), 3);
+  EXPECT_EQ(record_csv(record, "diagnostics/radar/beams"),
+            "row,heading_rad,fate,obstacle,score\n0,1,kept,,0\n0,0,kept,,0\n1,0,wall,,0.25\n");
+}
+
 }  // namespace
 }  // namespace microswarm::sweep

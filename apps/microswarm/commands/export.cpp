@@ -77,7 +77,8 @@ void add_export(Command app, Action& action) {
   cmd.add_option("--ompl", o->ompl,
                  "Write OMPL benchmark logs to this folder, one per combination of parameters")
       .type_name("FOLDER");
-  cmd.add_option("--table", o->table, "Table of a record: frames, events, paths/points, ...")
+  cmd.add_option("--table", o->table,
+                 "Table of a record: frames, events, paths/points, diagnostics/radar, ...")
       .type_name("NAME");
   cmd.callback([o, &action] { action = [o](const Context&) { return export_command(*o); }; });
 }

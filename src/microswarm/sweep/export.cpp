@@ -124,9 +124,13 @@ std::string sweep_hdf5(const SweepReader& sweep) {
 std::string record_csv(const experiment::Record& record, const std::string& table) {
   RecordTables tables{.wanted = table, .names = {}, .csv = {}};
   io::visit_tables(type_of<experiment::Record>(), static_cast<const void*>(&record), tables);
+  const void* log = &record.diagnostics;
+  for (const Field& field : type_of<experiment::DiagnosticsLog>().fields)
+    if (field.type->count(field.in(log)) > 0) io::visit_table(field, log, tables, "/diagnostics");
   if (tables.csv.empty())
-    throw InputError(fmt::format("the record has no table {}, only {}", quote(table),
-                                 fmt::join(tables.names, ", ")));
+    throw InputError(fmt::format(
+        "the record has no table {}, only {}{}", quote(table), fmt::join(tables.names, ", "),
+        record.diagnostics.empty() ? "; record.diagnostics=true keeps those of diagnostics" : ""));
   return std::move(tables.csv);
 }
 

@@ -21,7 +21,8 @@ std::string sweep_hdf5(const SweepReader& sweep);
 /// file name and a log for each combination of grid values, with the methods as planners.
 std::vector<std::pair<std::string, std::string>> ompl_logs(const SweepReader& sweep);
 
-/// One table of a record as CSV (frames, paths, paths/points, ...), units in the names. In a table
+/// One table of a record as CSV (frames, paths, paths/points, diagnostics/radar, ...), units in the
+/// names. In a table
 /// of parts, such as the points of all paths, the column `row` is the index of the owner. Throws
 /// InputError for an unknown table.
 std::string record_csv(const experiment::Record& record, const std::string& table);
