@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The code of the page on Python runs as it stands there."""
+"""The code of the pages on Python and on diagnostics runs as it stands there."""
 
 import re
+import shlex
+import subprocess
 
 import numpy as np
 import pytest
@@ -31,6 +33,22 @@ def run(title, names):
     for block in code_of(title):
         exec(block, names)  # noqa: S102
     return names
+
+
+def test_why_did_it_turn(names, program, tmp_path, capsys):
+    page = (ROOT / "docs/how-to/why-did-it-turn.md").read_text(encoding="utf-8")
+    commands = [shlex.split(line)[1:] for line in re.findall(r"^    (microswarm .*)$", page, flags=re.M)]
+    assert [one[0] for one in commands] == ["run", "lab", "report", "export", "export"]
+    for command in commands:
+        if command[0] != "lab":
+            subprocess.run([program, *command], check=True, capture_output=True)
+    (code,) = re.findall(r"```python\n(.*?)```", page, flags=re.S)
+    exec(code, names)  # noqa: S102
+    assert "kept" in capsys.readouterr().out
+    decisions = (tmp_path / "radar.csv").read_text(encoding="utf-8").splitlines()
+    assert len(decisions) == names["radar"].rows + 1
+    rows = {int(line.split(",")[0]) for line in (tmp_path / "beams.csv").read_text(encoding="utf-8").splitlines()[1:]}
+    assert rows == set(range(names["radar"].rows))
 
 
 def test_vessels(names):
