@@ -118,7 +118,7 @@ class CoilDriver {
   virtual void interrupt() noexcept {}
 };
 
-/// What a driver is opened for.
+/// Coils that a driver is opened for.
 struct CoilSite {
   std::filesystem::path folder;  ///< of the rig's file
   std::filesystem::path coils;   ///< file of the coil system

@@ -155,7 +155,7 @@ class TangentQuery {
   std::vector<Open> open_;
 };
 
-/// What an ended query hands to the next one, which then allocates little.
+/// Memory that an ended query hands to the next one, which then allocates little.
 struct TangentQuery::Memory {
   TrapezoidLook from_start;
   std::vector<CircleNow> circles_now;
