@@ -27,7 +27,7 @@ constexpr double enough = 0.9;  // minimum fraction of arrivals for which median
 constexpr double max_turning = 500;  // aim [°]
 constexpr int all_trials = 100, quick_trials = 30;
 
-struct Contestant {
+struct ComparedFramework {
   const char* name;
   const char* tick;  ///< label in plots
   navigation::NavigatorParams params;
@@ -49,7 +49,7 @@ navigation::RadarParams radar(const navigation::HierarchicalParams& drrt,
   return params;
 }
 
-std::vector<Contestant> list_contestants(const experiment::Scenario& scenario) {
+std::vector<ComparedFramework> list_contestants(const experiment::Scenario& scenario) {
   const double radius = swarm_limits(scenario.swarm).radius;
   const auto& ours = std::get<navigation::HierarchicalParams>(scenario.navigator);
   navigation::HierarchicalParams published = ours;
@@ -126,8 +126,8 @@ void add_rows(const char* name, const Study& s, bool aimed,
 }
 
 /// The claim as a row: reduction of D-RRT*'s median relative to the radar's.
-report::ReproduceRow claim(const char* what, const Contestant& drrt, const Study& of_drrt,
-                           const Contestant& radar, const Study& of_radar,
+report::ReproduceRow claim(const char* what, const ComparedFramework& drrt, const Study& of_drrt,
+                           const ComparedFramework& radar, const Study& of_radar,
                            std::vector<double> Study::*measure) {
   const std::vector<double>& a = of_drrt.*measure;
   const std::vector<double>& b = of_radar.*measure;
@@ -142,7 +142,7 @@ report::ReproduceRow claim(const char* what, const Contestant& drrt, const Study
   return unjudged(std::move(row), "medians of too few that arrive");
 }
 
-void plot_study(const std::vector<Contestant>& who, const std::vector<Study>& studies,
+void plot_study(const std::vector<ComparedFramework>& who, const std::vector<Study>& studies,
                 const std::filesystem::path& folder) {
   std::vector<report::Plot> plots{
       {.title = "Turning", .y_label = "total turning (°)", .log_y = true},
@@ -171,12 +171,12 @@ void plot_study(const std::vector<Contestant>& who, const std::vector<Study>& st
 std::vector<report::ReproduceRow> drrt_comparison(const ReproduceOptions& options,
                                                   const Stop& stop) {
   DrrtSetting s = load_drrt(options, "moving_obstacles.yaml");
-  const std::vector<Contestant> who = list_contestants(s.scene.scenario);
+  const std::vector<ComparedFramework> who = list_contestants(s.scene.scenario);
   std::vector<Study> studies;
   std::vector<report::ReproduceRow> rows;
   const double shortest = shortest_path_length(s);
   const std::uint64_t seed = s.scene.scenario.seed;
-  for (const Contestant& contestant : who) {
+  for (const ComparedFramework& contestant : who) {
     s.scene.scenario.seed = contestant.held_out ? seed + 1 : seed;
     s.scene.scenario.navigator = contestant.params;
     s.scene.scenario.sensing.obstacle_noise = contestant.noisy ? sight_noise : 0;

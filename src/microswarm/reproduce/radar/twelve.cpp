@@ -22,8 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int max_draws = 1000;      // per obstacle path
-constexpr double max_turning = 1.2;  // relative turning with the guard
+constexpr int max_draws = 1000;               // per obstacle path
+constexpr double max_relative_turning = 1.2;  // relative turning with the guard
 constexpr const char* chosen =
     "one scene, chosen among random ones as its cost was near to the paper's";
 
@@ -197,7 +197,7 @@ void add_guard_rows(const Twelve& f, const ReproduceOptions& options, int trials
   const auto add = [&](const char* what, const std::array<double, 2>& turning) {
     rows.push_back(unjudged_if_quick(
         noted(make_row(f.figure, fmt::format("turning with the guard ÷ without, {}", what), "1", {},
-                       turning[1] / std::max(turning[0], 1e-9), max_turning),
+                       turning[1] / std::max(turning[0], 1e-9), max_relative_turning),
               "the aim is ours"),
         options));
   };
