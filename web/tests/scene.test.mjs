@@ -107,7 +107,15 @@ test('predicted obstacles have the turned and grown outlines of their bodies', a
   const offsets = [];
   for (let i = 0; i < corners.length; i += 3) offsets.push([corners[i + 1], corners[i + 2]]);
   const first = predicted.findIndex((body, i) => i % 8 === 0 && body === boxes[0]);
-  const [, , x, y, radius, , turn, growth] = predicted.slice(first, first + 8);
+  // They hardly turn and grow in this scenario: here one does.
+  const [x, y, radius, turn, growth] = [1800, 400, 180, 0.7, 50];
+  await run.scene(
+    (scene, [predicted, body]) => {
+      const bodies = new Uint8Array(new Float32Array([...predicted, ...body]).buffer);
+      scene.take({ ...window.frame, predicted: { ...window.frame.predicted, bodies } });
+    },
+    [predicted, [boxes[0], predicted[first + 1], x, y, radius, 0, turn, growth]],
+  );
   const turned = ([dx, dy]) => [Math.cos(turn) * dx - Math.sin(turn) * dy, Math.sin(turn) * dx + Math.cos(turn) * dy];
   const along = (offset, more) => {
     const [dx, dy] = turned(offset);
@@ -120,8 +128,10 @@ test('predicted obstacles have the turned and grown outlines of their bodies', a
   });
   const outline = [...offsets, ...sides].map((offset) => along(offset, growth));
   assert.ok((await drawnAt(run, 'predictions', outline)).every(Boolean));
-  const circle = sides.map((side) => along(side, radius - Math.hypot(...side)));
-  assert.ok((await drawnAt(run, 'predictions', circle)).some((drawn) => !drawn), 'the circle around it');
+  const others = sides.flatMap((side) => [along(side, radius - Math.hypot(...side)), along(side, 0)]);
+  assert.ok(!(await drawnAt(run, 'predictions', others)).some(Boolean), 'a circle, or without growth');
+  const real = offsets.map(([dx, dy]) => [predicted[first + 2] + dx, predicted[first + 3] + dy]);
+  assert.ok((await drawnAt(run, 'predictions', real)).every(Boolean));
   await run.close();
 });
 
