@@ -70,6 +70,21 @@ TEST_P(KeptDiagnostics, AreShownAgainAndReplayed) {
   EXPECT_EQ(bare->record().hash(), live->record().hash());
 }
 
+TEST_P(KeptDiagnostics, AreNoneWhereNoSwarmWasSeen) {
+  std::vector<std::string> settings = with_diagnostics(GetParam().settings);
+  settings.insert(settings.end(), {"sensing.missed_share=0.8", "sensing.frame_timeout_s=0.15"});
+  const auto session = open_session(all_scenarios / GetParam().file, Settings(settings, ""));
+  session->finish();
+  const Record& record = session->record();
+  int blind = 0;
+  for (const Frame& frame : record.frames) {
+    if (frame.state != NavigatorState::blind) continue;
+    ++blind;
+    EXPECT_EQ(record.diagnostics.at(frame.t), Diagnostics()) << frame.t;
+  }
+  EXPECT_GT(blind, 3);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Navigators, KeptDiagnostics,
     testing::Values(

@@ -70,6 +70,7 @@ export class Connection {
   close(): void {
     this.socket.onclose = null;
     this.socket.close();
+    this.settle(closed);
   }
 
   /** Settles a request. Id 0 answers an unreadable message, so it settles all. */

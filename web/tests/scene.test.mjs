@@ -176,7 +176,7 @@ test('the route point and the wait of hierarchical D-RRT* are marked', async (t)
   await take({ towards, wait, wait_since: 12.34 });
   const shown = await labels();
   await run.picture('scene-wait');
-  assert.deepEqual(shown.map(({ text }) => text).sort(), ['route point', 'waits here since 12.3 s']);
+  assert.deepEqual(shown.map(({ text }) => text).sort(), ['route point', 'waits here since t = 12.3 s']);
   for (const { text, at } of shown) assert.ok(near(at, await screen(text === 'route point' ? towards : wait), 16));
   const rim = await run.scene((scene, [x, y]) => [x + scene.view.um(7), y], towards);
   assert.deepEqual(await drawnAt(run, 'wait', [rim, wait]), [true, true]);
@@ -190,7 +190,7 @@ test('a gathering shows its leader, its team and its state in words', async (t) 
   await run.picture('scene-team');
   const words = async () => {
     await run.page.waitForTimeout(200);
-    return (await textsOf(run)).filter(({ text }) => text === 'leader' || text.includes('Mean way'));
+    return (await textsOf(run)).filter(({ text }) => text === 'leader' || text.includes('Mean distance'));
   };
   const [robots, gathering] = await run.page.evaluate(() => {
     const { robots, gathering } = window.frame;

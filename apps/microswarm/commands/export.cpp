@@ -19,15 +19,18 @@ struct ExportOptions {
   std::string table = "frames";
 };
 
-/// Whether the file starts like an HDF5 file. The database reader rejects other files.
+/// Whether the file starts like an HDF5 file. The database reader rejects other files. Throws
+/// InputError if it cannot be read.
 bool is_hdf5(const std::string& file) {
   std::array<char, 4> first{};
-  std::ifstream(file, std::ios::binary).read(first.data(), first.size());
+  std::ifstream in(file, std::ios::binary);
+  if (!in) read_file(file);  // throws
+  in.read(first.data(), first.size());
   return std::string_view(first.data(), first.size()) == "\x89HDF";
 }
 
 void export_record(const ExportOptions& o) {
-  if (!o.hdf5.empty()) throw InputError(o.file + ": is HDF5 as it is");
+  if (!o.hdf5.empty()) throw InputError(o.file + ": is already HDF5: give --csv");
   if (!o.ompl.empty()) throw InputError(o.file + ": --ompl takes the database of a sweep");
   write_file_atomically(o.csv, sweep::record_csv(experiment::read_record(o.file), o.table));
   print("wrote {}\n", o.csv);

@@ -29,8 +29,8 @@ struct FateLook {
 };
 constexpr std::array<FateLook, 3> screened{
     {{BeamFate::obstacle, {0.84, 0.37, 0.0, 0.5}, "direction screened by an obstacle"},
-     {BeamFate::wall, {0.45, 0.48, 0.53, 0.5}, "by a wall"},
-     {BeamFate::turn, {0.90, 0.62, 0.0, 0.5}, "too sharp a turn"}}};
+     {BeamFate::wall, {0.45, 0.48, 0.53, 0.5}, "direction screened by a wall"},
+     {BeamFate::turn, {0.90, 0.62, 0.0, 0.5}, "direction that turns too far"}}};
 
 void draw_directions(Picture& picture, const RadarDiagnostics& scan, Vec2 at) {
   const auto ray = [&](double heading, double reach, Colour colour, double width_px) {
@@ -51,7 +51,7 @@ void draw_directions(Picture& picture, const RadarDiagnostics& scan, Vec2 at) {
     heading = scan.beams[*scan.best].heading;
   if (!heading) return;
   ray(*heading, 1.15 * scan.circles.detection, taken, 3.5);
-  picture.legend("direction taken", taken);
+  picture.legend("direction that the radar chose", taken);
 }
 
 /// Outline of a predicted body: its convex corners, counterclockwise, turned and grown.
@@ -97,8 +97,11 @@ void draw_way(Picture& picture, const HierarchicalDiagnostics& decision,
   if (decision.towards != scenario.goal)
     picture.mark(decision.towards, "route point", colours::circle);
   if (!decision.wait_at) return;
-  const double since = decision.wait_since.value_or(0);
-  picture.mark(*decision.wait_at, fmt::format("waits here since {:.1f} s", since), waiting);
+  picture.mark(*decision.wait_at,
+               decision.wait_since
+                   ? fmt::format("waits here since t = {:.1f} s", *decision.wait_since)
+                   : "waits here",
+               waiting);
 }
 
 void draw_team(Picture& picture, const AggregationDiagnostics& plan, std::span<const Vec2> robots) {

@@ -14,7 +14,7 @@ namespace microswarm::report {
 Diagnostics decision_at(const experiment::Record& record, double t);
 
 /// Draws the data behind a command, with the legend: the radar's screened directions and the one
-/// taken, around the swarm's position `at`; predicted outlines, paler with time; of hierarchical
+/// it chose, around the swarm's position `at`; predicted outlines, paler with time; of hierarchical
 /// D-RRT* the point that targets lead to, unless it is the goal, and where it waits; of an
 /// aggregation the team's branch and the leader among the `robots`.
 void draw_decision(Picture& picture, const Diagnostics& shown, const experiment::Scenario& scenario,

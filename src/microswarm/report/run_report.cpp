@@ -115,7 +115,7 @@ std::vector<std::vector<std::string>> run_numbers(const experiment::Record& reco
   return {{"quantity", "value"},
           {"ended", ended(record)},
           {"time", fmt::format("{:.1f} s", m.time)},
-          {"length of the way", um(m.length)},
+          {"path length", um(m.length)},
           {"total turning", fmt::format("{:.0f}°", degrees(m.turning))},
           {"least distance of the centre to walls", um(m.walls.clearance)},
           {"least distance of the centre to obstacles", um(m.obstacles.clearance)},

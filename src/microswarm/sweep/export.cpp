@@ -130,7 +130,9 @@ std::string record_csv(const experiment::Record& record, const std::string& tabl
   if (tables.csv.empty())
     throw InputError(fmt::format(
         "the record has no table {}, only {}{}", quote(table), fmt::join(tables.names, ", "),
-        record.diagnostics.empty() ? "; record.diagnostics=true keeps those of diagnostics" : ""));
+        record.diagnostics.empty() && !record.scene.scenario.record.diagnostics
+            ? "; a run with record.diagnostics=true keeps those of diagnostics"
+            : ""));
   return std::move(tables.csv);
 }
 

@@ -179,7 +179,7 @@ void add_rig_calibrate(Command rig, Action& action) {
   cmd.add_flag("--offset", o->offset, "Also fit the field at zero current; always with --measure");
   const Option gradients =
       cmd.add_flag("--gradients", o->gradients, "Also fit the gradients of the fields");
-  cmd.add_option("--centre", o->centre, "Position of the matrix, in µm")
+  cmd.add_option("--centre", o->centre, "Position at which the matrix is fitted, in µm")
       .type_name("X,Y,Z")
       .default_text("the middle of the positions")
       .check(triple("X,Y,Z", 1e8))

@@ -61,7 +61,10 @@ const Tick* Episode::step(const Stop& stop) {
   if (!ending_) take_time();
   if (!ending_ && (stop() || (operation_ && operation_->is_ended()))) ending_ = stopped();
   if (ending_ || !advance(stop)) end();
-  if (shown_) tick_.diagnostics = Lazy<Diagnostics>([by = shown_] { return by->diagnostics(); });
+  if (shown_)
+    tick_.diagnostics = Lazy<Diagnostics>([by = shown_] {  // without a swarm nothing is decided
+      return by->view().state == NavigatorState::blind ? Diagnostics() : by->diagnostics();
+    });
   tick_.events = data_.events;
   tick_.trajectory = data_.trajectory;
   if (contacts_) tick_.contacts = &*contacts_;

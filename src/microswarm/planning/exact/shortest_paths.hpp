@@ -35,8 +35,8 @@ class ShortestPaths {
   }
   /// Continues with an equal copy of the map.
   void use(const Map& map) { graph_.use(map); }
-  /// Approximate size of the kept tangents [B].
-  std::size_t bytes() const { return graph_.bytes(); }
+  /// Approximate size of the kept tangents and of the last query's memory [B].
+  std::size_t bytes() const { return graph_.bytes() + memory_.bytes(); }
 
  private:
   TangentGraph graph_;

@@ -163,6 +163,13 @@ struct TangentQuery::Memory {
   std::vector<Guess> guesses;
   std::vector<Label> labels;
   std::vector<Open> open;
+
+  /// Approximate size [B].
+  std::size_t bytes() const {
+    return circles_now.capacity() * sizeof(CircleNow) + arcs_now.capacity() * sizeof(Arc) +
+           guesses.capacity() * sizeof(Guess) + labels.capacity() * sizeof(Label) +
+           open.capacity() * sizeof(Open);
+  }
 };
 
 }  // namespace microswarm::planning

@@ -21,7 +21,7 @@ export class Radar extends Layer {
   readonly name = 'radar';
   readonly label = 'Radar';
   override readonly help =
-    'Directions the radar looked into: kept ones are long where they score well, the others are screened by an obstacle or a wall or turn too far. The arrow is the one it took.';
+    'Directions the radar looked into: kept ones are long where they score well, the others are screened by an obstacle or a wall or turn too far. The arrow is the one it chose; in the state guard the safety filter commanded another.';
   override readonly isSeenThrough = true;
   override readonly occasions = { zoom: true };
   private readonly sectors = this.world.addChild(new Graphics());

@@ -20,7 +20,7 @@ export class Team extends Layer {
   readonly name = 'team';
   readonly label = 'Leader and team';
   override readonly help =
-    'The robot whose way to the goal all inputs follow, the branch of its team on a yellow ground, and the state of the gathering in words.';
+    'The robot whose path to the goal decides all inputs, the branch of its team on a yellow ground, and the state of the gathering in words.';
   override readonly occasions = { zoom: true };
   private readonly branch = this.world.addChild(new Graphics());
   private readonly ring = this.screen.addChild(new Graphics());
@@ -73,6 +73,7 @@ export class Team extends Layer {
     plan.region.forEach((region, node) => {
       if (region !== now.region || plan.branch[node] !== now.branch) return;
       const next = plan.next[node]!;
+      if (2 * next + 1 >= plan.nodes.length) return; // of a damaged record
       this.branch.moveTo(plan.nodes[2 * node]!, plan.nodes[2 * node + 1]!);
       this.branch.lineTo(plan.nodes[2 * next]!, plan.nodes[2 * next + 1]!);
     });
@@ -90,6 +91,6 @@ function stateText({ leader, region, branch, moves_left: moves, livelock, mean_d
     ...(livelock ? ['Random robots lead, to break a livelock'] : []),
     ...(leader === undefined ? [] : [`Robot ${leader} leads${team}`]),
     ...(moves === undefined ? [] : [`${moves} moves of the plan are left`]),
-    `Mean way to the goal ${mean.toPrecision(3)} µm`,
+    `Mean distance to the goal ${mean.toPrecision(3)} µm`,
   ];
 }

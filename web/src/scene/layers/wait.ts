@@ -33,7 +33,7 @@ export class Wait extends Layer {
       this.towards.draw('route point', circle, paper, (to) => to.poly([0, -7, 7, 0, 0, 7, -7, 0]));
     this.spot.visible = wait !== undefined;
     if (this.spot.visible) {
-      const text = since === undefined ? 'waits here' : `waits here since ${since.toFixed(1)} s`;
+      const text = since === undefined ? 'waits here' : `waits here since t = ${since.toFixed(1)} s`;
       this.spot.draw(text, path, paper, (to) => to.moveTo(-3, -6).lineTo(-3, 6).moveTo(3, -6).lineTo(3, 6));
     }
   }
