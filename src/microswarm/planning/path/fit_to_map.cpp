@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <concepts>
 
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/world/connectivity/channel_width.hpp"
 #include "microswarm/world/connectivity/corner_lattice.hpp"
