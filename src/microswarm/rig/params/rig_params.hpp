@@ -77,9 +77,8 @@ struct SafetyParams {
           plain("max_trips", 0, 1000, "Times the device may be armed again in `trip_window_s`."));
     visit(self.trip_window, s("trip_window", 0.1, 1e5, "Time for which such a trip counts."));
     visit(self.max_pause, s("max_pause", 0.05, 100, "Longest standstill of program or computer."));
-    visit(self.follow_distance,
-          um("follow_distance", 1e-3, 1e6,
-             "Commanded distance that the swarm must follow; none: by its size."));
+    visit(self.follow_distance, um("follow_distance", 1e-3, 1e6,
+                                   "Distance that the swarm must follow; none: by its size."));
     visit(self.min_follow_share,
           plain("min_follow_share", 0, 1, "Share of it that must be seen; 0: not checked."));
   }
