@@ -206,7 +206,7 @@ TEST_F(OwnDriver, GarbageEndsTheRunAndIsNotPrintedRaw) {
 
 TEST_F(OwnDriver, LiesAboutItsValuesEndTheRun) {
   ends_with("if driven >= 30 and any(answer[2:]): answer[2] += 0.5",
-            "does something else than it was told");
+            "reports other values than those sent");
   ends_with("if driven >= 30 and any(answer[2:]): answer[2] = float('nan')",
             "acknowledged no numbers");
 }
