@@ -6,6 +6,7 @@
 #include <array>
 
 #include "microswarm/core/maths/angles.hpp"
+#include "microswarm/navigation/radar/radar_circles.hpp"
 #include "microswarm/navigation/radar/wait_zone.hpp"
 
 namespace microswarm::report {
@@ -114,8 +115,9 @@ void draw_radar_circles(Picture& picture, const RadarCircles& circles, Vec2 p) {
 RadarCircles radar_circles(const experiment::Record& record, std::size_t number,
                            const std::optional<navigation::RadarLook>& look) {
   if (look) return look->circles;
-  return make_circles(std::get<navigation::RadarParams>(record.scene.scenario.navigator),
-                      record.frames[number].radius);
+  return navigation::make_circles(
+      std::get<navigation::RadarParams>(record.scene.scenario.navigator),
+      record.frames[number].radius);
 }
 
 void draw_radar_view(Picture& picture, const experiment::Record& record, const World& world,
