@@ -55,7 +55,8 @@ void draw_directions(Picture& picture, const RadarDiagnostics& scan, Vec2 at) {
 }
 
 /// Outline of a predicted body: its convex corners, counterclockwise, turned and grown.
-std::vector<Vec2> outline_of(const PredictedMoment& moment, const std::vector<Vec2>& corners) {
+std::vector<Vec2> predicted_outline(const PredictedMoment& moment,
+                                    const std::vector<Vec2>& corners) {
   const std::size_t count = corners.size();
   const auto normal = [&](std::size_t k) {
     return heading_along(-perpendicular(corners[(k + 1) % count] - corners[k % count]));
@@ -84,7 +85,7 @@ void draw_predictions(Picture& picture, const PredictiveDiagnostics& ahead) {
     Colour colour = predicted;
     if (last > first) colour.alpha = 0.9 - 0.75 * (moment.t - first) / (last - first);
     if (const auto found = corners.find(moment.body); found != corners.end())
-      picture.line(outline_of(moment, found->second), colour, 1);
+      picture.line(predicted_outline(moment, found->second), colour, 1);
     else
       picture.circle({moment.centre, moment.radius}, colour, 1, false);
   }

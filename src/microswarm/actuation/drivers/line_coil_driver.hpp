@@ -55,7 +55,11 @@ struct LineDriverParams {
   CoilInput input() const {
     return send == DriverInput::field ? CoilInput::field : CoilInput::currents;
   }
-  int channel_count(std::size_t coils) const { return channels.value_or(static_cast<int>(coils)); }
+  /// All coils make a field, for any value of `channels`.
+  int channel_count(std::size_t coils) const {
+    return input() == CoilInput::field ? static_cast<int>(coils)
+                                       : channels.value_or(static_cast<int>(coils));
+  }
   Issues validate(double drive_rate) const;
 };
 

@@ -272,7 +272,7 @@ cv::Mat smooth_parts(const BlobContext& field, const Piece& piece, double least)
 
 /// The contour of a piece at `level` in working pixels. What is as high beside the piece but was
 /// cut off from it counts as background.
-std::vector<Vec2> outline_of(const cv::Mat& foreground, const Piece& piece, float level) {
+std::vector<Vec2> piece_outline(const cv::Mat& foreground, const Piece& piece, float level) {
   const cv::Rect all(0, 0, foreground.cols, foreground.rows);
   const cv::Rect around = (piece.box + cv::Size(2, 2) - cv::Point(1, 1)) & all;
   cv::Mat own = foreground(around).clone();
@@ -288,7 +288,7 @@ std::vector<Vec2> outline_of(const cv::Mat& foreground, const Piece& piece, floa
 std::optional<Blob> measure_blob(const BlobContext& field, const Piece& piece, float level,
                                  double noise) {
   Blob blob;
-  blob.outline_px = outline_of(field.foreground, piece, level);
+  blob.outline_px = piece_outline(field.foreground, piece, level);
   for (Vec2& q : blob.outline_px) q = field.side * q + 0.5 * (field.side - 1) * Vec2{1, 1};
   if (!measure(blob)) return std::nullopt;
   blob.contrast = median_within(field.foreground, piece);
