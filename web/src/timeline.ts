@@ -84,9 +84,9 @@ export function timeline(
     one.onPoint(showTip);
     one.listen((message) => {
       if (message.type === 'rows') redraw();
-      if (message.type !== 'standing' || one !== lead()) return;
-      slider.max = String(Math.max(0, one.history.times.length - 1));
-      slider.value = String(message.frame);
+      if (one !== lead() || (message.type !== 'standing' && message.type !== 'rows')) return;
+      slider.max = String(Math.max(0, one.history.times.length - 1)); // rows may follow their standing
+      slider.value = String(one.standing?.frame ?? 0);
       slider.setAttribute('aria-valuetext', `${one.shown.toFixed(1)} seconds`);
     });
   }

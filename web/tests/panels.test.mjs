@@ -66,6 +66,17 @@ test('a key is not lost before the session has answered', async () => {
   assert.equal(await lab.stop(), 0);
 });
 
+test('the time line is as long as the rows, also when they follow the standing that counts them', () =>
+  inLab('scenarios/first_flight.yaml', async (page) => {
+    await page.evaluate(() => {
+      const { connection } = window.microswarm;
+      connection.take({ ...connection.standing, frame: 2, frames: 3 });
+      const rows = new Uint8Array(new Float64Array([0.1, 0.2, 0.3]).buffer);
+      connection.take({ type: 'rows', columns: ['t_s'], rows, events: [], anew: true });
+    });
+    assert.deepEqual(await page.locator('.scrub').evaluate(({ max, value }) => [max, value]), ['2', '2']);
+  }));
+
 test('one scrubs over what was recorded, and a click in a plot seeks', () =>
   inLab('scenarios/first_flight.yaml', async (page, { picture }) => {
     await page.selectOption('.speed', '0');
