@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
+#include <limits>
 #include <span>
 
 #include "microswarm/experiment/record/diagnostics_log.hpp"
@@ -224,6 +226,45 @@ TEST(DiagnosticsLog, KeepsATreeOnce) {
   EXPECT_EQ(at(1).mean_distance, 1);
   EXPECT_EQ(at(3), plan);
   EXPECT_EQ(log.at(0.05).index(), 0u);
+}
+
+TEST(DiagnosticsLog, ADamagedTableIsNamed) {
+  AggregationDiagnostics plan;
+  plan.nodes.resize(3);
+  plan.regions.resize(1);
+  const Record flight = record_of(small_flight());
+  const auto refused_after = [&](auto damage) {
+    Record record = flight;
+    record.diagnostics.add(0.1, plan);
+    record.diagnostics.add(0.2, RadarDiagnostics{.beams = {{}, {}}});
+    record.diagnostics.add(0.3, RadarDiagnostics{.beams = {{}, {}}});
+    damage(record.diagnostics);
+    const auto file = empty_folder("damaged_diagnostics") / "record.h5";
+    write_record(record, file);
+    try {
+      read_record(file);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  using Log = DiagnosticsLog;
+  const auto nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(refused_after([](Log&) {}), "");
+  const std::vector<std::pair<std::function<void(Log&)>, std::string>> cases{
+      {[](Log& log) { log.radar[1].shown.best = 2; }, "radar/best is no beam"},
+      {[](Log& log) { log.radar[1].t = log.radar[0].t; }, "radar/t_s does not rise"},
+      {[&](Log& log) { log.radar[0].t = nan; }, "radar/t_s does not rise"},
+      {[](Log& log) { log.aggregation[0].shown.nodes[2].next = 3; },
+       "aggregation/nodes: next is no node"},
+      {[](Log& log) { log.aggregation[0].shown.nodes[1].region = 1; },
+       "aggregation/nodes: region is no region"},
+      {[](Log& log) { log.aggregation[0].shown.regions[0].gate = 3; },
+       "aggregation/regions: node or gate is no node"},
+      {[](Log& log) { log.aggregation[0].shown.regions[0].next = 1; },
+       "aggregation/regions: next is no region"}};
+  for (const auto& [damage, wanted] : cases)
+    EXPECT_TRUE(refused_after(damage).ends_with("/diagnostics/" + wanted)) << refused_after(damage);
 }
 
 }  // namespace

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/experiment/record/diagnostics_log.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -22,6 +26,39 @@ const AggregationDiagnostics* newest_tree(const AggregationRows& rows, std::size
   while (count > 0)
     if (const auto& shown = rows[--count].shown; !shown.nodes.empty()) return &shown;
   return nullptr;
+}
+
+std::string wrong_index(const RadarDiagnostics& shown) {
+  return shown.best && *shown.best >= shown.beams.size() ? "best is no beam" : "";
+}
+
+std::string wrong_index(const AggregationDiagnostics& shown) {
+  const auto is_node = [&](std::uint32_t index) { return index < shown.nodes.size(); };
+  const auto is_region = [&](std::uint32_t index) { return index < shown.regions.size(); };
+  for (const AggregationNode& node : shown.nodes) {
+    if (!is_node(node.next)) return "nodes: next is no node";
+    if (!is_region(node.region)) return "nodes: region is no region";
+  }
+  for (const Region& region : shown.regions) {
+    if (!is_node(region.node) || !is_node(region.gate)) return "regions: node or gate is no node";
+    if (!is_region(region.next)) return "regions: next is no region";
+  }
+  return "";
+}
+
+std::string wrong_index(const PredictiveDiagnostics&) { return ""; }
+std::string wrong_index(const HierarchicalDiagnostics&) { return ""; }
+
+/// The first column of a read table that cannot be right; empty if there is none.
+template <class Shown>
+std::string wrong_row(const std::vector<DiagnosticsRow<Shown>>& rows) {
+  double before = -std::numeric_limits<double>::infinity();
+  for (const auto& row : rows) {
+    if (!(row.t > before && std::isfinite(row.t))) return "t_s does not rise";
+    before = row.t;
+    if (std::string wrong = wrong_index(row.shown); !wrong.empty()) return wrong;
+  }
+  return "";
 }
 
 }  // namespace
@@ -85,9 +122,10 @@ DiagnosticsLog read_diagnostics(const io::Hdf5Reader& in) {
   for (const std::string_view kind : split(kinds, ' '))
     for (const Field& field : type_of<DiagnosticsLog>().fields)
       if (field.info.name == kind) io::read_table(in, field, &log, diagnostics_group);
-  for (const auto& row : log.radar)
-    if (row.shown.best && *row.shown.best >= row.shown.beams.size())
-      in.fail("/diagnostics/radar/best is no beam");
+  DiagnosticsLog::fields(log, [&](const auto& rows, const FieldInfo& info) {
+    if (const std::string wrong = wrong_row(rows); !wrong.empty())
+      in.fail(fmt::format("{}/{}/{}", diagnostics_group, info.name, wrong));
+  });
   return log;
 }
 
