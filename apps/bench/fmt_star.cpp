@@ -8,6 +8,7 @@
 #include "bench/planning.hpp"
 #include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
+#include "microswarm/planning/exact/exact.hpp"
 
 namespace microswarm::bench {
 
