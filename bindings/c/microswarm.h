@@ -212,7 +212,8 @@ const char* ms_state_name(int32_t state);
 
 /* Opens a map file; `um_per_px` is the side of a pixel or cell, 0 if the file contains it. */
 int32_t ms_map_open(const char* file, double um_per_px, uint64_t* map);
-/* A map from `width` x `height` pixels, upper row first; pixels that are not 0 are free. */
+/* A map from `width` x `height` pixels, upper row first: a mask of 0 and 1, where 1 is free, or else
+ * a grey picture, free where a pixel is at least 128, as in a picture's file. */
 int32_t ms_map_from_pixels(const uint8_t* pixels, size_t width, size_t height, double um_per_px,
                            uint64_t* map);
 /* Extent of a map, and the distance of a position to its walls, 0 inside one. */

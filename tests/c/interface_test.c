@@ -289,6 +289,11 @@ static void paths(void) {
   query.start_heading_rad = 0, query.goal_x_um = 200;
   EXPECT_ERROR(ms_plan(map, &query, &path), MS_BAD_INPUT, "goal");
   EXPECT(ms_close(map) == MS_OK);
+  for (row = 0; row < 40 * 40; ++row) pixels[row] = pixels[row] ? 128 : 127; /* grey */
+  EXPECT(ms_map_from_pixels(pixels, 40, 40, 10, &map) == MS_OK);
+  EXPECT(ms_map_clearance(map, 50, 50, &free) == MS_OK && free == 50);
+  EXPECT(ms_map_clearance(map, 200, 50, &free) == MS_OK && free == 0);
+  EXPECT(ms_close(map) == MS_OK);
   EXPECT_ERROR(ms_map_from_pixels(pixels, 0, 40, 10, &map), MS_BAD_INPUT, "must be 1 to");
   EXPECT_ERROR(ms_map_from_pixels(pixels, 40, 40, NAN, &map), MS_BAD_INPUT, "um_per_px");
   EXPECT_ERROR(ms_map_open("no.png", 1, &map), MS_BAD_INPUT, "no.png");

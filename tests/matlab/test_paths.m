@@ -1,7 +1,7 @@
 % SPDX-License-Identifier: Apache-2.0
 function tests = test_paths()
 % test_paths  Maps and paths.
-  tests = {@maps_of_matrices, @paths_round_a_wall, @bad_maps_and_paths};
+  tests = {@maps_of_matrices, @grey_pictures_have_the_walls_of_their_files, @paths_round_a_wall, @bad_maps_and_paths};
 end
 
 function free = room()
@@ -18,6 +18,25 @@ function maps_of_matrices(world)
   assert(isequal(grey.clearance([50 50; 200 50; 200 180]), [50; 0; 20]));
   map.close();
   refuses(@() map.bounds(), 'bad_call', 'closed');
+end
+
+function grey_pictures_have_the_walls_of_their_files(world)
+  grey = uint8(200) * ones(60, 80, 'uint8');  % the wall is dark, not black
+  grey(10:60, 38:42) = 20;
+  file = fullfile(world.folder, 'grey.pgm');
+  stream = fopen(file, 'w');
+  fprintf(stream, 'P5 80 60 255\n');
+  fwrite(stream, grey');
+  fclose(stream);
+  plan = @(map) microswarm.plan(map, [50 50], [750 50], 'um_per_px', 10, 'clearance_um', 15);
+  read = plan(file);
+  assert(abs(read.length_um - 1206) < 1);  % over the wall; through it are 700 um
+  for picture = {grey, grey >= 128, uint8(grey >= 128)}
+    path = plan(picture{1});
+    assert(path.solved && path.length_um == read.length_um);
+  end
+  at = @(brightness) microswarm.Map(uint8([255 brightness 255]), 10).clearance([15 5]);
+  assert(at(127) == 0 && at(128) == 5);
 end
 
 function paths_round_a_wall(world)

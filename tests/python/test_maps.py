@@ -66,6 +66,7 @@ def test_many_places_are_answered_like_few(room):
 def test_images_of_every_kind_give_the_same_map(room):
     image = np.full((40, 40), True)
     image[10:, 18:22] = False
+    grey = np.where(image, 128, 127).astype(np.uint8)
     places = np.random.default_rng(1).uniform(0, 400, (200, 2))
     wide = np.repeat(np.where(image, 200.0, 3.0), 2, axis=1)[:, ::2]
     assert not wide.flags["C_CONTIGUOUS"]
@@ -75,9 +76,19 @@ def test_images_of_every_kind_give_the_same_map(room):
         ms.Map.from_image(wide, 10, threshold=128),
         ms.Map.from_image(np.asfortranarray(image), 10),
         ms.Map.from_image(image.astype(int), 10, threshold=1),
+        ms.Map.from_image(grey, 10),
+        *(ms.Map.from_image(image.astype(kind), 10) for kind in (np.uint8, int, float)),
     ]
     for one in maps:
         assert np.array_equal(one.clearance(places), room.clearance(places))
+
+
+def test_a_grey_array_is_the_map_of_its_file(tmp_path):
+    grey = np.full((60, 80), 200, dtype=np.uint8)
+    grey[9:, 37:42] = 20  # dark, not black
+    (tmp_path / "grey.pgm").write_bytes(b"P5 80 60 255\n" + grey.tobytes())
+    for map in (ms.Map.load(tmp_path / "grey.pgm", 10), ms.Map.from_image(grey, 10)):
+        assert ms.plan(map, (50, 50), (750, 50), clearance_um=15).length_um == pytest.approx(1206, abs=1)
 
 
 @pytest.mark.parametrize(
@@ -88,7 +99,7 @@ def test_images_of_every_kind_give_the_same_map(room):
         (np.zeros((0, 5), bool), 1, "must be 1 to"),
         (np.array([["a"]]), 1, "numbers"),
         (np.full((3, 3), np.nan), 1, "finite"),
-        (np.ones((3, 3), dtype=np.uint8), 1, "threshold is missing"),
+        (np.full((3, 3), 0.5), 1, "threshold is missing"),
         (np.full((3, 3), 200.0), 1, "threshold is missing"),
         (np.full((3, 3), 200), 1, "threshold is missing"),
         (None, 1, "2 dimensions"),

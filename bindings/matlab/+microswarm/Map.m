@@ -15,7 +15,8 @@ classdef Map < microswarm.internal.Handle
     % Map(source, um_per_px)
     %
     % source      a picture, ROS .yaml, MovingAI .map, GeoJSON or CSV of rectangles, or a matrix of class
-    %             logical or uint8, the upper row first: free where it is not 0
+    %             logical or uint8, the upper row first: free where it is true, or 1 of only 0 and 1; other
+%             matrices of uint8 are grey pictures, free where they are at least 128, as in a file
     % um_per_px   side of a pixel or cell [um]; needed if the file does not contain it
       microswarm.internal.need(nargin, 1, 'a map needs a file or a matrix');
       if nargin < 2, um_per_px = 0; end

@@ -5,8 +5,8 @@ function path = plan(map, start, goal, varargin)
 %   path = microswarm.plan(free, [50 50], [350 50], 'um_per_px', 10, ...
 %                          'planner', 'drrt_star', 'clearance_um', 40, 'max_nodes', 5000)
 %
-% map        a file, a matrix of class logical or uint8, the upper row first (free where it is not
-%            0), or a microswarm.Map, which is faster for many paths
+% map        a file, a matrix of class logical or uint8, the upper row first (free where it is true; a grey
+%            picture of uint8 where it is at least 128), or a microswarm.Map, which is faster for many paths
 % start      [x_um y_um] or [x_um y_um heading_rad]
 % goal       [x_um y_um]
 %

@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _core
 from .pictures import Drawable
-from .values import InputError, grid_of, number, numbers, path_text, refused, rows, setting, whole
+from .values import InputError, free_pixels, grid_of, number, numbers, path_text, refused, rows, setting, whole
 
 MAX_SIDE_PX = 65_535
 planners = _core.planners  # names that plan() takes
@@ -50,16 +50,15 @@ class Map(Drawable):
         """A map from an array of shape (height, width), the upper row first.
 
         A pixel is free if it is at least `threshold`, or with free="dark" if it is below. In an array of booleans True is
-        free. The default threshold of uint8 is 128; other numbers have no default. A mask of 0 and 1 needs threshold=1.
+        free, in one of only 0 and 1 the 1. The default threshold of uint8 is 128; other numbers have no default.
         """
         array = grid_of("image", image, MAX_SIDE_PX)
         if free not in ("bright", "dark"):
             raise refused("free", free, "'bright' or 'dark'")
-        if threshold is None and array.dtype != bool:
-            if array.dtype != np.uint8 or (array.size > 0 and array.max() <= 1):
-                raise InputError("threshold is missing: this is no image of uint8 with grey values, and no mask of booleans")
-            threshold = 128
-        bright = array if array.dtype == bool else array >= number("threshold", threshold)
+        if threshold is None or array.dtype == bool:
+            bright = free_pixels("threshold is missing: image", array, "give threshold")
+        else:
+            bright = array >= number("threshold", threshold)
         open_pixels = bright if free == "bright" else ~bright
         return cls(_core.Map.from_pixels(np.ascontiguousarray(open_pixels, dtype=np.uint8), number("um_per_px", um_per_px), number("simplify_um", simplify_um)))
 

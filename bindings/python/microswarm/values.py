@@ -14,6 +14,8 @@ import numpy as np
 
 from .errors import InputError, Issue
 
+GREY_THRESHOLD = 128  # of pictures in files
+
 
 def told(value: Any) -> str:
     """A value in a message: one short line."""
@@ -134,6 +136,17 @@ def grid_of(name: str, values: Any, most: int) -> np.ndarray:
     if array.dtype.kind == "f" and not np.isfinite(array).all():
         raise InputError(f"{name} has {array[~np.isfinite(array)][0]:g}, must be finite")
     return array
+
+
+def free_pixels(name: str, array: np.ndarray, otherwise: str) -> np.ndarray:
+    """Which pixels of a mask of booleans, of a mask of 0 and 1 or of a grey picture of uint8 are free; others are refused."""
+    if array.dtype == bool:
+        return array
+    if ((array == 0) | (array == 1)).all():
+        return array == 1
+    if array.dtype != np.uint8:
+        raise InputError(f"{name} is neither a mask of booleans or of 0 and 1, nor a picture of uint8 with grey values: {otherwise}")
+    return array >= GREY_THRESHOLD
 
 
 def key_of(key: Any) -> str:

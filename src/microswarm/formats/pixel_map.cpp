@@ -7,12 +7,19 @@
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/formats/images/mask.hpp"
+#include "microswarm/formats/map_spec.hpp"
 
 namespace microswarm::formats {
 namespace {
 
 /// A map of this size takes some seconds and a few GB.
 constexpr std::size_t max_corners = 5'000'000;
+
+/// The value from which a pixel is free.
+int least_free(std::span<const std::uint8_t> pixels) {
+  const bool is_mask = std::ranges::all_of(pixels, [](std::uint8_t v) { return v <= 1; });
+  return is_mask ? 1 : ImageMap{}.threshold;
+}
 
 }  // namespace
 
@@ -31,7 +38,8 @@ Map map_of_pixels(std::span<const std::uint8_t> pixels, std::size_t width, std::
   if (!(tolerance >= 0 && tolerance <= 1e6))
     throw InputError(fmt::format("simplify is {}, must be 0 to 1e6 µm", tolerance));
   Mask blocked(static_cast<int>(width), static_cast<int>(height));
-  std::ranges::transform(pixels, blocked.cells.begin(), [](std::uint8_t v) { return v == 0; });
+  const int least = least_free(pixels);
+  std::ranges::transform(pixels, blocked.cells.begin(), [&](std::uint8_t v) { return v < least; });
   std::vector<Polygon> walls = mask_walls(blocked, um_per_px);
   simplify(walls, tolerance);
   std::size_t corners = 0;

@@ -15,7 +15,7 @@ import numpy as np
 
 from .. import _core
 from ..maps import Map
-from ..values import InputError, array_of, grid_of, number, path_text, setting, told, whole
+from ..values import InputError, array_of, free_pixels, grid_of, number, path_text, setting, told, whole
 from .environment import SingleEnvironment, Steps, VectorEnvironment, count_of
 from .spaces import Box, Discrete, MultiDiscrete
 
@@ -76,8 +76,9 @@ def _named_maze(name: str) -> np.ndarray:
 def free_cells(maze: Maze, cell_um: Optional[float] = None) -> np.ndarray:
     """The free cells of a maze as booleans of shape (rows, columns), the upper row first.
 
-    maze      an array, not 0 where a cell is free; a file, whose bright pixels are free cells (of a .csv file
-              the entries 1); a name of the benchmark; or a Map with cell_um, a cell being free if its middle is
+    maze      an array: of booleans or of 0 and 1, where True or 1 is free, or of grey values of uint8, where 128 and more is
+              free; a file, whose bright pixels are free cells (of a .csv file of 0 and 1 the entries 1); a name of the
+              benchmark; or a Map with cell_um, a cell being free if its middle is
     """
     if isinstance(maze, Map):
         if cell_um is None:
@@ -102,9 +103,9 @@ def free_cells(maze: Maze, cell_um: Optional[float] = None) -> np.ndarray:
                 cells = np.loadtxt(name, delimiter=",", ndmin=2)
             except (OSError, ValueError) as error:
                 raise InputError(f"{name}: {error}") from None
-            return grid_of(name, cells, MAX_SIDE) > 0.5
+            return free_pixels(name, grid_of(name, cells, MAX_SIDE), "write 0 and 1")
         return free_cells(Map.load(name, 1), 1)
-    return grid_of("maze", maze, MAX_SIDE) != 0
+    return free_pixels("maze", grid_of("maze", maze, MAX_SIDE), "give maze >= a threshold")
 
 
 def _batch(
