@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
+import difflib
 import json
 import os
 import pathlib
 import tempfile
-from collections.abc import Mapping
-from typing import Any, Iterator, Optional
+from typing import Any, Optional
 
 import numpy as np
 
@@ -17,47 +17,73 @@ from .pictures import Drawable
 from .values import path_text
 
 
-class Table(Mapping):
-    """Columns of one table of a record: arrays of equal length, by names with their units."""
+class Named(dict):
+    """A dictionary whose error names the near words of a key that is not there."""
+
+    def __missing__(self, name: Any) -> Any:
+        near = difflib.get_close_matches(name, list(self), n=1) if isinstance(name, str) else []
+        near = near or ([key for key in self if key.startswith(f"{name}_")][:1] if isinstance(name, str) else [])
+        raise KeyError(f"{name!r} is not there" + (f", did you mean {near[0]!r}?" if near else f", but {', '.join(map(str, self))}"))
+
+
+class Table(Named):
+    """Columns of one table: read-only arrays of equal length, by names with their units.
+
+    It is a dictionary: pandas.DataFrame(table), polars.DataFrame(table) and plt.plot("x_um", "y_um", data=table) take it as it
+    is. numpy.asarray(table) is a structured array.
+    """
 
     def __init__(self, columns: dict[str, np.ndarray], docs: dict[str, str] | None = None) -> None:
         for column in columns.values():
             column.flags.writeable = False  # they are those of the record
-        self._columns = columns
+        super().__init__(columns)
         self.docs = docs or {}
-
-    def __getitem__(self, name: str) -> np.ndarray:
-        return self._columns[name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._columns)
-
-    def __len__(self) -> int:
-        return len(self._columns)
 
     @property
     def rows(self) -> int:
         """Number of rows."""
-        return len(next(iter(self._columns.values()))) if self._columns else 0
+        return len(next(iter(self.values()))) if self else 0
 
     def to_array(self) -> np.ndarray:
-        """The table as a structured array, which pandas.DataFrame accepts."""
-        types = [(name, column.dtype) for name, column in self._columns.items()]
+        """The table as a structured array, a row for each entry."""
+        types = [(name, column.dtype) for name, column in self.items()]
         array = np.empty(self.rows, dtype=types)
-        for name, column in self._columns.items():
+        for name, column in self.items():
             array[name] = column
         return array
 
+    def to_dict(self) -> dict[str, np.ndarray]:
+        """The columns as a plain dictionary, to which others can be added."""
+        return dict(self)
+
+    def to_pandas(self) -> Any:
+        """The table as a pandas.DataFrame."""
+        import pandas
+
+        return pandas.DataFrame(dict(self))
+
+    def __array__(self, dtype: Any = None, copy: Optional[bool] = None) -> np.ndarray:
+        array = self.to_array()
+        return array if dtype is None else array.astype(dtype)
+
+    def __reduce__(self) -> Any:
+        return Table, (dict(self), self.docs)
+
+    def _read_only(self, *_: Any, **__: Any) -> Any:
+        raise TypeError("a Table is read-only: to_dict() or to_pandas() gives one that can be changed")
+
+    __setitem__ = __delitem__ = __ior__ = pop = popitem = clear = update = setdefault = _read_only  # type: ignore[assignment]
+
     def __repr__(self) -> str:
         lines = [f"{self.rows} rows"]
-        lines += [f"  {name:28} {self.docs.get(name, '')}".rstrip() for name in self._columns]
+        lines += [f"  {name:28} {self.docs.get(name, '')}".rstrip() for name in self]
         return "\n".join(lines)
 
 
 def finite(value: Any) -> Any:
     """Metrics with infinity for distances that were never measured."""
     if isinstance(value, dict):
-        return {key: finite(one) for key, one in value.items()}
+        return Named({key: finite(one) for key, one in value.items()})
     return float("inf") if value is None else value
 
 
@@ -133,7 +159,7 @@ class Record(Drawable):
     def diagnostics(self) -> dict[str, Any]:
         """Data behind the commands, kept with `record.diagnostics: true`: a Table with a row for each decision, such as "radar", and
         for each of its lists, such as "radar/beams", a list with a Table for each decision. Empty if none are kept."""
-        found: dict[str, Any] = {}
+        found: dict[str, Any] = Named()
         for name, table in self._all_tables().items():
             if name.startswith("diagnostics/"):
                 parts = isinstance(table, list)
