@@ -230,17 +230,6 @@ def test_the_arguments_of_a_gathering_are_checked(maze, tmp_path):
         env.step(1)
 
 
-def test_a_grey_maze_has_the_walls_of_its_file(maze, tmp_path):
-    grey = np.where(maze, 200, 20).astype(np.uint8)
-    (tmp_path / "maze.pgm").write_bytes(b"P5 40 30 255\n" + grey.tobytes())
-    np.savetxt(tmp_path / "maze.csv", grey, delimiter=",", fmt="%d")
-    for one in (grey, tmp_path / "maze.pgm"):
-        assert np.array_equal(environments.free_cells(one), maze)
-    for one in (grey.astype(float), grey.astype(int), tmp_path / "maze.csv"):
-        with pytest.raises(ms.InputError, match="neither a mask"):
-            environments.free_cells(one)
-
-
 def test_mazes_of_files_and_maps(maze, tmp_path):
     np.savetxt(tmp_path / "maze.csv", maze, delimiter=",", fmt="%d")
     (tmp_path / "maze.pgm").write_bytes(b"P5 40 30 255\n" + np.where(maze, 255, 0).astype(np.uint8).tobytes())

@@ -11,6 +11,7 @@ import pytest
 
 import microswarm as ms
 from conftest import ROOT
+from microswarm.environments import free_cells
 
 
 @pytest.fixture
@@ -89,6 +90,18 @@ def test_a_grey_array_is_the_map_of_its_file(tmp_path):
     (tmp_path / "grey.pgm").write_bytes(b"P5 80 60 255\n" + grey.tobytes())
     for map in (ms.Map.load(tmp_path / "grey.pgm", 10), ms.Map.from_image(grey, 10)):
         assert ms.plan(map, (50, 50), (750, 50), clearance_um=15).length_um == pytest.approx(1206, abs=1)
+
+
+def test_a_grey_maze_has_the_walls_of_its_file(tmp_path):
+    maze = np.pad(np.random.default_rng(1).random((28, 38)) < 0.8, 1)
+    grey = np.where(maze, 200, 20).astype(np.uint8)
+    (tmp_path / "maze.pgm").write_bytes(b"P5 40 30 255\n" + grey.tobytes())
+    np.savetxt(tmp_path / "maze.csv", grey, delimiter=",", fmt="%d")
+    for one in (grey, tmp_path / "maze.pgm"):
+        assert np.array_equal(free_cells(one), maze)
+    for one in (grey.astype(float), grey.astype(int), tmp_path / "maze.csv"):
+        with pytest.raises(ms.InputError, match="neither a mask"):
+            free_cells(one)
 
 
 @pytest.mark.parametrize(
