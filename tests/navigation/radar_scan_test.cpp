@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/navigation/radar/radar_scan.hpp"
-#include "microswarm/config/key_locations.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "microswarm/config/key_locations.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/geometry/distance.hpp"
+#include "microswarm/navigation/radar/radar_circles.hpp"
+#include "microswarm/navigation/radar/radar_params.hpp"
 #include "microswarm/navigation/radar/radar_scanner.hpp"
 #include "microswarm/scenes/worlds.hpp"
 #include "tests/cases.hpp"
