@@ -148,6 +148,32 @@ TEST(Read, WrongTypes) {
   for (const auto& [text, message] : cases) EXPECT_EQ(complaint(text), message);
 }
 
+TEST(Read, TruthInTheSpellingsOfYaml) {
+  for (const char* yes : {"true", "True", "TRUE"})
+    EXPECT_TRUE(read_yaml_text<Scene>(std::string("noisy: ") + yes, "s.yaml").noisy) << yes;
+  for (const char* no : {"false", "False", "FALSE"})
+    EXPECT_FALSE(read_yaml_text<Scene>(std::string("noisy: ") + no, "s.yaml").noisy) << no;
+  for (const char* none : {"tRUE", "\"True\"", "yes", "on"})
+    EXPECT_NE(message_of([&] {
+                read_yaml_text<Scene>(std::string("noisy: ") + none, "s.yaml");
+              }).find("must be true or false"),
+              std::string::npos)
+        << none;
+}
+
+TEST(Read, ATabThatIndentsIsNamed) {
+  for (const char* text : {"start:\n\tx_um: 1\n", "start:\n  y_um: 1\n  \tx_um: 1\n"}) {
+    const std::string said = message_of([&] { read_yaml_text<Scene>(text, "s.yaml"); });
+    const int line = std::string_view(text).find("y_um") == std::string_view::npos ? 2 : 3;
+    EXPECT_TRUE(said.starts_with("s.yaml:" + std::to_string(line) + ":")) << said;
+    EXPECT_NE(said.find("tab"), std::string::npos) << said;
+  }
+  EXPECT_NE(message_of([&] {
+              read_yaml_text<Scene>("# \ta\n\t# b\nstart: [1\n", "s.yaml");
+            }).find("YAML: "),
+            std::string::npos);
+}
+
 TEST(Read, ValuesOutOfRange) {
   const Case cases[] = {
       {"planner:\n  step_um: 0", "s.yaml:2:12: step_um is 0 µm, allowed 1..1e5 µm"},

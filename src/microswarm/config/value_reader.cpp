@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "microswarm/config/number.hpp"
 #include "microswarm/core/errors/error.hpp"
@@ -57,6 +58,13 @@ std::string found(const YamlNode& node) {
       return "a mapping";
   }
   return "";
+}
+
+/// true and false in the three spellings of YAML 1.2.
+std::optional<bool> spelled_truth(std::string_view text) {
+  if (text == "true" || text == "True" || text == "TRUE") return true;
+  if (text == "false" || text == "False" || text == "FALSE") return false;
+  return std::nullopt;
 }
 
 bool spells_no_finite_number(std::string_view text) {
@@ -239,9 +247,10 @@ void ValueReader::read(const Type& type, const FieldInfo& info, std::string_view
                        const YamlNode& node) {
   switch (type.kind) {
     case TypeKind::boolean:
-      if (!node.is_plain() || (node.text != "true" && node.text != "false"))
+      if (const auto truth = node.is_plain() ? spelled_truth(node.text) : std::nullopt)
+        *static_cast<bool*>(value) = *truth;
+      else
         fail_kind(type, label, node);
-      *static_cast<bool*>(value) = node.text == "true";
       return;
     case TypeKind::integer:
       return read_whole(info, label, *static_cast<int*>(value), node);

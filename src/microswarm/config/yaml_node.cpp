@@ -123,6 +123,20 @@ std::size_t character_length(std::string_view text) {
   return code && (*code >= 0x20 || *code == '\t' || *code == '\n' || *code == '\r') ? bytes : 0;
 }
 
+/// Throws InputError if a line up to `last` is indented by a tab, which the parser complains about
+/// in other words.
+void fail_at_tab(std::string_view text, std::string_view name, int last) {
+  for (int line = 1; line <= last && !text.empty(); ++line) {
+    const std::string_view row = text.substr(0, text.find('\n'));
+    const std::size_t content = row.find_first_not_of(" \t\r");
+    const std::size_t tab = row.substr(0, content).find('\t');
+    if (content != std::string_view::npos && row[content] != '#' && tab != std::string_view::npos)
+      throw InputError(std::string(name), line, static_cast<int>(tab) + 1,
+                       "a tab indents this line: YAML is indented by blanks only");
+    text.remove_prefix(std::min(row.size() + 1, text.size()));
+  }
+}
+
 }  // namespace
 
 void check_characters(std::string_view text, std::string_view name) {
@@ -150,6 +164,7 @@ YamlNode parse_yaml(std::string_view text, std::string_view name) {
     while (parser.HandleNextDocument(builder)) {
     }
   } catch (const YAML::Exception& error) {
+    fail_at_tab(text, name, error.mark.line + 1);
     throw InputError(std::string(name), error.mark.line + 1, error.mark.column + 1,
                      "YAML: " + error.msg);
   }
