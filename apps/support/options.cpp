@@ -12,10 +12,54 @@
 
 namespace microswarm::cli {
 
+namespace {
+
+/// The settings that are of `map`, or the others.
+Settings split_settings(const std::vector<std::string>& texts, bool of_map) {
+  Settings settings(texts);
+  std::erase_if(settings.list,
+                [&](const Setting& setting) { return formats::is_of_map(setting) != of_map; });
+  return settings;
+}
+
+}  // namespace
+
 void add_map_file(Command command, std::string& file) {
   command.add_option("map", file, fmt::format("Map: {}", formats::map_formats()).c_str())
       .required()
       .type_name("FILE");
+}
+
+void add_map_input(Command command, MapInput& input) {
+  add_map_file(command, input.file);
+  command
+      .add_option(input.um_per_px_option.c_str(), input.um_per_px,
+                  "µm per pixel or cell of the map, 1e-6..1e6")
+      .type_name("NUMBER")
+      .check(number(1e-6, 1e6));
+  command
+      .add_option("--um-per-unit", input.um_per_unit,
+                  "µm for a unit of GeoJSON, SVG, CSV or ROS (m)")
+      .type_name("NUMBER")
+      .check(number(1e-9, 1e9));
+}
+
+formats::MapSpec choose_map_spec(const MapInput& input, const std::vector<std::string>& settings) {
+  return formats::choose_map_spec(input.file, {.um_per_px = input.um_per_px,
+                                               .um_per_unit = input.um_per_unit,
+                                               .settings = split_settings(settings, true),
+                                               .um_per_px_option = input.um_per_px_option});
+}
+
+formats::LoadedMap load_map(const MapInput& input, const std::vector<std::string>& settings) {
+  formats::LoadedMap loaded =
+      reading([&] { return formats::load_map(choose_map_spec(input, settings)); });
+  note_each(loaded.notes);
+  return loaded;
+}
+
+std::vector<std::string> other_settings(const std::vector<std::string>& settings) {
+  return split_settings(settings, false).texts();
 }
 
 void add_um_per_px(Command command, std::optional<double>& value, const char* doc) {

@@ -8,11 +8,40 @@
 #include <vector>
 
 #include "microswarm/config/type.hpp"
+#include "microswarm/formats/map_file.hpp"
 #include "microswarm/report/run_report.hpp"
 #include "support/cli.hpp"
 #include "support/command.hpp"
 
 namespace microswarm::cli {
+
+/// A map of the command line: the file, and how it is read.
+struct MapInput {
+  std::string file;
+  std::optional<double> um_per_px;
+  std::optional<double> um_per_unit;
+  std::string um_per_px_option = "--um-per-px";
+};
+/// Adds the map, `--um-per-px` (or what `um_per_px_option` says) and `--um-per-unit`.
+void add_map_input(Command command, MapInput& input);
+/// The map's spec by its options and those of the settings that are of `map`. Throws InputError.
+formats::MapSpec choose_map_spec(const MapInput& input, const std::vector<std::string>& settings);
+/// Reads the map and prints its notes. Throws InputError.
+formats::LoadedMap load_map(const MapInput& input, const std::vector<std::string>& settings);
+/// The settings that are not of `map`.
+std::vector<std::string> other_settings(const std::vector<std::string>& settings);
+
+/// Keys of `--set` of a command that reads a map and plans; for completion and the reference.
+template <class Planners>
+struct MapAndPlanner {
+  formats::MapSpec map;
+  Planners planner;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.map, plain("map", "How the map file is read."));
+    visit(self.planner, plain("planner", "Planner and its parameters."));
+  }
+};
 
 /// Options shared by several commands.
 void add_map_file(Command command, std::string& file);

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/formats/geojson.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "microswarm/core/maths/rng.hpp"
+#include "microswarm/core/text/text.hpp"
 #include "microswarm/formats/json_place.hpp"
 #include "tests/files.hpp"
 #include "tests/messages.hpp"
@@ -15,7 +19,7 @@ namespace {
 
 using test::error_of;
 
-MapParts parsed_geojson(std::string_view text, double scale = 1) {
+MapParts parsed_geojson(std::string_view text, std::optional<double> scale = {}) {
   return parse_geojson(text, "x.geojson", scale);
 }
 std::string geojson_complaint(std::string_view text) {
@@ -99,12 +103,148 @@ TEST(GeoJson, WrittenAndReadAgainGivesTheSameBits) {
   const auto point = [&] { return Vec2{rng.uniform(0, 1000), 1e-3 * rng.normal()}; };
   MapParts parts;
   for (int i = 0; i < 50; ++i) {
-    Polygon wall{{point(), point(), point(), point()}, {{point(), point(), point()}}};
+    const Vec2 p = point();
+    const double a = rng.uniform(1e-3, 100);
+    Polygon wall{{p, p + Vec2{a, 0}, p + Vec2{a, a}, p + Vec2{0, a}},
+                 {{p + Vec2{a / 3, a / 7}, p + Vec2{a / 2, a / 3}, p + Vec2{a / 5, a / 2}}}};
     parts.walls.push_back(normalised(std::move(wall)));
     parts.discs.push_back({point(), rng.uniform(1e-9, 1e6)});
   }
   parts.bounds = enclosing_box(parts);
   EXPECT_EQ(fingerprint(parsed_geojson(geojson_text(parts))), fingerprint(parts));
+}
+
+/// A polygon whose hole is `hole`, in a ring from (0, 0) to (100, 100).
+std::string with_hole(std::string_view holes) {
+  return polygon("[[[0,0],[100,0],[100,100],[0,100],[0,0]],\n" + std::string(holes) + "]");
+}
+
+TEST(GeoJsonErrors, HolesOutsideOrAcrossTheirRing) {
+  const auto refused = [](std::string_view holes, int ring, std::string_view what) {
+    return test::is_one_line_naming(geojson_complaint(with_hole(holes)), "x.geojson:2",
+                                    {fmt::format("coordinates[{}]", ring), std::string(what)});
+  };
+  EXPECT_TRUE(refused("[[200,10],[210,10],[210,20],[200,10]]", 1, "outside"));
+  EXPECT_TRUE(refused("[[50,50],[150,50],[150,60],[50,60],[50,50]]", 1, "crosses its ring"));
+  EXPECT_TRUE(
+      refused("[[10,10],[50,10],[50,50],[10,50],[10,10]],"
+              "[[20,20],[30,20],[30,30],[20,20]]",
+              2, "another hole"));
+  EXPECT_TRUE(
+      refused("[[10,10],[50,10],[50,50],[10,50],[10,10]],"
+              "[[40,20],[60,20],[60,30],[40,20]]",
+              2, "holes cross"));
+  EXPECT_TRUE(refused("[[10,10],[50,50],[50,10],[10,50],[10,10]]", 1, "crosses itself"));
+  // Through vertices on the ring, where no edges cross.
+  EXPECT_TRUE(refused("[[50,40],[100,40],[150,50],[100,60],[50,60],[50,40]]", 1, "ring"));
+}
+
+/// Vertices that were computed to lie on an edge, and are beside it by rounding.
+TEST(GeoJson, RingsThatTouchButForRoundingAreNoCrossing) {
+  Rng rng(7, Purpose::test);
+  for (int i = 0; i < 200; ++i) {
+    const Vec2 a{rng.uniform(-1e4, 1e4), rng.uniform(-1e4, 1e4)};
+    const Vec2 b{rng.uniform(-1e4, 1e4), rng.uniform(-1e4, 1e4)};
+    const Vec2 c{rng.uniform(-1e4, 1e4), rng.uniform(-1e4, 1e4)};
+    const double t = rng.uniform(0.1, 0.9);
+    const Vec2 on = a + t * (b - a), in = 1.0 / 3 * (a + b + c);
+    const Vec2 other = in + 0.2 * (c - in);
+    const auto text = [](Vec2 p) { return "[" + number_text(p.x) + "," + number_text(p.y) + "]"; };
+    const std::string outer = text(a) + "," + text(b) + "," + text(c) + "," + text(a);
+    const std::string hole = text(on) + "," + text(in) + "," + text(other) + "," + text(on);
+    const MapParts parts = parsed_geojson(polygon("[[" + outer + "],[" + hole + "]]"));
+    EXPECT_EQ(parts.walls.size(), 1u) << i;
+  }
+}
+
+TEST(GeoJson, HolesMayTouch) {
+  for (const char* hole : {"[[50,50],[100,50],[50,60],[50,50]]",  // the ring, in a point
+                           "[[0,0],[50,10],[10,50],[0,0]]",       // a corner
+                           "[[10,10],[50,10],[50,50],[10,10]],[[50,50],[90,50],[90,90],[50,50]]"})
+    EXPECT_EQ(parsed_geojson(with_hole(hole)).walls.size(), 1u) << hole;
+}
+
+/// What a crossing ring goes round is a wall, and the crossing is told, whether or not it is at a
+/// vertex.
+TEST(GeoJson, RingsThatCrossThemselvesAreTold) {
+  const auto wall_area = [](const MapParts& parts) {
+    double sum = 0;
+    for (const Polygon& wall : parts.walls) sum += area(wall);
+    return sum;
+  };
+  for (const char* ring : {"[[[400,0],[600,400],[600,0],[400,400],[400,0]]]",
+                           "[[[400,0],[500,200],[600,400],[600,0],[500,200],[400,400],[400,0]]]"}) {
+    const MapParts parts = parsed_geojson(polygon(ring));
+    EXPECT_NEAR(wall_area(parts), 40'000, 1e-3) << ring;
+    ASSERT_EQ(parts.notes.size(), 1u) << ring;
+    EXPECT_TRUE(parts.notes[0].starts_with("x.geojson:1: coordinates[0]: ")) << parts.notes[0];
+    EXPECT_NE(parts.notes[0].find("crosses itself at (500, 200)"), std::string::npos)
+        << parts.notes[0];
+  }
+  const MapParts uneven =
+      parsed_geojson(polygon("[[[400,0],[600,400],[600,100],[400,400],[400,0]]]"));
+  EXPECT_EQ(uneven.notes.size(), 1u);
+  EXPECT_EQ(uneven.walls.size(), 2u);
+  // Two squares that touch in a corner, as traced pixels do.
+  EXPECT_TRUE(parsed_geojson(polygon("[[[200,0],[201,0],[201,1],[202,1],[202,2],[201,2],[201,1],"
+                                     "[200,1],[200,0]]]"))
+                  .notes.empty());
+}
+
+TEST(GeoJson, LinesWithAWidthAreWalls) {
+  const std::string line = R"({"type":"LineString","coordinates":[[0,0],[30,40],[30,100]]})";
+  const MapParts parts = parsed_geojson(feature(line, R"({"width":10})"), 2);
+  ASSERT_EQ(parts.walls.size(), 2u);
+  EXPECT_NEAR(area(parts.walls[0]), 100 * 20, 1e-9);
+  EXPECT_NEAR(area(parts.walls[1]), 120 * 20, 1e-9);
+  ASSERT_EQ(parts.discs.size(), 3u);
+  EXPECT_EQ(parts.discs[1].centre, (Vec2{60, 80}));
+  EXPECT_EQ(parts.discs[1].radius, 10);
+  const std::string lines =
+      R"({"type":"MultiLineString","coordinates":[[[0,0],[1000,0]],[[0,9],[0,9],[900,9]]]})";
+  const MapParts more = parse_geojson(lines, "x.geojson", std::nullopt, 4);
+  EXPECT_EQ(more.walls.size(), 2u);
+  EXPECT_EQ(more.bounds.lo, (Vec2{-2, -2}));
+  EXPECT_TRUE(test::is_one_line_naming(geojson_complaint(feature(line)), "x.geojson:1",
+                                       {"LineString", "'width'", "line_width_um"}));
+  EXPECT_TRUE(test::is_one_line_naming(geojson_complaint(feature(line, R"({"width":0})")),
+                                       "x.geojson:1", {"properties.width", "0 µm"}));
+}
+
+TEST(GeoJson, UnitsAreToldOrAskedFor) {
+  const auto notes = [](std::string_view ring, std::optional<double> unit = {}) {
+    return parse_geojson(polygon(ring), "x.geojson", unit).notes;
+  };
+  const char* degrees = "[[[8.54,47.37],[8.55,47.37],[8.55,47.38],[8.54,47.37]]]";
+  ASSERT_EQ(notes(degrees).size(), 1u);
+  EXPECT_NE(notes(degrees)[0].find("--um-per-unit"), std::string::npos);
+  EXPECT_TRUE(notes(degrees, 1).empty());
+  EXPECT_TRUE(notes("[[[0,0],[200,0],[200,90],[0,0]]]").empty());
+  const char* country = "[[[458000,5500000],[458100,5500000],[458100,5500100],[458000,5500000]]]";
+  ASSERT_EQ(notes(country).size(), 1u);
+  EXPECT_NE(notes(country)[0].find("metres"), std::string::npos);
+
+  const std::string crs = R"({"type":"Feature","properties":{},"crs":{"type":"name","properties":)"
+                          R"({"name":"EPSG:32633"}},"geometry":)" +
+                          polygon(square) + "}";
+  EXPECT_TRUE(test::is_one_line_naming(geojson_complaint(crs), "x.geojson:1",
+                                       {"crs", "EPSG:32633", "--um-per-unit"}));
+  EXPECT_EQ(parsed_geojson(crs, 1e6).bounds.hi, (Vec2{4e6, 4e6}));
+  const std::string own =
+      R"({"type":"Polygon","um_per_unit":3,"crs":null,"coordinates":)" + std::string(square) + "}";
+  EXPECT_EQ(parse_geojson(own, "x.geojson").bounds.hi, (Vec2{12, 12}));
+  EXPECT_TRUE(parse_geojson(own, "x.geojson").notes.empty());
+  MapParts small{{{0, 0}, {5, 5}}, {}, {}};
+  EXPECT_TRUE(parse_geojson(geojson_text(small), "x.geojson").notes.empty());
+}
+
+TEST(GeoJsonErrors, OtherJsonOfMapsIsNamed) {
+  for (const auto& [text, name] :
+       {std::pair{R"({"type":"Topology","objects":{},"arcs":[]})", "TopoJSON"},
+        {R"({"type":"CityJSON","vertices":[]})", "CityJSON"},
+        {R"({"geometryType":"esriGeometryPolygon","features":[]})", "Esri"}})
+    EXPECT_TRUE(
+        test::is_one_line_naming(geojson_complaint(text), "x.geojson:1", {name, "GeoJSON"}));
 }
 
 TEST(GeoJsonErrors, NameLineAndPlace) {

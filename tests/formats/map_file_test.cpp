@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "microswarm/core/text/text.hpp"
 #include "microswarm/formats/images/image.hpp"
 #include "microswarm/formats/images/pnm.hpp"
 #include "microswarm/formats/rectangles.hpp"
@@ -61,6 +62,55 @@ TEST(MapFile, RosPairStandsAtItsOrigin) {
   EXPECT_TRUE(map.map->is_free(Vec2{-9, 21}, 0));
 }
 
+/// A cell's centre, turned about the origin, is as free as the cell; what is beyond is a wall.
+TEST(MapFile, RosMapIsTurnedByTheYawOfItsOrigin) {
+  const Folder folder;
+  Image image{7, 5, 1, std::vector<std::uint8_t>(35, 254)};
+  for (const int wall : {0, 3, 11, 17, 18, 24, 34})
+    image.pixels[static_cast<std::size_t>(wall)] = 0;
+  folder.with("a.pgm", encode_pnm(image));
+  for (const double yaw : {0.3, 1.5707963267948966, -2.0, 3.141592653589793, 4.0}) {
+    folder.with("a.yaml", "image: a.pgm\nresolution: 2\norigin: [-10, 30, " + number_text(yaw) +
+                              "]\nnegate: 0\n");
+    const LoadedMap map = load_map(RosMap{.file = "a.yaml", .um_per_m = 10}, folder / "");
+    const Vec2 origin{-100, 300};
+    const auto place = [&](double column, double row) {
+      return origin + rotated({20 * column, 20 * (5 - row)}, yaw);
+    };
+    for (int row = 0; row < 5; ++row)
+      for (int column = 0; column < 7; ++column) {
+        const bool wall = image.pixels[static_cast<std::size_t>(7 * row + column)] == 0;
+        EXPECT_EQ(map.map->is_free(place(column + 0.5, row + 0.5), 0), !wall) << yaw;
+      }
+    for (const Vec2 beyond : {place(-0.5, 2), place(7.5, 2), place(3, -0.5), place(3, 5.5)})
+      EXPECT_FALSE(map.map->is_free(beyond, 0)) << yaw;
+    EXPECT_NEAR(map.map->clearance(place(5.5, 4.5)), 10, 1e-9) << yaw;
+    for (const Vec2 corner : {place(0, 0), place(7, 0), place(0, 5), place(7, 5)})
+      EXPECT_TRUE(map.map->bounds().grown(1e-9).contains(corner)) << yaw;
+  }
+}
+
+TEST(MapFile, RosMapTellsWhatItAssumesAndLeavesOut) {
+  const Folder folder;
+  const auto notes = [&](std::vector<std::uint8_t> pixels, bool unknown_free) {
+    folder.with("a.pgm", encode_pnm(Image{static_cast<int>(pixels.size()), 1, 1, pixels}));
+    folder.with("a.yaml",
+                "image: a.pgm\nresolution: 1\norigin: [0, 0, 0]\nfree_thresh: 0.25\nframe_id: m\n");
+    return read_map_parts(RosMap{.file = "a.yaml", .unknown_free = unknown_free}, folder / "")
+        .notes;
+  };
+  const auto saved = notes({0, 205, 254, 205}, false);
+  ASSERT_EQ(saved.size(), 2u);
+  EXPECT_NE(saved[0].find("2 cells of grey 205"), std::string::npos) << saved[0];
+  EXPECT_NE(saved[0].find("are walls"), std::string::npos) << saved[0];
+  EXPECT_NE(saved[1].find("frame_id"), std::string::npos) << saved[1];
+  const auto shaded = notes({0, 205, 254, 210}, false);
+  EXPECT_NE(shaded[0].find("1 cells of grey 205"), std::string::npos) << shaded[0];
+  EXPECT_NE(shaded[0].find("are free"), std::string::npos) << shaded[0];
+  EXPECT_EQ(notes({0, 205, 254}, true).size(), 1u);
+  EXPECT_EQ(notes({0, 254}, false).size(), 1u);
+}
+
 TEST(MapFile, TransparentPixelsOfARosMapAreUnknown) {
   const Folder folder;
   const std::string row("\0\xfe\xff\xfe\x00\x00\xff", 7);  // free, transparent, occupied
@@ -101,6 +151,150 @@ TEST(MapFile, RectanglesFromListAndFile) {
   spec.lo = Vec2{-5, -5};
   spec.hi = Vec2{50, 50};
   EXPECT_EQ(read_map_parts(spec, folder / "").bounds.lo, (Vec2{-5, -5}));
+}
+
+/// Matrices of 0 and 1 are told from rectangles by their content, also with four columns.
+TEST(MapFile, MatrixOfZerosAndOnes) {
+  const Folder folder;
+  const auto read = [&](const char* name, std::string_view text, MapChoice choice = {}) {
+    choice.um_per_px = 10;
+    return read_map_parts(choose_map_spec(folder.with(name, text), choice));
+  };
+  for (const char* text : {"1 1 1 1\n1 0 1 1\n", "1,1,1,1\n1,0,1,1", "# a\n\n1;1;1;1;\n1;0;1;1;\n",
+                           "1\t1\t1\t1\r\n1\t0\t1\t1\r\n", "1111\n1011\n",
+                           "1.0 1.0 1.0 1.0\n1.000e+00 0.000e+00 1.000e+00 1.000e+00\n"}) {
+    const MapParts parts = read("m.txt", text);
+    EXPECT_EQ(parts.bounds.hi, (Vec2{40, 20})) << text;
+    ASSERT_EQ(parts.walls.size(), 1u) << text;
+    EXPECT_EQ(bounding_box(parts.walls[0]).lo, (Vec2{10, 0})) << text;
+    EXPECT_EQ(area(parts.walls[0]), 100) << text;
+    ASSERT_EQ(parts.notes.size(), 1u);
+    EXPECT_NE(parts.notes[0].find("map.wall=one"), std::string::npos) << parts.notes[0];
+  }
+  const MapParts ones = read("m.csv", "1 1 1\n1 0 1\n", {.settings = {"map.wall=one"}});
+  EXPECT_EQ(area(ones.walls[0]), 500);
+  EXPECT_TRUE(ones.notes.empty());
+  EXPECT_TRUE(read("m.csv", "1 0\n", {.settings = {"map.wall=zero"}}).notes.empty());
+  const auto box = folder.with("m.txt", "0 0 1 1\n");
+  EXPECT_TRUE(test::is_one_line_naming(error_of([&] { guess_map_spec(box); }), box.string(),
+                                       {"matrix", "missing", "--um-per-px"}));
+  EXPECT_EQ(
+      area(read_map_parts(choose_map_spec(box, {.settings = {"map.type=rectangles"}})).walls[0]),
+      1);
+  EXPECT_TRUE(std::holds_alternative<RectanglesMap>(
+      guess_map_spec(folder.with("r.csv", "0,0,1,1\n0,0,2,1\n"))));
+  const auto ragged = folder.with("m.txt", "1 0\n1 0 1\n");
+  const MatrixMap spec{.file = ragged.string()};
+  EXPECT_TRUE(test::is_one_line_naming(error_of([&] { read_map_parts(spec); }),
+                                       ragged.string() + ":2", {"3", "2"}));
+  folder.with("m.txt", "1 0\n1 2\n");
+  EXPECT_TRUE(test::is_one_line_naming(error_of([&] { read_map_parts(spec); }),
+                                       ragged.string() + ":2", {"2", "0", "1"}));
+}
+
+TEST(MapFile, RectanglesOfSpreadsheets) {
+  const auto box = [](std::string_view text, double unit = 1) {
+    return bounding_box(parse_rectangles(text, "x.csv", unit).at(0));
+  };
+  EXPECT_EQ(box("\"x\";\"y\";\"w\";\"h\"\n1,5;2;3;4\n").lo, (Vec2{1.5, 2}));
+  EXPECT_EQ(box("\"x\",\"y\",\"w\",\"h\"\n\"1\",\"2\",\"3\",\"4\"\n").hi, (Vec2{4, 6}));
+  EXPECT_EQ(box("1,2,3,4\n", 1000).hi, (Vec2{4000, 6000}));
+}
+
+TEST(MapFile, SettingsChooseHowAFileIsRead) {
+  const Folder folder;
+  Image dark{3, 1, 1, {10, 200, 10}};
+  folder.with("a.pgm", encode_pnm(dark));
+  const auto walls = [&](std::initializer_list<std::string> settings) {
+    return read_map_parts(choose_map_spec(folder / "a.pgm", {.um_per_px = 1, .settings = settings}))
+        .walls.size();
+  };
+  EXPECT_EQ(walls({}), 2u);
+  EXPECT_EQ(walls({"map.free=dark"}), 1u);
+  EXPECT_EQ(walls({"map.threshold=5"}), 0u);
+  const auto spec = choose_map_spec(folder / "a.pgm", {.settings = {"map.um_per_px=4"}});
+  EXPECT_EQ(std::get<ImageMap>(spec).um_per_px, 4);
+  EXPECT_TRUE(test::is_one_line_naming(error_of([&] { walls({"map.fre=dark"}); }), "--set map.fre",
+                                       {"free"}));
+  folder.with("walls", "0,0,2,1\n");
+  EXPECT_TRUE(std::holds_alternative<RectanglesMap>(
+      choose_map_spec(folder / "walls", {.settings = {"map.type=rectangles"}})));
+  EXPECT_NE(error_of([&] {
+              choose_map_spec(folder / "walls", {.settings = {"map.type=channel"}});
+            }).find("map.type"),
+            std::string::npos);
+}
+
+TEST(MapFile, AUnitScalesFilesInPlaneCoordinates) {
+  const Folder folder;
+  const auto bounds = [&](const char* name, std::string_view text) {
+    return load_map(choose_map_spec(folder.with(name, text), {.um_per_unit = 1000}))
+        .map->bounds()
+        .hi;
+  };
+  EXPECT_EQ(bounds("a.csv", "0,0,2,1\n"), (Vec2{2000, 1000}));
+  EXPECT_EQ(bounds("a.geojson", R"({"type":"Polygon","coordinates":[[[0,0],[3,0],[3,2],[0,0]]]})"),
+            (Vec2{3000, 2000}));
+  folder.with("a.pgm", encode_pnm(corner_picture()));
+  EXPECT_EQ(bounds("a.yaml", "image: a.pgm\nresolution: 2\norigin: [0, 0, 0]\n"),
+            (Vec2{8000, 6000}));
+  EXPECT_TRUE(test::is_one_line_naming(
+      error_of([&] { choose_map_spec(folder / "a.pgm", {.um_per_unit = 5}); }),
+      (folder / "a.pgm").string(), {"--um-per-unit", "--um-per-px"}));
+  EXPECT_TRUE(test::is_one_line_naming(
+      error_of([&] { choose_map_spec(folder / "a.geojson", {.um_per_px = 5}); }),
+      (folder / "a.geojson").string(), {"--um-per-unit", "--um-per-px"}));
+}
+
+/// A picture that is all wall says what to change: samples of 12 bits in 16 are 15 of 255 at most.
+TEST(MapFile, PictureThatIsAllWallIsRefusedWithAdvice) {
+  const Folder folder;
+  folder.with("a.pgm", encode_pnm(Image{3, 1, 1, {0, 15, 9}}));
+  const auto complaint = [&](FreePixels free, int threshold) {
+    return error_of([&] {
+      read_map_parts(ImageMap{.file = "a.pgm", .threshold = threshold, .free = free}, folder / "");
+    });
+  };
+  EXPECT_TRUE(test::is_one_line_naming(complaint(FreePixels::bright, 128),
+                                       (folder / "a.pgm").string(),
+                                       {"15", "128", "map.threshold to 8", "map.free", "12"}));
+  folder.with("a.pgm", encode_pnm(Image{3, 1, 1, {40, 15, 19}}));
+  EXPECT_TRUE(test::is_one_line_naming(complaint(FreePixels::dark, 12), (folder / "a.pgm").string(),
+                                       {"15", "12", "map.free"}));
+}
+
+/// Units in mm, a transform, a circle, a stroke and a curve, in front of white.
+TEST(MapFile, SvgIsWhatItLooksLike) {
+  const Folder folder;
+  folder.with("a.svg", R"(<svg xmlns="http://www.w3.org/2000/svg" width="2mm" height="1mm" )"
+                       R"(viewBox="0 0 200 100"><g transform='translate(100 0)'>)"
+                       R"(<circle cx="50" cy="40" r="20"/></g>)"
+                       R"(<path d="M10 80 H90" stroke="black" stroke-width="8" fill="none"/>)"
+                       R"(<rect x="20" y="10" width="30" height="20" style="fill:#222"/>)"
+                       R"(<rect x="60" y="10" width="10" height="10" fill="#fff"/></svg>)");
+  const LoadedMap map = load_map(guess_map_spec(folder / "a.svg"));
+  EXPECT_EQ(map.map->bounds().hi, (Vec2{2000, 1000}));
+  ASSERT_EQ(map.notes.size(), 1u);
+  EXPECT_NE(map.notes[0].find("--um-per-px"), std::string::npos) << map.notes[0];
+  EXPECT_NEAR(map.map->clearance({1500, 300}), 100, 1);  // circle at (1500, 600), radius 200
+  EXPECT_FALSE(map.map->is_free(Vec2{1500, 600}, 0));
+  EXPECT_FALSE(map.map->is_free(Vec2{500, 200}, 0));  // the stroke, 80 wide
+  EXPECT_NEAR(map.map->clearance({500, 300}), 60, 1);
+  EXPECT_FALSE(map.map->is_free(Vec2{350, 800}, 0));  // the dark rectangle
+  EXPECT_TRUE(map.map->is_free(Vec2{650, 850}, 0));   // the white one
+  const LoadedMap scaled =
+      load_map(choose_map_spec(folder / "a.svg", {.um_per_px = 2, .um_per_unit = 5}));
+  EXPECT_EQ(scaled.map->bounds().hi, (Vec2{1000, 500}));
+  EXPECT_NEAR(scaled.map->clearance({750, 150}), 50, 2);
+  EXPECT_TRUE(scaled.notes.empty());
+  folder.with("b.svg", R"(<svg xmlns="http://www.w3.org/2000/svg" width="200" height="100"/>)");
+  EXPECT_TRUE(
+      test::is_one_line_naming(error_of([&] { load_map(guess_map_spec(folder / "b.svg")); }),
+                               (folder / "b.svg").string(), {"mm", "--um-per-unit"}));
+  folder.with("b.svg", "<svg");
+  EXPECT_TRUE(
+      test::is_one_line_naming(error_of([&] { load_map(guess_map_spec(folder / "b.svg")); }),
+                               (folder / "b.svg").string(), {"SVG"}));
 }
 
 TEST(MapFile, PolygonsAndDiscs) {

@@ -91,6 +91,43 @@ TEST(Ros, WhatMapSaverWritesIsRead) {
   EXPECT_EQ(second.free_thresh, 0.25);
 }
 
+/// A picture of map_saver has 0, 205 and 254 only: 205 is unknown there whatever free_thresh is.
+TEST(Ros, UnknownOfMapSaverStaysUnknown) {
+  RosHeader header = parsed_header(plain);
+  header.free_thresh = 0.25;
+  const Image saved{5, 1, 1, {0, 205, 254, 205, 255}};
+  EXPECT_TRUE(find_saver_unknown(saved, header).is_of_map_saver);
+  EXPECT_EQ(find_saver_unknown(saved, header).cells, 2u);
+  EXPECT_EQ(ros_walls(saved, header).cells, (Cells{1, 1, 0, 1, 0}));
+  EXPECT_EQ(ros_walls(saved, header, true).cells, (Cells{1, 0, 0, 0, 0}));
+
+  const Image shaded{4, 1, 1, {0, 205, 254, 220}};  // somebody's shades of grey
+  EXPECT_FALSE(find_saver_unknown(shaded, header).is_of_map_saver);
+  EXPECT_EQ(find_saver_unknown(shaded, header).cells, 1u);
+  EXPECT_EQ(ros_walls(shaded, header).cells, (Cells{1, 0, 0, 0}));
+
+  header.free_thresh = 0.196;  // 205 is unknown anyway
+  EXPECT_EQ(find_saver_unknown(saved, header).cells, 0u);
+  header.free_thresh = 0.25;
+  header.mode = RosMode::scale;  // where unknown is transparent
+  EXPECT_EQ(find_saver_unknown(saved, header).cells, 0u);
+  EXPECT_EQ(ros_walls(saved, header).cells, (Cells{1, 0, 0, 0, 0}));
+}
+
+TEST(Ros, FormsThatNav2Reads) {
+  for (const char* yes : {"1", "true", "True", "yes"})
+    EXPECT_EQ(parsed_header(std::string(plain) + "negate: " + yes + "\n").negate, 1) << yes;
+  for (const char* no : {"0", "false", "False", "no"})
+    EXPECT_EQ(parsed_header(std::string(plain) + "negate: " + no + "\n").negate, 0) << no;
+  for (const char* mode : {"scale", "Scale", "SCALE", "\"Scale\""})
+    EXPECT_EQ(parsed_header(std::string(plain) + "mode: " + mode + "\n").mode, RosMode::scale);
+  const RosHeader header =
+      parsed_header(std::string(plain) + "frame_id: map\nextra: {a: [1]}\nnegate: 1\n");
+  EXPECT_EQ(header.unread, (std::vector<std::string>{"frame_id", "extra"}));
+  EXPECT_EQ(header.negate, 1);
+  EXPECT_EQ(parsed_header("image: a\nresolution: 1\norigin: [0, 0, -1.5]\n").origin[2], -1.5);
+}
+
 TEST(Ros, TransparentIsUnknown) {
   const Image image{3, 1, 1, {254, 254, 0}};
   const RosHeader header = parsed_header(plain);
@@ -112,8 +149,10 @@ TEST(RosErrors, NameFileAndValue) {
   EXPECT_NE(complaint("resolution: 1\norigin: [0, 0, 0]\n").find("image"), std::string::npos);
   EXPECT_EQ(complaint("image: a\nresolution: 1\norigin: [0, 0]\n"),
             "x.yaml: origin of 2 numbers, 3 expected: x, y, yaw");
-  EXPECT_TRUE(test::is_one_line_naming(complaint("image: a\nresolution: 1\norigin: [0, 0, 0.5]\n"),
-                                       "x.yaml", {"0.5", "0"}));
+  EXPECT_TRUE(test::is_one_line_naming(complaint("image: a\nresolution: 1\norigin: [0, 0, -nan]\n"),
+                                       "x.yaml:3", {"yaw", "-nan", "write 0"}));
+  EXPECT_NE(complaint(std::string(plain) + "free_tresh: 0.1\n").find("free_thresh"),
+            std::string::npos);
   EXPECT_TRUE(test::is_one_line_naming(complaint(std::string(plain) + "free_thresh: 0.9\n"),
                                        "x.yaml",
                                        {"free_thresh", "0.9", "occupied_thresh", "0.65"}));

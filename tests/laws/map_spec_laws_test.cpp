@@ -111,7 +111,8 @@ TEST_P(MapSpecLaws, CellsSurviveEveryGridForm) {
 
 TEST_P(MapSpecLaws, GuessedFromItsFileItIsOfItsKind) {
   if (path().empty()) return;
-  const bool is_picture = std::holds_alternative<formats::ImageMap>(spec_);
+  const bool is_picture = std::holds_alternative<formats::ImageMap>(spec_) ||
+                          std::holds_alternative<formats::MatrixMap>(spec_);
   const formats::MapSpec guessed =
       formats::guess_map_spec(path(), is_picture ? std::optional<double>(10) : std::nullopt);
   EXPECT_EQ(guessed.index(), spec_.index());
@@ -222,6 +223,20 @@ std::vector<MapCase> map_cases() {
                 R"([[[20,5],[40,5],[40,30],[20,5]]]}}]})");
     return formats::GeoJsonMap{.file = "a.geojson", .um_per_unit = 2};
   };
+  const auto turned_ros = [](const test::Folder& folder) -> formats::MapSpec {
+    folder.with("a.pgm", formats::encode_pnm(room_picture()));
+    folder.with("a.yaml", "image: a.pgm\nresolution: 0.5\norigin: [-1, 2, 0.5]\n");
+    return formats::RosMap{.file = "a.yaml", .um_per_m = 20};
+  };
+  const auto matrix = [](const test::Folder& folder) -> formats::MapSpec {
+    folder.with("a.txt", "1 1 1 1 1\n1 0 0 1 1\n1 1 1 0 1\n");
+    return formats::MatrixMap{.file = "a.txt", .um_per_cell = 20};
+  };
+  const auto svg = [](const test::Folder& folder) -> formats::MapSpec {
+    folder.with("a.svg", R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 60 40">)"
+                         R"(<circle cx="20" cy="20" r="8"/></svg>)");
+    return formats::SvgMap{.file = "a.svg", .um_per_unit = 5, .um_per_px = 5};
+  };
   return {{"Polygons", polygons, {100, 80}, {80, 45}},
           {"Rectangles", rectangles, {80, 40}, {25, 50}},
           {"RectanglesFile", rectangles_file, {50, 40}, {72, 50}},
@@ -229,6 +244,9 @@ std::vector<MapCase> map_cases() {
           {"Image", image, {15, 15}, {45, 55}},
           {"ImageDarkFree", inverted, {15, 15}, {45, 55}},
           {"Ros", ros, {-15, 45}, {25, 95}},
+          {"RosTurned", turned_ros, {-8, 60}, {-19, 95}},
+          {"Matrix", matrix, {10, 10}, {30, 30}},
+          {"Svg", svg, {20, 20}, {100, 100}},
           {"MovingAi", moving_ai, {10, 10}, {30, 30}},
           {"GeoJson", geojson, {80, 70}, {70, 20}}};
 }

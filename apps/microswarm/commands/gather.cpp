@@ -12,8 +12,10 @@ namespace microswarm::cli {
 namespace {
 
 struct GatherOptions {
-  std::string map;
-  std::optional<double> um_per_px;
+  MapInput map{.file = {},
+               .um_per_px = {},
+               .um_per_unit = {},
+               .um_per_px_option = "--map-um-per-px"};  // --um-per-px is the photograph's
   std::string goal;
   int robots = 256;
   std::optional<double> channel_width;
@@ -34,24 +36,20 @@ void note_width(const GatherOptions& o, double measured) {
          *o.channel_width, measured);
 }
 
-/// Map specification; the user's --um-per-px belongs to the photograph.
-formats::MapSpec map_spec(const GatherOptions& o) {
-  return formats::guess_map_spec(o.map, o.um_per_px, "--map-um-per-px");
-}
-
 int gather_command(const GatherOptions& o, const Context& context) {
   const std::vector<double> to = numbers(o.goal);
   const report::ReportOptions report = report_options(o.photo);
-  formats::MapSpec spec = map_spec(o);
+  formats::MapSpec spec = choose_map_spec(o.map, o.settings);
   formats::MapParts map = formats::read_map_parts(spec);
-  experiment::GatherExperiment made = experiment::open_gathering(std::move(map), std::move(spec),
-                                                                 {.goal = {to[0], to[1]},
-                                                                  .robots = o.robots,
-                                                                  .channel_width = o.channel_width,
-                                                                  .max_steps = o.max_steps,
-                                                                  .settings = o.settings,
-                                                                  .seed = o.seed},
-                                                                 o.map);
+  experiment::GatherExperiment made =
+      experiment::open_gathering(std::move(map), std::move(spec),
+                                 {.goal = {to[0], to[1]},
+                                  .robots = o.robots,
+                                  .channel_width = o.channel_width,
+                                  .max_steps = o.max_steps,
+                                  .settings = other_settings(o.settings),
+                                  .seed = o.seed},
+                                 o.map.file);
   note_width(o, made.measured_width);
   note_each(made.notes);
   const OutFolder hold(o.out);
@@ -68,10 +66,7 @@ void add_gather(Command app, Action& action) {
   Command cmd =
       app.add_command("gather", "Simulate gathering many robots at a goal with one common input",
                       "gather vessels.geojson --goal 11103,2397 --robots 512 --out out/gather");
-  add_map_file(cmd, o->map);
-  cmd.add_option("--map-um-per-px", o->um_per_px, "µm per pixel or cell of the map, 1e-6..1e6")
-      .type_name("NUMBER")
-      .check(number(1e-6, 1e6));
+  add_map_input(cmd, o->map);
   cmd.add_option("--goal", o->goal, "Goal in µm, in a dead end")
       .required()
       .type_name("X,Y")

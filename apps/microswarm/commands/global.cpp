@@ -13,7 +13,6 @@
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/experiment/queries/global_query.hpp"
 #include "microswarm/experiment/record/global_tree_file.hpp"
-#include "microswarm/formats/map_file.hpp"
 #include "microswarm/report/robot_picture.hpp"
 #include "support/options.hpp"
 
@@ -23,8 +22,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct GlobalOptions {
-  std::string map;
-  std::optional<double> um_per_px;
+  MapInput map;
   std::string robots;
   std::string goals;
   std::string tree;
@@ -67,7 +65,7 @@ planning::GlobalRrtParams search_parameters(const GlobalOptions& o,
   grown.contact = tree.contact;
   grown.separation = tree.separation;
   choice.planner = grown;
-  note_each(set_values(choice, o.settings));
+  note_each(set_values(choice, other_settings(o.settings)));
   const auto* set = std::get_if<planning::GlobalRrtParams>(&choice.planner);
   const auto differs = [&](const char* key, const auto& was, const auto& is) {
     if (was != is)
@@ -103,7 +101,7 @@ Json to_paths(const planning::GlobalPlan& plan) {
   return paths;
 }
 
-void show_json(const experiment::GlobalAnswer& found, bool has_goals) {
+void show_json(const experiment::GlobalAnswer& found, bool has_goals, Notes notes) {
   Json json{
       {"status", to_string(found.plan.status)}, {"nodes", found.nodes}, {"time_s", found.seconds}};
   if (has_goals) {
@@ -113,6 +111,8 @@ void show_json(const experiment::GlobalAnswer& found, bool has_goals) {
     json["inputs"] = to_runs(found.plan.inputs);
     json["ways_um"] = to_paths(found.plan);
   }
+  notes.insert(notes.end(), found.notes.begin(), found.notes.end());
+  json["notes"] = notes;
   print("{}\n", json.dump(2));
 }
 
@@ -152,7 +152,7 @@ experiment::GlobalAnswer ask_tree(const GlobalOptions& o, const formats::LoadedM
   const planning::GlobalTree tree = experiment::read_global_tree(o.tree, map);
   const planning::GlobalRrtParams params = search_parameters(o, tree);
   const planning::GlobalPlay play = experiment::to_play(params);
-  experiment::check_ends(*map.map, tree.positions(0), goals, play, o.map);
+  experiment::check_ends(*map.map, tree.positions(0), goals, play, o.map.file);
   const auto began = Stop::Clock::now();
   experiment::GlobalAnswer found{
       .plan = planning::plan_to(tree, planning::ask(tree, goals, params.goal_tolerance)),
@@ -171,11 +171,11 @@ experiment::GlobalAnswer found_plan(const GlobalOptions& o, const formats::Loade
   experiment::GlobalAnswer found = experiment::answer(*map.map,
                                                       {.starts = places(o.robots),
                                                        .goals = std::move(goals),
-                                                       .settings = o.settings,
+                                                       .settings = other_settings(o.settings),
                                                        .seed = o.seed,
                                                        .shorten = !o.as_found,
                                                        .keep_tree = !o.save_tree.empty()},
-                                                      o.map, stop);
+                                                      o.map.file, stop);
   note_each(found.notes);
   if (found.tree) experiment::write_global_tree(*found.tree, map, o.save_tree);
   return found;
@@ -184,20 +184,19 @@ experiment::GlobalAnswer found_plan(const GlobalOptions& o, const formats::Loade
 int global_command(const GlobalOptions& o, const Context& context) {
   check_options(o);
   for (const std::string& out : {o.save_tree, o.picture})
-    for (const std::string& in : {o.map, o.tree}) keep_input(out, in);
+    for (const std::string& in : {o.map.file, o.tree}) keep_input(out, in);
   const Stop stop = o.time_limit ? context.within(*o.time_limit) : context.stop;
-  const formats::LoadedMap map =
-      reading([&] { return formats::load_map(formats::guess_map_spec(o.map, o.um_per_px)); });
+  const formats::LoadedMap map = load_map(o.map, o.settings);
   const std::vector<Vec2> goals = places(o.goals);
   const experiment::GlobalAnswer found = found_plan(o, map, goals, stop);
   if (!o.picture.empty())
     report::draw_robots(*map.map, found.plan, goals,
                         experiment::to_play(found.planner).goal_tolerance,
-                        fmt::format("{}: {}, {} inputs", o.map, to_string(found.plan.status),
+                        fmt::format("{}: {}, {} inputs", o.map.file, to_string(found.plan.status),
                                     found.plan.inputs.size()),
                         o.picture);
   if (o.json)
-    show_json(found, !goals.empty());
+    show_json(found, !goals.empty(), map.notes);
   else
     show(o, found);
   const bool grew = goals.empty() && found.plan.status == Status::node_limit;
@@ -214,8 +213,7 @@ void add_global(Command app, Action& action) {
       "  microswarm global map.csv --robots \"60,300;60,250\" --save-tree tree.h5 \\\n"
       "      --set planner.max_nodes=300000\n"
       "  microswarm global map.csv --tree tree.h5 --goals \"330,100;280,200\"");
-  add_map_file(cmd, o->map);
-  add_um_per_px(cmd, o->um_per_px, "µm per pixel or cell of the map, 1e-6..1e6");
+  add_map_input(cmd, o->map);
   cmd.add_option("--robots", o->robots, "Start positions of the robots in µm; y points up")
       .type_name("X,Y;X,Y…")
       .check(place_list());
@@ -227,9 +225,8 @@ void add_global(Command app, Action& action) {
   Option save = cmd.add_option("--save-tree", o->save_tree,
                                "Grow a tree to planner.max_nodes and save it to this HDF5 file");
   save.type_name("FILE").excludes("--tree");
-  add_settings(cmd, o->settings,
-               "Select planner.type (global_search or global_rrt) and override its values",
-               type_of<experiment::GlobalChoice>);
+  add_settings(cmd, o->settings, "Set values of planner (global_search, global_rrt) and map",
+               type_of<MapAndPlanner<experiment::GlobalPlannerParams>>);
   cmd.add_option("--time-limit", o->time_limit, "Time limit")
       .type_name("SECONDS")
       .default_text("no limit")

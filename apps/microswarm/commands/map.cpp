@@ -8,7 +8,6 @@
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/fields/overloaded.hpp"
-#include "microswarm/formats/map_file.hpp"
 #include "microswarm/formats/write_map.hpp"
 #include "microswarm/vision/image/overlay.hpp"
 #include "microswarm/vision/vessels/agreement.hpp"
@@ -23,18 +22,21 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct MapOptions {
-  std::string map;
-  std::optional<double> um_per_px;
+  MapInput map;
+  std::vector<std::string> settings;
   bool json = false;
 };
 
 void add_input(Command cmd, const std::shared_ptr<MapOptions>& o) {
-  add_map_file(cmd, o->map);
-  add_um_per_px(cmd, o->um_per_px, "µm per pixel or cell of the map, 1e-6..1e6");
+  add_map_input(cmd, o->map);
+  add_settings(cmd, o->settings, "Set how the map is read, e.g. map.free=dark",
+               type_of<formats::MapKey>);
 }
 
 formats::LoadedMap load(const MapOptions& o) {
-  return reading([&] { return formats::load_map(formats::guess_map_spec(o.map, o.um_per_px)); });
+  for (const Setting& setting : Settings(other_settings(o.settings)).list)
+    throw InputError(setting_location("--set", setting.key) + ": only keys within 'map' are set");
+  return load_map(o.map, o.settings);
 }
 
 int info(const MapOptions& o) {
@@ -56,21 +58,23 @@ int info(const MapOptions& o) {
                        {"walls", bodies.size()},
                        {"discs", discs},
                        {"vertices", vertices},
-                       {"hash", fmt::format("{:016x}", loaded.input_hash)}}
+                       {"hash", fmt::format("{:016x}", loaded.input_hash)},
+                       {"notes", loaded.notes}}
                       .dump(2));
   else
     print(
         "{}: {:g} × {:g} µm (x {:g}..{:g}, y {:g}..{:g}), {} walls ({} of them discs, {} "
         "vertices), "
         "hash {:016x}\n",
-        o.map, b.width(), b.height(), b.lo.x, b.hi.x, b.lo.y, b.hi.y, bodies.size(), discs,
+        o.map.file, b.width(), b.height(), b.lo.x, b.hi.x, b.lo.y, b.hi.y, bodies.size(), discs,
         vertices, loaded.input_hash);
   return ok;
 }
 
 int check(const MapOptions& o, double resolution) {
-  const MapReport r = check_map(*load(o).map, resolution);
-  if (r.free_pieces == 0) throw InputError(o.map + ": all of the map is blocked");
+  const formats::LoadedMap loaded = load(o);
+  const MapReport r = check_map(*loaded.map, resolution);
+  if (r.free_pieces == 0) throw InputError(o.map.file + ": all of the map is blocked");
   if (o.json) {
     print("{}\n", Json{{"wall_pieces", r.wall_pieces},
                        {"free_area_um2", r.free_area},
@@ -78,7 +82,8 @@ int check(const MapOptions& o, double resolution) {
                        {"region_areas_um2", r.region_areas},
                        {"widest_um", r.widest},
                        {"narrowest_passage_um", r.narrowest_passage},
-                       {"resolution_um", r.resolution}}
+                       {"resolution_um", r.resolution},
+                       {"notes", loaded.notes}}
                       .dump(2));
     return ok;
   }
@@ -98,7 +103,7 @@ int check(const MapOptions& o, double resolution) {
 }
 
 int convert(const MapOptions& o, const std::string& out, const std::optional<double>& cell) {
-  formats::write_map(out, *load(o).map, cell ? *cell : o.um_per_px.value_or(0));
+  formats::write_map(out, *load(o).map, cell ? *cell : o.map.um_per_px.value_or(0));
   print("wrote {}\n", out);
   return ok;
 }

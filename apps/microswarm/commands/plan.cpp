@@ -8,7 +8,6 @@
 #include "microswarm/config/type.hpp"
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/experiment/queries/path_query.hpp"
-#include "microswarm/formats/map_file.hpp"
 #include "microswarm/planning/path/planner_params.hpp"
 #include "microswarm/report/run_picture.hpp"
 #include "support/options.hpp"
@@ -19,8 +18,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct PlanOptions {
-  std::string map;
-  std::optional<double> um_per_px;
+  MapInput map;
   std::string start;
   std::string goal;
   std::vector<std::string> settings;
@@ -34,11 +32,12 @@ void draw(const PlanOptions& o, const Snapshot& world, const experiment::PathQue
   const Plan& plan = answer.plan;
   report::draw_plan(world.map(), plan, query.start.position,
                     {query.goal, experiment::path_limits(answer.planner).goal_tolerance},
-                    fmt::format("{}: {}", o.map, to_string(plan.status)))
+                    fmt::format("{}: {}", o.map.file, to_string(plan.status)))
       ->write(o.picture);
 }
 
-void show(const experiment::PathAnswer& answer, double start_heading, bool json) {
+void show(const experiment::PathAnswer& answer, double start_heading, const Notes& notes,
+          bool json) {
   const Plan& made = answer.plan;
   const double length = path_length(made);
   const double turning = degrees(path_turning(made.path, start_heading));
@@ -53,7 +52,8 @@ void show(const experiment::PathAnswer& answer, double start_heading, bool json)
                        {"iterations", made.counts.iterations},
                        {"nodes", made.tree.size()},
                        {"planner", Json::parse(experiment::planner_json(answer.planner))},
-                       {"path_um", path}}
+                       {"path_um", path},
+                       {"notes", notes}}
                       .dump(2));
     return;
   }
@@ -67,20 +67,22 @@ void show(const experiment::PathAnswer& answer, double start_heading, bool json)
 }
 
 int plan_command(const PlanOptions& o, const Context& context) {
-  keep_input(o.picture, o.map);
+  keep_input(o.picture, o.map.file);
   const std::vector<double> from = numbers(o.start);
   const std::vector<double> to = numbers(o.goal);
   const experiment::PathQuery query{
       .start = {{from[0], from[1]}, from.size() > 2 ? radians(from[2]) : 0.0},
       .goal = {to[0], to[1]},
-      .settings = o.settings,
+      .settings = other_settings(o.settings),
       .seed = o.seed};
-  const Snapshot world(
-      reading([&] { return formats::load_map(formats::guess_map_spec(o.map, o.um_per_px)).map; }));
-  const experiment::PathAnswer made = answer(world, query, o.map, context.stop);
+  const formats::LoadedMap map = load_map(o.map, o.settings);
+  const Snapshot world(map.map);
+  const experiment::PathAnswer made = answer(world, query, o.map.file, context.stop);
   note_each(made.notes);
+  Notes notes = map.notes;
+  notes.insert(notes.end(), made.notes.begin(), made.notes.end());
   if (!o.picture.empty()) draw(o, world, query, made);
-  show(made, query.start.heading, o.json);
+  show(made, query.start.heading, notes, o.json);
   if (!o.json && !o.picture.empty()) print("wrote {}\n", o.picture);
   return made.plan.status == Status::solved ? ok : not_reached;
 }
@@ -97,8 +99,7 @@ void add_plan(Command app, Action& action) {
           .c_str(),
       "plan map.png --um-per-px 5 --start 200,700,-90 --goal 1750,300 \\\n"
       "      --set planner.type=a_star --set planner.clearance_um=40 --picture path.svg");
-  add_map_file(cmd, o->map);
-  add_um_per_px(cmd, o->um_per_px, "µm per pixel or cell of the map, 1e-6..1e6");
+  add_map_input(cmd, o->map);
   cmd.add_option("--start", o->start,
                  "Start position in µm and optional heading in degrees; y points up")
       .required()
@@ -108,8 +109,8 @@ void add_plan(Command app, Action& action) {
       .required()
       .type_name("X,Y")
       .check(place(2, "x,y in µm"));
-  add_settings(cmd, o->settings, "Select planner.type and override its values",
-               experiment::path_settings);
+  add_settings(cmd, o->settings, "Set values of planner and map, e.g. map.free=dark",
+               type_of<MapAndPlanner<planning::PlannerParams>>);
   cmd.add_option("--seed", o->seed, "Seed of the random stream")
       .type_name("NUMBER")
       .check(whole(0, UINT64_MAX));

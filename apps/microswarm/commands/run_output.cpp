@@ -176,6 +176,7 @@ int tell_run(const experiment::Session& session, const RunOutput& o,
   }
   if (o.json) {
     nlohmann::ordered_json json = run_json(result, hash);
+    json["notes"] = session.notes();
     if (o.rig_timing) json["rig_timing"] = o.rig_timing();
     print("{}\n", json.dump(2));
   } else {

@@ -7,11 +7,15 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/formats/json_place.hpp"
+#include "microswarm/formats/ring_fault.hpp"
+#include "microswarm/formats/thick_line.hpp"
+#include "microswarm/world/obstacles/clip.hpp"
 
 namespace microswarm::formats {
 namespace {
@@ -20,6 +24,9 @@ using Json = nlohmann::json;
 
 constexpr std::uint64_t max_geojson_bytes = 64ULL << 20;
 constexpr int max_depth = 32;
+constexpr std::string_view read_kinds =
+    "Polygon, MultiPolygon, LineString or MultiLineString with a width, and Point or MultiPoint "
+    "with a radius are read";
 
 /// The library's message without its prefix "[json.exception.…] ".
 std::string complaint(const Json::exception& error) {
@@ -45,19 +52,29 @@ Json parse(std::string_view text, std::string_view name) {
   }
 }
 
+std::string point_text(Vec2 p) { return fmt::format("({:.6g}, {:.6g}) µm", p.x, p.y); }
+
 /// Traverses the document and collects walls and discs.
 class GeoJsonReader {
  public:
-  GeoJsonReader(std::string_view text, std::string_view name, double um_per_unit)
-      : text_(text), name_(name), um_per_unit_(um_per_unit) {}
+  GeoJsonReader(std::string_view text, std::string_view name, std::optional<double> um_per_unit,
+                double line_width)
+      : text_(text), name_(name), unit_is_given_(um_per_unit), line_width_(line_width) {
+    um_per_unit_ = um_per_unit.value_or(1);
+  }
 
   MapParts read(const Json& root) {
     const JsonPlace document;
+    read_unit(root, document);
     object(root, document, {nullptr, nullptr});
     if (!bounds_) bounds_ = bbox(root, document);
     parts_.bounds = bounds_.value_or(enclosing_box(parts_));
     if (!bounds_ && parts_.walls.empty() && parts_.discs.empty())
       fail(document, "no walls, no discs and no bounds");
+    if (crossing_rings_ > 1)
+      parts_.notes.push_back(
+          fmt::format("{}: {} rings in all cross themselves", name_, crossing_rings_));
+    if (!unit_is_given_) note_unit();
     return std::move(parts_);
   }
 
@@ -67,6 +84,55 @@ class GeoJsonReader {
     const Json* value;
     const JsonPlace* place;
   };
+
+  /// The unit that files of geojson_text give.
+  void read_unit(const Json& root, const JsonPlace& document) {
+    if (unit_is_given_ || !root.is_object() || !root.contains("um_per_unit")) return;
+    const JsonPlace place = document.member("um_per_unit");
+    const double unit = number(root["um_per_unit"], place);
+    if (!(unit > 0)) fail(place, number_text(unit) + ", must be above 0");
+    um_per_unit_ = unit;
+    unit_is_given_ = true;
+  }
+
+  /// Refuses coordinates of the Earth unless their unit was given.
+  void check_crs(const Json& value, const JsonPlace& place) const {
+    const auto found = value.find("crs");
+    if (unit_is_given_ || found == value.end() || found->is_null()) return;
+    const Json::json_pointer path("/properties/name");
+    const bool has_name = found->is_object() && found->contains(path) && (*found)[path].is_string();
+    const std::string crs =
+        has_name ? quote((*found)[path].get<std::string>()) + " is given" : "is given";
+    fail(place.member("crs"),
+         crs +
+             ": coordinates may be degrees or metres; give um_per_unit (--um-per-unit), the µm "
+             "for a unit of the file");
+  }
+
+  /// Notes coordinates that are probably no µm.
+  void note_unit() {
+    Box all = enclosing_box(parts_);
+    all.include(parts_.bounds.lo);
+    all.include(parts_.bounds.hi);
+    const std::string advice =
+        "they are read as µm; if they are not, give um_per_unit (--um-per-unit), the µm for a unit";
+    constexpr double max_longitude = 180, max_latitude = 90, far = 100;
+    if (std::max(std::abs(all.lo.x), std::abs(all.hi.x)) <= max_longitude &&
+        std::max(std::abs(all.lo.y), std::abs(all.hi.y)) <= max_latitude)
+      parts_.notes.push_back(fmt::format(
+          "{}: all coordinates are within ±180 and ±90, as degrees are: {}", name_, advice));
+    else if (norm(all.centre()) > far * std::max(all.width(), all.height()))
+      parts_.notes.push_back(
+          fmt::format("{}: the map of {:.4g} × {:.4g} is far from the origin, as one in metres of "
+                      "a country is: {}",
+                      name_, all.width(), all.height(), advice));
+  }
+
+  std::string located(const JsonPlace& place, const std::string& why) const {
+    const std::string where = place.text();
+    return fmt::format("{}:{}: {}{}", name_, line_number(text_, place),
+                       where.empty() ? "" : where + ": ", why);
+  }
 
   [[noreturn]] void fail(const JsonPlace& place, const std::string& why) const {
     const std::string where = place.text();
@@ -99,9 +165,12 @@ class GeoJsonReader {
   void object(const Json& value, const JsonPlace& place, const Properties& properties) {
     if (!value.is_object())
       fail(place, "an object expected, not " + std::string(value.type_name()));
+    if (!value.contains("type") && value.contains("geometryType"))
+      fail(place, "Esri's JSON is not read: export GeoJSON");
     const Json& type = member(value, place, "type");
     if (!type.is_string()) fail(place.member("type"), "a word expected");
     const auto& word = type.get_ref<const std::string&>();
+    check_crs(value, place);
     const auto inner = [&](const Json& v, const JsonPlace& p) { object(v, p, properties); };
     if (word == "FeatureCollection")
       each(value, place, "features", inner);
@@ -128,26 +197,84 @@ class GeoJsonReader {
 
   void geometry(const std::string& type, const Json& value, const JsonPlace& place,
                 const Properties& properties) {
-    const Json& coordinates = member(value, place, "coordinates");
+    if (type == "Topology")
+      fail(place.member("type"),
+           "TopoJSON is not read: convert it to GeoJSON, e.g. with ogr2ogr or topo2geo");
+    if (type == "CityJSON") fail(place.member("type"), "CityJSON is not read: export GeoJSON");
     const JsonPlace here = place.member("coordinates");
-    const auto wall = [&](const Json& v, const JsonPlace& p) {
-      parts_.walls.push_back(polygon(v, p));
+    const auto wall = [&](const Json& v, const JsonPlace& p) { add_wall(polygon(v, p), p); };
+    const auto line = [&](const Json& v, const JsonPlace& p) {
+      add_line(v, p, line_width(type, properties, place));
     };
     const auto disc = [&](const Json& v, const JsonPlace& p) {
       parts_.discs.push_back({position(v, p), radius(properties, place)});
     };
+    constexpr std::string_view known[] = {"Polygon",         "MultiPolygon", "LineString",
+                                          "MultiLineString", "Point",        "MultiPoint"};
+    if (std::ranges::find(known, type) == std::end(known))
+      fail(place.member("type"), fmt::format("{} is no wall: {}", quote(type), read_kinds));
+    const Json& coordinates = member(value, place, "coordinates");
     if (type == "Polygon")
       wall(coordinates, here);
     else if (type == "MultiPolygon")
       each_entry(coordinates, here, wall);
+    else if (type == "LineString")
+      line(coordinates, here);
+    else if (type == "MultiLineString")
+      each_entry(coordinates, here, line);
     else if (type == "Point")
       disc(coordinates, here);
-    else if (type == "MultiPoint")
-      each_entry(coordinates, here, disc);
     else
-      fail(place.member("type"), quote(type) +
-                                     " is no wall: Polygon, MultiPolygon, and Point or MultiPoint "
-                                     "with a radius are read");
+      each_entry(coordinates, here, disc);
+  }
+
+  /// Refuses rings that leave unclear what is a wall. A ring without holes that crosses itself is
+  /// noted, and what it goes round is a wall.
+  void add_wall(Polygon wall, const JsonPlace& place) {
+    const std::optional<RingFault> fault = find_ring_fault(wall);
+    if (!fault) {
+      parts_.walls.push_back(std::move(wall));
+      return;
+    }
+    using Kind = RingFault::Kind;
+    const JsonPlace first = place.entry(fault->first), second = place.entry(fault->second);
+    const std::string at = " at " + point_text(fault->at);
+    if (fault->kind == Kind::hole_outside)
+      fail(first, "the hole is outside its ring, or in another hole," + at);
+    if (fault->kind == Kind::rings_cross)
+      fail(second, (fault->first == 0 ? "the hole crosses its ring" : "two holes cross") + at);
+    if (!wall.holes.empty()) fail(first, "the ring crosses itself" + at);
+    if (++crossing_rings_ == 1)
+      parts_.notes.push_back(
+          located(first, "the ring crosses itself" + at + "; all that it goes round is a wall"));
+    for (Polygon& part : united(std::span(&wall, 1))) parts_.walls.push_back(std::move(part));
+  }
+
+  /// Width of a line [µm], of its feature or for all lines.
+  double line_width(const std::string& type, const Properties& properties,
+                    const JsonPlace& line) const {
+    if (!properties.value || !properties.value->contains("width")) {
+      if (line_width_ > 0) return line_width_;
+      fail(line.member("type"),
+           fmt::format("{} is no wall without a width: give its feature the property 'width', or "
+                       "give line_width_um; {}",
+                       quote(type), read_kinds));
+    }
+    const JsonPlace place = properties.place->member("width");
+    const double width = number((*properties.value)["width"], place);
+    if (!(width >= min_line_width))
+      fail(place,
+           fmt::format("{} µm, at least {}", number_text(width), number_text(min_line_width)));
+    return width;
+  }
+
+  void add_line(const Json& positions, const JsonPlace& place, double width) {
+    std::vector<Vec2> points;
+    each_entry(positions, place,
+               [&](const Json& v, const JsonPlace& p) { points.push_back(position(v, p)); });
+    if (points.size() < 2)
+      fail(place, fmt::format("a line of {} positions, at least 2", points.size()));
+    add_thick_line(parts_, points, width);
   }
 
   double number(const Json& value, const JsonPlace& place) const {
@@ -193,7 +320,8 @@ class GeoJsonReader {
       fail(place, "a ring of " + std::to_string(points.size()) +
                       " positions, at least 4 (the last repeats the first)");
     if (points.front() != points.back()) fail(place, "a ring that does not end where it begins");
-    if (signed_area(points) == 0) fail(place, "a ring without area");
+    if (signed_area(points) == 0 && !find_ring_fault(normalised({points, {}})))
+      fail(place, "a ring without area");
     return points;
   }
 
@@ -223,7 +351,10 @@ class GeoJsonReader {
 
   std::string_view text_;
   std::string name_;
-  double um_per_unit_;
+  double um_per_unit_ = 1;
+  bool unit_is_given_;
+  double line_width_;
+  int crossing_rings_ = 0;
   MapParts parts_;
   std::optional<Box> bounds_;
 };
@@ -257,19 +388,21 @@ std::string disc_text(const Disc& disc) {
 
 }  // namespace
 
-MapParts parse_geojson(std::string_view text, std::string_view name, double um_per_unit) {
+MapParts parse_geojson(std::string_view text, std::string_view name,
+                       std::optional<double> um_per_unit, double line_width) {
   const Json root = parse(text, name);
-  return GeoJsonReader(text, name, um_per_unit).read(root);
+  return GeoJsonReader(text, name, um_per_unit, line_width).read(root);
 }
 
-MapParts read_geojson(const std::filesystem::path& path, double um_per_unit) {
-  return parse_geojson(read_file(path, max_geojson_bytes), path.string(), um_per_unit);
+MapParts read_geojson(const std::filesystem::path& path, std::optional<double> um_per_unit,
+                      double line_width) {
+  return parse_geojson(read_file(path, max_geojson_bytes), path.string(), um_per_unit, line_width);
 }
 
 std::string geojson_text(const MapParts& parts) {
   const auto [lo, hi] = parts.bounds;
   const Polygon frame{{lo, {hi.x, lo.y}, hi, {lo.x, hi.y}}, {}};
-  std::string text = "{\"type\":\"FeatureCollection\",\"features\":[\n";
+  std::string text = "{\"type\":\"FeatureCollection\",\"um_per_unit\":1,\"features\":[\n";
   text += feature_text(R"("bounds":true)", polygon_text(frame));
   for (const Polygon& wall : parts.walls) text += ",\n" + feature_text("", polygon_text(wall));
   for (const Disc& disc : parts.discs) text += ",\n" + disc_text(disc);

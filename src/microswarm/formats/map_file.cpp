@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/text/file.hpp"
@@ -15,9 +16,13 @@
 #include "microswarm/formats/geojson.hpp"
 #include "microswarm/formats/images/image.hpp"
 #include "microswarm/formats/images/mask.hpp"
+#include "microswarm/formats/matrix.hpp"
 #include "microswarm/formats/moving_ai.hpp"
 #include "microswarm/formats/rectangles.hpp"
+#include "microswarm/formats/ring_fault.hpp"
 #include "microswarm/formats/ros.hpp"
+#include "microswarm/formats/svg/svg.hpp"
+#include "microswarm/formats/turn_map.hpp"
 #include "microswarm/world/obstacles/channel.hpp"
 #include "microswarm/world/obstacles/obstacle.hpp"
 
@@ -30,12 +35,96 @@ MapParts to_parts(const Mask& blocked, double cell, Vec2 lo = {}) {
   return {cell_bounds(blocked, cell, lo), mask_walls(blocked, cell, lo), {}};
 }
 
+/// Walls of a picture. Throws InputError, with advice, if all of it is wall.
+Mask picture_walls(const Image& image, int level, FreePixels free, const std::string& name) {
+  Mask walls = threshold(image, level, free == FreePixels::bright);
+  if (std::ranges::find(walls.cells, 0) != walls.cells.end()) return walls;
+  // The brightest grey, or the darkest one.
+  const auto has_free = [&](int t) {
+    const Mask set = threshold(image, t, free == FreePixels::dark);
+    return std::ranges::find(set.cells, 1) != set.cells.end();
+  };
+  int below = 0, above = 256;  // the limit between thresholds that leave something free and others
+  while (above - below > 1) {
+    const int middle = (below + above) / 2;
+    (has_free(middle) == (free == FreePixels::bright) ? below : above) = middle;
+  }
+  const int extreme = below;
+  throw InputError(
+      free == FreePixels::bright
+          ? fmt::format("{}: all of the picture is wall: its brightest grey is {} of 255, below "
+                        "map.threshold {}. Samples of 12 bits in a file of 16 are that dark: set "
+                        "map.threshold to {}, or map.free to dark where dark is free",
+                        name, extreme, level, std::max(1, (extreme + 1) / 2))
+          : fmt::format("{}: all of the picture is wall: its darkest grey is {} of 255, not below "
+                        "map.threshold {}, and map.free is dark: set map.threshold higher",
+                        name, extreme, level));
+}
+
+void note_no_walls(MapParts& parts, int level, FreePixels free, const std::string& name) {
+  if (!parts.walls.empty()) return;
+  parts.notes.push_back(fmt::format("{}: no walls: no grey is {} map.threshold {}", name,
+                                    free == FreePixels::bright ? "below" : "at least", level));
+}
+
 MapParts read(const ImageMap& spec, const fs::path& base, Issues&) {
-  const Image image = read_image(base / spec.file);
-  const bool dark_is_wall = spec.free == FreePixels::bright;
-  MapParts parts = to_parts(threshold(image, spec.threshold, dark_is_wall), spec.um_per_px);
+  const fs::path file = base / spec.file;
+  const Image image = read_image(file);
+  MapParts parts =
+      to_parts(picture_walls(image, spec.threshold, spec.free, file.string()), spec.um_per_px);
+  note_no_walls(parts, spec.threshold, spec.free, file.string());
   simplify(parts.walls, spec.simplify);
   return parts;
+}
+
+MapParts read(const SvgMap& spec, const fs::path& base, Issues&) {
+  const fs::path file = base / spec.file;
+  const SvgPicture drawn = draw_svg_file(file, spec.um_per_unit, spec.um_per_px);
+  const Mask walls = picture_walls(drawn.image, spec.threshold, spec.free, file.string());
+  // The lowest pixels may reach below the drawing.
+  MapParts parts =
+      to_parts(walls, drawn.um_per_px, {0, drawn.height - drawn.um_per_px * walls.height});
+  parts.bounds = {{0, 0}, {drawn.width, drawn.height}};
+  parts.notes = drawn.notes;
+  note_no_walls(parts, spec.threshold, spec.free, file.string());
+  simplify(parts.walls, spec.simplify);
+  return parts;
+}
+
+MapParts read(const MatrixMap& spec, const fs::path& base, Issues&) {
+  const fs::path file = base / spec.file;
+  Mask walls = read_matrix(file);
+  const auto ones = std::ranges::count(walls.cells, 1);
+  if (spec.wall.value_or(MatrixWall::zero) == MatrixWall::zero)
+    for (std::uint8_t& cell : walls.cells) cell = cell == 0;
+  MapParts parts = to_parts(walls, spec.um_per_cell);
+  if (!spec.wall)
+    parts.notes.push_back(fmt::format(
+        "{}: a matrix of {} × {} cells: 0 is taken as wall, 1, {:.0f} % of them, as free; "
+        "map.wall=one means the other, map.wall=zero this",
+        file.string(), walls.width, walls.height,
+        100.0 * static_cast<double>(ones) / static_cast<double>(walls.cells.size())));
+  return parts;
+}
+
+/// Notes on what map_saver meant by 205, and on keys that were not read.
+std::vector<std::string> ros_notes(const RosHeader& header, const Image& image, bool unknown_free,
+                                   const std::string& name) {
+  std::vector<std::string> notes;
+  const SaverUnknown lost = find_saver_unknown(image, header);
+  if (lost.cells > 0 && !lost.is_of_map_saver)
+    notes.push_back(fmt::format(
+        "{}: {} cells of grey 205, map_saver's unknown, are free by free_thresh {:g}; with "
+        "free_thresh 0.196 they are walls",
+        name, lost.cells, header.free_thresh));
+  else if (lost.cells > 0 && !unknown_free)
+    notes.push_back(fmt::format(
+        "{}: {} cells of grey 205, map_saver's unknown, are walls, though free_thresh {:g} would "
+        "make them free; map.unknown_free=true does",
+        name, lost.cells, header.free_thresh));
+  if (!header.unread.empty())
+    notes.push_back(fmt::format("{}: not read: {}", name, fmt::join(header.unread, ", ")));
+  return notes;
 }
 
 MapParts read(const RosMap& spec, const fs::path& base, Issues&) {
@@ -44,9 +133,12 @@ MapParts read(const RosMap& spec, const fs::path& base, Issues&) {
   const fs::path picture = yaml.parent_path() / header.image;
   const Image image = read_image(picture);
   const auto transparent = read_transparency(picture);
-  const Vec2 origin{header.origin[0], header.origin[1]};
-  return to_parts(ros_walls(image, header, spec.unknown_free, transparent),
-                  header.resolution * spec.um_per_m, spec.um_per_m * origin);
+  const Vec2 origin = spec.um_per_m * Vec2{header.origin[0], header.origin[1]};
+  MapParts parts = to_parts(ros_walls(image, header, spec.unknown_free, transparent),
+                            header.resolution * spec.um_per_m, origin);
+  if (header.origin[2] != 0) parts = turned(std::move(parts), origin, header.origin[2]);
+  parts.notes = ros_notes(header, image, spec.unknown_free, yaml.string());
+  return parts;
 }
 
 MapParts read(const MovingAiMap& spec, const fs::path& base, Issues&) {
@@ -54,7 +146,7 @@ MapParts read(const MovingAiMap& spec, const fs::path& base, Issues&) {
 }
 
 MapParts read(const GeoJsonMap& spec, const fs::path& base, Issues&) {
-  return read_geojson(base / spec.file, spec.um_per_unit);
+  return read_geojson(base / spec.file, spec.um_per_unit, spec.line_width);
 }
 
 MapParts read(const RectanglesMap& spec, const fs::path& base, Issues& issues) {
@@ -65,7 +157,7 @@ MapParts read(const RectanglesMap& spec, const fs::path& base, Issues& issues) {
           rectangle(spec.rectangles[i], "map.rectangles_um[" + std::to_string(i) + "]"));
     });
   if (!spec.file.empty()) {
-    std::vector<Polygon> more = read_rectangles(base / spec.file);
+    std::vector<Polygon> more = read_rectangles(base / spec.file, spec.um_per_unit);
     std::move(more.begin(), more.end(), std::back_inserter(parts.walls));
   }
   const Box around = enclosing_box(parts);
@@ -81,6 +173,11 @@ MapParts read(const PolygonsMap& spec, const fs::path&, Issues& issues) {
       issues.add("map.walls_um." + std::to_string(i),
                  "map.walls_um[" + std::to_string(i) +
                      "]: at least 3 points with an area between them expected");
+    else if (const auto fault = find_ring_fault(wall))
+      parts.notes.push_back(
+          fmt::format("map.walls_um[{}] crosses itself at ({:.6g}, {:.6g}) µm; all that it goes "
+                      "round is a wall",
+                      i, fault->at.x, fault->at.y));
     parts.walls.push_back(std::move(wall));
   }
   for (const DiscWall& disc : spec.discs) parts.discs.push_back({disc.centre, disc.radius});
@@ -117,7 +214,7 @@ struct FileFormat {
 std::optional<FileFormat> file_format(const MapSpec& spec) {
   static constexpr std::array<std::string_view, 2> csv{".csv", ".txt"}, ros{".yaml", ".yml"},
       geojson{".geojson", ".json"};
-  static constexpr std::array<std::string_view, 1> moving_ai{".map"};
+  static constexpr std::array<std::string_view, 1> moving_ai{".map"}, svg{".svg"};
   using Format = std::optional<FileFormat>;
   return std::visit(Overloaded{[](const OneOf<PolygonsMap, ChannelMap> auto&) { return Format(); },
                                [](const ImageMap&) {
@@ -131,6 +228,12 @@ std::optional<FileFormat> file_format(const MapSpec& spec) {
                                },
                                [](const GeoJsonMap&) {
                                  return Format({"GeoJSON", geojson});
+                               },
+                               [](const SvgMap&) {
+                                 return Format({"SVG", svg});
+                               },
+                               [](const MatrixMap&) {
+                                 return Format({"matrix of 0 and 1", csv});
                                },
                                [](const RectanglesMap&) {
                                  return Format({"CSV of rectangles", csv});
@@ -146,32 +249,91 @@ std::vector<MapSpec> every_kind() {
   (std::make_index_sequence<std::variant_size_v<MapSpec>>());
 }
 
-/// Sets the scale of a map whose file is set; `option` gave it, and `fail` throws.
+/// Sets the scale of a map whose file and settings are set; `fail` throws.
 template <class Fail>
-void set_scale(MapSpec& spec, std::optional<double> um_per_px, const std::string& option,
-               Fail&& fail) {
-  std::visit(Overloaded{[&](ImageMap& s) {
-                          if (!um_per_px) fail("µm per px is missing: give " + option);
-                          s.um_per_px = *um_per_px;
-                        },
-                        [&](RosMap& s) {
-                          const RosHeader header = read_ros_header(s.file);
-                          if (um_per_px) s.um_per_m = *um_per_px / header.resolution;
-                        },
-                        [&](MovingAiMap& s) { s.um_per_cell = um_per_px.value_or(1); },
-                        [&](OneOf<GeoJsonMap, RectanglesMap, PolygonsMap, ChannelMap> auto&) {
-                          if (um_per_px) fail("has no pixels: leave out " + option);
-                        }},
-             spec);
+void set_scale(MapSpec& spec, const MapChoice& choice, Fail&& fail) {
+  const std::optional<double>&px = choice.um_per_px, &unit = choice.um_per_unit;
+  const auto is_set = [&](std::string_view key) {
+    return std::ranges::any_of(choice.settings.list,
+                               [&](const Setting& s) { return s.key == key; });
+  };
+  const auto need_no_unit = [&] {
+    if (unit)
+      fail("has no unit: leave out " + choice.um_per_unit_option + ", give " +
+           choice.um_per_px_option);
+  };
+  const auto need_no_px = [&] {
+    if (px)
+      fail("has no pixels: leave out " + choice.um_per_px_option + ", give " +
+           choice.um_per_unit_option);
+  };
+  std::visit(
+      Overloaded{[&](ImageMap& s) {
+                   need_no_unit();
+                   if (!px && !is_set("map.um_per_px"))
+                     fail("µm per px is missing: give " + choice.um_per_px_option);
+                   s.um_per_px = px.value_or(s.um_per_px);
+                 },
+                 [&](RosMap& s) {
+                   const RosHeader header = read_ros_header(s.file);
+                   if (px && unit)
+                     fail("give either " + choice.um_per_px_option + " or " +
+                          choice.um_per_unit_option);
+                   if (px) s.um_per_m = *px / header.resolution;
+                   if (unit) s.um_per_m = *unit;
+                 },
+                 [&](MovingAiMap& s) {
+                   need_no_unit();
+                   s.um_per_cell = px.value_or(s.um_per_cell);
+                 },
+                 [&](MatrixMap& s) {
+                   need_no_unit();
+                   if (!px && !is_set("map.um_per_cell"))
+                     fail("a matrix of 0 and 1, whose cells' side is missing: give " +
+                          choice.um_per_px_option);
+                   s.um_per_cell = px.value_or(s.um_per_cell);
+                 },
+                 [&](SvgMap& s) {
+                   if (px) s.um_per_px = px;
+                   if (unit) s.um_per_unit = unit;
+                 },
+                 [&](GeoJsonMap& s) {
+                   need_no_px();
+                   if (unit) s.um_per_unit = unit;
+                 },
+                 [&](RectanglesMap& s) {
+                   need_no_px();
+                   s.um_per_unit = unit.value_or(s.um_per_unit);
+                 },
+                 [&](const OneOf<PolygonsMap, ChannelMap> auto&) { fail("is no file of walls"); }},
+      spec);
+}
+
+/// Whether the settings choose the type of the map.
+bool chooses_type(const Settings& settings) {
+  return std::ranges::any_of(
+      settings.list, [](const Setting& s) { return s.key == "map.type" || s.key == "map"; });
+}
+
+/// The kind of map by the extension and content of a file.
+std::optional<MapSpec> kind_of_file(const fs::path& path) {
+  const std::string extension = lower_extension(path);
+  for (MapSpec& spec : every_kind()) {
+    const auto format = file_format(spec);
+    if (!format || std::ranges::find(format->extensions, extension) == format->extensions.end())
+      continue;
+    if (std::holds_alternative<RectanglesMap>(spec) && is_matrix_file(path)) return MatrixMap{};
+    return std::move(spec);
+  }
+  return std::nullopt;
 }
 
 }  // namespace
 
 std::string* file_name(MapSpec& spec) {
   return std::visit(
-      Overloaded{[](OneOf<ImageMap, RosMap, MovingAiMap, GeoJsonMap, RectanglesMap> auto& s) {
-                   return &s.file;
-                 },
+      Overloaded{[](OneOf<ImageMap, RosMap, MovingAiMap, GeoJsonMap, RectanglesMap, MatrixMap,
+                          SvgMap> auto& s) { return &s.file; },
                  [](OneOf<PolygonsMap, ChannelMap> auto&) -> std::string* { return nullptr; }},
       spec);
 }
@@ -205,8 +367,8 @@ MapParts read_map_parts(const MapSpec& spec, const fs::path& base, const KeyLoca
 LoadedMap load_map(const MapSpec& spec, const fs::path& base) {
   MapParts parts = read_map_parts(spec, base);
   const std::uint64_t hash = fingerprint(parts);
-  return {std::make_shared<Map>(parts.bounds, std::move(parts.walls), std::move(parts.discs)),
-          hash};
+  return {std::make_shared<Map>(parts.bounds, std::move(parts.walls), std::move(parts.discs)), hash,
+          std::move(parts.notes)};
 }
 
 std::string map_formats() {
@@ -218,25 +380,37 @@ std::string map_formats() {
   return fmt::format("{} or {}", fmt::join(names, ", "), last);
 }
 
-MapSpec guess_map_spec(const fs::path& path, std::optional<double> um_per_px,
-                       std::string_view option) {
+bool is_of_map(const Setting& setting) { return is_in_key(setting.key, "map"); }
+
+MapSpec choose_map_spec(const fs::path& path, const MapChoice& choice) {
   const std::string file = path.string();
   const auto fail = [&](const std::string& why) { throw InputError(file + ": " + why); };
   std::error_code error;
   if (!fs::exists(path, error)) fail("cannot read: No such file or directory");
-  if (um_per_px && !(*um_per_px >= 1e-6 && *um_per_px <= 1e6))
-    fail("µm per px is " + number_text(*um_per_px) + ", must be within 1e-6..1e6");
+  if (choice.um_per_px && !(*choice.um_per_px >= 1e-6 && *choice.um_per_px <= 1e6))
+    fail("µm per px is " + number_text(*choice.um_per_px) + ", must be within 1e-6..1e6");
+  if (choice.um_per_unit && !(*choice.um_per_unit >= 1e-9 && *choice.um_per_unit <= 1e9))
+    fail("µm per unit is " + number_text(*choice.um_per_unit) + ", must be within 1e-9..1e9");
 
-  for (MapSpec& spec : every_kind()) {
-    const auto format = file_format(spec);
-    if (!format ||
-        std::ranges::find(format->extensions, lower_extension(path)) == format->extensions.end())
-      continue;
-    *file_name(spec) = file;
-    set_scale(spec, um_per_px, std::string(option), fail);
-    return std::move(spec);
-  }
-  throw InputError(fmt::format("{}: no map that is known, expected: {}", file, map_formats()));
+  std::optional<MapSpec> kind = kind_of_file(path);
+  if (!kind && !chooses_type(choice.settings))
+    throw InputError(fmt::format("{}: no map that is known, expected: {}", file, map_formats()));
+  for (const Setting& setting : choice.settings.list)
+    if (setting.key == "map.file")
+      throw InputError(setting_location(choice.settings.option, setting.key) +
+                       ": the file is given already: " + file);
+  MapKey chosen{kind.value_or(MapSpec())};
+  set_values(chosen, choice.settings);
+  std::string* name = file_name(chosen.map);
+  if (!name) fail("map.type is one that is read from no file");
+  *name = file;
+  set_scale(chosen.map, choice, fail);
+  return std::move(chosen.map);
+}
+
+MapSpec guess_map_spec(const fs::path& path, std::optional<double> um_per_px,
+                       std::string_view option) {
+  return choose_map_spec(path, {.um_per_px = um_per_px, .um_per_px_option = std::string(option)});
 }
 
 }  // namespace microswarm::formats

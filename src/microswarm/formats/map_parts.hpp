@@ -15,6 +15,7 @@ struct MapParts {
   Box bounds;
   std::vector<Polygon> walls;
   std::vector<Disc> discs;
+  std::vector<std::string> notes{};  ///< what was assumed or left out, one line each
 };
 
 /// Bounding box of walls and discs.

@@ -67,15 +67,62 @@ struct MovingAiMap {
   }
 };
 
-/// Polygons and discs in GeoJSON.
+/// Polygons, discs and lines with a width in GeoJSON.
 struct GeoJsonMap {
   static constexpr std::string_view type_name = "geojson";
   std::string file;
-  double um_per_unit = 1;
+  std::optional<double> um_per_unit = std::nullopt;
+  double line_width = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.file, plain("file", "GeoJSON file in plane coordinates.").needed());
-    visit(self.um_per_unit, plain("um_per_unit", 1e-9, 1e9, "µm for a unit of the file."));
+    visit(self.um_per_unit, plain("um_per_unit", 1e-9, 1e9,
+                                  "µm for a unit of the file; none: 1, or as the file says."));
+    visit(self.line_width,
+          um("line_width", 0, 1e6, "Width of lines that have none; 0: such lines are refused."));
+  }
+};
+
+/// Which cells of a matrix are walls.
+enum class MatrixWall { zero, one };
+constexpr auto enum_names(MatrixWall) {
+  return std::array<std::pair<MatrixWall, std::string_view>, 2>{
+      {{MatrixWall::zero, "zero"}, {MatrixWall::one, "one"}}};
+}
+
+/// Text of zeros and ones, the upper row first; (0, 0) is its lower left corner.
+struct MatrixMap {
+  static constexpr std::string_view type_name = "matrix";
+  std::string file;
+  double um_per_cell = 1;
+  std::optional<MatrixWall> wall = std::nullopt;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.file, plain("file", "Text of rows of 0 and 1, between blanks or commas.").needed());
+    visit(self.um_per_cell, plain("um_per_cell", 1e-6, 1e6, "Side of a cell in µm.").needed());
+    visit(self.wall, plain("wall", "Cells that are walls: zero or one; none: zero, with a note."));
+  }
+};
+
+/// Drawing in SVG, as it looks in front of white: dark is a wall. Its lower left corner is (0, 0).
+struct SvgMap {
+  static constexpr std::string_view type_name = "svg";
+  std::string file;
+  std::optional<double> um_per_unit = std::nullopt;
+  std::optional<double> um_per_px = std::nullopt;
+  int threshold = 128;
+  FreePixels free = FreePixels::bright;
+  double simplify = 0;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.file, plain("file", "SVG drawing.").needed());
+    visit(self.um_per_unit, plain("um_per_unit", 1e-9, 1e9,
+                                  "µm for a unit of the drawing; none: as its size in mm says."));
+    visit(self.um_per_px, plain("um_per_px", 1e-6, 1e6,
+                                "Side of the pixels it is drawn with, in µm; none: 2000 a side."));
+    visit(self.threshold, plain("threshold", 0, 255, "Grey value from which a pixel is bright."));
+    visit(self.free, plain("free", "Free pixels: bright or dark."));
+    visit(self.simplify, um("simplify", 0, 1e6, "Tolerance of the outlines; 0: exact."));
   }
 };
 
@@ -86,12 +133,14 @@ struct RectanglesMap {
   std::optional<Vec2> hi = std::nullopt;
   std::vector<std::vector<double>> rectangles{};
   std::string file;
+  double um_per_unit = 1;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.lo, um("lo", "Lower left corner of the map; none: of the walls."));
     visit(self.hi, um("hi", "Upper right corner of the map; none: of the walls."));
     visit(self.rectangles, um("rectangles", "Walls: lower left x, y, width, height of each."));
     visit(self.file, plain("file", "CSV of more walls: x,y,width,height in µm."));
+    visit(self.um_per_unit, plain("um_per_unit", 1e-9, 1e9, "µm for a unit of the CSV file."));
   }
 };
 
@@ -143,7 +192,7 @@ struct ChannelMap {
 };
 
 /// Source of a map: a file in one of the supported formats, or walls given directly.
-using MapSpec =
-    std::variant<PolygonsMap, RectanglesMap, ChannelMap, ImageMap, RosMap, MovingAiMap, GeoJsonMap>;
+using MapSpec = std::variant<PolygonsMap, RectanglesMap, ChannelMap, ImageMap, RosMap, MovingAiMap,
+                             GeoJsonMap, MatrixMap, SvgMap>;
 
 }  // namespace microswarm::formats

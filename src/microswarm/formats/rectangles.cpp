@@ -19,6 +19,30 @@ bool has_number(const std::vector<std::string_view>& fields) {
                      [](std::string_view f) { return parse_number(f).has_value(); });
 }
 
+/// The fields of a line, without double quotes around them.
+std::vector<std::string_view> rectangle_fields(std::string_view line) {
+  std::vector<std::string_view> fields;
+  if (line.find(';') != std::string_view::npos)
+    fields = split(line, ';');
+  else if (line.find(',') != std::string_view::npos)
+    fields = split(line, ',');
+  else
+    fields = words(line);
+  for (std::string_view& field : fields)
+    if (field.size() >= 2 && field.front() == '"' && field.back() == '"')
+      field = trimmed(field.substr(1, field.size() - 2));
+  return fields;
+}
+
+/// A number, between semicolons also with a decimal comma.
+std::optional<double> rectangle_number(std::string_view field) {
+  const std::size_t comma = field.find(',');
+  if (comma == std::string_view::npos) return parse_number(field);
+  std::string text(field);
+  text[comma] = '.';
+  return parse_number(text);
+}
+
 }  // namespace
 
 Polygon rectangle(std::span<const double> numbers, const std::string& where) {
@@ -32,20 +56,21 @@ Polygon rectangle(std::span<const double> numbers, const std::string& where) {
   return {{{x, y}, {x + width, y}, {x + width, y + height}, {x, y + height}}, {}};
 }
 
-std::vector<Polygon> parse_rectangles(std::string_view text, std::string_view name) {
+std::vector<Polygon> parse_rectangles(std::string_view text, std::string_view name,
+                                      double um_per_unit) {
   Lines lines(text, name);
   std::vector<Polygon> rectangles;
   bool first = true;
   while (const std::optional<std::string_view> raw = lines.next()) {
     const std::string_view line = trimmed(*raw);
     if (line.empty() || line.front() == '#') continue;
-    const auto fields = line.find(',') == std::string_view::npos ? words(line) : split(line, ',');
+    const std::vector<std::string_view> fields = rectangle_fields(line);
     if (std::exchange(first, false) && !has_number(fields)) continue;
     std::vector<double> numbers;
     for (const std::string_view field : fields) {
-      const std::optional<double> number = parse_number(field);
+      const std::optional<double> number = rectangle_number(field);
       if (!number) lines.fail(quote(field) + " is no number");
-      numbers.push_back(*number);
+      numbers.push_back(um_per_unit * *number);
     }
     rectangles.push_back(
         rectangle(numbers, std::string(name) + ":" + std::to_string(lines.number())));
@@ -55,8 +80,8 @@ std::vector<Polygon> parse_rectangles(std::string_view text, std::string_view na
   return rectangles;
 }
 
-std::vector<Polygon> read_rectangles(const std::filesystem::path& path) {
-  return parse_rectangles(read_file(path, max_rectangles_bytes), path.string());
+std::vector<Polygon> read_rectangles(const std::filesystem::path& path, double um_per_unit) {
+  return parse_rectangles(read_file(path, max_rectangles_bytes), path.string(), um_per_unit);
 }
 
 }  // namespace microswarm::formats

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -37,6 +38,7 @@ struct RosHeader {
   double occupied_thresh = 0.65;
   double free_thresh = 0.196;
   RosMode mode = RosMode::trinary;
+  std::vector<std::string> unread{};  ///< keys of others, such as frame_id
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
@@ -52,13 +54,25 @@ struct RosHeader {
   }
 };
 
-/// Reads the YAML file. Throws InputError "NAME:LINE:COLUMN: WHY", also for a non-zero yaw
-/// and for negate in the mode raw.
+/// Reads the YAML file as nav2 does: the mode in capitals too, `negate` also as true or false, and
+/// keys that neither names nor resembles ours are left out (`unread`). Throws InputError
+/// "NAME:LINE:COLUMN: WHY", also for negate in the mode raw.
 RosHeader read_ros_header(const std::filesystem::path& path);
 RosHeader parse_ros_header(std::string_view text, std::string_view name);
 
+/// Cells of grey 205, which map_saver writes for unknown, that free_thresh alone would make free:
+/// map_saver of ROS 2 long wrote 0.25, under which unknown is lost. Only in the mode trinary
+/// without negate.
+struct SaverUnknown {
+  std::size_t cells = 0;
+  /// Whether the picture has map_saver's greys only, 0, 205 and 254, or 255, and 254 among them.
+  bool is_of_map_saver = false;
+};
+SaverUnknown find_saver_unknown(const Image& image, const RosHeader& header);
+
 /// Wall cells: the occupied ones, and the unknown ones unless `unknown_free`. Pixels that
-/// `transparent` marks, as of read_transparency, are unknown; it may be empty.
+/// `transparent` marks, as of read_transparency, are unknown; it may be empty. So is 205 in a
+/// picture of map_saver.
 Mask ros_walls(const Image& image, const RosHeader& header, bool unknown_free = false,
                std::span<const std::uint8_t> transparent = {});
 

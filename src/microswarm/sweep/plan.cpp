@@ -144,6 +144,7 @@ struct Loader {
     }
     const experiment::Scene scene =
         experiment::load_scene(cell.scenario, folder, cell_name(plan, cell));
+    cell.notes.insert(cell.notes.end(), scene.map.notes.begin(), scene.map.notes.end());
     cell.input_hash = scene.hash();
     cell.world = maps.find_world(scene);
     cell.scenario = scene.scenario;

@@ -21,7 +21,7 @@ struct SweepCell {
   std::vector<Setting> settings;  ///< all, in order of application
   experiment::Scenario scenario;  ///< with the samples of its tracks
   World world;                    ///< cells with the same walls share their map
-  Notes notes;                    ///< about former keys in the settings
+  Notes notes;                    ///< of former keys in the settings, and of the map
   std::string input_hash;         ///< of scenario, map and tracks, as Scene::hash()
 };
 
@@ -32,7 +32,7 @@ struct SweepPlan {
   std::string file;           ///< name as given
   std::string scenario_text;  ///< of the base scenario
   YamlNode scenario_document;
-  Notes notes;  ///< about former keys that were read
+  Notes notes;  ///< of former keys that were read, and of maps
   std::vector<SweepCell> cells;
 
   /// Fingerprint of everything the results depend on.

@@ -10,6 +10,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/experiment/scenario/map_scale.hpp"
 #include "microswarm/experiment/scenario/validate.hpp"
+#include "microswarm/formats/map_file.hpp"
 #include "microswarm/navigation/gathering/aggregation_check.hpp"
 #include "microswarm/navigation/gathering/policies/published_scale.hpp"
 #include "microswarm/world/connectivity/channel_width.hpp"
@@ -18,6 +19,10 @@ namespace microswarm::experiment {
 
 GatherExperiment open_gathering(formats::MapParts map, formats::MapSpec spec,
                                 const GatherQuery& query, const std::string& name) {
+  for (const Setting& setting : query.settings.list)
+    if (formats::is_of_map(setting))
+      throw InputError(setting_location(query.settings.option, setting.key) +
+                       ": the map is read already: give its keys where it is read");
   GatherExperiment made;
   Scene& scene = made.experiment.scene;
   Scenario& scenario = scene.scenario;
@@ -30,6 +35,7 @@ GatherExperiment open_gathering(formats::MapParts map, formats::MapSpec spec,
   scenario.navigator = navigation::AggregationParams{};
   scenario.seed = query.seed;
   scene.map = std::move(map);
+  const Notes of_map = scene.map.notes;
   const World world = build_world(scene);
   if (const std::string why = world.at(0).blocked_reason(query.goal, 0); !why.empty())
     throw InputError(fmt::format("{}: goal {}", name, why));
@@ -37,7 +43,9 @@ GatherExperiment open_gathering(formats::MapParts map, formats::MapSpec spec,
   made.measured_width = channel_width(*world.map, rng);
   fit_gathering(scenario, query.channel_width.value_or(made.measured_width), query.max_steps);
   made.notes = set_values(scenario, query.settings);
+  made.notes.insert(made.notes.begin(), of_map.begin(), of_map.end());
   made.experiment.keys = name;
+  made.experiment.keys.add_notes(of_map);
   made.experiment.keys.require_none(validate(scenario, world));
   made.experiment.world = world;
   return made;

@@ -136,6 +136,9 @@ void write_scene(io::Hdf5Writer& out, const Scene& scene) {
   number_column(out, "/map/bounds_um", {bounds.lo.x, bounds.lo.y, bounds.hi.x, bounds.hi.y}, "µm");
   out.attribute("/map/bounds_um", "description", "Least x and y, greatest x and y.");
   write_walls(out, scene.map.walls);
+  std::string notes;
+  for (const std::string& note : scene.map.notes) notes += notes.empty() ? note : "\n" + note;
+  if (!notes.empty()) out.attribute("/map", "notes", notes);
   std::vector<Vec2> centres;
   std::vector<double> radii;
   for (const Disc& disc : scene.map.discs)

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "microswarm/formats/images/mask.hpp"
+
+namespace microswarm::formats {
+
+/// Whether the text consists of rows of the numbers 0 and 1, at least two in a row, all of one
+/// length: a matrix, even if its rows are four long as those of rectangles.
+bool is_matrix(std::string_view text);
+
+/// Reads a matrix of 0 and 1, the upper row first: between blanks, tabs, commas or semicolons
+/// (also as 1.0 or 1e0), or digits side by side. Blank lines and lines that start with '#', '%' or
+/// "//" are skipped. The mask's set cells are the ones. Throws InputError "NAME:LINE: WHY".
+Mask parse_matrix(std::string_view text, std::string_view name);
+Mask read_matrix(const std::filesystem::path& path);
+
+/// Whether the file holds a matrix; false if it cannot be read.
+bool is_matrix_file(const std::filesystem::path& path);
+
+}  // namespace microswarm::formats
