@@ -116,6 +116,87 @@ TEST_F(Maps, EveryPlanner) {
           naming("--set planner.type", named));
 }
 
+/// One rule for every command and planner: a goal in a wall is refused, one near a wall is noted
+/// with the distance to where the path ends.
+TEST_F(Maps, AGoalInAWallIsRefusedByEveryCommand) {
+  const std::string inside = "is 10 µm inside wall";
+  for (const std::string_view planner : type_of<planning::PlannerParams>().words)
+    refused({"plan", "room.pgm", "--um-per-px", "10", "--start", "100,300", "--goal", "310,300",
+             "--set", "planner.type=" + std::string(planner), "--set", "planner.clearance_um=10"},
+            naming("room.pgm", {"goal", inside}));
+  refused({"plan", "room.pgm", "--um-per-px", "10", "--start", "100,300", "--goal", "700,300"},
+          naming("room.pgm", {"goal", "outside the map"}));
+  refused({"global", "room.pgm", "--um-per-px", "10", "--robots", "100,300", "--goals", "310,300"},
+          naming("room.pgm", {"goal", inside}));
+  refused({"gather", "room.pgm", "--map-um-per-px", "10", "--goal", "310,300"},
+          naming("room.pgm", {"goal", inside}));
+  const std::string scenario =
+      "map: {type: image, file: room.pgm, um_per_px: 10}\nstart: {x_um: 100, y_um: 300}\n"
+      "swarm: {type: vortex, radius_um: 20}\ngoal_tolerance_um: 60\n"
+      "navigator: {type: straight_stop}\n";
+  write("in_wall.yaml", scenario + "goal_um: [310, 300]\n");
+  refused({"run", "in_wall.yaml"}, naming("in_wall.yaml:6", {"goal", inside}));
+  write("near_wall.yaml", scenario + "goal_um: [290, 300]\n");
+  const Outcome near = run({"run", "near_wall.yaml", "--json"});
+  EXPECT_NE(near.err.find("note: goal is 10 µm from wall"), std::string::npos) << near.err;
+  EXPECT_NE(near.err.find("µm from it"), std::string::npos) << near.err;
+}
+
+TEST_F(Maps, APathThatEndsBesideItsGoalIsNoted) {
+  const Outcome made =
+      run({"plan", "room.pgm", "--um-per-px", "10", "--start", "100,300", "--goal", "290,300",
+           "--set", "planner.clearance_um=40", "--set", "planner.goal_tolerance_um=50", "--json"});
+  EXPECT_EQ(made.code, 0);
+  const Json notes = Json::parse(made.out).at("notes");
+  ASSERT_EQ(notes.size(), 1u);
+  const std::string note = notes[0];
+  EXPECT_NE(note.find("goal is 10 µm from wall"), std::string::npos) << note;
+  EXPECT_NE(note.find("the path ends 30 µm before it"), std::string::npos) << note;
+  EXPECT_EQ(made.err, "note: " + note + "\n");
+}
+
+TEST_F(Maps, KeysOfTheMapOnEveryCommand) {
+  write("dark.pgm", pgm(60, 40, [](int x, int y) {
+          const bool wall = (x == 30 || x == 31) && y < 24;
+          return wall ? 90 : 20;
+        }));
+  const Arguments keys{"--um-per-px", "10", "--set", "map.free=dark", "--set", "map.threshold=60"};
+  const auto with_keys = [&](Arguments words) {
+    words.insert(words.end(), keys.begin(), keys.end());
+    return words;
+  };
+  EXPECT_EQ(Json::parse(good(with_keys({"map", "info", "dark.pgm", "--json"}))).at("walls"), 1);
+  good(with_keys({"map", "check", "dark.pgm"}));
+  good(with_keys({"map", "convert", "dark.pgm", "light.geojson"}));
+  EXPECT_EQ(about("info", "light.geojson", false).at("vertices"), 4);
+  const Json path = Json::parse(
+      good(with_keys({"plan", "dark.pgm", "--start", "100,300", "--goal", "500,300", "--json"})));
+  EXPECT_GT(path.at("length_um"), 410);
+  good(with_keys({"global", "dark.pgm", "--robots", "100,300", "--goals", "200,300"}));
+  refused({"map", "info", "dark.pgm", "--um-per-px", "10"},
+          naming("dark.pgm", {"90", "128", "map.threshold to 45"}));
+  refused({"map", "info", "room.pgm", "--um-per-px", "10", "--set", "planner.type=rrt"},
+          naming("--set planner.type", {"map"}));
+}
+
+TEST_F(Maps, WhatAReaderAssumesIsNoted) {
+  write("m.txt", "1 1 1 1\n1 0 0 1\n1 1 1 1\n");
+  const Outcome made = run({"map", "info", "m.txt", "--um-per-px", "10", "--json"});
+  const Json info = Json::parse(made.out);
+  EXPECT_EQ(info.at("walls"), 1);
+  EXPECT_EQ(info.at("hi_um"), Json({40, 30}));
+  ASSERT_EQ(info.at("notes").size(), 1u);
+  EXPECT_EQ(made.err, "note: " + info.at("notes")[0].get<std::string>() + "\n");
+  const Arguments said{"map", "info", "m.txt", "--um-per-px", "10", "--set", "map.wall=one"};
+  EXPECT_EQ(run(said).err, "");
+  write("s.yaml",
+        "map: {type: matrix, file: m.txt, um_per_cell: 100}\nstart: {x_um: 50, y_um: 50}\n"
+        "swarm: {type: vortex, radius_um: 20}\nnavigator: {type: straight_stop}\n"
+        "goal_um: [350, 50]\n");
+  const Outcome ran = run({"run", "s.yaml"});
+  EXPECT_NE(ran.err.find("map.wall=one"), std::string::npos) << ran.err;
+}
+
 /// A vessel of 8 px that forks.
 bool in_vessel(int x, int y) {
   const double trunk = std::abs(y - 150 - 20 * std::sin(x / 60.0));

@@ -53,6 +53,14 @@ void explain(const Snapshot& world, const PathQuery& query, const std::string& n
     KeyLocations(name).require_none(validate_path(world.map(), start, *target, clearance));
 }
 
+/// Notes a path that ends beside its goal because walls are near.
+void note_goal(const Snapshot& world, const PathQuery& query, PathAnswer& made) {
+  const std::string why = world.blocked_reason(query.goal, path_limits(made.planner).clearance);
+  if (made.plan.status != Status::solved || why.empty()) return;
+  made.notes.push_back(fmt::format("goal {}: the path ends {:.3g} µm before it", why,
+                                   distance(made.plan.path.back(), query.goal)));
+}
+
 }  // namespace
 
 PathLimits path_limits(const planning::PlannerParams& planner) {
@@ -88,11 +96,15 @@ PathAnswer answer(const Snapshot& world, const PathQuery& query, const std::stri
   check_planner(choice.planner, keys);
   made.planner =
       planning::fit_to_map(choice.planner, world.map(), given_within(keys.is_given(), "planner"));
+  const std::string why = world.blocked_reason(query.goal, 0);
+  if (!why.empty() && world.is_free(query.start.position, 0))  // else the start is named
+    throw InputError(fmt::format("{}: goal {}", name, why));
   Rng rng(query.seed, Purpose::planner);
   const auto began = Stop::Clock::now();
   made.plan = plan(world, query.start, query.goal, made.planner, rng, stop);
   made.seconds = seconds_since(began);
   explain(world, query, name, made.planner, made.plan.status);
+  note_goal(world, query, made);
   return made;
 }
 

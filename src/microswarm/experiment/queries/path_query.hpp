@@ -32,7 +32,7 @@ struct PathAnswer {
   Plan plan;
   planning::PlannerParams planner;  ///< parameters that were used
   double seconds = 0;               ///< computing time of the planner [s]
-  Notes notes{};                    ///< one for each former key in the settings
+  Notes notes{};  ///< former keys in the settings, and a path that ends beside its goal
 
   /// Why there is no path, as text, with the limit that ended the search; empty with a path.
   std::string why_none() const;
@@ -40,7 +40,9 @@ struct PathAnswer {
 
 /// Plans a path with the planner of the settings, by default the shortest one. `name` is the map's
 /// name in messages. Throws InputError for numbers that are not finite, mistakes in the settings,
-/// and if no path can exist: a blocked start or goal, a swarm too wide, or a goal that is cut off.
+/// and if no path can exist: a blocked start, a goal in a wall or outside the map, one without a
+/// free place within the tolerance, a swarm too wide, or a goal that is cut off. A goal that is
+/// only nearer to a wall than the clearance is noted, with the distance to where the path ends.
 PathAnswer answer(const Snapshot& world, const PathQuery& query, const std::string& name,
                   const Stop& stop = {});
 

@@ -35,6 +35,7 @@ Experiment open(Scenario scenario, const std::filesystem::path& base, const KeyL
   const std::vector<std::string> misread = top_keys(issues);
   Issues more;
   Experiment opened{load_scene(std::move(scenario), base, more), {}, keys};
+  opened.keys.add_notes(opened.scene.map.notes);
   if (more.empty() && !misread_basis(misread)) {
     opened.world = build_world(opened.scene);
     more = validate(opened.scenario(), opened.world, keys.is_given());
@@ -42,6 +43,7 @@ Experiment open(Scenario scenario, const std::filesystem::path& base, const KeyL
   more.drop(misread);
   issues.add(more);
   keys.require_none(issues);
+  opened.keys.add_notes(goal_notes(opened.scenario(), opened.world));
   return opened;
 }
 

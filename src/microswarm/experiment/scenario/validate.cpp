@@ -77,8 +77,11 @@ Issues validate_body(const Scenario& scenario, const World& world) {
     issues.add("goal_um", "missing key 'goal_um'");
     return issues;
   }
-  // The swarm's centre may stop anywhere within the tolerance.
   const Snapshot walls(world.map);
+  if (const std::string why = walls.blocked_reason(*scenario.goal, 0); !why.empty())
+    issues.add("goal_um", fmt::format("goal {}", why));
+  if (!issues.empty()) return issues;
+  // The swarm's centre may stop anywhere within the tolerance.
   const auto target =
       navigation::reachable_goal(walls, *scenario.goal, scenario.goal_tolerance, radius);
   if (!target)
@@ -104,6 +107,19 @@ Issues validate_path(const Map& map, Vec2 start, Vec2 goal, double radius) {
                          "widest is about {:.3g} µm, at ({:.4g}, {:.4g}) µm",
                          2 * radius, 2 * path.clearance, path.tightest.x, path.tightest.y));
   return issues;
+}
+
+Notes goal_notes(const Scenario& scenario, const World& world) {
+  if (scenario.robots || !scenario.goal) return {};
+  const double clearance = std::max(swarm_limits(scenario.swarm).radius,
+                                    navigation::required_clearance(scenario.navigator));
+  const Snapshot walls(world.map);
+  const std::string why = walls.blocked_reason(*scenario.goal, clearance);
+  const auto target =
+      navigation::reachable_goal(walls, *scenario.goal, scenario.goal_tolerance, clearance);
+  if (why.empty() || !target) return {};
+  return {fmt::format("goal {}: the swarm is led to ({:.4g}, {:.4g}) µm, {:.3g} µm from it", why,
+                      target->x, target->y, distance(*target, *scenario.goal))};
 }
 
 Issues validate(const Scenario& scenario, const World& world, const IsGiven& is_given) {

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "microswarm/config/former_keys.hpp"
 #include "microswarm/core/errors/issue.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 
 namespace microswarm::experiment {
+
+/// Note on a goal that is nearer to a wall than swarm and navigator allow: where the swarm is led
+/// instead, and how far from it that is. A goal in a wall is an issue.
+Notes goal_notes(const Scenario& scenario, const World& world);
 
 /// Issues that make a run pointless: the start or the goal in a wall ("start is 12 µm inside wall
 /// 3"), a swarm wider than every passage, a goal cut off from the start, no path with the
