@@ -22,6 +22,8 @@ namespace microswarm::c {
 struct OpenMap {
   Snapshot world;
   std::string name;
+  std::string notes_of_reading{};  ///< a line each
+  std::string notes{};             ///< with those of the last plan
 };
 
 /// Object behind a handle: one of the first three members. It owns the text and numbers that were

@@ -212,6 +212,12 @@ const char* ms_state_name(int32_t state);
 
 /* Opens a map file; `um_per_px` is the side of a pixel or cell, 0 if the file contains it. */
 int32_t ms_map_open(const char* file, double um_per_px, uint64_t* map);
+/* The same with keys of `map` in a scenario: "map.um_per_unit=1000", "map.free=dark". */
+int32_t ms_map_open_with(const char* file, double um_per_px, const char* const* settings,
+                         size_t count, uint64_t* map);
+/* What was assumed or left out when the map was read, and of the last plan a path that ends beside
+   its goal: a line each, "" if there is nothing. The text belongs to the map's handle. */
+int32_t ms_map_notes(uint64_t map, const char** notes);
 /* A map from `width` x `height` pixels, upper row first: a mask of 0 and 1, where 1 is free, or else
  * a grey picture, free where a pixel is at least 128, as in a picture's file. */
 int32_t ms_map_from_pixels(const uint8_t* pixels, size_t width, size_t height, double um_per_px,

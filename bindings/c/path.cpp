@@ -8,6 +8,10 @@ using namespace microswarm;
 
 namespace {
 
+void add_lines(std::string& text, const Notes& lines) {
+  for (const std::string& line : lines) text += (text.empty() ? line : "\n" + line);
+}
+
 std::unique_ptr<c::Object> of(std::shared_ptr<const Map> map, std::string name) {
   auto object = std::make_unique<c::Object>();
   object->map = std::make_unique<c::OpenMap>(c::OpenMap{Snapshot(std::move(map)), std::move(name)});
@@ -17,11 +21,31 @@ std::unique_ptr<c::Object> of(std::shared_ptr<const Map> map, std::string name) 
 }  // namespace
 
 int32_t ms_map_open(const char* file, double um_per_px, uint64_t* map) {
+  return ms_map_open_with(file, um_per_px, nullptr, 0, map);
+}
+
+int32_t ms_map_open_with(const char* file, double um_per_px, const char* const* settings,
+                         size_t count, uint64_t* map) {
   return c::guarded([&]() -> int32_t {
     c::require(file, "file"), c::require(map, "map");
     const auto scale = um_per_px != 0 ? std::optional(um_per_px) : std::nullopt;
-    *map =
-        c::keep(of(formats::load_map(formats::guess_map_spec(file, scale, "um_per_px")).map, file));
+    const formats::LoadedMap loaded = formats::load_map(
+        formats::choose_map_spec(file, {.um_per_px = scale,
+                                        .settings = c::to_settings(settings, count),
+                                        .um_per_px_option = "um_per_px",
+                                        .um_per_unit_option = "map.um_per_unit"}));
+    auto object = of(loaded.map, file);
+    add_lines(object->map->notes_of_reading, loaded.notes);
+    object->map->notes = object->map->notes_of_reading;
+    *map = c::keep(std::move(object));
+    return MS_OK;
+  });
+}
+
+int32_t ms_map_notes(uint64_t handle, const char** notes) {
+  return c::with_map(handle, [&](c::OpenMap& map, c::Object&) -> int32_t {
+    c::require(notes, "notes");
+    *notes = map.notes.c_str();
     return MS_OK;
   });
 }
@@ -67,6 +91,8 @@ int32_t ms_plan(uint64_t handle, const ms_query* query, ms_path* path) {
          .seed = query->seed},
         map.name, Stop(&object.stops));
     object.why = made.why_none();
+    map.notes = map.notes_of_reading;
+    add_lines(map.notes, made.notes);
     *path = {.solved = made.plan.status == Status::solved,
              .length_um = path_length(made.plan),
              .turning_rad = path_turning(made.plan.path, query->start_heading_rad),

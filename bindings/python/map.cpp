@@ -13,11 +13,22 @@
 namespace microswarm::python {
 namespace {
 
-NamedMap load(const std::string& file, std::optional<double> um_per_px) {
-  return interruptible([&](const Stop&) {
-    const formats::MapSpec spec = formats::guess_map_spec(file, um_per_px, "um_per_px");
-    return NamedMap{Snapshot(formats::load_map(spec).map), file, spec};
+NamedMap load(const std::string& file, std::optional<double> um_per_px,
+              std::optional<double> um_per_unit, const Given& settings) {
+  Notes notes;
+  NamedMap loaded = interruptible([&](const Stop&) {
+    const formats::MapSpec spec =
+        formats::choose_map_spec(file, {.um_per_px = um_per_px,
+                                        .um_per_unit = um_per_unit,
+                                        .settings = to_settings(settings),
+                                        .um_per_px_option = "um_per_px",
+                                        .um_per_unit_option = "um_per_unit"});
+    const formats::LoadedMap read = formats::load_map(spec);
+    notes = read.notes;
+    return NamedMap{Snapshot(read.map), file, spec};
   });
+  warn(notes);
+  return loaded;
 }
 
 NamedMap from_walls(const std::array<double, 4>& bounds, const std::vector<Numbers>& walls,
@@ -30,9 +41,14 @@ NamedMap from_walls(const std::array<double, 4>& bounds, const std::vector<Numbe
   const double* row = discs.data();
   for (py::ssize_t i = 0; i < discs.size() / 3; ++i, row += 3)
     spec.discs.push_back({{row[0], row[1]}, row[2]});
-  return interruptible([&](const Stop&) {
-    return NamedMap{Snapshot(formats::load_map({std::move(spec)}).map), "map"};
+  Notes notes;
+  NamedMap loaded = interruptible([&](const Stop&) {
+    const formats::LoadedMap read = formats::load_map({std::move(spec)});
+    notes = read.notes;
+    return NamedMap{Snapshot(read.map), "map"};
   });
+  warn(notes);
+  return loaded;
 }
 
 NamedMap from_pixels(const py::array_t<std::uint8_t, py::array::c_style>& pixels, double um_per_px,

@@ -264,6 +264,9 @@ static void paths(void) {
   uint8_t pixels[40 * 40];
   const char* settings[] = {"planner.type=drrt_star", "planner.clearance_um=15"};
   const char* typo[] = {"planner.clearence_um=15"};
+  const char* walls[] = {"map.wall=one"};
+  const char* notes = NULL;
+  FILE* file;
   uint64_t map = 0;
   ms_query query;
   ms_path path;
@@ -287,7 +290,11 @@ static void paths(void) {
   query.setting_count = 0, query.start_heading_rad = NAN;
   EXPECT_ERROR(ms_plan(map, &query, &path), MS_BAD_INPUT, "finite");
   query.start_heading_rad = 0, query.goal_x_um = 200;
-  EXPECT_ERROR(ms_plan(map, &query, &path), MS_BAD_INPUT, "goal");
+  EXPECT_ERROR(ms_plan(map, &query, &path), MS_BAD_INPUT, "goal is 20 µm inside wall");
+  EXPECT(ms_map_notes(map, &notes) == MS_OK && notes[0] == '\0');
+  query.goal_x_um = 225, query.settings = settings, query.setting_count = 2;
+  EXPECT(ms_plan(map, &query, &path) == MS_OK && path.solved);
+  EXPECT(ms_map_notes(map, &notes) == MS_OK && strstr(notes, "goal is 5 µm from wall"));
   EXPECT(ms_close(map) == MS_OK);
   for (row = 0; row < 40 * 40; ++row) pixels[row] = pixels[row] ? 128 : 127; /* grey */
   EXPECT(ms_map_from_pixels(pixels, 40, 40, 10, &map) == MS_OK);
@@ -297,6 +304,18 @@ static void paths(void) {
   EXPECT_ERROR(ms_map_from_pixels(pixels, 0, 40, 10, &map), MS_BAD_INPUT, "must be 1 to");
   EXPECT_ERROR(ms_map_from_pixels(pixels, 40, 40, NAN, &map), MS_BAD_INPUT, "um_per_px");
   EXPECT_ERROR(ms_map_open("no.png", 1, &map), MS_BAD_INPUT, "no.png");
+  file = fopen("interface_test_matrix.txt", "w");
+  EXPECT(file && fputs("1 1 1\n1 0 1\n1 1 1\n", file) >= 0 && fclose(file) == 0);
+  EXPECT(ms_map_open("interface_test_matrix.txt", 10, &map) == MS_OK);
+  EXPECT(ms_map_clearance(map, 5, 5, &free) == MS_OK && free == 5);
+  EXPECT(ms_map_notes(map, &notes) == MS_OK && strstr(notes, "map.wall=one"));
+  EXPECT(ms_close(map) == MS_OK);
+  EXPECT(ms_map_open_with("interface_test_matrix.txt", 10, walls, 1, &map) == MS_OK);
+  EXPECT(ms_map_clearance(map, 5, 5, &free) == MS_OK && free == 0);
+  EXPECT(ms_map_clearance(map, 15, 15, &free) == MS_OK && free == 5);
+  EXPECT(ms_map_notes(map, &notes) == MS_OK && notes[0] == '\0');
+  EXPECT(ms_close(map) == MS_OK);
+  remove("interface_test_matrix.txt");
 }
 
 /* What docs/how-to/use-from-matlab.md tells users of LabVIEW about structures. */

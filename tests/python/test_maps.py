@@ -30,6 +30,32 @@ def test_a_map_of_an_image(room):
     assert ring.min(axis=0).tolist() == [180, 0] and ring.max(axis=0).tolist() == [220, 300]
 
 
+def test_keys_and_units_of_a_file(tmp_path):
+    matrix = tmp_path / "m.txt"
+    matrix.write_text("1 1 1\n1 0 1\n1 1 1\n")
+    with pytest.warns(FutureWarning, match="map.wall=one"):
+        free = ms.Map.load(matrix, 10)
+    assert free.clearance([[5, 5], [15, 15]]).tolist() == [5, 0]
+    assert ms.Map.load(matrix, 10, wall="one").clearance([[5, 5], [15, 15]]).tolist() == [0, 5]
+    drawing = tmp_path / "a.geojson"
+    drawing.write_text('{"type":"LineString","coordinates":[[0,0],[3,0]]}')
+    assert ms.Map.load(drawing, um_per_unit=1000, line_width_um=100).bounds_um == (-50, -50, 3050, 50)
+    with pytest.warns(FutureWarning, match="um_per_unit"):
+        ms.Map.load(drawing, line_width_um=1)
+    with pytest.raises(ms.InputError, match="line_width"):
+        ms.Map.load(drawing, um_per_unit=1000)
+    with pytest.raises(ms.InputError, match="map.fre"):
+        ms.Map.load(matrix, 10, fre="dark")
+
+
+def test_a_goal_in_a_wall_is_refused_and_one_near_it_is_noted(room):
+    for planner in ms.planners:
+        with pytest.raises(ms.InputError, match="goal is 20 µm inside wall"):
+            ms.plan(room, (50, 50), (200, 50), planner, 10)
+    with pytest.warns(FutureWarning, match="the path ends 15 µm before it"):
+        assert ms.plan(room, (50, 50), (175, 50), clearance_um=20, goal_tolerance_um=30).solved
+
+
 def test_an_image_of_noise_is_refused():
     image = np.ones((2400, 2400), dtype=bool)
     image[::2, ::2] = False

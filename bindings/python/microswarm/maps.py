@@ -24,9 +24,16 @@ class Map(Drawable):
         self._core = core
 
     @classmethod
-    def load(cls, path: str | os.PathLike[str], um_per_px: Optional[float] = None) -> "Map":
-        """A picture, ROS .yaml, MovingAI .map, GeoJSON or CSV of rectangles."""
-        return cls(_core.Map.load(path_text(path), None if um_per_px is None else number("um_per_px", um_per_px)))
+    def load(cls, path: str | os.PathLike[str], um_per_px: Optional[float] = None, *, um_per_unit: Optional[float] = None, **keys: Any) -> "Map":
+        """A picture, ROS .yaml, MovingAI .map, GeoJSON, SVG, CSV of rectangles or matrix of 0 and 1.
+
+        um_per_px    side of a pixel or cell
+        um_per_unit  µm for a unit of a file in plane coordinates
+        keys         of `map` in a scenario: free="dark", threshold=8, wall="one"; what was assumed is a warning
+        """
+        px = None if um_per_px is None else number("um_per_px", um_per_px)
+        unit = None if um_per_unit is None else number("um_per_unit", um_per_unit)
+        return cls(_core.Map.load(path_text(path), px, unit, [setting(f"map.{key}", value) for key, value in keys.items()]))
 
     @classmethod
     def from_walls(cls, bounds_um: Sequence[float], walls_um: Sequence[Any] = (), discs_um: Any = ()) -> "Map":
