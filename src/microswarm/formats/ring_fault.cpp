@@ -14,7 +14,7 @@ namespace microswarm::formats {
 namespace {
 
 /// Share of the extent by which computed points may be off.
-constexpr double rounding = 1e-9;
+constexpr double ring_rounding = 1e-9;
 
 /// The edges of all rings of a polygon.
 class RingEdges {
@@ -73,7 +73,7 @@ class RingEdges {
   /// touch.
   bool ends_on(const Segment& s, const Segment& t) const {
     return std::min({distance(s.a, t), distance(s.b, t), distance(t.a, s), distance(t.b, s)}) <=
-           rounding * extent_;
+           ring_rounding * extent_;
   }
 
   static Vec2 meeting_point(const Segment& s, const Segment& t) {
@@ -120,7 +120,7 @@ bool area_is_clear(const Polygon& polygon) {
   for_each_edge(polygon, [&](Vec2 a, Vec2 b) { boundary += distance(a, b); });
   const double extent = std::max(box.width(), box.height());
   return std::abs(solid - area(polygon)) <=
-         rounding * (box.width() * box.height() + boundary * extent / 100);
+         ring_rounding * (box.width() * box.height() + boundary * extent / 100);
 }
 
 }  // namespace

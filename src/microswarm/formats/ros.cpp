@@ -28,7 +28,7 @@ Cell to_cell(double value, const RosHeader& header) {
 constexpr std::uint8_t saver_unknown = 205, saver_free = 254;
 
 /// Grey of a pixel: the mean of the colours, as in map_server.
-double grey(const Image& image, std::size_t pixel) {
+double mean_grey(const Image& image, std::size_t pixel) {
   const auto channels = static_cast<std::size_t>(image.channels);
   int sum = 0;
   for (std::size_t c = 0; c < channels; ++c) sum += image.pixels[pixel * channels + c];
@@ -109,7 +109,7 @@ SaverUnknown find_saver_unknown(const Image& image, const RosHeader& header) {
   const std::size_t pixels =
       static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
   for (std::size_t i = 0; i < pixels; ++i) {
-    const double value = grey(image, i);
+    const double value = mean_grey(image, i);
     if (value == saver_unknown)
       ++found.cells;
     else if (value == saver_free)
@@ -126,7 +126,7 @@ Mask ros_walls(const Image& image, const RosHeader& header, bool unknown_free,
   Mask mask(image.width, image.height);
   const bool saver = find_saver_unknown(image, header).is_of_map_saver;
   for (std::size_t i = 0; i < mask.cells.size(); ++i) {
-    const double value = grey(image, i);
+    const double value = mean_grey(image, i);
     const bool is_there = transparent.empty() || transparent[i] == 0;
     const bool is_known = is_there && !(saver && value == saver_unknown);
     const Cell cell = is_known ? to_cell(value, header) : Cell::unknown;

@@ -8,7 +8,7 @@ namespace microswarm::formats {
 namespace {
 
 /// Unit vector of the angle, exact for quarters of a turn.
-Vec2 direction(double angle) {
+Vec2 turn_direction(double angle) {
   constexpr double rounding = 1e-12;
   Vec2 u = unit_vector(angle);
   if (std::abs(u.x) < rounding) u = {0, std::copysign(1, u.y)};
@@ -19,7 +19,7 @@ Vec2 direction(double angle) {
 }  // namespace
 
 MapParts turned(MapParts parts, Vec2 pivot, double angle) {
-  const Vec2 u = direction(angle);
+  const Vec2 u = turn_direction(angle);
   const auto turn = [&](Vec2& p) {
     const Vec2 d = p - pivot;
     p = pivot + Vec2{u.x * d.x - u.y * d.y, u.y * d.x + u.x * d.y};
