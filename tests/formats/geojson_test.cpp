@@ -186,8 +186,8 @@ TEST(GeoJson, RingsThatCrossThemselvesAreTold) {
   EXPECT_EQ(uneven.notes.size(), 1u);
   EXPECT_EQ(uneven.walls.size(), 2u);
   // Two squares that touch in a corner, as traced pixels do.
-  EXPECT_TRUE(parsed_geojson(polygon("[[[200,0],[201,0],[201,1],[202,1],[202,2],[201,2],[201,1],"
-                                     "[200,1],[200,0]]]"))
+  EXPECT_TRUE(parsed_geojson(polygon("[[[200,0],[300,0],[300,100],[400,100],[400,200],[300,200],"
+                                     "[300,100],[200,100],[200,0]]]"))
                   .notes.empty());
 }
 
