@@ -394,6 +394,13 @@ TEST(GuessMapSpec, EveryFormatIsNamedAndRead) {
     EXPECT_NE(named.find(name), std::string::npos) << named;
 }
 
+TEST(GuessMapSpec, DrawingsOfCadAreToBeExported) {
+  const Folder folder;
+  const auto file = folder.with("x.DXF", "");
+  EXPECT_TRUE(test::is_one_line_naming(error_of([&] { guess_map_spec(file); }), file.string(),
+                                       {"SVG", "export"}));
+}
+
 TEST(GuessMapSpec, SaysWhatIsMissing) {
   const Folder folder;
   const auto complaint = [&](std::string_view name, std::optional<double> um_per_px = {}) {
