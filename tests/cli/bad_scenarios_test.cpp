@@ -153,7 +153,8 @@ TEST_F(BadScenarios, PaperFigureGroup) {
   refused({"reproduce", "drtt"},
           naming("reproduce", {"drtt", "drrt", "global", "radar", "gather"}));
   refused({"reproduce", "drrt/fig9"},
-          "reproduce drrt: unknown figure 'fig9', there are: fig3, fig5a, fig5b, comparison" +
+          "reproduce drrt: unknown figure 'fig9', did you mean 'fig3'? Allowed: fig3, fig5a, "
+          "fig5b, comparison" +
               follower);
   refused({"bench", "speed"},
           naming("bench", {"speed", "planning", "swarm", "global", "radar", "vision"}));

@@ -109,10 +109,6 @@ TEST(Issues, OfAnAssignmentWithoutAnOptionStandAtItsKey) {
   EXPECT_EQ(to_string(issues), "planner.walls: walls is 'x', allowed: slide, stop");
   EXPECT_EQ(to_string(issues_from([&] { Settings({"planner"}, ""); })),
             "'planner': must be KEY=VALUE");
-  EXPECT_EQ(to_string(issues_from([&] {
-              check_types_first(Settings({"tip.opening_deg=10", "tip.type=fan"}, ""));
-            })),
-            "tip.type: comes after 'tip.opening_deg=10', which it may drop: give it first");
 }
 
 TEST(Issues, OfDocumentAndAssignmentsComeTogether) {

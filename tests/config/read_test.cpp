@@ -201,10 +201,12 @@ TEST(Read, ValuesOutOfRange) {
 
 TEST(Read, UnknownWords) {
   const Case cases[] = {
-      {"planner: {walls: slid}", "s.yaml:1:18: walls is 'slid', allowed: slide, stop"},
+      {"planner: {walls: slid}",
+       "s.yaml:1:18: walls is 'slid', did you mean 'slide'? Allowed: slide, stop"},
       {"planner: {walls: [slide]}", "s.yaml:1:18: walls is a list of 1, allowed: slide, stop"},
       {"kinds: [stop, 1]", "s.yaml:1:15: kinds is '1', allowed: slide, stop"},
-      {"tip:\n  type: fna", "s.yaml:2:9: type of tip is 'fna', allowed: disc, fan, nothing"},
+      {"tip:\n  type: fna",
+       "s.yaml:2:9: type of tip is 'fna', did you mean 'fan'? Allowed: disc, fan, nothing"},
       {"tip:\n  type:", "s.yaml:2:3: type of tip is empty, allowed: disc, fan, nothing"}};
   for (const auto& [text, message] : cases) EXPECT_EQ(complaint(text), message);
 }

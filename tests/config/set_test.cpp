@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "microswarm/config/yaml.hpp"
 #include "tests/config/message.hpp"
 #include "tests/config/sample.hpp"
@@ -48,13 +50,37 @@ TEST(Set, AnotherTypeBeginsTheVariantAfreshTheSameKeepsWhatIsSet) {
   EXPECT_EQ(fresh.tip, scene.tip);
 }
 
-TEST(Set, ATypeAfterWhatItMayDropIsRefused) {
+TEST(Set, TheOrderOfKeysDoesNotMatter) {
+  Scene expected;
+  set_values(expected, {"tip.type=fan", "tip.opening_deg=10", "seed=3"});
+  std::vector<std::string> texts{"seed=3", "tip.opening_deg=10", "tip.type=fan"};
+  do {
+    Scene scene;
+    set_values(scene, texts);
+    EXPECT_EQ(scene, expected) << texts[0] << " " << texts[1];
+    KeyLocations locations;
+    Issues issues;
+    EXPECT_EQ(read_yaml_text<Scene>("{}", "s.yaml", texts, locations, issues).tip, expected.tip);
+  } while (std::ranges::next_permutation(texts).found);
+  // Of two types the later one counts, whatever stands between them.
   Scene scene;
-  EXPECT_EQ(message_of([&] {
-              set_values(scene, {"tip.opening_deg=10", "tip.type=fan"});
-            }),
-            "--set tip.type: comes after 'tip.opening_deg=10', which it may drop: give it first");
-  check_types_first({"tip.type=fan", "tip.type=fan", "tip.opening_deg=10"});
+  set_values(scene, {"tip.type=nothing", "tip.opening_deg=10", "tip.type=fan"});
+  EXPECT_EQ(scene.tip, expected.tip);
+}
+
+TEST(Set, ATypeComesBeforeThePartsOfItsOwnVariantOnly) {
+  const auto order = [](const std::vector<std::string>& texts) {
+    const Settings settings(texts);
+    std::string joined;
+    for (const std::size_t i : types_first(settings.list)) joined += settings.list[i].key + " ";
+    return joined;
+  };
+  EXPECT_EQ(order({"b.x=1", "a.x=1", "a.type=t"}), "b.x a.type a.x ");
+  EXPECT_EQ(order({"a.b.x=1", "a.x=1", "a.b.type=t", "a.type=t"}), "a.type a.b.type a.b.x a.x ");
+  EXPECT_EQ(order({"ab.x=1", "a.type=t"}), "ab.x a.type ");
+  // A whole that is set anew begins a new one.
+  EXPECT_EQ(order({"a.x=1", "a={}", "a.y=1", "a.type=t"}), "a.x a a.type a.y ");
+  EXPECT_EQ(order({"a.b.x=1", "a={}", "a.b.type=t"}), "a.b.x a a.b.type ");
 }
 
 TEST(Set, ComplaintsNameTheKeyAndLeaveTheValue) {
@@ -66,8 +92,10 @@ TEST(Set, ComplaintsNameTheKeyAndLeaveTheValue) {
       {"planner.step_um=fast", "--set planner.step_um: step_um must be a number, not 'fast'"},
       {"planner.step_um=", "--set planner.step_um: step_um must be a number, not empty"},
       {"planner.step_um=.nan", "--set planner.step_um: step_um is .nan, must be finite"},
-      {"planner.walls=slid", "--set planner.walls: walls is 'slid', allowed: slide, stop"},
-      {"tip.type=fna", "--set tip.type: type of tip is 'fna', allowed: disc, fan, nothing"},
+      {"planner.walls=slid",
+       "--set planner.walls: walls is 'slid', did you mean 'slide'? Allowed: slide, stop"},
+      {"tip.type=fna",
+       "--set tip.type: type of tip is 'fna', did you mean 'fan'? Allowed: disc, fan, nothing"},
       {"tip.opening_deg=3", "--set tip.opening_deg: unknown key 'opening_deg', allowed: radius_um"},
       {"tip=fan", "--set tip: tip must be a mapping with the key 'type', not 'fan'"},
       {"seed.low=3", "--set seed.low: seed has no parts, so no 'low'"},

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "microswarm/core/text/choices.hpp"
 #include "microswarm/core/text/text.hpp"
 
 #include <gtest/gtest.h>
@@ -99,6 +100,17 @@ TEST(Text, NearestWordIsNearOrNone) {
   EXPECT_EQ(nearest_word("clearance_um", keys), "");
   EXPECT_EQ(nearest_word("", keys), "");
   EXPECT_EQ(nearest_word(std::string(1'000'000, 'a'), keys), "");
+}
+
+TEST(Text, AValueThatIsNoneOfTheWordsIsAnsweredWithTheNearestAndAll) {
+  const std::vector<std::string_view> words{"rrt", "rrt_star", "drrt_star", "disc"};
+  const std::string all = "rrt, rrt_star, drrt_star, disc";
+  EXPECT_EQ(allowed_words("disk", words), "did you mean 'disc'? Allowed: " + all);
+  EXPECT_EQ(allowed_words("rtt_star", words), "did you mean 'rrt_star'? Allowed: " + all);
+  EXPECT_EQ(allowed_words("drtt", words), "did you mean 'drrt_star'? Allowed: " + all);
+  EXPECT_EQ(allowed_words("spline", words), "allowed: " + all);
+  EXPECT_EQ(allowed_words("", words), "allowed: " + all);
+  EXPECT_EQ(allowed_words("x", {}), "allowed: ");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "commands/commands.hpp"
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/choices.hpp"
 
 namespace microswarm::cli {
 namespace {
@@ -17,13 +18,13 @@ struct BenchOptions {
   bool json = false;
 };
 
-constexpr const char* groups[] = {"planning", "sweep",  "swarm", "global", "gather",  "radar",
-                                  "growth",   "vision", "lab",   "rig",    "bindings"};
+constexpr std::string_view groups[] = {"planning", "sweep",  "swarm", "global", "gather",  "radar",
+                                       "growth",   "vision", "lab",   "rig",    "bindings"};
 
 int measure(const BenchOptions& o) {
   if (std::find(std::begin(groups), std::end(groups), o.group) == std::end(groups))
     throw InputError(
-        fmt::format("bench: unknown group '{}', there are: {}", o.group, fmt::join(groups, ", ")));
+        fmt::format("bench: unknown group '{}', {}", o.group, allowed_words(o.group, groups)));
   const auto program =
       std::filesystem::read_symlink("/proc/self/exe").parent_path() / "microswarm-bench";
   std::vector<std::string> words{program.string(), o.group};

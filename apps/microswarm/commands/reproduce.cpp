@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/choices.hpp"
 #include "support/options.hpp"
 
 namespace microswarm::cli {
@@ -29,7 +30,7 @@ Reproduce find_paper(const std::string& paper) {
     names.push_back(name);
   }
   throw InputError(
-      fmt::format("reproduce: unknown paper '{}', there are: {}", paper, fmt::join(names, ", ")));
+      fmt::format("reproduce: unknown paper '{}', {}", paper, allowed_words(paper, names)));
 }
 
 int reproduce_command(const std::string& key, reproduce::ReproduceOptions options, bool json,

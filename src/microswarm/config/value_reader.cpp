@@ -11,6 +11,7 @@
 
 #include "microswarm/config/number.hpp"
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/choices.hpp"
 #include "microswarm/core/text/text.hpp"
 
 namespace microswarm {
@@ -220,8 +221,9 @@ void ValueReader::choose(const Type& type, std::string_view label, void* value,
   const auto word = std::find(type.words.begin(), type.words.end(), node.text);
   if (node.kind != Kind::scalar || word == type.words.end()) {
     const std::string allowed = fmt::format("{}", fmt::join(type.words, ", "));
-    fail(node, fmt::format("{} is {}, allowed: {}", label, found(node), allowed), shown_value(node),
-         allowed);
+    const std::string words =
+        node.kind == Kind::scalar ? allowed_words(node.text, type.words) : "allowed: " + allowed;
+    fail(node, fmt::format("{} is {}, {}", label, found(node), words), shown_value(node), allowed);
   }
   type.set_count(value, static_cast<std::size_t>(word - type.words.begin()));
 }

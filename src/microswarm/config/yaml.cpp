@@ -186,20 +186,24 @@ std::optional<Setting> set_value(const Type& type, void* value, const Setting& s
   }
 }
 
-void check_types_first(const Settings& given) {
-  for (std::size_t i = 0; i < given.list.size(); ++i) {
-    const auto& [key, value] = given.list[i];
-    if (!key.ends_with(".type")) continue;
-    const std::string_view part = std::string_view(key).substr(0, key.size() - 4);  // with its dot
-    for (std::size_t k = 0; k < i; ++k)
-      if (const Setting& other = given.list[k]; other.key.starts_with(part) && other.key != key)
-        throw InputError(
-            Issue{.keys = {key},
-                  .text = fmt::format("comes after {}, which it may drop: give it first",
-                                      quote(to_string(other))),
-                  .location = setting_location(given.option, key),
-                  .value = one_line(value)});
+std::vector<std::size_t> types_first(std::span<const Setting> settings) {
+  constexpr std::string_view type_word = ".type";
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    const std::string_view key = settings[i].key;
+    auto to = order.end();
+    if (key.ends_with(type_word)) {
+      const std::string_view part = key.substr(0, key.size() - type_word.size());
+      // Back to the first of its parts, but not across an assignment of the whole.
+      for (auto at = order.end(); at != order.begin();) {
+        const std::string_view other = settings[*--at].key;
+        if (other == key || is_in_key(part, other)) break;
+        if (is_in_key(other, part)) to = at;
+      }
+    }
+    order.insert(to, i);
   }
+  return order;
 }
 
 }  // namespace microswarm

@@ -81,22 +81,23 @@ void set_value(T& value, std::string_view text, std::string_view option = "--set
   set_value(value, parse_setting(text, option), option, notes);
 }
 
-/// Throws InputError if an assignment chooses a variant's `type` after another has set a part of
-/// it, which would be lost.
-void check_types_first(const Settings& assignments);
+/// The order in which assignments are applied, as indices: as given, but one that chooses the
+/// `type` of a part comes before those that set something in that part, which it might drop. So
+/// the order of keys does not matter; of two assignments to one key the later one counts.
+std::vector<std::size_t> types_first(std::span<const Setting> settings);
 
-/// Applies assignments in order, after check_types_first. Returns notes on former keys.
+/// Applies assignments, types first. Returns notes on former keys.
 template <HasFields T>
 Notes set_values(T& value, const Settings& assignments) {
   Notes notes;
-  check_types_first(assignments);
-  for (const Setting& setting : assignments.list)
-    set_value(value, setting, assignments.option, notes);
+  for (const std::size_t i : types_first(assignments.list))
+    set_value(value, assignments.list[i], assignments.option, notes);
   return notes;
 }
 
-/// Parameter struct from YAML text, with assignments applied after it. Mistakes in keys and values
-/// go into `issues`; `locations` receives the location of each key and the notes on former keys.
+/// Parameter struct from YAML text, with assignments applied after it, types first. Mistakes in
+/// keys and values go into `issues`; `locations` receives the location of each key and the notes on
+/// former keys.
 template <HasFields T>
 T read_yaml_text(std::string_view text, const std::string& name, const Settings& assignments,
                  KeyLocations& locations, Issues& issues) {
@@ -104,11 +105,10 @@ T read_yaml_text(std::string_view text, const std::string& name, const Settings&
   Notes notes;
   YamlNode document =
       read_yaml(type_of<T>(), &value, text, name, issues, notes, list_moved_keys<T>());
-  check_types_first(assignments);
   Settings present(std::vector<Setting>(), assignments.option);
-  for (const Setting& setting : assignments.list) {
+  for (const std::size_t i : types_first(assignments.list)) {
     try {
-      auto applied = set_value(value, setting, assignments.option, notes);
+      auto applied = set_value(value, assignments.list[i], assignments.option, notes);
       if (applied) present.list.push_back(std::move(*applied));
     } catch (const InputError& error) {
       issues.add(error.issues());

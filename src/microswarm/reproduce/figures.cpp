@@ -8,6 +8,7 @@
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/file.hpp"
+#include "microswarm/core/text/choices.hpp"
 
 namespace microswarm::reproduce {
 namespace {
@@ -41,8 +42,8 @@ std::vector<report::ReproduceRow> reproduce_figures(std::string_view paper,
     rows.insert(rows.end(), more.begin(), more.end());
   }
   if (!known)
-    throw InputError(fmt::format("reproduce {}: unknown figure '{}', there are: {}", paper, figure,
-                                 fmt::join(names, ", ")));
+    throw InputError(fmt::format("reproduce {}: unknown figure '{}', {}", paper, figure,
+                                 allowed_words(figure, names)));
   if (!options.out.empty())
     write_file_atomically(std::filesystem::path(options.out) / fmt::format("{}.csv", paper),
                           report::rows_csv(rows));

@@ -97,28 +97,27 @@ struct Loader {
   void set_up(SweepCell& cell, const SweepMethod& method) const {
     cell.scenario = base;
     const std::string of_method = fmt::format("method '{}':", method.name);
-    const Settings set(plan.sweep.set, "set:"), its(method.set, of_method);
-    std::vector<Setting> grid;
+    std::vector<Setting> all;
+    std::vector<std::string> origins;
+    const auto add = [&](const Settings& from) {
+      all.insert(all.end(), from.list.begin(), from.list.end());
+      origins.resize(all.size(), from.option);
+    };
+    add(Settings(plan.sweep.set, "set:"));
+    add(Settings(method.set, fmt::format("method '{}':", method.name)));
+    const std::size_t fixed = all.size();
     for (std::size_t i = 0; i < cell.values.size(); ++i)
-      grid.push_back({plan.sweep.grid[i].key, cell.values[i]});
-    Settings all = set;
-    all.list.insert(all.list.end(), its.list.begin(), its.list.end());
-    all.list.insert(all.list.end(), grid.begin(), grid.end());
-    all.option = of_method;
-    check_types_first(all);
-    for (const Setting& setting : set.list) apply(cell, setting, set.option);
-    for (const Setting& setting : its.list) apply(cell, setting, its.option);
-    for (const Setting& setting : grid) {
-      if (!apply(cell, setting, "grid:")) continue;
-      const std::string& key = cell.settings.back().key;
-      if (std::any_of(cell.settings.begin(), cell.settings.end() - 1,
-                      [&](const Setting& other) { return other.key == key; }))
+      add(Settings({Setting{plan.sweep.grid[i].key, cell.values[i]}}, "grid:"));
+    std::vector<std::string> varied;
+    for (const std::size_t i : types_first(all))
+      if (apply(cell, all[i], origins[i]) && i >= fixed) varied.push_back(cell.settings.back().key);
+    for (const std::string& key : varied)
+      if (std::ranges::count(cell.settings, key, &Setting::key) > 1)
         throw InputError(Issue{
             .keys = {key},
             .text = fmt::format("{} is varied by the grid and set a second time, in the grid, "
                                 "in 'set' or by method '{}'",
                                 quote(key), method.name)});
-    }
     if (plan.sweep.seed) cell.scenario.seed = *plan.sweep.seed;
   }
 
