@@ -3,6 +3,7 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/microswarm)
+set(modules_dir ${CMAKE_INSTALL_LIBDIR}/microswarm)
 get_property(floors GLOBAL PROPERTY MICROSWARM_FLOORS)
 list(TRANSFORM floors REPLACE "^microswarm_" "" OUTPUT_VARIABLE floor_names)
 
@@ -51,16 +52,19 @@ install(EXPORT microswarmTargets NAMESPACE microswarm:: DESTINATION ${package_di
         COMPONENT development)
 foreach(name IN LISTS floor_names)
   install(DIRECTORY src/microswarm/${name} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/microswarm
-          COMPONENT development FILES_MATCHING PATTERN "*.hpp")
+          COMPONENT development FILES_MATCHING PATTERN "*.hpp"
+          # These need headers of Aravis, HDF5 and Cairo, and serve sources only.
+          PATTERN aravis.hpp EXCLUDE PATTERN library.hpp EXCLUDE PATTERN drawing_file.hpp EXCLUDE)
 endforeach()
 install(FILES ${PROJECT_BINARY_DIR}/generated/microswarm/core/version.hpp
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/microswarm/core COMPONENT development)
 
 configure_package_config_file(cmake/microswarmConfig.cmake.in
                               ${PROJECT_BINARY_DIR}/microswarmConfig.cmake
-                              INSTALL_DESTINATION ${package_dir})
+                              INSTALL_DESTINATION ${package_dir} PATH_VARS modules_dir)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/microswarmConfigVersion.cmake
                                  COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/microswarmConfig.cmake
               ${PROJECT_BINARY_DIR}/microswarmConfigVersion.cmake
               cmake/FindOpenCV.cmake DESTINATION ${package_dir} COMPONENT development)
+include(MicroswarmPkgConfig)

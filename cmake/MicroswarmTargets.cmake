@@ -64,12 +64,15 @@ function(microswarm_floor name)
 endfunction()
 
 # microswarm_module(FLOOR NAME SOURCES ... LIBRARIES ...): what `load_module(NAME)` loads for a floor at the first use,
-# from bin/../lib/microswarm.
+# from bin/../lib/microswarm. It says which version it is of, because it and its user share classes.
 function(microswarm_module floor name)
   cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES" ${ARGN})
   include(GNUInstallDirs)
   set(target microswarm_${name})
-  add_library(${target} MODULE ${arg_SOURCES})
+  set(version ${CMAKE_CURRENT_BINARY_DIR}/${target}_version.c)
+  file(CONFIGURE OUTPUT ${version} @ONLY
+       CONTENT "const char microswarm_@name@_version[] = \"@PROJECT_VERSION@\";\n")
+  add_library(${target} MODULE ${arg_SOURCES} ${version})
   set_target_properties(${target} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib/microswarm
                         CXX_VISIBILITY_PRESET default)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/src ${PROJECT_BINARY_DIR}/generated)
