@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "microswarm/config/file_kind.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/text.hpp"
@@ -91,7 +92,12 @@ std::size_t cell_count(const Sweep& sweep) {
 }
 
 Sweep read_sweep_text(std::string_view text, const std::string& name) {
-  return checked(read_yaml_text<Sweep>(text, name), name, Seeds::by_trials);
+  try {
+    return checked(read_yaml_text<Sweep>(text, name), name, Seeds::by_trials);
+  } catch (const InputError&) {
+    refuse_other_kind(text, name, "sweep");
+    throw;
+  }
 }
 
 Sweep checked_sweep(Sweep sweep, const std::string& name) {

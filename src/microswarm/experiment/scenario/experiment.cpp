@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "microswarm/config/file_kind.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/experiment/scenario/validate.hpp"
@@ -29,6 +30,15 @@ std::vector<std::string> top_keys(const Issues& issues) {
   return tops;
 }
 
+/// Missing keys of a swarm of one body that do not depend on other keys.
+Issues missing_places(const Scenario& scenario) {
+  Issues issues;
+  if (scenario.robots) return issues;
+  if (!scenario.start) issues.add("start", "missing key 'start'");
+  if (!scenario.goal) issues.add("goal_um", "missing key 'goal_um'");
+  return issues;
+}
+
 /// Opens what was read with these issues.
 Experiment open(Scenario scenario, const std::filesystem::path& base, const KeyLocations& keys,
                 Issues issues) {
@@ -39,6 +49,8 @@ Experiment open(Scenario scenario, const std::filesystem::path& base, const KeyL
   if (more.empty() && !misread_basis(misread)) {
     opened.world = build_world(opened.scene);
     more = validate(opened.scenario(), opened.world, keys.is_given());
+  } else if (std::ranges::find(misread, "robots") == misread.end()) {
+    more.add(missing_places(opened.scenario()));
   }
   more.drop(misread);
   issues.add(more);
@@ -64,6 +76,7 @@ Experiment open_experiment_text(std::string_view text, const std::string& name,
   KeyLocations keys;
   Issues issues;
   auto scenario = read_yaml_text<Scenario>(text, name, settings, keys, issues);
+  if (!issues.empty()) refuse_other_kind(text, name, "scenario");
   if (seed) scenario.seed = *seed;
   return open(std::move(scenario), base, keys, std::move(issues));
 }

@@ -5,9 +5,12 @@
 
 #include <algorithm>
 
+#include "microswarm/config/file_kind.hpp"
 #include "microswarm/config/yaml.hpp"
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/text/file.hpp"
 
 namespace microswarm::rig {
 
@@ -57,7 +60,11 @@ Issues validate(const RigParams& rig, const actuation::CoilSystem& system) {
 
 Rig read_rig(const std::filesystem::path& file, const Settings& settings) {
   KeyLocations keys;
-  auto params = read_yaml_file<RigParams>(file, settings, keys);
+  const std::string text = read_file(file, max_yaml_bytes);
+  Issues misread;
+  auto params = read_yaml_text<RigParams>(text, file.string(), settings, keys, misread);
+  if (!misread.empty()) refuse_other_kind(text, file.string(), "rig");
+  if (!misread.empty()) throw InputError(misread);
   actuation::CoilSystem system = actuation::read_coil_system(file.parent_path() / params.coils);
   keys.require_none(validate(params, system));
   const bool limits_current =
