@@ -7,7 +7,9 @@
 namespace {
 
 constexpr const char* footer =
-    "microswarm COMMAND --help describes a command.\n"
+    "microswarm COMMAND --help or microswarm help COMMAND describes a command. An input file may "
+    "be\n"
+    "- (standard input), or the name of a shipped scenario, rig, map or sweep: run first_flight.\n"
     "Exit codes: 0 success; 1 unexpected error; 2 bad input or command line, with a message in\n"
     "one line; 3 goal not reached, an aim missed, or interrupted by Ctrl-C with partial results;\n"
     "4 a device is missing or does not answer. A second Ctrl-C kills the program.";

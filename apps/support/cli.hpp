@@ -9,6 +9,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "microswarm/core/execution/descriptor.hpp"
@@ -117,5 +118,7 @@ void keep_input(const std::string& out, const std::string& in);
 /// Folder of the shipped scenarios, in the source tree of the build or in the installation. Throws
 /// InputError if there is none.
 std::filesystem::path scenario_folder();
+/// The same, but sets `error` if there is none.
+std::filesystem::path scenario_folder(std::error_code& error);
 
 }  // namespace microswarm::cli

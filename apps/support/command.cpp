@@ -12,10 +12,13 @@
 #include <sstream>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/choices.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "support/cli.hpp"
 #include "support/completion.hpp"
 #include "support/describe.hpp"
+#include "support/help_text.hpp"
+#include "support/input_file.hpp"
 #include "support/options.hpp"
 #include "support/usage.hpp"
 
@@ -48,6 +51,17 @@ class HelpFormatter : public CLI::Formatter {
   const Facts* facts_;
 };
 
+/// Whether the words are a command and those below it.
+bool names_command(const CLI::App& app, const std::vector<std::string>& words) {
+  const CLI::App* at = &app;
+  for (const std::string& word : words) {
+    const auto found = at->get_subcommands([&](const CLI::App* c) { return c->check_name(word); });
+    if (found.empty()) return false;
+    at = found.front();
+  }
+  return true;
+}
+
 }  // namespace
 
 Check number(double lo, double hi) {
@@ -72,7 +86,8 @@ Check whole(std::uint64_t lo, std::uint64_t hi) {
 Check any_word(const std::vector<std::string>& words) {
   return {[words](const std::string& text) -> std::string {
             if (std::find(words.begin(), words.end(), text) != words.end()) return {};
-            return fmt::format("must be one of {}, not {}", fmt::join(words, ", "), quote(text));
+            const std::vector<std::string_view> views(words.begin(), words.end());
+            return fmt::format("is {}, {}", quote(text), allowed_words(text, views));
           },
           words};
 }
@@ -151,6 +166,16 @@ Option Option::repeatable() {
   return *this;
 }
 
+Option Option::input(const char* kind) {
+  option_->transform(CLI::Validator(
+      [kind = std::string(kind)](std::string& text) {
+        if (!text.empty()) text = find_input(text, kind);
+        return std::string();
+      },
+      ""));
+  return *this;
+}
+
 Option Option::suggest(const Suggest& values) {
   facts_->suggest = values;
   return *this;
@@ -223,13 +248,19 @@ std::optional<int> CommandLine::parse(int argc, char** argv) {
     flush_output();
     return ok;
   }
+  std::vector<std::string> words(argv + 1, argv + std::max(argc, 1));
+  if (!words.empty() && words.front() == "help") {  // help run: run --help
+    words.erase(words.begin());
+    if (names_command(*app_, words)) words.emplace_back("--help");  // else it is complained about
+  }
+  std::ranges::reverse(words);  // as CLI11 wants them
   try {
-    app_->parse(argc, argv);
+    app_->parse(std::move(words));
     return std::nullopt;
   } catch (const CLI::Success& e) {  // --help, --version
     std::ostringstream help;
     const int code = app_->exit(e, help, help);
-    put(help.str());
+    put(wrapped_help(help.str(), output_columns()));
     flush_output();
     return code;
   } catch (const CLI::ParseError& e) {

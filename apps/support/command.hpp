@@ -70,6 +70,9 @@ class Option {
   Option default_text(const char* text);
   /// May be given several times, with one value each.
   Option repeatable();
+  /// It names a file that is read: "-" is standard input, and a shipped file is found by its name,
+  /// in the folder `kind` of the shipped scenarios or beside them (find_input).
+  Option input(const char* kind = "");
   /// Sets the completions. Not needed for FILE, FOLDER and a Check of words.
   Option suggest(const Suggest& values);
 

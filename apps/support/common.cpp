@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -83,16 +82,24 @@ BeginProgress progress_bars() {
   };
 }
 
-std::filesystem::path scenario_folder() {
-  std::error_code error;
+std::filesystem::path scenario_folder(std::error_code& error) {
   const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
   const auto bin = program.parent_path();
-  const std::array folders{(bin / "../../../scenarios").lexically_normal(),
-                           (bin / "../share/microswarm/scenarios").lexically_normal()};
-  for (const auto& folder : folders)
+  for (const char* from : {"../../../scenarios", "../share/microswarm/scenarios"}) {
+    const auto folder = (bin / from).lexically_normal();
     if (std::filesystem::is_directory(folder, error)) return folder;
-  throw InputError(fmt::format("the program's scenarios are neither in {} nor in {}",
-                               folders[0].string(), folders[1].string()));
+  }
+  error = std::make_error_code(std::errc::no_such_file_or_directory);
+  return {};
+}
+
+std::filesystem::path scenario_folder() {
+  std::error_code error;
+  auto folder = scenario_folder(error);
+  if (!error) return folder;
+  throw InputError(
+      "the program's scenarios are neither in ../../../scenarios nor in "
+      "../share/microswarm/scenarios, as seen from its folder");
 }
 
 }  // namespace microswarm::cli

@@ -27,7 +27,8 @@ Settings split_settings(const std::vector<std::string>& texts, bool of_map) {
 void add_map_file(Command command, std::string& file) {
   command.add_option("map", file, fmt::format("Map: {}", formats::map_formats()).c_str())
       .required()
-      .type_name("FILE");
+      .type_name("FILE")
+      .input("maps");
 }
 
 void add_map_input(Command command, MapInput& input) {
@@ -96,7 +97,8 @@ void add_json(Command command, bool& value) {
 
 void add_photo(Command command, PhotoOptions& options) {
   command.add_option("--photo", options.file, "Photograph as background of the pictures")
-      .type_name("FILE");
+      .type_name("FILE")
+      .input();
   add_um_per_px(command, options.um_per_px, "µm per pixel of the photograph, 1e-6..1e6");
   command.option("--um-per-px").needs("--photo");
 }

@@ -113,16 +113,34 @@ void StatusLine::show(std::string_view text) {
 
 ProgressBar::ProgressBar(const std::string& label) : label_(label), began_(Stop::Clock::now()) {}
 
+std::string progress_text(const std::string& label, double share, double seconds,
+                          const std::string& doing, std::size_t columns) {
+  share = std::clamp(share, 0.0, 1.0);
+  const int percent = static_cast<int>(100 * share);
+  // Nothing can be said of the end before something is done.
+  const std::string left =
+      share > 0 ? fmt::format(" {:.0f} s left", seconds * (1 - share) / share) : "";
+  const std::string behind = fmt::format("{:3} %{}", percent, left);
+  // The label and what is behind the bar come first; the bar gets what is left, the note the rest.
+  constexpr std::size_t most = 25, least = 5, frame = 4;  // blanks and brackets
+  const std::string_view name = cut(label, std::max(columns / 2, least));
+  const std::size_t taken = to_columns(name) + to_columns(behind) + frame;
+  const std::size_t room = columns > taken ? columns - taken : 0;
+  std::string text(name);
+  if (room >= least) {
+    const std::size_t wide = std::min(room, most);
+    const auto done = static_cast<std::size_t>(share * static_cast<double>(wide));
+    text += fmt::format(" [{}{}]", std::string(done, '#'), std::string(wide - done, '.'));
+  }
+  return fmt::format("{} {} {}", text, behind, doing);
+}
+
 void ProgressBar::update(double share, const std::string& doing) {
   const int percent = static_cast<int>(100 * std::clamp(share, 0.0, 1.0));
   if (!line_.is_there() || (percent == last_ && doing == note_)) return;
   last_ = percent;
   note_ = doing;
-  const double spent = seconds_since(began_);
-  const double left = share > 0 ? spent * (1 - share) / share : 0;
-  const auto done = static_cast<std::size_t>(percent / 4);
-  line_.show(fmt::format("{} [{}{}] {:3} % {:.0f} s left {}", label_, std::string(done, '#'),
-                         std::string(25 - done, '.'), percent, left, doing));
+  line_.show(progress_text(label_, share, seconds_since(began_), doing, line_.columns()));
 }
 
 }  // namespace microswarm::cli

@@ -33,7 +33,13 @@ class StatusLine {
   bool is_there_;
 };
 
-/// Progress bar as a status line: "label [#####.....] 50 % 3 s left note".
+/// "label [#####.....]  50 % 3 s left note" for a share of the work in [0, 1] that took `seconds`.
+/// The bar is shorter, or left out, where there are few columns. Before the first share is done
+/// no time is said to be left.
+std::string progress_text(const std::string& label, double share, double seconds,
+                          const std::string& doing, std::size_t columns);
+
+/// Progress bar as a status line, as progress_text.
 class ProgressBar {
  public:
   explicit ProgressBar(const std::string& label);

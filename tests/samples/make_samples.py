@@ -266,6 +266,32 @@ def video():
     write("video_positions.csv", "\n".join(table) + "\n")
 
 
+def rig_pictures():
+    """What a rig's camera sees: a dark swarm on a bright ground, and a chessboard of 9 x 6 inner corners."""
+    rng, width, height = random.Random(6), 160, 120
+
+    def noise():
+        return rng.randint(-2, 2)
+
+    rows = [[(60 if math.hypot(x - 90, y - 55) <= 17 + 3 * rng.random() else 200) + noise() for x in range(width)]
+            for y in range(height)]
+    write("rig/frame.png", png(rows))
+    rows = [[(40 if 20 <= x < 220 and 20 <= y < 160 and ((x - 20) // 20 + (y - 20) // 20) % 2 == 0 else 215) + noise()
+             for x in range(240)] for y in range(180)]
+    write("rig/grid.png", png(rows))
+
+
+def measured():
+    """Readings of three pairs of coils that stand a little askew."""
+    table = ["i_x_a,i_y_a,i_z_a,bx_mt,by_mt,bz_mt"]
+    for coil in range(3):
+        for current in (-2.0, -1.0, 0.0, 1.0, 2.0):
+            i = [current if k == coil else 0.0 for k in range(3)]
+            b = [0.9 * i[k] + 0.05 * i[(k + 1) % 3] for k in range(3)]
+            table.append(",".join(f"{v:.4f}" for v in i + b))
+    write("coils/measured.csv", "\n".join(table) + "\n")
+
+
 if __name__ == "__main__":
-    for make in (vessels, walkers, grid_map, ros_map, maze, veins, coils, video):
+    for make in (vessels, walkers, grid_map, ros_map, maze, veins, coils, video, rig_pictures, measured):
         make()

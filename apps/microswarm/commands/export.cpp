@@ -71,10 +71,11 @@ void add_export(Command app, Action& action) {
   auto o = std::make_shared<ExportOptions>();
   Command cmd = app.add_command(
       "export", "Export a sweep's database, or a table of a run's record, to other formats",
-      "export first_flight.db --csv trials.csv --hdf5 trials.h5 --ompl logs");
+      "export out/first_flight.db --csv trials.csv --hdf5 trials.h5 --ompl logs");
   cmd.add_option("file", o->file, "Database of a sweep or record of a run (run.h5)")
       .required()
-      .type_name("FILE");
+      .type_name("FILE")
+      .input();
   cmd.add_option("--csv", o->csv, "Write CSV with units in the column names").type_name("FILE");
   cmd.add_option("--hdf5", o->hdf5, "Write HDF5 with one dataset per column").type_name("FILE");
   cmd.add_option("--ompl", o->ompl,

@@ -63,9 +63,9 @@ int gather_command(const GatherOptions& o, const Context& context) {
 
 void add_gather(Command app, Action& action) {
   auto o = std::make_shared<GatherOptions>();
-  Command cmd =
-      app.add_command("gather", "Simulate gathering many robots at a goal with one common input",
-                      "gather vessels.geojson --goal 11103,2397 --robots 512 --out out/gather");
+  Command cmd = app.add_command(
+      "gather", "Simulate gathering many robots at a goal with one common input",
+      "gather scenarios/maps/retina.geojson --goal 11103,2397 --robots 64 --out out/gather");
   add_map_input(cmd, o->map);
   cmd.add_option("--goal", o->goal, "Goal in µm, in a dead end")
       .required()

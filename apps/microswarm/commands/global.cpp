@@ -209,10 +209,11 @@ void add_global(Command app, Action& action) {
   auto o = std::make_shared<GlobalOptions>();
   Command cmd = app.add_command(
       "global", "Plan common inputs that bring each of several robots to its own goal",
-      "global map.csv --robots \"60,300;60,250\" --goals \"330,300;330,200\" --picture ways.png\n"
-      "  microswarm global map.csv --robots \"60,300;60,250\" --save-tree tree.h5 \\\n"
-      "      --set planner.max_nodes=300000\n"
-      "  microswarm global map.csv --tree tree.h5 --goals \"330,100;280,200\"");
+      "global samples/veins.csv --robots \"20,60;20,50\" --goals \"180,60;180,50\" \\\n"
+      "      --picture ways.png\n"
+      "  microswarm global samples/veins.csv --robots \"20,60;20,50\" --save-tree tree.h5 \\\n"
+      "      --set planner.max_nodes=20000\n"
+      "  microswarm global samples/veins.csv --tree tree.h5 --goals \"180,60;180,50\"");
   add_map_input(cmd, o->map);
   cmd.add_option("--robots", o->robots, "Start positions of the robots in µm; y points up")
       .type_name("X,Y;X,Y…")
@@ -221,7 +222,8 @@ void add_global(Command app, Action& action) {
       .type_name("X,Y;X,Y…")
       .check(place_list());
   cmd.add_option("--tree", o->tree, "Query this tree, grown earlier on the same map")
-      .type_name("FILE");
+      .type_name("FILE")
+      .input();
   Option save = cmd.add_option("--save-tree", o->save_tree,
                                "Grow a tree to planner.max_nodes and save it to this HDF5 file");
   save.type_name("FILE").excludes("--tree");

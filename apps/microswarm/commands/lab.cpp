@@ -117,11 +117,13 @@ void add_lab(Command app, Action& action) {
   Command cmd = app.add_command("lab", "See, touch and stop experiments in a browser",
                                 "lab scenarios/papers/radar/twelve.yaml");
   cmd.add_option("file", o->file, "Scenario (YAML) or record (run.h5) to begin with")
-      .type_name("FILE");
+      .type_name("FILE")
+      .input("papers");
   add_settings(cmd, o->settings, "Override a scenario value", type_of<experiment::Scenario>);
   const Option rig =
       cmd.add_option("--rig", o->rig, "Run the scenario on this rig (YAML), in real time")
-          .type_name("FILE");
+          .type_name("FILE")
+          .input("rigs");
   cmd.add_flag("--simulate", o->simulate, "Simulate the rig, as `rig simulate` does").needs(rig);
   cmd.add_option("--out", o->out, "Folder in which each run that drives the coils gets one")
       .type_name("FOLDER")

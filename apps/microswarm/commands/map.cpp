@@ -189,13 +189,14 @@ void add_segment(Command map, Action& action) {
   auto o = std::make_shared<SegmentOptions>();
   Command cmd = map.add_command(
       "segment", "Segment dark vessels in a photograph; writes a map and an overlay picture",
-      "map segment fundus.jpg --um-per-px 6 --out vessels.geojson");
+      "map segment samples/vessels/retina.png --um-per-px 6 --out vessels.geojson");
   cmd.add_option(
          "photo", o->photo,
          "Photograph of vessels darker than their surroundings, or camera such as /dev/video0 or "
          "genicam:ID")
       .required()
-      .type_name("FILE");
+      .type_name("FILE")
+      .input();
   cmd.add_option("--rig", o->rig, "Use the camera's settings of this rig (YAML)").type_name("FILE");
   add_um_per_px(cmd, o->um_per_px, "µm per pixel of the photograph, 1e-6..1e6");
   cmd.add_option("--out", o->out, "Map to write; NAME-overlay.png is written next to it")
@@ -218,8 +219,8 @@ void add_map(Command app, Action& action) {
   Command map = app.add_group("map", "Inspect, check, convert and create maps");
 
   auto o = std::make_shared<MapOptions>();
-  Command info_cmd =
-      map.add_command("info", "Print size, walls and hash", "map info map.png --um-per-px 5");
+  Command info_cmd = map.add_command("info", "Print size, walls and hash",
+                                     "map info samples/maze.pgm --um-per-px 5");
   add_input(info_cmd, o);
   add_json(info_cmd, o->json);
   info_cmd.callback([o, &action] { action = [o](const Context&) { return info(*o); }; });
@@ -227,7 +228,7 @@ void add_map(Command app, Action& action) {
   auto resolution = std::make_shared<double>(0);
   Command check_cmd =
       map.add_command("check", "Print free pieces, narrowest passage and fitting swarm radius",
-                      "map check vessels.geojson");
+                      "map check scenarios/maps/retina.geojson");
   add_input(check_cmd, o);
   check_cmd
       .add_option("--resolution", *resolution, "Grid spacing of the search in µm; 0: automatic")
@@ -239,8 +240,9 @@ void add_map(Command app, Action& action) {
 
   auto out = std::make_shared<std::string>();
   auto cell = std::make_shared<std::optional<double>>();
-  Command convert_cmd = map.add_command("convert", "Convert a map to another format",
-                                        "map convert vessels.geojson vessels.png --cell 5");
+  Command convert_cmd =
+      map.add_command("convert", "Convert a map to another format",
+                      "map convert scenarios/maps/retina.geojson retina.png --cell 20");
   add_input(convert_cmd, o);
   convert_cmd
       .add_option("out", *out,

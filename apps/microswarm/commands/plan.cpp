@@ -97,8 +97,8 @@ void add_plan(Command app, Action& action) {
                   "set follows from the map",
                   fmt::join(type_of<planning::PlannerParams>().words, ", "))
           .c_str(),
-      "plan map.png --um-per-px 5 --start 200,700,-90 --goal 1750,300 \\\n"
-      "      --set planner.type=a_star --set planner.clearance_um=40 --picture path.svg");
+      "plan scenarios/maps/retina.geojson --start 2323,3816,-70 --goal 3499,2838 \\\n"
+      "      --set planner.type=a_star --set planner.clearance_um=14 --picture path.svg");
   add_map_input(cmd, o->map);
   cmd.add_option("--start", o->start,
                  "Start position in µm and optional heading in degrees; y points up")

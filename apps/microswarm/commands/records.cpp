@@ -74,7 +74,7 @@ void add_replay(Command app, Action& action) {
   Command cmd =
       app.add_command("replay", "Run a record again and compare; exit code 3 if it differs",
                       "replay out/first/run.h5");
-  cmd.add_option("record", *file, "Record of a run (run.h5)").required().type_name("FILE");
+  cmd.add_option("record", *file, "Record of a run (run.h5)").required().type_name("FILE").input();
   add_json(cmd, *json);
   cmd.callback([=, &action] {
     action = [=](const Context& context) { return replay_command(*file, *json, context); };
@@ -86,7 +86,10 @@ void add_report(Command app, Action& action) {
   Command cmd = app.add_command(
       "report", "Write the report of a record: pictures and an HTML page, or a video",
       "report out/first/run.h5 --video out/first/run.mp4 --speed 4");
-  cmd.add_option("record", o->file, "Record of a run (run.h5)").required().type_name("FILE");
+  cmd.add_option("record", o->file, "Record of a run (run.h5)")
+      .required()
+      .type_name("FILE")
+      .input();
   cmd.add_option("--out", o->out, "Output folder")
       .type_name("FOLDER")
       .default_text("report, or none with --video");

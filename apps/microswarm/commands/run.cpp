@@ -143,14 +143,16 @@ void add_run(Command app, Action& action) {
                                 "swarm.radius_um=50");
   cmd.add_option("scenario", o->scenario, "Scenario file (YAML); `schema --keys` lists its keys")
       .required()
-      .type_name("FILE");
+      .type_name("FILE")
+      .input("papers");
   cmd.add_option("--out", o->out,
                  "Folder for run.h5, pictures and index.html, or with --trials for trials.csv")
       .type_name("FOLDER");
   add_settings(cmd, o->settings, "Override a scenario value", type_of<experiment::Scenario>);
   cmd.add_option("--rig", o->rig,
                  "Rig file (YAML); runs through its simulated camera, coils and field")
-      .type_name("FILE");
+      .type_name("FILE")
+      .input("rigs");
   add_rig_settings(cmd, "--set-rig", o->rig_settings).needs("--rig");
   cmd.add_option("--seed", o->seed, "Seed of all random streams; overrides the scenario's")
       .type_name("NUMBER")

@@ -196,7 +196,8 @@ void add_sweep(Command app, Action& action) {
       "sweep scenarios/sweeps/first_flight.yaml --out out/first_flight.db");
   cmd.add_option("sweep", o->sweep, "Sweep file (YAML); `schema sweep --keys` lists its keys")
       .required()
-      .type_name("FILE");
+      .type_name("FILE")
+      .input("sweeps");
   cmd.add_option("--out", o->out, "SQLite database; an interrupted sweep is resumed")
       .type_name("FILE")
       .default_text("sweep name with .db");

@@ -111,12 +111,13 @@ int track(const TrackOptions& o, const Context& context) {
 void add_track(Command app, Action& action) {
   auto o = std::make_shared<TrackOptions>();
   Command cmd = app.add_command("track", "Detect and track the robots in a video",
-                                "track swarm.mp4 --um-per-px 0.35 --set find.diameter_px=11 --out "
-                                "out/tracks");
+                                "track samples/video --um-per-px 0.35 --rate 20 "
+                                "--set find.diameter_px=11 --out out/tracks");
   cmd.add_option("video", o->video,
                  "Video file, folder of pictures (PNG, JPEG, BMP, PGM, PPM) or multi-page TIFF")
       .required()
-      .type_name("VIDEO");
+      .type_name("VIDEO")
+      .input();
   cmd.add_option("--out", o->out,
                  "Folder for tracks.csv, tracks.h5, events.csv and overlay.mp4; with --suggest for "
                  "masses.png")

@@ -151,7 +151,10 @@ void add_field(Command rig, Action& action) {
   Command cmd = rig.add_command(
       "field", "Compute the field of coil currents at a position, or the currents for a field",
       "rig field scenarios/rigs/cube.yaml --at 0,0,0 --field 3,0,0");
-  cmd.add_option("system", o->system, "Coil system (YAML)").required().type_name("FILE");
+  cmd.add_option("system", o->system, "Coil system (YAML)")
+      .required()
+      .type_name("FILE")
+      .input("rigs");
   cmd.add_option("--at", o->at, "Position in µm")
       .type_name("X,Y,Z")
       .default_text("centre of the system")

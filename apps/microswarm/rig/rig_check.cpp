@@ -98,8 +98,8 @@ int rig_check(const CheckOptions& o, const Stop& stop) {
 void add_rig_check(Command rig, Action& action) {
   auto o = std::make_shared<CheckOptions>();
   Command cmd = rig.add_command("check", "Check camera, coil driver, limits and latency of a rig",
-                                "rig check rig.yaml");
-  cmd.add_option("rig", o->rig, "Rig file (YAML)").required().type_name("FILE");
+                                "rig check scenarios/rigs/vortex.yaml");
+  cmd.add_option("rig", o->rig, "Rig file (YAML)").required().type_name("FILE").input("rigs");
   add_rig_settings(cmd, "--set", o->settings);
   cmd.add_option("--seconds", o->seconds, "Test duration per device")
       .type_name("SECONDS")

@@ -100,7 +100,10 @@ void add_rig_map(Command rig, Action& action) {
   auto o = std::make_shared<RigMapOptions>();
   Command cmd = rig.add_command("map", "Map the uniformity of the field as a picture or a table",
                                 "rig map scenarios/rigs/helmholtz.yaml --out even.png");
-  cmd.add_option("system", o->system, "Coil system (YAML)").required().type_name("FILE");
+  cmd.add_option("system", o->system, "Coil system (YAML)")
+      .required()
+      .type_name("FILE")
+      .input("rigs");
   cmd.add_option("--out", o->out, "File to write: .png, .svg, .pdf or .csv")
       .type_name("FILE")
       .check(file_kind({".png", ".svg", ".pdf", ".csv"}));

@@ -16,6 +16,7 @@
 #include "microswarm/formats/geojson.hpp"
 #include "microswarm/formats/images/image.hpp"
 #include "microswarm/formats/images/mask.hpp"
+#include "microswarm/formats/map_extension.hpp"
 #include "microswarm/formats/matrix.hpp"
 #include "microswarm/formats/moving_ai.hpp"
 #include "microswarm/formats/rectangles.hpp"
@@ -323,7 +324,7 @@ bool is_cad_drawing(const fs::path& path) {
 
 /// The kind of map by the extension and content of a file.
 std::optional<MapSpec> kind_of_file(const fs::path& path) {
-  const std::string extension = lower_extension(path);
+  const std::string extension = map_extension(path);
   for (MapSpec& spec : every_kind()) {
     const auto format = file_format(spec);
     if (!format || std::ranges::find(format->extensions, extension) == format->extensions.end())

@@ -170,11 +170,12 @@ void add_rig_calibrate(Command rig, Action& action) {
   auto o = std::make_shared<CalibrateOptions>();
   Command cmd =
       rig.add_command("calibrate", "Measure the coils' fields and fit an actuation matrix to them",
-                      "rig calibrate measured.csv --measure rig.yaml --out coils.yaml");
+                      "rig calibrate samples/coils/measured.csv --out coils.yaml");
   cmd.add_option("measured", o->measured,
                  "CSV with i_NAME_a per coil, bx_mt, by_mt, bz_mt and optionally x_um, y_um, z_um")
       .required()
-      .type_name("FILE");
+      .type_name("FILE")
+      .input();
   cmd.add_option("--out", o->out, "Coil system to write (YAML)").type_name("FILE");
   cmd.add_flag("--offset", o->offset, "Also fit the field at zero current; always with --measure");
   const Option gradients =

@@ -169,12 +169,16 @@ void add_rig_scale(Command rig, Action& action) {
   auto o = std::make_shared<ScaleOptions>();
   Command cmd =
       rig.add_command("scale", "Determine µm per pixel of a camera from two points or a grid",
-                      "rig scale slide.png --grid 9x6 --pitch 100 --out scale.yaml");
+                      "rig scale samples/rig/grid.png --grid 9x6 --pitch 100 --pattern chessboard "
+                      "--out scale.yaml");
   cmd.add_option("picture", o->picture,
                  "Picture from the camera, or camera such as /dev/video0 or genicam:ID")
       .required()
-      .type_name("FILE");
-  cmd.add_option("--rig", o->rig, "Use the camera's settings of this rig (YAML)").type_name("FILE");
+      .type_name("FILE")
+      .input();
+  cmd.add_option("--rig", o->rig, "Use the camera's settings of this rig (YAML)")
+      .type_name("FILE")
+      .input("rigs");
   add_settings(cmd, o->settings, "Override a setting of the camera, e.g. width_px=1280",
                type_of<vision::CameraParams>);
   const Option points =

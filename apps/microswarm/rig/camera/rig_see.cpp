@@ -254,23 +254,27 @@ int see(const SeeOptions& o) {
 
 void add_rig_see(Command rig, Action& action) {
   auto o = std::make_shared<SeeOptions>();
-  Command cmd =
-      rig.add_command("see", "Detect the swarm and obstacles in a picture",
-                      "rig see frame.png --set scene.swarm.look.min_texture=8 --out seen.png");
+  Command cmd = rig.add_command(
+      "see", "Detect the swarm and obstacles in a picture",
+      "rig see samples/rig/frame.png --set scene.swarm.look.min_radius_px=10 --out seen.png");
   cmd.add_option("picture", o->picture, "Picture, or camera such as /dev/video0 or genicam:ID")
       .required()
-      .type_name("FILE");
+      .type_name("FILE")
+      .input();
   cmd.add_option("--still", o->still, "Picture without swarm and obstacles, for detecting walls")
       .type_name("FILE");
   const Option rig_file =
       cmd.add_option("--rig", o->rig, "Use the settings of this rig (YAML); --set overrides them")
-          .type_name("FILE");
+          .type_name("FILE")
+          .input("rigs");
   cmd.add_option("--config", o->config, "Settings file (YAML); --set overrides it")
       .type_name("FILE")
+      .input()
       .excludes(rig_file);
   cmd.add_option("--scenario", o->scenario,
                  "Draw map, start and goal of this scenario over the picture, by the rig's scale")
-      .type_name("FILE");
+      .type_name("FILE")
+      .input("papers");
   add_settings(cmd, o->settings, "Override a value, e.g. scene.swarm.look.min_radius_px=12",
                type_of<SeeSettings>);
   cmd.add_option("--out", o->out, "Draw the detections to this file (PNG)")

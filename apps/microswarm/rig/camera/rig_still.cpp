@@ -31,12 +31,15 @@ int still(const StillOptions& o) {
 
 void add_rig_still(Command rig, Action& action) {
   auto o = std::make_shared<StillOptions>();
-  Command cmd = rig.add_command("still", "Store a picture of a camera as it comes, as a PNG",
-                                "rig still /dev/video0 --rig bench.yaml --out empty.png");
+  Command cmd =
+      rig.add_command("still", "Store a picture of a camera as it comes, as a PNG",
+                      "rig still /dev/video0 --rig scenarios/rigs/bench.yaml --out empty.png");
   cmd.add_option("camera", o->camera, "Camera such as /dev/video0 or genicam:ID")
       .required()
       .type_name("FILE");
-  cmd.add_option("--rig", o->rig, "Use the camera's settings of this rig (YAML)").type_name("FILE");
+  cmd.add_option("--rig", o->rig, "Use the camera's settings of this rig (YAML)")
+      .type_name("FILE")
+      .input("rigs");
   add_settings(cmd, o->settings, "Override a setting, e.g. exposure_ms=5",
                type_of<vision::CameraParams>);
   cmd.add_option("--out", o->out, "File to write (PNG)")

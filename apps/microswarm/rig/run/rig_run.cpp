@@ -276,10 +276,14 @@ int rig_run(const RigRunOptions& o, const Context& context) {
 
 void add_rig_run(Command rig, Action& action) {
   auto o = std::make_shared<RigRunOptions>();
-  Command cmd = rig.add_command("run", "Run a scenario on a rig, in real time",
-                                "rig run scenario.yaml --rig rig.yaml --dry-run --out out/rig");
-  cmd.add_option("scenario", o->scenario, "Scenario file (YAML)").required().type_name("FILE");
-  cmd.add_option("--rig", o->rig, "Rig file (YAML)").required().type_name("FILE");
+  Command cmd = rig.add_command(
+      "run", "Run a scenario on a rig, in real time",
+      "rig run scenarios/first_rig.yaml --rig scenarios/rigs/vortex.yaml --dry-run --out out/rig");
+  cmd.add_option("scenario", o->scenario, "Scenario file (YAML)")
+      .required()
+      .type_name("FILE")
+      .input("papers");
+  cmd.add_option("--rig", o->rig, "Rig file (YAML)").required().type_name("FILE").input("rigs");
   cmd.add_option("--out", o->out, "Folder for run.h5, commands.csv and the report")
       .type_name("FOLDER");
   cmd.add_option("--video", o->video,

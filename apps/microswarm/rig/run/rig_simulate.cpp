@@ -122,14 +122,15 @@ int simulate_trials(const SimulateOptions& o, const Context& context) {
 
 void add_rig_simulate(Command rig, Action& action) {
   auto o = std::make_shared<SimulateOptions>();
-  Command cmd =
-      rig.add_command("simulate", "Compare runs through a simulated rig with runs without one",
-                      "rig simulate scenario.yaml --rig rig.yaml --trials 10");
+  Command cmd = rig.add_command(
+      "simulate", "Compare runs through a simulated rig with runs without one",
+      "rig simulate scenarios/first_rig.yaml --rig scenarios/rigs/vortex.yaml --trials 2");
   cmd.former_name("rehearse");
   cmd.add_option("scenario", o->scenario, "Scenario file (YAML)")
       .type_name("FILE")
+      .input("papers")
       .default_text("a selection from the papers");
-  cmd.add_option("--rig", o->rig, "Rig file (YAML)").type_name("FILE");
+  cmd.add_option("--rig", o->rig, "Rig file (YAML)").type_name("FILE").input("rigs");
   add_settings(cmd, o->settings, "Override a scenario value", type_of<experiment::Scenario>);
   add_rig_settings(cmd, "--set-rig", o->rig_settings);
   cmd.add_option("--trials", o->trials,
