@@ -79,6 +79,20 @@ TEST(Calibration, NamesTheWorstPoint) {
   EXPECT_EQ(rows.rows[fit.worst_row].position, Eigen::Vector3d(300, 0, 0));
 }
 
+TEST(Calibration, TablesWithSemicolonsAreTheSame) {
+  const std::string text = measured(9, 0.1, {0, 0, 0});
+  std::string other = text;
+  for (char& c : other) c = c == ',' ? ';' : c == '.' ? ',' : c;
+  const FieldMeasurements rows = parse_measurements(text, "m.csv");
+  const FieldMeasurements others = parse_measurements(other, "m.csv");
+  EXPECT_EQ(others.coils, rows.coils);
+  ASSERT_EQ(others.rows.size(), rows.rows.size());
+  for (std::size_t i = 0; i < rows.rows.size(); ++i) {
+    EXPECT_EQ(others.rows[i].field, rows.rows[i].field);
+    EXPECT_EQ(others.rows[i].currents, rows.rows[i].currents);
+  }
+}
+
 TEST(Calibration, RefusesWhatIsNotDetermined) {
   const auto refusal = [](const std::string& text, bool offset = false) {
     return test::error_of(

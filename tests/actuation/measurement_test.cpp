@@ -139,6 +139,14 @@ TEST(ProbeFile, ARepeatedReadingIsOne) {
   EXPECT_EQ(fields.size(), 2u);
 }
 
+TEST(ProbeFile, SemicolonsQuotesAndDecimalCommasAreRead) {
+  ProbeRows rows("\"t_s\";\"bx_mt\";\"by_mt\";\"bz_mt\"", "p");
+  std::vector<Eigen::Vector3d> fields;
+  rows.take("0,5;1,25;2;3\n", fields);
+  ASSERT_EQ(fields.size(), 1u);
+  EXPECT_EQ(fields[0], Eigen::Vector3d(1.25, 2, 3));
+}
+
 TEST(ProbeFile, RefusesInOneLine) {
   const test::Folder folder;
   const auto opened = [&](const std::string& text) {

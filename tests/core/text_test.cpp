@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/core/text/choices.hpp"
 #include "microswarm/core/text/text.hpp"
+#include "microswarm/core/text/choices.hpp"
+#include "microswarm/core/text/csv.hpp"
 
 #include <gtest/gtest.h>
 
@@ -100,6 +101,22 @@ TEST(Text, NearestWordIsNearOrNone) {
   EXPECT_EQ(nearest_word("clearance_um", keys), "");
   EXPECT_EQ(nearest_word("", keys), "");
   EXPECT_EQ(nearest_word(std::string(1'000'000, 'a'), keys), "");
+}
+
+TEST(Text, TablesOfOtherLanguagesAreRead) {
+  using Cells = std::vector<std::string_view>;
+  EXPECT_EQ(csv_separator("a,b"), ',');
+  EXPECT_EQ(csv_separator("a;b"), ';');
+  EXPECT_EQ(csv_separator("a\tb"), '\t');
+  EXPECT_EQ(csv_separator("a"), ',');
+  EXPECT_EQ(csv_separator("a;b,c"), ',');
+  EXPECT_EQ(csv_cells(R"("a"; "b c" ;;"")", ';'), (Cells{"a", "b c", "", ""}));
+  EXPECT_EQ(csv_cells(R"(",")", ','), (Cells{"\"", "\""}));  // no separator within quotes
+  EXPECT_EQ(csv_number("0,5", ';'), "0.5");
+  EXPECT_EQ(csv_number("0,5", '\t'), "0.5");
+  EXPECT_EQ(csv_number("1,000,000", ';'), "1,000,000");
+  EXPECT_EQ(csv_number("1,000.5", ';'), "1,000.5");
+  EXPECT_EQ(csv_number("0,5", ','), "0,5");
 }
 
 TEST(Text, AValueThatIsNoneOfTheWordsIsAnsweredWithTheNearestAndAll) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/csv.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/lines.hpp"
 #include "microswarm/core/text/text.hpp"
@@ -21,8 +22,9 @@ enum Column : std::size_t { id, time_s, x_um, y_um, column_count };
 constexpr std::array<std::string_view, column_count> column_names{"id", "t_s", "x_um", "y_um"};
 
 /// Index of each column in the header.
-std::array<std::size_t, column_count> find_columns(const Lines& lines, std::string_view header) {
-  const std::vector<std::string_view> names = split(header, ',');
+std::array<std::size_t, column_count> find_columns(const Lines& lines, std::string_view header,
+                                                   char separator) {
+  const std::vector<std::string_view> names = csv_cells(header, separator);
   std::array<std::size_t, column_count> places{};
   for (std::size_t c = 0; c < column_count; ++c) {
     std::string_view name = column_names[c];
@@ -71,11 +73,13 @@ Tracks parse_tracks(std::string_view text, std::string_view name) {
   Tracks tracks;
   std::optional<std::array<std::size_t, column_count>> places;
   std::size_t columns = 0;
+  char separator = ',';
   while (const std::optional<std::string_view> line = lines.next()) {
     if (says_nothing(*line)) continue;
-    const std::vector<std::string_view> field = split(*line, ',');
+    if (!places) separator = csv_separator(*line);
+    const std::vector<std::string_view> field = csv_cells(*line, separator);
     if (!places) {
-      places = find_columns(lines, *line);
+      places = find_columns(lines, *line, separator);
       columns = field.size();
       continue;
     }
@@ -83,7 +87,7 @@ Tracks parse_tracks(std::string_view text, std::string_view name) {
       lines.fail(std::to_string(field.size()) + " fields, the header has " +
                  std::to_string(columns));
     const auto value = [&](Column c, double limit) {
-      return number(lines, field[(*places)[c]], column_names[c], limit);
+      return number(lines, csv_number(field[(*places)[c]], separator), column_names[c], limit);
     };
     append(lines, tracks, field[(*places)[id]], value(time_s, max_time),
            {value(x_um, max_coordinate), value(y_um, max_coordinate)});

@@ -9,6 +9,7 @@
 
 #include "microswarm/actuation/coils/text_rows.hpp"
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/csv.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/text.hpp"
 
@@ -24,6 +25,7 @@ constexpr std::array<std::string_view, 3> place_columns{"x_um", "y_um", "z_um"};
 /// Column indices in the header.
 struct Columns {
   std::size_t count = 0;
+  char separator = ',';
   std::vector<std::size_t> currents;
   std::array<std::size_t, 3> field{};
   std::array<std::optional<std::size_t>, 3> position;
@@ -37,8 +39,9 @@ std::optional<std::size_t> find(const std::vector<std::string_view>& names, std:
 }
 
 Columns read_header(const TextRows& rows, std::vector<std::string>& coils) {
-  const std::vector<std::string_view> names = rows.pieces(',');
-  Columns columns{.count = names.size()};
+  const char separator = csv_separator(rows.row());
+  const std::vector<std::string_view> names = csv_cells(rows.row(), separator);
+  Columns columns{.count = names.size(), .separator = separator};
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::string_view name = names[i];
     if (std::find(names.begin() + static_cast<std::ptrdiff_t>(i) + 1, names.end(), name) !=
@@ -71,11 +74,11 @@ FieldMeasurements parse_measurements(std::string_view text, std::string_view nam
   if (!rows.next()) rows.fail("a header with the columns i_NAME_a, bx_mt, by_mt, bz_mt is missing");
   const Columns columns = read_header(rows, measured.coils);
   while (rows.next()) {
-    const std::vector<std::string_view> pieces = rows.pieces(',');
+    const std::vector<std::string_view> pieces = csv_cells(rows.row(), columns.separator);
     if (pieces.size() != columns.count)
       rows.fail(fmt::format("{} fields, the header has {}", pieces.size(), columns.count));
     const auto value = [&](std::size_t column, std::string_view what) {
-      const double number = rows.number(pieces[column], what);
+      const double number = rows.number(csv_number(pieces[column], columns.separator), what);
       if (!(std::abs(number) <= max_number))
         rows.fail(fmt::format("{} is {}, at most {}", what, number_text(number),
                               number_text(max_number)));

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/csv.hpp"
 #include "microswarm/core/text/lines.hpp"
 #include "microswarm/core/text/text.hpp"
 
@@ -37,7 +38,8 @@ std::size_t read_at(int file, std::uint64_t at, std::string& bytes, const std::s
 }  // namespace
 
 ProbeRows::ProbeRows(std::string_view header, std::string name) : name_(std::move(name)) {
-  const std::vector<std::string_view> names = split(header, ',');
+  separator_ = csv_separator(header);
+  const std::vector<std::string_view> names = csv_cells(header, separator_);
   columns_ = names.size();
   const auto find = [&](std::string_view column) -> std::optional<std::size_t> {
     const auto found = std::find(names.begin(), names.end(), column);
@@ -75,12 +77,12 @@ void ProbeRows::take(std::string_view bytes, std::vector<Eigen::Vector3d>& field
 void ProbeRows::take_row(std::string_view row, std::vector<Eigen::Vector3d>& fields) {
   const std::string_view text = trimmed(row);
   if (text.empty() || text.front() == '#') return;
-  const std::vector<std::string_view> cells = split(text, ',');
+  const std::vector<std::string_view> cells = csv_cells(text, separator_);
   if (cells.size() != columns_)
     throw InputError(fmt::format("{}: {} has {} fields, the header has {}", name_, quote(text),
                                  cells.size(), columns_));
   const auto number = [&](std::size_t column, double most) {
-    const std::optional<double> value = parse_number(cells[column]);
+    const std::optional<double> value = parse_number(csv_number(cells[column], separator_));
     if (!value || !(std::abs(*value) <= most))
       throw InputError(fmt::format("{}: {} must be a number of at most {}", name_,
                                    quote(cells[column]), number_text(most)));

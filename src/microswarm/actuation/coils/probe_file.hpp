@@ -32,6 +32,7 @@ class ProbeRows {
 
   std::string name_;
   std::size_t columns_ = 0;
+  char separator_ = ',';
   std::array<std::size_t, 3> field_{};
   std::optional<std::size_t> time_;
   std::optional<double> newest_;  // [s]

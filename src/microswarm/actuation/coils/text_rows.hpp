@@ -17,6 +17,8 @@ class TextRows {
 
   /// Advances to the next row, trimmed; false at the end.
   bool next();
+  /// The row, trimmed.
+  std::string_view row() const { return row_; }
   /// Fields of the row between separators, trimmed. The separator ' ' matches runs of blanks.
   std::vector<std::string_view> pieces(char separator) const;
   /// Advances to the next row and parses exactly `count` finite numbers. `what` names the row in

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace microswarm {
+
+/// Separator of a table by its header: ',', or ';' or a tab if the header has one of these and no
+/// comma, as tables that spreadsheets write in other languages.
+char csv_separator(std::string_view header);
+
+/// Cells of a row between separators, without blanks and double quotes around them.
+std::vector<std::string_view> csv_cells(std::string_view row, char separator);
+
+/// Text of a number in a table: where cells are separated by ';' or tabs, "0,5" is 0.5.
+std::string csv_number(std::string_view cell, char separator);
+
+}  // namespace microswarm
