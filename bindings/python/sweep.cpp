@@ -2,6 +2,7 @@
 // Many runs of a scenario.
 #include "microswarm/sweep/sweep.hpp"
 #include "microswarm/core/fields/overloaded.hpp"
+#include "microswarm/sweep/same_runs.hpp"
 
 #include <algorithm>
 
@@ -58,6 +59,24 @@ py::object sweep_column(const Rows& rows, std::size_t column, sweep::SweepColumn
 }
 
 /// Columns of the table of trials, and their descriptions.
+py::tuple to_columns(const sweep::SweepTable& table) {
+  const Rows rows = table.rows();
+  py::dict columns, docs;
+  for (std::size_t i = 0; i < table.columns().size(); ++i) {
+    const sweep::SweepColumn& column = table.columns()[i];
+    columns[py::str(column.name)] = sweep_column(rows, i, column.kind);
+    docs[py::str(column.name)] = column.description;
+  }
+  return py::make_tuple(columns, docs);
+}
+
+std::string same_runs_note(const sweep::SweepTable& table) {
+  sweep::SameRuns runs(table.columns());
+  for (const auto& row : table.rows()) runs.add(row);
+  return runs.note();
+}
+
+/// The columns. An interruption carries those of the finished trials as `columns`.
 py::tuple sweep_scenario(const ScenarioText& scenario, const Grid& grid, const Methods& methods,
                          int trials, std::optional<std::uint64_t> seed, int jobs,
                          const py::object& report) {
@@ -68,33 +87,34 @@ py::tuple sweep_scenario(const ScenarioText& scenario, const Grid& grid, const M
   std::atomic<double> done = 0;
   sweep::SweepPlan plan;
   std::unique_ptr<sweep::SweepTable> table;
-  interruptible(
-      [&](const Stop& stop) {
-        plan = sweep::plan_sweep(sweep::checked_sweep(std::move(asked), "sweep"), "sweep",
-                                 {scenario.text, scenario.name, scenario.base}, jobs, stop);
-        if (stop()) return false;
-        check(plan, jobs, stop);
-        table = std::make_unique<sweep::SweepTable>(plan);
-        const sweep::Ranks alone = sweep::Ranks::alone();
-        sweep::RemoteWorkers none(alone);
-        const auto note = [&](const sweep::SweepProgress& p) {
-          done = static_cast<double>(p.added) / static_cast<double>(p.added + p.left);
-        };
-        sweep::run_sweep(plan, *table, none, {.jobs = jobs, .progress = note}, stop);
-        return true;
-      },
-      [&] {
-        if (!report.is_none()) report(done.load());
-      });
-  warn(plan.notes);
-  const Rows rows = table->rows();
-  py::dict columns, docs;
-  for (std::size_t i = 0; i < table->columns().size(); ++i) {
-    const sweep::SweepColumn& column = table->columns()[i];
-    columns[py::str(column.name)] = sweep_column(rows, i, column.kind);
-    docs[py::str(column.name)] = column.description;
+  try {
+    interruptible(
+        [&](const Stop& stop) {
+          plan = sweep::plan_sweep(sweep::checked_sweep(std::move(asked), "sweep"), "sweep",
+                                   {scenario.text, scenario.name, scenario.base}, jobs, stop);
+          if (stop()) return false;
+          check(plan, jobs, stop);
+          table = std::make_unique<sweep::SweepTable>(plan);
+          const sweep::Ranks alone = sweep::Ranks::alone();
+          sweep::RemoteWorkers none(alone);
+          const auto note = [&](const sweep::SweepProgress& p) {
+            done = static_cast<double>(p.added) / static_cast<double>(p.added + p.left);
+          };
+          sweep::run_sweep(plan, *table, none, {.jobs = jobs, .progress = note}, stop);
+          return true;
+        },
+        [&] {
+          if (!report.is_none()) report(done.load());
+        });
+  } catch (py::error_already_set& interrupted) {
+    if (table && interrupted.matches(PyExc_KeyboardInterrupt))
+      interrupted.value().attr("columns") = to_columns(*table);
+    throw;
   }
-  return py::make_tuple(columns, docs);
+  Notes notes = plan.notes;
+  if (std::string same = same_runs_note(*table); !same.empty()) notes.push_back(std::move(same));
+  warn(notes);
+  return to_columns(*table);
 }
 
 }  // namespace

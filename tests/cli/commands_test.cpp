@@ -93,6 +93,23 @@ TEST_F(Commands, RunAsJson) {
   EXPECT_NE(run.at("record_hash"), other.at("record_hash"));
 }
 
+TEST_F(Commands, TrialsThatAreOneRunAreNoted) {
+  const fs::path shipped = fs::path(MICROSWARM_SOURCE_DIR) / "scenarios";
+  for (const char* file :
+       {"papers/radar/twelve.yaml", "papers/radar/single.yaml", "first_rig.yaml", "oncoming.yaml",
+        "papers/radar/experiment_twelve.yaml", "first_flight.yaml"}) {
+    const Outcome outcome = run(
+        {"run", (shipped / file).string(), "--trials", "3", "--json", "--set", "time_limit_s=6"});
+    const Json all = Json::parse(outcome.out);
+    std::set<std::string> records;
+    for (const Json& trial : all.at("trials")) records.insert(trial.at("record_hash"));
+    ASSERT_EQ(all.at("trials").size(), 3u);
+    EXPECT_EQ(all.at("notes").size(), records.size() == 1) << file;
+    EXPECT_EQ(names(outcome.err, "all 3 trials are the same run"), records.size() == 1) << file;
+    EXPECT_EQ(records.size() == 1, std::string_view(file) != "first_flight.yaml") << file;
+  }
+}
+
 TEST_F(Commands, TrialsAreTheSameOnAnyNumberOfThreads) {
   const auto hashes = [&](const char* jobs) {
     const Json all = Json::parse(

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/experiment/scenes.hpp"
+#include "tests/messages.hpp"
 
 namespace microswarm::experiment {
 namespace {
@@ -23,6 +24,15 @@ TEST(Trials, TwoThreadsGiveTheBitsOfOne) {
   EXPECT_EQ(one, hashes_of(scenario, {.trials = 6, .jobs = 2}));
   EXPECT_EQ(one[2], record_of(scenario, 2).hash());
   EXPECT_NE(one[0], one[1]);
+}
+
+TEST(Trials, TrialsThatAreOneRunAreNoted) {
+  EXPECT_EQ(same_run_note({}), "");
+  const std::vector<std::string> one{"a"}, same{"a", "a", "a"}, last_differs{"a", "a", "b"};
+  EXPECT_EQ(same_run_note(one), "");
+  EXPECT_EQ(same_run_note(last_differs), "");
+  EXPECT_TRUE(
+      test::is_one_line_naming(same_run_note(same), "all 3 trials", {"same run", "random"}));
 }
 
 TEST(Trials, VaryChangesEachTrialByItself) {

@@ -75,6 +75,18 @@ def test_without_a_grid_the_trials_differ(flight):
     assert list(table["record_hash"]) == hashes
 
 
+def test_trials_that_are_one_run_are_noted(recwarn):
+    for file in ("papers/radar/twelve.yaml", "papers/radar/single.yaml", "first_rig.yaml"):
+        scenario = ms.Scenario.load(SCENARIOS / file).set("time_limit_s", 5)
+        for values in ({"trials": 3}, {"grid": {"seed": range(3)}}):
+            with pytest.warns(UserWarning, match="all 3 trials are the same run"):
+                table = ms.sweep(scenario, progress=False, **values)
+            assert len(set(table["record_hash"])) == 1
+    recwarn.clear()
+    table = ms.sweep(ms.Scenario.load(SCENARIOS / "first_flight.yaml"), trials=3, progress=False)
+    assert len(set(table["record_hash"])) == 3 and not recwarn.list
+
+
 @pytest.mark.parametrize(
     "values, words",
     [
@@ -127,3 +139,26 @@ except KeyboardInterrupt:
     time.sleep(1)
     process.send_signal(signal.SIGINT)
     assert process.communicate(timeout=30)[0] == "interrupted\n"
+
+
+@pytest.mark.parametrize("by_seed", [False, True])
+def test_ctrl_c_keeps_the_rows_of_finished_trials(flight, by_seed):
+    def press(share):
+        if share > 0:
+            signal.raise_signal(signal.SIGINT)
+
+    many = {"grid": {"seed": range(1000)}} if by_seed else {"trials": 1000}
+    with pytest.raises(KeyboardInterrupt) as stop:
+        ms.sweep(flight, **many, jobs=1, progress=press)
+    table = stop.value.table
+    assert isinstance(table, ms.Table) and 0 < table.rows < 1000 and str(table.rows) in str(stop.value)
+    assert table["cell" if by_seed else "trial"].tolist() == list(range(table.rows))
+    last = table.rows - 1
+    single = ms.run(flight, progress=False, **({"seed": last} if by_seed else {"trial": last}))
+    assert table["record_hash"][last] == single.hash
+
+
+def test_ctrl_c_before_the_first_row_is_an_interruption(flight):
+    with pytest.raises(KeyboardInterrupt) as stop:
+        ms.sweep(flight, {"seed": range(20000)}, progress=lambda share: signal.raise_signal(signal.SIGINT))
+    assert not hasattr(stop.value, "table") or stop.value.table.rows == 0

@@ -83,6 +83,7 @@ int many_runs(const RunOptions& o, const experiment::Scene& scene, const World& 
   const std::filesystem::path csv = std::filesystem::path(o.out) / "trials.csv";
   if (!o.out.empty()) write_file_atomically(csv, trials_csv(results));
   Json list = Json::array();
+  std::vector<std::string> hashes;
   int solved = 0;
   int ran = 0;
   for (std::size_t i = 0; i < results.size(); ++i) {
@@ -90,6 +91,7 @@ int many_runs(const RunOptions& o, const experiment::Scene& scene, const World& 
     const experiment::RunResult& r = results[i].result;
     ++ran;
     solved += r.status == Status::solved;
+    hashes.push_back(results[i].hash);
     Json row{{"trial", i}};
     row.update(run_json(r, results[i].hash));
     list.push_back(std::move(row));
@@ -97,8 +99,12 @@ int many_runs(const RunOptions& o, const experiment::Scene& scene, const World& 
       print("trial {:3}: {} after {:.1f} s, {:.0f} µm long, record {}\n", i, ending(r),
             r.metrics.time, r.metrics.length, results[i].hash);
   }
+  Notes notes;
+  if (std::string same = experiment::same_run_note(hashes); !same.empty())
+    notes.push_back(std::move(same));
+  note_each(notes);
   if (o.json)
-    print("{}\n", Json{{"trials", list}}.dump(2));
+    print("{}\n", Json{{"trials", list}, {"notes", notes}}.dump(2));
   else
     print("{} of {} trials reached the goal{}\n", solved, ran,
           ran < o.trials ? fmt::format(", {} were not finished", o.trials - ran) : "");

@@ -13,6 +13,7 @@
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/sweep/export.hpp"
+#include "microswarm/sweep/same_runs.hpp"
 #include "microswarm/sweep/summary.hpp"
 #include "support/options.hpp"
 
@@ -132,11 +133,19 @@ std::string table(const sweep::SweepReader& sweep, const std::vector<sweep::Cell
   return aligned(lines);
 }
 
-void tell(const SweepOptions& o, const sweep::SweepProgress& progress) {
+/// Prints what is in the database, and whether trials are the same run; `notes` are those on the
+/// plan.
+void tell(const SweepOptions& o, const sweep::SweepProgress& progress, Notes notes) {
   const sweep::SweepReader sweep(o.out);
   const std::vector<sweep::CellSummary> cells = summarise(sweep);
   if (!o.csv.empty()) write_file_atomically(o.csv, sweep::sweep_csv(sweep));
   const std::size_t there = progress.before + progress.added;
+  sweep::SameRuns runs(sweep.columns());
+  sweep.each_row([&](std::span<const sweep::SqlValue> row) { runs.add(row); });
+  if (const std::string same = runs.note(); !same.empty()) {
+    note("note: {}\n", same);
+    notes.push_back(same);
+  }
   if (o.json) {
     Json list = Json::array();
     for (const sweep::CellSummary& cell : cells) list.push_back(to_json(sweep, cell));
@@ -144,7 +153,8 @@ void tell(const SweepOptions& o, const sweep::SweepProgress& progress) {
                        {"trials", there},
                        {"added", progress.added},
                        {"left", progress.left},
-                       {"cells", list}}
+                       {"cells", list},
+                       {"notes", notes}}
                       .dump(2));
     return;
   }
@@ -181,7 +191,7 @@ int sweep_command(SweepOptions o, const Context& context) {
         {.jobs = o.jobs, .progress = [&](const sweep::SweepProgress& p) { meter.show(p); }},
         context.stop);
   }
-  tell(o, progress);
+  tell(o, progress, plan.notes);
   flush_output();
   return progress.left == 0 ? ok : not_reached;
 }

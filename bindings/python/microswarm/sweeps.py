@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
+from contextlib import contextmanager
 from decimal import Decimal, InvalidOperation
-from typing import Any, Iterable, Mapping, Optional
+from typing import Any, Iterable, Iterator, Mapping, Optional
 
 from . import _core
 from .record import Table
@@ -35,6 +36,9 @@ def sweep(
 
     The columns are those of the database of a sweep: cell, trial, method, the grid's keys (with _ for .),
     status, arrived, metrics, wall-clock times, record_hash. Your own navigators need run().
+
+    A warning says if all trials are the same run, since nothing in the scenario is random. Ctrl-C raises KeyboardInterrupt,
+    whose `table` has the rows of the trials that are finished; at a prompt it is sys.last_value.table.
     """
     if navigator is not None:
         raise InputError("a sweep runs in threads of the library, without navigators of your own: call run() in a loop")
@@ -43,7 +47,7 @@ def sweep(
     for where, keys in (("grid", grid), *(("methods", settings) for settings in groups.values())):
         if seed is not None and "seed" in keys:
             raise InputError(f"seed is {told(seed)}, and {where} sets the seed too: leave one of them out")
-    with shown(progress) as report:
+    with shown(progress) as report, _kept_rows():
         made = _core.sweep(
             scenario_of(scenario)._core,
             [(key_of(key), _values(key, values)) for key, values in grid.items()],
@@ -54,6 +58,20 @@ def sweep(
             report,
         )
     return Table(*made)
+
+
+@contextmanager
+def _kept_rows() -> Iterator[None]:
+    """Gives an interruption the table of the trials that are finished."""
+    try:
+        yield
+    except KeyboardInterrupt as stop:
+        made = stop.__dict__.pop("columns", None)
+        if made:
+            table = Table(*made)
+            stop.table = table  # type: ignore[attr-defined]
+            stop.args = (f"{table.rows} trials are finished: `table` of this exception has their rows",)
+        raise
 
 
 def _values(key: str, values: Any) -> list[str]:

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/experiment/trials.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
 #include <mutex>
 #include <utility>
 
@@ -37,6 +41,15 @@ std::vector<TrialResult> run_trials(const Scenario& scenario, const World& world
     if (options.progress) options.progress(done, options.trials);
   });
   return results;
+}
+
+std::string same_run_note(std::span<const std::string> hashes) {
+  if (hashes.size() < 2 ||
+      std::ranges::adjacent_find(hashes, std::not_equal_to<>()) != hashes.end())
+    return {};
+  return fmt::format(
+      "all {} trials are the same run, record {}: nothing here is random, count them as one",
+      hashes.size(), hashes.front());
 }
 
 }  // namespace microswarm::experiment

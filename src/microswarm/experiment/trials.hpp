@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -39,5 +40,9 @@ struct TrialOptions {
 /// are bit-identical for any number of threads. Use one job to measure wall-clock times.
 std::vector<TrialResult> run_trials(const Scenario& scenario, const World& world,
                                     const TrialOptions& options, const Stop& stop = {});
+
+/// One line if all trials are the same run, given the hashes of their records, so that nobody
+/// counts them as several. Empty if two differ, or there are fewer than two.
+std::string same_run_note(std::span<const std::string> hashes);
 
 }  // namespace microswarm::experiment
