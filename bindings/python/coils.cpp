@@ -204,6 +204,21 @@ void save_coils(const Coils& coils, const std::string& file) {
   write_file_atomically(file, to_yaml(*coils.calibrated));
 }
 
+/// The parameters of calibrated coils, for pickle.
+std::string state_of_coils(const Coils& coils) {
+  if (!coils.calibrated)
+    throw py::type_error(
+        "these coils were read from a file, only calibrated ones are pickled: load the file in "
+        "each process");
+  return to_yaml(*coils.calibrated);
+}
+
+Coils restored_coils(const std::string& state) {
+  auto params = read_yaml_text<actuation::CoilSystemParams>(state, "pickled coils");
+  actuation::CoilSystem system(params);
+  return {std::move(system), std::move(params)};
+}
+
 }  // namespace
 
 void add_coils(py::module_& module) {
@@ -224,6 +239,7 @@ void add_coils(py::module_& module) {
                                gradients, centre);
                   })
       .def("save", save_coils)
+      .def(py::pickle(&state_of_coils, &restored_coils))
       .def("currents", currents_of_fields)
       .def("fields", fields_of_currents)
       .def("gradients", gradients_of_currents)

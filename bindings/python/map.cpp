@@ -3,6 +3,8 @@
 #include "calls.hpp"
 #include "drawing.hpp"
 #include "microswarm/config/type.hpp"
+#include "microswarm/config/write.hpp"
+#include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/experiment/queries/path_query.hpp"
 #include "microswarm/formats/map_file.hpp"
@@ -125,6 +127,47 @@ py::array_t<bool> are_free(const NamedMap& map, const Numbers& array, double cle
   return found;
 }
 
+/// The source of a map as a value with keys.
+struct MapSource {
+  formats::MapSpec map;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.map, plain("map", "Source of the map."));
+  }
+};
+
+/// Everything that a map is built from, for pickle.
+py::tuple state_of(const NamedMap& map) {
+  const Box& box = map.map().bounds();
+  return py::make_tuple(map.name, to_yaml(MapSource{map.spec}),
+                        std::array<double, 4>{box.lo.x, box.lo.y, box.hi.x, box.hi.y},
+                        outlines(map), discs(map));
+}
+
+NamedMap restored(const py::tuple& state) {
+  const auto bounds = state[2].cast<std::array<double, 4>>();
+  std::vector<Polygon> walls;
+  for (const py::handle rings : state[3]) {
+    Polygon wall;
+    for (const py::handle ring : rings) {
+      std::vector<Vec2> points = places(ring.cast<Numbers>(), "a ring of a map");
+      if (wall.outer.empty())
+        wall.outer = std::move(points);
+      else
+        wall.holes.push_back(std::move(points));
+    }
+    walls.push_back(std::move(wall));
+  }
+  std::vector<Disc> discs;
+  const auto rows = state[4].cast<Numbers>();
+  for (py::ssize_t i = 0; i < rows.shape(0); ++i)
+    discs.push_back({{rows.at(i, 0), rows.at(i, 1)}, rows.at(i, 2)});
+  auto map = std::make_shared<const Map>(Box{{bounds[0], bounds[1]}, {bounds[2], bounds[3]}},
+                                         std::move(walls), discs);
+  return {Snapshot(std::move(map)), state[0].cast<std::string>(),
+          read_yaml_text<MapSource>(state[1].cast<std::string>(), "a pickled map").map};
+}
+
 py::dict plan_path(const NamedMap& map, const std::vector<double>& start,
                    const std::vector<double>& goal, const Given& settings, std::uint64_t seed) {
   if (start.size() != 2 && start.size() != 3)
@@ -185,6 +228,7 @@ void add_map(py::module_& module) {
       .def("clearance", clearance)
       .def("are_free", are_free)
       .def("plan", plan_path)
+      .def(py::pickle(&state_of, &restored))
       .def("draw",
            [](const NamedMap& map, const std::optional<std::string>& file) {
              return drawn(file, [&] {

@@ -28,6 +28,7 @@ class Coils:
 
     Every method also takes a single row of shape (3,) or (coils,) and then returns a row. `at_um` is one position
     (x, y, z) or one for each row; default: the centre of the coils. A position outside a measured grid is an InputError.
+    Coils do not change. Calibrated ones pickle; of others each process loads the file.
     """
 
     def __init__(self, core: _core.Coils, fit: Optional[dict[str, Any]] = None) -> None:
@@ -35,6 +36,12 @@ class Coils:
         self.fit = fit
         """Quality of a calibration: rms_mt, rms_abs_mt, worst_mt, worst_row, residuals_mt, field_mt_per_a, field_error_mt_per_a
         (standard errors; NaN without freedom), offset_mt, centre_um, and the gradients in T/m/A if they were fitted."""
+
+    def __copy__(self) -> "Coils":
+        return self  # it does not change
+
+    def __deepcopy__(self, memo: Any) -> "Coils":
+        return self
 
     @classmethod
     def load(cls, path: PathLike) -> "Coils":

@@ -18,10 +18,16 @@ planners = _core.planners  # names that plan() takes
 
 
 class Map(Drawable):
-    """Walls of a workspace, with exact distances to them."""
+    """Walls of a workspace, with exact distances to them. It does not change, and pickles with all its walls."""
 
     def __init__(self, core: _core.Map) -> None:
         self._core = core
+
+    def __copy__(self) -> "Map":
+        return self  # it does not change
+
+    def __deepcopy__(self, memo: Any) -> "Map":
+        return self
 
     @classmethod
     def load(cls, path: str | os.PathLike[str], um_per_px: Optional[float] = None, *, um_per_unit: Optional[float] = None, **keys: Any) -> "Map":

@@ -40,6 +40,9 @@ class Navigator:
         """Uses map, swarm or robots, goal, navigator, tick and seed of a scenario or a file."""
         self._core = _core.Navigator(scenario_of(scenario)._core, whole("trial", trial, 2**32 - 1))
 
+    def __reduce__(self) -> Any:
+        raise TypeError("a Navigator remembers what it saw, and cannot be copied or pickled: make one of the scenario in each process")
+
     def step(
         self,
         t: float,

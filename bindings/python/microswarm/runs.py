@@ -112,6 +112,9 @@ class Session(Drawable):
         """Ends the session; what is called later raises InputError. Closing twice is no mistake."""
         self._core.close()
 
+    def __reduce__(self) -> Any:
+        raise TypeError("a Session is in the middle of a run, and cannot be copied or pickled: copy its scenario, or its record()")
+
     def __enter__(self) -> "Session":
         return self
 
