@@ -113,7 +113,7 @@ int32_t ms_session_finish(uint64_t session);
 int32_t ms_session_set(uint64_t session, const char* key, const char* value);
 /* "running", or the final status: "solved", "collided", "time_limit", ... */
 int32_t ms_session_status(uint64_t session, const char** status);
-/* A metric by its name in the summary, for example "length_um" or "walls.clearance_um". */
+/* A metric by its name, for example "length_um" or "walls_clearance_um". */
 int32_t ms_session_metric(uint64_t session, const char* name, double* value);
 /* All metrics as JSON. */
 int32_t ms_session_metrics(uint64_t session, const char** json);

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "handles.hpp"
-#include "microswarm/config/json_value.hpp"
-#include "microswarm/config/write.hpp"
+#include "microswarm/core/text/text.hpp"
+#include "microswarm/experiment/results/metrics_json.hpp"
 
 using namespace microswarm;
 
@@ -16,6 +16,21 @@ std::unique_ptr<c::Object> of(std::unique_ptr<experiment::Session> session) {
   auto object = std::make_unique<c::Object>();
   object->session = std::move(session);
   return object;
+}
+
+const nlohmann::ordered_json* member(const nlohmann::ordered_json& value, std::string_view name) {
+  if (!value.is_object()) return nullptr;
+  const auto found = value.find(std::string(name));
+  return found == value.end() ? nullptr : &*found;
+}
+
+InputError no_metric(std::string_view name, const experiment::Metrics& metrics) {
+  std::vector<std::string> names;
+  for (const auto& [key, value] : experiment::metrics_json(metrics).items()) names.push_back(key);
+  const std::string_view near =
+      nearest_word(name, std::vector<std::string_view>(names.begin(), names.end()));
+  return InputError("there is no metric " + quote(name) +
+                    (near.empty() ? "" : ", did you mean " + quote(near) + "?"));
 }
 
 std::unique_ptr<c::Object> of(std::unique_ptr<experiment::StandaloneNavigator> navigator) {
@@ -166,7 +181,7 @@ int32_t ms_session_status(uint64_t handle, const char** status) {
 int32_t ms_session_metrics(uint64_t handle, const char** json) {
   return c::with_session(handle, [&](experiment::Session& session, c::Object& object) -> int32_t {
     c::require(json, "json");
-    object.text = to_json_text(session.result().metrics);
+    object.text = experiment::metrics_json_with_former_names(session.result().metrics).dump();
     *json = object.text.c_str();
     return MS_OK;
   });
@@ -175,17 +190,13 @@ int32_t ms_session_metrics(uint64_t handle, const char** json) {
 int32_t ms_session_metric(uint64_t handle, const char* name, double* value) {
   return c::with_session(handle, [&](experiment::Session& session, c::Object&) -> int32_t {
     c::require(name, "name"), c::require(value, "value");
-    const auto all = to_json_value(session.result().metrics);
-    const nlohmann::json* here = &all;
-    const std::string path = name;
-    for (std::size_t begin = 0; here && begin <= path.size();) {
-      const std::size_t end = std::min(path.find('.', begin), path.size());
-      const auto next =
-          here->is_object() ? here->find(path.substr(begin, end - begin)) : here->end();
-      here = here->is_object() && next != here->end() ? &*next : nullptr;
-      begin = end + 1;
-    }
-    if (!here || here->is_object()) throw InputError("there is no metric '" + path + "'");
+    const nlohmann::ordered_json all =
+        experiment::metrics_json_with_former_names(session.result().metrics);
+    const std::string_view asked = name;
+    const std::size_t dot = asked.find('.');  // of a former name: "walls.clearance_um"
+    const nlohmann::ordered_json* here = member(all, asked.substr(0, dot));
+    if (here && dot != asked.npos) here = member(*here, asked.substr(dot + 1));
+    if (!here || here->is_object()) throw no_metric(asked, session.result().metrics);
     *value = here->is_number() ? here->get<double>() : infinity;  // null: no obstacle came near
     return MS_OK;
   });

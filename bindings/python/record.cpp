@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Records as NumPy arrays: a column for every recorded quantity, from its declaration.
 #include "record.hpp"
+
+#include <nlohmann/json.hpp>
+
 #include "calls.hpp"
 #include "drawing.hpp"
 #include "microswarm/config/write.hpp"
 #include "microswarm/core/fields/overloaded.hpp"
+#include "microswarm/experiment/results/metrics_json.hpp"
 #include "microswarm/experiment/session/replay.hpp"
 #include "microswarm/io/columns.hpp"
 #include "microswarm/io/tables.hpp"
@@ -107,7 +111,7 @@ py::object to_dict(const Diagnostics& diagnostics) {
 py::dict to_dict(const experiment::RunResult& result) {
   py::dict out;
   out["status"] = std::string(to_string(result.status));
-  out["metrics"] = to_json_text(result.metrics);
+  out["metrics"] = experiment::metrics_json(result.metrics).dump();
   out["step_time_s"] = py::array_t<double>(static_cast<py::ssize_t>(result.timing.steps.size()),
                                            result.timing.steps.data());
   return out;

@@ -114,9 +114,17 @@ static void sessions(const char* file) {
   EXPECT(strcmp(ms_state_name(frames[count - 1].state), "end") == 0);
   EXPECT(ms_session_status(session, &text) == MS_OK && strcmp(text, "solved") == 0);
   EXPECT(ms_session_metric(session, "length_um", &length) == MS_OK && length > 1600);
-  EXPECT(ms_session_metric(session, "walls.clearance_um", &wall) == MS_OK && wall > 40);
-  EXPECT(ms_session_metric(session, "obstacles.clearance_um", &wall) == MS_OK && wall > 1e300);
+  EXPECT(ms_session_metric(session, "walls_clearance_um", &wall) == MS_OK && wall > 40);
+  length = wall;
+  EXPECT(ms_session_metric(session, "walls.clearance_um", &wall) == MS_OK && wall == length);
+  EXPECT(ms_session_metric(session, "obstacles_clearance_um", &wall) == MS_OK && wall > 1e300);
+  EXPECT(ms_session_metric(session, "turning_rad", &length) == MS_OK && length > 1);
+  EXPECT(ms_session_metric(session, "turning_deg", &wall) == MS_OK);
+  EXPECT(fabs(wall * 3.14159265358979 / 180 - length) < 1e-6 * length);
   EXPECT_ERROR(ms_session_metric(session, "walls", &wall), MS_BAD_INPUT, "no metric 'walls'");
+  EXPECT_ERROR(ms_session_metric(session, "walls.speed", &wall), MS_BAD_INPUT, "no metric");
+  EXPECT_ERROR(ms_session_metric(session, "lenth_um", &wall), MS_BAD_INPUT,
+               "did you mean 'length_um'");
   EXPECT(ms_session_metrics(session, &text) == MS_OK && strstr(text, "\"length_um\"") != NULL);
   EXPECT(ms_session_hash(session, &text) == MS_OK);
   strncpy(hash, text, sizeof hash - 1);

@@ -123,7 +123,7 @@ TEST_F(Commands, TrialsAreTheSameOnAnyNumberOfThreads) {
   EXPECT_EQ(one, hashes("2"));
   const std::string csv = read("1/trials.csv");
   EXPECT_TRUE(
-      csv.starts_with("trial,status,time_s,length_um,turning_deg,goal_distance_um,"
+      csv.starts_with("trial,status,time_s,length_um,turning_rad,goal_distance_um,"
                       "hold_time_s,walls_clearance_um,walls_t_s,obstacles_clearance_um,"
                       "obstacles_t_s,avoidance_mean_cost,avoidance_time_s,"
                       "avoidance_mean_gap_um,avoidance_least_gap_um,planning_events,"

@@ -216,7 +216,7 @@ TEST(Read, WhatIsNoYaml) {
       {"a: [1, 2", "s.yaml:1:1: YAML: end of sequence flow not found"},
       {"name: a\n seed: 1", "s.yaml:2:6: YAML: illegal map value"},
       {"name: a\nplanner:\n\tstep_um: 3",
-       "s.yaml:3:1: is indented by a tab; YAML takes blanks only"},
+       "s.yaml:3:1: a tab indents this line: YAML is indented by blanks only"},
       {"name: 'a", "s.yaml:1:9: YAML: illegal EOF in scalar"},
       {"name: a\nb\x04", "s.yaml:2:2: byte 0x04 is not text in UTF-8"},
       {"name: \xff", "s.yaml:1:7: byte 0xff is not text in UTF-8"},

@@ -176,7 +176,7 @@ TEST(SweepTable, EveryMetricHasItsColumnWithUnit) {
     ADD_FAILURE() << name;
     return SweepColumn{};
   };
-  EXPECT_EQ(named("turning_deg").unit, "°");
+  EXPECT_EQ(named("turning_rad").unit, "rad");
   EXPECT_EQ(named("walls_clearance_um").role, SweepColumn::Role::metric);
   EXPECT_EQ(named("contacts").kind, SweepColumnKind::whole);
   EXPECT_EQ(named("navigator_clearance_um").kind, SweepColumnKind::real);

@@ -40,20 +40,22 @@ void show(const experiment::PathAnswer& answer, double start_heading, const Note
           bool json) {
   const Plan& made = answer.plan;
   const double length = path_length(made);
-  const double turning = degrees(path_turning(made.path, start_heading));
+  const double turning = path_turning(made.path, start_heading);
   const double ms = 1e3 * answer.seconds;
   if (json) {
     Json path = Json::array();
     for (const Vec2 p : made.path) path.push_back({p.x, p.y});
     print("{}\n", Json{{"status", to_string(made.status)},
                        {"length_um", length},
-                       {"turning_deg", turning},
-                       {"time_ms", ms},
+                       {"turning_rad", turning},
+                       {"time_s", answer.seconds},
                        {"iterations", made.counts.iterations},
                        {"nodes", made.tree.size()},
                        {"planner", Json::parse(experiment::planner_json(answer.planner))},
                        {"path_um", path},
-                       {"notes", notes}}
+                       {"notes", notes},
+                       {"turning_deg", degrees(turning)},  // names of 0.2.0, for one more release
+                       {"time_ms", ms}}
                       .dump(2));
     return;
   }
@@ -61,7 +63,7 @@ void show(const experiment::PathAnswer& answer, double start_heading, const Note
         made.status == Status::solved
             ? "path"
             : fmt::format("no path ({}), only the beginning of one,", answer.why_none()),
-        length, made.path.size(), turning, made.counts.iterations, made.tree.size(), ms);
+        length, made.path.size(), degrees(turning), made.counts.iterations, made.tree.size(), ms);
   if (!made.path.empty()) print("x_um,y_um\n");
   for (const Vec2 p : made.path) print("{:.3f},{:.3f}\n", p.x, p.y);
 }

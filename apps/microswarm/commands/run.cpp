@@ -65,7 +65,10 @@ std::string trials_csv(const std::vector<experiment::TrialResult>& trials) {
                     .planning_max = p.max,
                     .record_hash = trials[i].hash});
   }
-  return io::csv_table(rows);
+  const auto columns = io::to_columns<TrialRow>();  // named as in a record, angles in rad
+  std::string csv = io::csv_head(columns) + "\n";
+  for (const TrialRow& row : rows) csv += io::csv_line(columns, &row) + "\n";
+  return csv;
 }
 
 int many_runs(const RunOptions& o, const experiment::Scene& scene, const World& world,

@@ -11,6 +11,7 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/experiment/queries/gather_query.hpp"
 #include "microswarm/experiment/record/record.hpp"
+#include "microswarm/experiment/results/metrics_json.hpp"
 #include "microswarm/experiment/run/progress.hpp"
 #include "microswarm/navigation/gathering/aggregation_check.hpp"
 
@@ -19,7 +20,7 @@ namespace microswarm::cli {
 nlohmann::ordered_json run_json(const experiment::RunResult& result, const std::string& hash) {
   return {{"status", to_string(result.status)},
           {"state", result.state},
-          {"metrics", nlohmann::ordered_json::parse(to_json_text(result.metrics))},
+          {"metrics", experiment::metrics_json_with_former_names(result.metrics)},
           {"planning", nlohmann::ordered_json::parse(
                            to_json_text(experiment::summarise(result.timing.planning)))},
           {"record_hash", hash}};

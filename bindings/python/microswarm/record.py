@@ -8,6 +8,7 @@ import json
 import os
 import pathlib
 import tempfile
+import warnings
 from typing import Any, Optional
 
 import numpy as np
@@ -18,12 +19,29 @@ from .values import path_text
 
 
 class Named(dict):
-    """A dictionary whose error names the near words of a key that is not there."""
+    """A dictionary whose error names the near words of a key that is not there. Metrics have their former names for one release."""
 
     def __missing__(self, name: Any) -> Any:
-        near = difflib.get_close_matches(name, list(self), n=1) if isinstance(name, str) else []
-        near = near or ([key for key in self if key.startswith(f"{name}_")][:1] if isinstance(name, str) else [])
-        raise KeyError(f"{name!r} is not there" + (f", did you mean {near[0]!r}?" if near else f", but {', '.join(map(str, self))}"))
+        if isinstance(name, str):
+            former = self._former(name)
+            if former is not None:
+                return former
+            near = difflib.get_close_matches(name, list(self), n=1) or [key for key in self if key.startswith(f"{name}_")]
+            if near:
+                raise KeyError(f"{name!r} is not there, did you mean {near[0]!r}?")
+        raise KeyError(f"{name!r} is not there, but {', '.join(map(str, self))}")
+
+    def _former(self, name: str) -> Any:
+        """A metric under its name in 0.2.0."""
+        if name == "turning_deg" and "turning_rad" in self:
+            new, made = "turning_rad", np.degrees(self["turning_rad"])
+        elif name in ("walls", "obstacles", "avoidance") and "walls_clearance_um" in self:
+            new = f"{name}_…"
+            made = Named({key[len(name) + 1 :]: value for key, value in self.items() if key.startswith(f"{name}_")})
+        else:
+            return None
+        warnings.warn(f"the metric {name!r} is now {new!r}", FutureWarning, stacklevel=3)
+        return made
 
 
 class Table(Named):
@@ -80,11 +98,9 @@ class Table(Named):
         return "\n".join(lines)
 
 
-def finite(value: Any) -> Any:
+def finite(value: dict[str, Any]) -> Named:
     """Metrics with infinity for distances that were never measured."""
-    if isinstance(value, dict):
-        return Named({key: finite(one) for key, one in value.items()})
-    return float("inf") if value is None else value
+    return Named({key: float("inf") if one is None else one for key, one in value.items()})
 
 
 class Record(Drawable):

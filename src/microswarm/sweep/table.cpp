@@ -40,7 +40,7 @@ Results to_results(const experiment::TrialResult& trial) {
   r.add(
       {"arrived", SweepColumnKind::whole, "", "1 when the goal was reached, else 0.", Role::result},
       std::int64_t{run.status == Status::solved});
-  for (const io::Column& column : io::to_columns<experiment::Metrics>(io::ColumnUnits::shown)) {
+  for (const io::Column& column : io::to_columns<experiment::Metrics>()) {
     const double value = column.number(&run.metrics);
     const bool real = column.kind == io::ColumnKind::real;
     r.add({column.key, real ? SweepColumnKind::real : SweepColumnKind::whole,
