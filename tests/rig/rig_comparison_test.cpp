@@ -46,6 +46,18 @@ TEST_F(RigComparison, AStoppedTrialIsNotCounted) {
   EXPECT_TRUE(compare_with_rig(on_, 3, 1, {}, Stop(&stopped)).empty());
 }
 
+TEST(RunSummary, SaysWhetherAllTrialsAreTheSameRun) {
+  std::vector<ComparedTrial> trials(3);
+  EXPECT_TRUE(summarise(trials, &ComparedTrial::rig).are_same);
+  trials[2].rig.metrics.length = 1e-9;
+  EXPECT_FALSE(summarise(trials, &ComparedTrial::rig).are_same);
+  EXPECT_TRUE(summarise(trials, &ComparedTrial::kinematic).are_same);
+  trials[1].kinematic.status = Status::solved;
+  EXPECT_FALSE(summarise(trials, &ComparedTrial::kinematic).are_same);
+  trials.resize(1);
+  EXPECT_FALSE(summarise(trials, &ComparedTrial::rig).are_same);
+}
+
 TEST(RunSummary, CountsArrivalsAndTakesTheMedianOfTheirTimes) {
   std::vector<ComparedTrial> trials(4);
   for (int k = 0; k < 4; ++k) {

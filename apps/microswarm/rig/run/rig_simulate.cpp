@@ -65,6 +65,11 @@ std::string time_text(const rig::RunSummary& of) {
   return std::isnan(of.time) ? "–" : fmt::format("{:.1f}", of.time);
 }
 
+void note_same(const std::string& name, std::string_view where, std::size_t trials) {
+  note("note: {}: all {} trials {} are the same run: nothing there is random, count them as one\n",
+       name, trials, where);
+}
+
 int simulate_trials(const SimulateOptions& o, const Context& context) {
   if (o.scenario.empty() != o.rig.empty())
     throw InputError("rig simulate: a scenario and --rig go together");
@@ -107,6 +112,8 @@ int simulate_trials(const SimulateOptions& o, const Context& context) {
           kinematic.arrived, kinematic.contacts, time_text(kinematic), rig.arrived, rig.contacts,
           time_text(rig));
     flush_output();
+    if (kinematic.are_same) note_same(name, "without a rig", trials.size());
+    if (rig.are_same) note_same(name, "through the rig", trials.size());
     all = all && rig.arrived == o.trials;
   }
   if (!o.out.empty()) {

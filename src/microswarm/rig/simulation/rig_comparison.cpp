@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/rig/simulation/rig_comparison.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
 
+#include "microswarm/config/write.hpp"
 #include "microswarm/core/execution/parallel.hpp"
 #include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/experiment/session/session.hpp"
@@ -49,6 +51,12 @@ RunSummary summarise(std::span<const ComparedTrial> trials,
     if (result.status == Status::solved) times.push_back(result.metrics.time);
   }
   summary.arrived = static_cast<int>(times.size());
+  summary.are_same =
+      trials.size() > 1 && std::ranges::all_of(trials, [&](const ComparedTrial& both) {
+        const experiment::RunResult &one = both.*plant, &first = trials.front().*plant;
+        return one.status == first.status && one.state == first.state &&
+               to_json_text(one.metrics) == to_json_text(first.metrics);
+      });
   summary.time = times.empty() ? std::numeric_limits<double>::quiet_NaN() : median(times);
   return summary;
 }

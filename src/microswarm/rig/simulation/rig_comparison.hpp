@@ -31,7 +31,8 @@ std::vector<ComparedTrial> compare_with_rig(const RigExperiment& on, int trials,
 struct RunSummary {
   int arrived = 0;
   int contacts = 0;
-  double time = 0;  ///< median of the runs that arrived [s]; NaN if none did
+  double time = 0;        ///< median of the runs that arrived [s]; NaN if none did
+  bool are_same = false;  ///< whether all, two or more, have the same result to the bit
 };
 
 /// Summary of one of the two results of each trial.
