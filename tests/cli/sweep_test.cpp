@@ -79,21 +79,21 @@ TEST_F(Sweeps, TrialsThatAreOneRunAreNoted) {
   const auto note_on = [&](const std::string& text) {
     write("same.yaml", "name: same\nscenario: flight.yaml\n" + text);
     const Outcome outcome = run({"sweep", "same.yaml", "--json", "--out", "same.db"});
-    fs::remove(folder / "same.db");
+    fs::remove(at.folder / "same.db");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
     const Json notes = Json::parse(outcome.out).at("notes");
-    if (notes.empty()) return std::string();
-    EXPECT_TRUE(names(outcome.err, "note: " + notes[0].get<std::string>())) << outcome.err;
+    if (notes.empty()) return outcome.err;
+    EXPECT_EQ(outcome.err, "note: " + notes[0].get<std::string>() + "\n");
     return notes[0].get<std::string>();
   };
   const std::string by_seed = "grid: [{key: seed, values: [1, 2, 3]}]\n";
-  const std::string by_planner =
-      "methods:\n  - {name: random, set: []}\n"
-      "  - {name: exact, set: [navigator.planner.type=exact]}\n";
+  const std::string methods =
+      "methods:\n  - {name: random trees}\n  - {name: radar, set: [navigator.type=radar]}\n";
   EXPECT_EQ(note_on(by_seed), "");
-  EXPECT_TRUE(is_one_line_naming(note_on(by_seed + "set: [navigator.planner.type=exact]\n"),
-                                 "all 3 trials", {"same run"}));
-  EXPECT_TRUE(is_one_line_naming(note_on(by_planner + "trials: 2\n"), "1 of 2", {"same run"}));
-  EXPECT_EQ(note_on(by_planner), "");  // one trial each
+  EXPECT_TRUE(is_one_line_naming(note_on(by_seed + "set: [navigator.type=radar]\n"), "",
+                                 {"all 3 trials", "same run"}));
+  EXPECT_TRUE(is_one_line_naming(note_on(methods + "trials: 2\n"), "", {"1 of 2", "same run"}));
+  EXPECT_EQ(note_on(methods), "");  // one trial each
 }
 
 TEST_F(Sweeps, ATrialIsThatOfRun) {
