@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,8 +15,9 @@ class Mat;
 
 namespace microswarm::formats {
 
-// Photographs and videos by OpenCV's imgcodecs and videoio. These depend on some 150 shared
-// libraries, 0.2 s of a program's start, so they form a module that is loaded at the first use.
+// Photographs and videos by OpenCV's imgcodecs and videoio and by FFmpeg. These depend on some 150
+// shared libraries, 0.2 s of a program's start, so they form a module that is loaded at the first
+// use.
 
 /// A photograph: rows of 8-bit samples, grey or red, green, blue.
 struct Photograph {
@@ -32,10 +34,14 @@ class VideoInput {
   /// The next picture, grey or blue, green, red; false at the end or where it cannot be decoded.
   virtual bool read(cv::Mat& picture) = 0;
 
-  int width = 0;             ///< [px]
-  int height = 0;            ///< [px]
-  double rate = 0;           ///< frame rate in the file's header [Hz]
-  double picture_count = 0;  ///< number of pictures in the file's header
+  int width = 0;             ///< as shown [px]
+  int height = 0;            ///< as shown [px]
+  double rate = 0;           ///< mean frame rate [Hz]; 0 if unknown
+  double picture_count = 0;  ///< pictures shown, by the file's header; 0 if unknown
+  double end = 0;            ///< duration of the pictures by the header [s]; 0 if unknown
+  double tick = 0;           ///< to which times are rounded [s]; 0 in AVI, which numbers pictures
+  /// When the last picture read is shown [s], by the file.
+  std::optional<double> time;
 };
 
 /// A video that is open for writing. The destructor writes its end.
@@ -62,7 +68,7 @@ struct VideoForm {
 class Media {
  public:
   virtual ~Media() = default;
-  /// A JPEG or BMP; without samples if they cannot be decoded.
+  /// A JPEG or BMP without samples if they cannot be decoded.
   virtual Photograph decode(std::span<const std::byte> bytes) const = 0;
   /// Opens a video; null if it cannot be read.
   virtual std::unique_ptr<VideoInput> open(const std::filesystem::path& file) const = 0;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// libmicroswarm_media.so, the only part that is linked with OpenCV's imgcodecs and videoio.
+// libmicroswarm_media.so, the only part that is linked with OpenCV's imgcodecs and videoio and with
+// FFmpeg.
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
+#include "microswarm/formats/media/libav_input.hpp"
 #include "microswarm/formats/media/media.hpp"
 
 namespace microswarm::formats {
@@ -24,20 +26,6 @@ int fourcc(VideoCodec codec) {
   }
   return 0;
 }
-
-class OpenCvInput : public VideoInput {
- public:
-  explicit OpenCvInput(const cv::VideoCapture& video) : video_(video) {
-    width = static_cast<int>(video_.get(cv::CAP_PROP_FRAME_WIDTH));
-    height = static_cast<int>(video_.get(cv::CAP_PROP_FRAME_HEIGHT));
-    rate = video_.get(cv::CAP_PROP_FPS);
-    picture_count = video_.get(cv::CAP_PROP_FRAME_COUNT);
-  }
-  bool read(cv::Mat& picture) override { return video_.read(picture) && !picture.empty(); }
-
- private:
-  cv::VideoCapture video_;
-};
 
 class OpenCvOutput : public VideoOutput {
  public:
@@ -68,11 +56,7 @@ class OpenCvMedia : public Media {
     }
   }
 
-  std::unique_ptr<VideoInput> open(const fs::path& file) const override {
-    cv::VideoCapture video;
-    if (!video.open(fs::absolute(file).string(), cv::CAP_FFMPEG)) return nullptr;
-    return std::make_unique<OpenCvInput>(video);
-  }
+  std::unique_ptr<VideoInput> open(const fs::path& file) const override { return open_libav(file); }
 
   std::unique_ptr<VideoOutput> create(const fs::path& file, const VideoForm& form) const override {
     cv::VideoWriter video;
@@ -83,14 +67,7 @@ class OpenCvMedia : public Media {
     return std::make_unique<OpenCvOutput>(video);
   }
 
-  int count_pictures(const fs::path& file) const override {
-    cv::VideoCapture video;
-    if (!video.open(fs::absolute(file).string(), cv::CAP_FFMPEG, {cv::CAP_PROP_FORMAT, -1}))
-      return 0;
-    int count = 0;
-    while (video.grab()) ++count;
-    return count;
-  }
+  int count_pictures(const fs::path& file) const override { return count_libav_packets(file); }
 };
 
 }  // namespace

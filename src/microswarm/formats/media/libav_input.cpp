@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+// Videos by FFmpeg's libraries, which OpenCV's videoio uses as well. videoio reports
+// neither the times of all pictures nor which are not shown.
+#include "microswarm/formats/media/libav_input.hpp"
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/display.h>
+#include <libswscale/swscale.h>
+}
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <opencv2/core.hpp>
+#include <string>
+#include <thread>
+#include <utility>
+
+namespace microswarm::formats {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int max_bad_packets = 64;  // before the first picture
+constexpr unsigned max_threads = 16;
+
+/// Calls the function that frees a libav object through its address.
+template <auto Free>
+struct FreeBy {
+  template <class T>
+  void operator()(T* object) const {
+    Free(&object);
+  }
+};
+struct FreeScaler {
+  void operator()(SwsContext* scaler) const { sws_freeContext(scaler); }
+};
+
+using Format = std::unique_ptr<AVFormatContext, FreeBy<avformat_close_input>>;
+using Decoder = std::unique_ptr<AVCodecContext, FreeBy<avcodec_free_context>>;
+using Packet = std::unique_ptr<AVPacket, FreeBy<av_packet_free>>;
+using Frame = std::unique_ptr<AVFrame, FreeBy<av_frame_free>>;
+
+/// The library's messages as OpenCV sets them: errors, or what its environment variable says.
+void set_messages() {
+  static const bool once = [] {
+    const char* level = std::getenv("OPENCV_FFMPEG_LOGLEVEL");
+    av_log_set_level(level ? std::atoi(level) : AV_LOG_ERROR);
+    return true;
+  }();
+  static_cast<void>(once);
+}
+
+/// A file only: a playlist may not name an address.
+Format open_format(const fs::path& file) {
+  AVFormatContext* opened = nullptr;
+  AVDictionary* options = nullptr;
+  av_dict_set(&options, "protocol_whitelist", "file", 0);
+  const std::string url = "file:" + fs::absolute(file).string();
+  const int code = avformat_open_input(&opened, url.c_str(), nullptr, &options);
+  av_dict_free(&options);
+  if (code < 0) return nullptr;
+  Format format(opened);
+  if (avformat_find_stream_info(format.get(), nullptr) < 0) return nullptr;
+  return format;
+}
+
+/// Turn of stored pictures to be shown: transposed first, then mirrored.
+struct Turn {
+  bool transposed = false, mirrored_x = false, mirrored_y = false;
+
+  static Turn of(const AVStream& stream) {
+    const std::uint8_t* data = av_stream_get_side_data(&stream, AV_PKT_DATA_DISPLAYMATRIX, nullptr);
+    if (!data) return {};
+    std::int32_t m[9];
+    std::memcpy(m, data, sizeof m);
+    const auto size = [](std::int32_t v) { return std::abs(static_cast<double>(v)); };
+    if (size(m[0]) + size(m[4]) >= size(m[1]) + size(m[3])) return {false, m[0] < 0, m[4] < 0};
+    return {true, m[3] < 0, m[1] < 0};
+  }
+  void apply(cv::Mat& picture) const {
+    if (transposed) picture = picture.t();
+    if (mirrored_x && mirrored_y)
+      cv::flip(picture, picture, -1);
+    else if (mirrored_x || mirrored_y)
+      cv::flip(picture, picture, mirrored_x ? 1 : 0);
+  }
+};
+
+/// Number of pictures that are shown, by the file's header; 0 if unknown.
+double told_pictures(AVStream& stream, const AVFormatContext& format) {
+  const int entries = avformat_index_get_entries_count(&stream);
+  // In fragments of MP4 the index grows while they are read.
+  if (std::strstr(format.iformat->name, "mov") == nullptr || entries != stream.nb_frames)
+    return static_cast<double>(std::max<std::int64_t>(stream.nb_frames, 0));
+  int shown = 0;  // an edit list may hide some
+  for (int i = 0; i < entries; ++i)
+    shown += (avformat_index_get_entry(&stream, i)->flags & AVINDEX_DISCARD_FRAME) == 0;
+  return shown;
+}
+
+/// Time at which the stream ends by the header [s]; 0 if unknown.
+double told_end(const AVFormatContext& format, const AVStream& stream) {
+  if (const AVDictionaryEntry* tag = av_dict_get(stream.metadata, "DURATION", nullptr, 0)) {
+    int hours = 0, minutes = 0;
+    double seconds = 0;
+    if (std::sscanf(tag->value, "%d:%d:%lf", &hours, &minutes, &seconds) == 3)
+      return 3600.0 * hours + 60.0 * minutes + seconds;
+  }
+  if (format.duration_estimation_method == AVFMT_DURATION_FROM_BITRATE) return 0;
+  if (stream.duration > 0) return static_cast<double>(stream.duration) * av_q2d(stream.time_base);
+  if (format.nb_streams == 1 && format.duration > 0)
+    return static_cast<double>(format.duration) / AV_TIME_BASE;
+  return 0;
+}
+
+class LibavInput : public VideoInput {
+ public:
+  LibavInput(Format format, int stream, const AVCodec* codec)
+      : format_(std::move(format)),
+        stream_(format_->streams[stream]),
+        decoder_(avcodec_alloc_context3(codec)),
+        packet_(av_packet_alloc()),
+        frame_(av_frame_alloc()) {}
+
+  bool open(const AVCodec* codec) {
+    if (!decoder_ || !packet_ || !frame_) return false;
+    if (avcodec_parameters_to_context(decoder_.get(), stream_->codecpar) < 0) return false;
+    decoder_->pkt_timebase = stream_->time_base;
+    decoder_->thread_count =
+        static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, max_threads));
+    if (avcodec_open2(decoder_.get(), codec, nullptr) < 0) return false;
+    for (unsigned i = 0; i < format_->nb_streams; ++i)
+      if (format_->streams[i] != stream_) format_->streams[i]->discard = AVDISCARD_ALL;
+    turn_ = Turn::of(*stream_);
+    width = decoder_->width;
+    height = decoder_->height;
+    if (turn_.transposed) std::swap(width, height);
+    const AVRational mean = stream_->avg_frame_rate.num > 0
+                                ? stream_->avg_frame_rate
+                                : av_guess_frame_rate(format_.get(), stream_, nullptr);
+    rate = mean.den > 0 ? av_q2d(mean) : 0;
+    unit_ = av_q2d(stream_->time_base);
+    tick = std::strcmp(format_->iformat->name, "avi") == 0 ? 0 : unit_;
+    picture_count = told_pictures(*stream_, *format_);
+    end = told_end(*format_, *stream_);
+    return true;
+  }
+
+  bool read(cv::Mat& picture) override {
+    if (!decode()) return false;
+    const std::int64_t shown_at = frame_->best_effort_timestamp;
+    time.reset();
+    if (shown_at != AV_NOPTS_VALUE) time = static_cast<double>(shown_at) * unit_;
+    const bool good = convert(picture);
+    av_frame_unref(frame_.get());
+    any_ = any_ || good;
+    return good;
+  }
+
+ private:
+  /// The next picture into `frame_`; false at the end or where it cannot be decoded.
+  bool decode() {
+    for (int bad = 0; bad <= max_bad_packets;) {
+      const int code = avcodec_receive_frame(decoder_.get(), frame_.get());
+      if (code == 0) return true;
+      if (code == AVERROR_EOF) return false;
+      if (code != AVERROR(EAGAIN) || !feed()) {
+        if (any_) return false;
+        ++bad;  // a file may begin within a group of pictures
+      }
+    }
+    return false;
+  }
+  /// Gives the decoder the next packet, or the end; false for a damaged one.
+  bool feed() {
+    for (;;) {
+      av_packet_unref(packet_.get());
+      if (av_read_frame(format_.get(), packet_.get()) < 0)
+        return avcodec_send_packet(decoder_.get(), nullptr) >= 0;
+      if (packet_->stream_index == stream_->index && packet_->size > 0)
+        return avcodec_send_packet(decoder_.get(), packet_.get()) >= 0;
+    }
+  }
+  bool convert(cv::Mat& picture) {
+    const int w = frame_->width, h = frame_->height;
+    if (w < 1 || h < 1) return false;
+    scaler_.reset(sws_getCachedContext(scaler_.release(), w, h,
+                                       static_cast<AVPixelFormat>(frame_->format), w, h,
+                                       AV_PIX_FMT_BGR24, SWS_BICUBIC, nullptr, nullptr, nullptr));
+    if (!scaler_) return false;
+    constexpr int aligned = 64;  // [B], of a row
+    const int step = (3 * w + aligned - 1) / aligned * aligned;
+    rows_.create(h + 1, step, CV_8U);  // one more, as the scaler may write beyond a row
+    std::uint8_t* to[4] = {rows_.data, nullptr, nullptr, nullptr};
+    const int steps[4] = {step, 0, 0, 0};
+    if (sws_scale(scaler_.get(), frame_->data, frame_->linesize, 0, h, to, steps) != h)
+      return false;
+    cv::Mat(h, w, CV_8UC3, rows_.data, static_cast<std::size_t>(step)).copyTo(picture);
+    turn_.apply(picture);
+    return true;
+  }
+
+  Format format_;
+  AVStream* stream_;
+  Decoder decoder_;
+  Packet packet_;
+  Frame frame_;
+  std::unique_ptr<SwsContext, FreeScaler> scaler_;
+  cv::Mat rows_;
+  Turn turn_;
+  double unit_ = 0;   ///< of the times in the file [s]
+  bool any_ = false;  ///< whether a picture was decoded
+};
+
+int best_stream(const Format& format, const AVCodec** codec) {
+  return av_find_best_stream(format.get(), AVMEDIA_TYPE_VIDEO, -1, -1, codec, 0);
+}
+
+}  // namespace
+
+std::unique_ptr<VideoInput> open_libav(const fs::path& file) {
+  set_messages();
+  Format format = open_format(file);
+  if (!format) return nullptr;
+  const AVCodec* codec = nullptr;
+  const int stream = best_stream(format, &codec);
+  if (stream < 0 || !codec) return nullptr;
+  auto input = std::make_unique<LibavInput>(std::move(format), stream, codec);
+  if (!input->open(codec)) return nullptr;
+  return input;
+}
+
+int count_libav_packets(const fs::path& file) {
+  set_messages();
+  const Format format = open_format(file);
+  if (!format) return 0;
+  const int stream = best_stream(format, nullptr);
+  const Packet packet(av_packet_alloc());
+  if (stream < 0 || !packet) return 0;
+  int count = 0;
+  while (av_read_frame(format.get(), packet.get()) >= 0) {
+    count += packet->stream_index == stream;
+    av_packet_unref(packet.get());
+  }
+  return count;
+}
+
+}  // namespace microswarm::formats
