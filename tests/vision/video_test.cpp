@@ -60,7 +60,7 @@ TEST_F(Videos, PicturesComeInTheOrderOfTheirNumbers) {
   for (const int i : {1, 2, 9, 10, 100}) {
     ASSERT_TRUE(frames->next(frame));
     EXPECT_EQ(frame.picture.pixels[0], i);
-    EXPECT_EQ(frame.t, 0.25 * frame.index);
+    EXPECT_EQ(frame.t, 0.25 * (i - 1));  // pictures are missing between
   }
   EXPECT_EQ(frame.index, 4);
   EXPECT_FALSE(frames->next(frame));

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "microswarm/core/errors/error.hpp"
-#include "microswarm/formats/images/samples.hpp"
+#include "microswarm/formats/images/orientation.hpp"
 #include "microswarm/formats/images/tiff.hpp"
 #include "microswarm/formats/media/media.hpp"
 
@@ -78,6 +78,16 @@ struct OpenPng {
                             SPNG_DECODE_TRNS));
     check(spng_decode_chunks(png.get()));  // up to IEND
   }
+  /// After decoding; 1 without EXIF.
+  int orientation() const {
+    spng_exif exif{};
+    if (spng_get_exif(png.get(), &exif) != 0) return 1;
+    std::vector<std::byte> block{std::byte{'E'}, std::byte{'x'}, std::byte{'i'},
+                                 std::byte{'f'}, std::byte{0},   std::byte{0}};  // as in a JPEG
+    const auto* data = reinterpret_cast<const std::byte*>(exif.data);
+    block.insert(block.end(), data, data + exif.length);
+    return exif_orientation(block);
+  }
   int width() const { return static_cast<int>(header.width); }
   int height() const { return static_cast<int>(header.height); }
   std::size_t pixels() const { return std::size_t{header.width} * header.height; }
@@ -129,16 +139,22 @@ std::vector<Sample> decode_samples(const OpenPng& png, int channels) {
   return samples;
 }
 
-DecodedImage decode_png(Bytes bytes, std::string_view name) {
-  const OpenPng png(bytes, name);
+DecodedImage decode_stored_png(const OpenPng& png) {
   const int kind = png.header.color_type;
   if (kind == SPNG_COLOR_TYPE_INDEXED) return decode_indexed(png);
   const bool grey = kind == SPNG_COLOR_TYPE_GRAYSCALE || kind == SPNG_COLOR_TYPE_GRAYSCALE_ALPHA;
   const int channels = grey ? 1 : 3;
   if (png.header.bit_depth == 16)
     return DeepImage{png.width(), png.height(), channels,
-                     decode_samples<std::uint16_t>(png, channels)};
+                     decode_samples<std::uint16_t>(png, channels), 16};
   return Image{png.width(), png.height(), channels, decode_samples<std::uint8_t>(png, channels)};
+}
+
+DecodedImage decode_png(Bytes bytes, std::string_view name) {
+  const OpenPng png(bytes, name);
+  DecodedImage picture = decode_stored_png(png);
+  orient(picture, png.orientation());
+  return picture;
 }
 
 // --- JPEG and BMP: checked here, then decoded by OpenCV ------------------------------------------
@@ -248,7 +264,9 @@ std::vector<std::uint8_t> transparency(Bytes bytes, std::string_view name) {
   std::vector<std::uint8_t> rgba(4 * png.pixels()), out(png.pixels());
   png.decode(rgba, SPNG_FMT_RGBA8);
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = rgba[4 * i + 3] < 255;
-  return out;
+  DecodedImage picture = Image{png.width(), png.height(), 1, std::move(out)};
+  orient(picture, png.orientation());
+  return std::get<Image>(std::move(picture)).pixels;
 }
 
 bool is_png(Bytes bytes) { return starts_with(bytes, "\x89PNG\r\n\x1a\n"); }
@@ -258,26 +276,15 @@ DecodedImage decode_pixels(Bytes bytes, std::string_view name) {
   if (is_png(bytes)) return decode_png(bytes, name);
   if (starts_with(bytes, "\xff\xd8")) {
     check_jpeg(bytes, name);
-    return decode_with_opencv(bytes, name);
+    DecodedImage picture = decode_with_opencv(bytes, name);
+    orient(picture, exif_orientation(bytes));
+    return picture;
   }
   if (is_tiff(bytes)) return TiffPages(bytes, name).next();
   if (!starts_with(bytes, "BM"))
     fail_image(name, "not an image (PNG, JPEG, BMP, TIFF, PGM, PPM or PBM)");
   check_bmp(bytes, name);
   return in_colours(decode_with_opencv(bytes, name));
-}
-
-void take_pixels(DecodedImage decoded, int depth, Image& image) {
-  if (auto* plain = std::get_if<Image>(&decoded)) {
-    image = std::move(*plain);
-    return;
-  }
-  const DeepImage& deep = std::get<DeepImage>(decoded);
-  image.width = deep.width;
-  image.height = deep.height;
-  image.channels = deep.channels;
-  image.pixels.resize(deep.samples.size());
-  to_8_bits(deep.samples, depth, image.pixels);
 }
 
 }  // namespace microswarm::formats

@@ -39,8 +39,11 @@ void check_image_size(std::int64_t width, std::int64_t height, std::string_view 
 
 Image decode_image(std::span<const std::byte> bytes, std::string_view name, int depth) {
   if (is_pnm(bytes)) return decode_pnm(bytes, name);
+  DecodedImage decoded = decode_pixels(bytes, name);
+  const bool real = std::holds_alternative<RealImage>(decoded);
+  const GreyScale scale = real ? scale_of(decoded) : GreyScale::of_depth(depth);
   Image image;
-  take_pixels(decode_pixels(bytes, name), depth, image);
+  take_pixels(std::move(decoded), scale, image);
   return image;
 }
 
@@ -58,18 +61,44 @@ std::vector<std::uint8_t> read_transparency(const std::filesystem::path& path) {
   return transparency(std::as_bytes(std::span(bytes.data(), bytes.size())), path.string());
 }
 
-std::optional<int> sample_depth(const std::filesystem::path& path) {
-  const std::string bytes = read_file(path, max_file_bytes);
-  const auto raw = std::as_bytes(std::span(bytes.data(), bytes.size()));
-  if (!is_png(raw) && !is_tiff(raw)) return std::nullopt;
-  const DecodedImage decoded = decode_pixels(raw, path.string());
-  const auto* deep = std::get_if<DeepImage>(&decoded);
-  return deep ? std::optional(used_depth(deep->samples)) : std::nullopt;
+DecodedImage read_stored(const std::filesystem::path& path) {
+  const std::string file = read_file(path, max_file_bytes);
+  const auto bytes = std::as_bytes(std::span(file.data(), file.size()));
+  if (is_pnm(bytes)) return decode_pnm(bytes, path.string());
+  return decode_pixels(bytes, path.string());
 }
 
-Image read_photograph(const std::filesystem::path& path) {
-  return read_image(path, sample_depth(path).value_or(16));
+ReadPicture read_picture(const std::filesystem::path& path) {
+  const std::string file = read_file(path, max_file_bytes);
+  const auto bytes = std::as_bytes(std::span(file.data(), file.size()));
+  const std::string name = path.string();
+  ReadPicture picture;
+  const auto note = [&](const std::string& text) {
+    if (!text.empty()) picture.notes.push_back(name + ": " + text);
+  };
+  if (is_pnm(bytes)) {
+    picture.image = decode_pnm(bytes, name);
+    return picture;
+  }
+  std::optional<DecodedImage> decoded;
+  if (is_tiff(bytes)) {
+    TiffPages pages(bytes, name);
+    if (pages.count() > 1)
+      note(fmt::format("holds {} pictures, the first is taken", pages.count()));
+    picture.um_per_px = pages.description().um_per_px;
+    decoded = pages.next();
+  } else {
+    decoded = decode_pixels(bytes, name);
+  }
+  const GreyScale scale = scale_of(*decoded);
+  picture.black = scale.black;
+  picture.white = scale.white;
+  note(scale_note(*decoded, scale));
+  take_pixels(*std::move(decoded), scale, picture.image);
+  return picture;
 }
+
+Image read_photograph(const std::filesystem::path& path) { return read_picture(path).image; }
 
 Image to_grey(const Image& image) {
   if (image.channels == 1) return image;

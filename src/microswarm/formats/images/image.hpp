@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -36,7 +37,8 @@ void check_image_size(std::int64_t width, std::int64_t height, std::string_view 
                       std::string_view unit = "pixels");
 
 /// Reads PNG, JPEG, BMP, TIFF (its first page), PGM, PPM or PBM: deeper samples are scaled to 8
-/// bits, those of PNG and TIFF as numbers of `depth` bits (8 to 16; what is larger becomes white),
+/// bits, those of PNG and TIFF as numbers of `depth` bits (8 to 16; what is larger becomes white;
+/// signed, floating and 32-bit ones from the smallest to the largest),
 /// palettes and 1-bit pictures expanded, a PNG composed over white. The structure
 /// is checked before anything is decoded; throws InputError "x.png: WHY" for no file, an empty one,
 /// no image, a truncated or damaged one, 0 pixels, or more than max_image_side or max_image_pixels.
@@ -54,12 +56,21 @@ bool has_image_extension(const std::filesystem::path& path);
 /// Throws as `read_image`.
 std::vector<std::uint8_t> read_transparency(const std::filesystem::path& path);
 
-/// Bits, 8 to 16, that the largest sample of a PNG or TIFF with more than 8 bits needs; nothing for
-/// another picture or file. Throws as `read_image` for a damaged one.
-std::optional<int> sample_depth(const std::filesystem::path& path);
+/// A picture of a camera, and what was assumed in reading it.
+struct ReadPicture {
+  Image image;
+  double black = 0;                 ///< sample of the file that became 0
+  double white = 255;               ///< sample of the file that became 255
+  std::optional<double> um_per_px;  ///< by a description of ImageJ or OME
+  std::vector<std::string> notes;   ///< "FILE: its 16-bit samples are read as …", for people
+};
 
-/// Reads a camera image. The depth of a 16-bit picture is taken from its largest sample, 12 bits
-/// for many cameras. Throws as `read_image`.
+/// Reads a camera image of any depth and scales its samples to 8 bits: those of 9 to 16 bits are
+/// numbers of as many bits as the largest needs, 12 for many cameras; signed and floating ones, and
+/// those of 32 bits, reach from the smallest to the largest. Throws as `read_image`.
+ReadPicture read_picture(const std::filesystem::path& path);
+
+/// The image of `read_picture`.
 Image read_photograph(const std::filesystem::path& path);
 
 /// The image as one grey channel. The luma of a colour is 0.299 R + 0.587 G + 0.114 B, rounded.

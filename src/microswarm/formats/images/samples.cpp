@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/formats/images/samples.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "microswarm/core/errors/error.hpp"
 
@@ -22,6 +27,45 @@ void check(const Samples2d<Sample>& picture, std::string_view name) {
                      " samples, the sizes say " + std::to_string(pixels * picture.channels));
 }
 
+template <class Picture>
+void take_shape(const Picture& picture, Image& image) {
+  image.width = picture.width;
+  image.height = picture.height;
+  image.channels = picture.channels;
+  image.pixels.resize(picture.samples.size());
+}
+
+std::size_t scale_samples(std::span<const float> samples, const GreyScale& scale,
+                          std::span<std::uint8_t> out) {
+  const double factor = scale.white > scale.black ? 255 / (scale.white - scale.black) : 0;
+  std::size_t beyond = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const auto value = static_cast<double>(samples[i]);
+    beyond += value < scale.black || value > scale.white;
+    const double grey = (value - scale.black) * factor;
+    out[i] = grey > 0 ? static_cast<std::uint8_t>(std::min(grey, 255.0) + 0.5) : 0;
+  }
+  return beyond;
+}
+
+/// Range of the finite samples, and whether all samples are whole.
+struct SampleRange {
+  float least = 0, most = 0;
+  bool any = false, whole = true;
+};
+
+SampleRange range_of(std::span<const float> samples) {
+  SampleRange range;
+  for (const float value : samples) {
+    if (!std::isfinite(value)) continue;
+    range.least = range.any ? std::min(range.least, value) : value;
+    range.most = range.any ? std::max(range.most, value) : value;
+    range.whole = range.whole && value == std::floor(value);
+    range.any = true;
+  }
+  return range;
+}
+
 }  // namespace
 
 int used_depth(std::span<const std::uint16_t> samples) {
@@ -38,6 +82,51 @@ void to_8_bits(std::span<const std::uint16_t> samples, int depth, std::span<std:
     const std::uint32_t whole = std::bit_cast<std::uint32_t>(shifted) & 0xffffU;
     out[i] = static_cast<std::uint8_t>(std::min(whole, 255U));
   }
+}
+
+GreyScale scale_of(const DecodedImage& picture) {
+  if (const auto* deep = std::get_if<DeepImage>(&picture))
+    return GreyScale::of_depth(used_depth(deep->samples));
+  const auto* real = std::get_if<RealImage>(&picture);
+  if (!real) return GreyScale::of_depth(8);
+  const SampleRange range = range_of(real->samples);
+  if (range.whole && range.least >= 0 && range.most > 1 && range.most <= 65535)
+    return GreyScale::of_depth(
+        std::max<int>(8, std::bit_width(static_cast<std::uint32_t>(range.most))));
+  return {static_cast<double>(range.least), static_cast<double>(range.most)};
+}
+
+std::string scale_note(const DecodedImage& picture, const GreyScale& scale) {
+  const auto* deep = std::get_if<DeepImage>(&picture);
+  if (deep && scale.white >= (1 << deep->bits) - 1) return {};
+  if (deep)
+    return fmt::format("its {}-bit samples are read as numbers of {} bits: {:.0f} is white",
+                       deep->bits, std::bit_width(static_cast<unsigned>(scale.white)), scale.white);
+  const auto* real = std::get_if<RealImage>(&picture);
+  if (!real) return {};
+  return fmt::format("its {} samples are scaled: {:.6g} is black, {:.6g} is white", real->kind,
+                     scale.black, scale.white);
+}
+
+std::size_t take_pixels(DecodedImage decoded, const GreyScale& scale, Image& image) {
+  if (auto* plain = std::get_if<Image>(&decoded)) {
+    image = std::move(*plain);
+    return 0;
+  }
+  if (const auto* real = std::get_if<RealImage>(&decoded)) {
+    take_shape(*real, image);
+    return scale_samples(real->samples, scale, image.pixels);
+  }
+  const auto& deep = std::get<DeepImage>(decoded);
+  take_shape(deep, image);
+  if (const int depth = std::bit_width(static_cast<std::uint32_t>(scale.white));
+      scale.black == 0 && scale.white == (1 << depth) - 1) {
+    to_8_bits(deep.samples, depth, image.pixels);
+    return static_cast<std::size_t>(std::ranges::count_if(
+        deep.samples, [&](std::uint16_t sample) { return sample > scale.white; }));
+  }
+  const std::vector<float> samples(deep.samples.begin(), deep.samples.end());
+  return scale_samples(samples, scale, image.pixels);
 }
 
 void take_samples(const Samples2d<std::uint8_t>& picture, std::string_view name, Image& image) {

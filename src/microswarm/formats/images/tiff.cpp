@@ -2,7 +2,9 @@
 #include "microswarm/formats/images/tiff.hpp"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <tiffio.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -14,6 +16,8 @@
 #include <vector>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/formats/images/orientation.hpp"
+#include "microswarm/formats/images/tiff_samples.hpp"
 
 namespace microswarm::formats {
 namespace {
@@ -26,58 +30,56 @@ struct Page {
   std::uint32_t width = 0, height = 0;
   std::uint16_t bits = 1, samples = 1, format = SAMPLEFORMAT_UINT;
   std::uint16_t planes = PLANARCONFIG_CONTIG, photometric = PHOTOMETRIC_MINISBLACK;
+  std::uint16_t orientation = ORIENTATION_TOPLEFT, compression = COMPRESSION_NONE;
+
+  bool is_whole() const { return format == SAMPLEFORMAT_UINT || format == SAMPLEFORMAT_VOID; }
+  int channels() const { return samples >= 3 ? 3 : 1; }
 };
 
-/// Layout of samples of 9 to 16 bits in a row: of all channels, or of one plane.
-struct SampleLayout {
-  int bits = 16;
-  int step = 1;    ///< samples a pixel
-  int plane = -1;  ///< channel of the only sample; -1: all channels
+/// Name of the samples that become a RealImage; empty for others.
+std::string_view real_kind(const Page& p) {
+  if (p.format == SAMPLEFORMAT_IEEEFP && p.bits == 32) return "32-bit float";
+  if (p.format == SAMPLEFORMAT_IEEEFP && p.bits == 64) return "64-bit float";
+  if (p.format == SAMPLEFORMAT_INT && p.bits == 8) return "signed 8-bit";
+  if (p.format == SAMPLEFORMAT_INT && p.bits == 16) return "signed 16-bit";
+  if (p.format == SAMPLEFORMAT_INT && p.bits == 32) return "signed 32-bit";
+  if (p.is_whole() && p.bits == 32) return "32-bit";
+  return {};
+}
 
-  std::uint16_t plane_number() const { return static_cast<std::uint16_t>(std::max(plane, 0)); }
-  /// Size of a row [B].
-  std::size_t bytes(std::uint32_t pixels) const {
-    return (std::size_t{pixels} * static_cast<std::size_t>(step * bits) + 7) / 8;
-  }
-  /// Sample of a row. 16-bit samples have the computer's byte order; others are packed, high bits
-  /// first.
-  std::uint16_t at(const std::uint8_t* row, std::size_t sample) const {
-    if (bits == 16) {
-      std::uint16_t value = 0;
-      std::memcpy(&value, row + 2 * sample, sizeof value);
-      return value;
-    }
-    std::uint32_t value = 0;
-    const std::size_t first = sample * static_cast<std::size_t>(bits);
-    const std::size_t end = first + static_cast<std::size_t>(bits);
-    for (std::size_t byte = first / 8; 8 * byte < end; ++byte) value = value << 8 | row[byte];
-    const std::size_t after = (8 - end % 8) % 8;
-    return static_cast<std::uint16_t>(value >> after & ((1u << bits) - 1));
-  }
-  /// Copies `count` pixels of a row to column `x` of row `y`.
-  void place(const std::uint8_t* row, DeepImage& image, std::uint32_t x, std::uint32_t y,
-             std::uint32_t count) const {
-    const auto channels = static_cast<std::size_t>(image.channels);
-    auto* out = &image.samples[(y * static_cast<std::size_t>(image.width) + x) * channels];
-    for (std::size_t i = 0; i < count; ++i, out += channels) {
-      const std::size_t first = i * static_cast<std::size_t>(step);
-      if (plane >= 0)
-        out[plane] = at(row, first);
-      else
-        for (std::size_t c = 0; c < channels; ++c) out[c] = at(row, first + c);
-    }
-  }
-};
+/// Calls `with` with the reader of samples of this kind.
+template <class With>
+bool with_real_reader(const Page& p, With&& with) {
+  using namespace tiff;
+  if (p.format == SAMPLEFORMAT_IEEEFP)
+    return p.bits == 32 ? with(PlainSamples<float>()) : with(PlainSamples<double>());
+  if (p.format != SAMPLEFORMAT_INT) return with(PlainSamples<std::uint32_t>());
+  if (p.bits == 8) return with(PlainSamples<std::int8_t>());
+  return p.bits == 16 ? with(PlainSamples<std::int16_t>()) : with(PlainSamples<std::int32_t>());
+}
 
 int keep_silent(TIFF*, void*, const char*, const char*, va_list) { return 1; }
 
+int keep_count(TIFF*, void* errors, const char*, const char*, va_list) {
+  ++*static_cast<int*>(errors);
+  return 1;
+}
+
 }  // namespace
 
-/// The open file; libtiff's own messages are suppressed.
+/// The open file. libtiff's errors are counted, its messages are not shown.
 struct TiffPages::File {
+  /// Pages that follow each other without directories.
+  struct Row {
+    std::uint64_t begin = 0;  ///< of the first page in the file [B]
+    std::uint64_t size = 0;   ///< of a page [B]
+  };
+
   std::span<const std::byte> bytes;  // of a file in memory
   toff_t at = 0;                     // place in it
   TIFF* tiff = nullptr;
+  int errors = 0;
+  std::optional<Row> in_row;
 
   File() = default;
   ~File() {
@@ -89,7 +91,7 @@ struct TiffPages::File {
   void open(Open&& with) {
     TIFFOpenOptions* options = TIFFOpenOptionsAlloc();
     TIFFOpenOptionsSetMaxSingleMemAlloc(options, max_allocation);
-    TIFFOpenOptionsSetErrorHandlerExtR(options, keep_silent, nullptr);
+    TIFFOpenOptionsSetErrorHandlerExtR(options, keep_count, &errors);
     TIFFOpenOptionsSetWarningHandlerExtR(options, keep_silent, nullptr);
     tiff = with(options);
     TIFFOpenOptionsFree(options);
@@ -130,6 +132,8 @@ struct TiffPages::File {
     TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLEFORMAT, &p.format);
     TIFFGetFieldDefaulted(tiff, TIFFTAG_PLANARCONFIG, &p.planes);
     TIFFGetField(tiff, TIFFTAG_PHOTOMETRIC, &p.photometric);
+    TIFFGetFieldDefaulted(tiff, TIFFTAG_ORIENTATION, &p.orientation);
+    TIFFGetFieldDefaulted(tiff, TIFFTAG_COMPRESSION, &p.compression);
     return p;
   }
 
@@ -145,7 +149,8 @@ struct TiffPages::File {
   /// Decodes samples of at most 8 bits by libtiff's own conversion to red, green, blue.
   std::optional<DecodedImage> decode_8(const Page& p) const {
     std::vector<std::uint32_t> rgba(std::size_t{p.width} * p.height);
-    if (!TIFFReadRGBAImageOriented(tiff, p.width, p.height, rgba.data(), ORIENTATION_TOPLEFT, 1))
+    // In the order stored: libtiff mirrors, but does not transpose.
+    if (!TIFFReadRGBAImageOriented(tiff, p.width, p.height, rgba.data(), p.orientation, 1))
       return std::nullopt;
     const bool grey =
         p.photometric == PHOTOMETRIC_MINISBLACK || p.photometric == PHOTOMETRIC_MINISWHITE;
@@ -163,50 +168,154 @@ struct TiffPages::File {
 
   /// Decodes samples of 9 to 16 bits: grey, or the first three samples.
   std::optional<DecodedImage> decode_deep(const Page& p) const {
-    const int channels = p.samples >= 3 ? 3 : 1;
-    DeepImage image{static_cast<int>(p.width), static_cast<int>(p.height), channels, {}};
-    image.samples.resize(std::size_t{p.width} * p.height * static_cast<std::size_t>(channels));
-    const bool apart = p.planes == PLANARCONFIG_SEPARATE;
-    for (int plane = 0; plane < (apart ? channels : 1); ++plane) {
-      const SampleLayout layout{p.bits, apart ? 1 : p.samples, apart ? plane : -1};
-      if (!(TIFFIsTiled(tiff) ? decode_tiles(p, layout, image) : decode_rows(p, layout, image)))
-        return std::nullopt;
-    }
+    DeepImage image{.width = static_cast<int>(p.width),
+                    .height = static_cast<int>(p.height),
+                    .channels = p.channels(),
+                    .samples = {},
+                    .bits = p.bits};
+    if (!decode_samples(p, tiff::PackedSamples{p.bits}, image.samples)) return std::nullopt;
     if (p.photometric == PHOTOMETRIC_MINISWHITE)
       for (std::uint16_t& sample : image.samples)
         sample = static_cast<std::uint16_t>((1 << p.bits) - 1 - sample);
     return image;
   }
 
-  bool decode_rows(const Page& p, const SampleLayout& layout, DeepImage& image) const {
-    const std::size_t size = layout.bytes(p.width);
-    if (TIFFScanlineSize64(tiff) != size) return false;
-    std::vector<std::uint8_t> row(size);
-    for (std::uint32_t y = 0; y < p.height; ++y) {
-      if (TIFFReadScanline(tiff, row.data(), y, layout.plane_number()) != 1) return false;
-      layout.place(row.data(), image, 0, y, p.width);
+  /// Decodes signed and floating samples, and those of 32 bits.
+  std::optional<DecodedImage> decode_real(const Page& p) const {
+    RealImage image{.width = static_cast<int>(p.width),
+                    .height = static_cast<int>(p.height),
+                    .channels = p.channels(),
+                    .samples = {},
+                    .kind = real_kind(p)};
+    const bool good =
+        with_real_reader(p, [&](auto reader) { return decode_samples(p, reader, image.samples); });
+    if (!good) return std::nullopt;
+    if (p.photometric == PHOTOMETRIC_MINISWHITE)
+      for (float& sample : image.samples) sample = -sample;
+    return image;
+  }
+
+  /// Decodes 8-bit samples of a page that has no directory.
+  std::optional<DecodedImage> decode_8_in_row(const Page& p) const {
+    Image image{static_cast<int>(p.width), static_cast<int>(p.height), p.channels(), {}};
+    if (!decode_samples(p, tiff::PackedSamples{p.bits}, image.pixels)) return std::nullopt;
+    if (p.photometric == PHOTOMETRIC_MINISWHITE)
+      for (std::uint8_t& sample : image.pixels) sample = static_cast<std::uint8_t>(255 - sample);
+    return image;
+  }
+
+  template <class Sample, class Reader>
+  bool decode_samples(const Page& p, Reader reader, std::vector<Sample>& samples) const {
+    const auto channels = static_cast<std::size_t>(p.channels());
+    samples.resize(std::size_t{p.width} * p.height * channels);
+    const bool apart = p.planes == PLANARCONFIG_SEPARATE;
+    for (int plane = 0; plane < (apart ? p.channels() : 1); ++plane) {
+      const tiff::SampleRow row{p.bits, apart ? 1 : p.samples, apart ? plane : -1};
+      const tiff::SamplePlacer<Sample, Reader> placer{row, reader, samples.data(), p.width,
+                                                      channels};
+      if (!(in_row              ? decode_in_row(p, placer)
+            : TIFFIsTiled(tiff) ? decode_tiles(p, placer)
+                                : decode_rows(p, placer)))
+        return false;
     }
     return true;
   }
 
-  bool decode_tiles(const Page& p, const SampleLayout& layout, DeepImage& image) const {
+  bool decode_rows(const Page& p, const auto& placer) const {
+    const std::size_t size = placer.row.bytes(p.width);
+    if (TIFFScanlineSize64(tiff) != size) return false;
+    std::vector<std::uint8_t> row(size);
+    for (std::uint32_t y = 0; y < p.height; ++y) {
+      if (TIFFReadScanline(tiff, row.data(), y, placer.row.plane_number()) != 1) return false;
+      placer.place(row.data(), 0, y, p.width);
+    }
+    return true;
+  }
+
+  bool decode_tiles(const Page& p, const auto& placer) const {
     std::uint32_t width = 0, height = 0;
     TIFFGetField(tiff, TIFFTAG_TILEWIDTH, &width);
     TIFFGetField(tiff, TIFFTAG_TILELENGTH, &height);
     if (width == 0 || height == 0 || width > max_image_side || height > max_image_side)
       return false;
-    const std::size_t in_row = layout.bytes(width);
-    const std::size_t size = in_row * height;
+    const std::size_t a_row = placer.row.bytes(width);
+    const std::size_t size = a_row * height;
     if (size > max_allocation || TIFFTileSize64(tiff) != size) return false;
     std::vector<std::uint8_t> tile(size);
     for (std::uint32_t y = 0; y < p.height; y += height)
       for (std::uint32_t x = 0; x < p.width; x += width) {
-        if (TIFFReadTile(tiff, tile.data(), x, y, 0, layout.plane_number()) < 0) return false;
+        if (TIFFReadTile(tiff, tile.data(), x, y, 0, placer.row.plane_number()) < 0) return false;
         for (std::uint32_t k = 0; k < std::min(height, p.height - y); ++k)
-          layout.place(&tile[k * in_row], image, x, y + k, std::min(width, p.width - x));
+          placer.place(&tile[k * a_row], x, y + k, std::min(width, p.width - x));
       }
     return true;
   }
+
+  /// Page `page_in_row` of those that follow each other.
+  bool decode_in_row(const Page& p, const auto& placer) const {
+    std::vector<std::uint8_t> page(in_row->size);
+    const auto number = static_cast<std::uint64_t>(page_in_row);
+    if (!read_at(in_row->begin + in_row->size * number, page)) return false;
+    const auto count = static_cast<tmsize_t>(page.size()) / std::max(1, p.bits / 8);
+    if (TIFFIsByteSwapped(tiff) && p.bits == 16)
+      TIFFSwabArrayOfShort(reinterpret_cast<std::uint16_t*>(page.data()), count);
+    if (TIFFIsByteSwapped(tiff) && p.bits == 32)
+      TIFFSwabArrayOfLong(reinterpret_cast<std::uint32_t*>(page.data()), count);
+    const std::size_t a_row = placer.row.bytes(p.width);
+    for (std::uint32_t y = 0; y < p.height; ++y) placer.place(&page[y * a_row], 0, y, p.width);
+    return true;
+  }
+  bool read_at(std::uint64_t from, std::vector<std::uint8_t>& to) const {
+    if (!bytes.empty()) {
+      if (from > bytes.size() || to.size() > bytes.size() - from) return false;
+      std::memcpy(to.data(), &bytes[from], to.size());
+      return true;
+    }
+    for (std::size_t done = 0; done < to.size();) {
+      const ssize_t got =
+          ::pread(TIFFFileno(tiff), &to[done], to.size() - done, static_cast<off_t>(from + done));
+      if (got <= 0) return false;
+      done += static_cast<std::size_t>(got);
+    }
+    return true;
+  }
+
+  /// Size of the file [B].
+  std::uint64_t file_size() const {
+    if (!bytes.empty()) return bytes.size();
+    struct stat info {};
+    return ::fstat(TIFFFileno(tiff), &info) == 0 ? static_cast<std::uint64_t>(info.st_size) : 0;
+  }
+
+  /// Place of the pages without directories, if the only page is plain and in one piece.
+  std::optional<Row> find_row() const {
+    const Page p = page();
+    if (p.width > max_image_side || p.height > max_image_side) return std::nullopt;
+    const bool known = p.bits == 8 || p.bits == 16 || p.bits == 32;
+    if (!known || p.compression != COMPRESSION_NONE || TIFFIsTiled(tiff) ||
+        p.planes != PLANARCONFIG_CONTIG || (p.samples != 1 && p.samples != 3) ||
+        p.photometric == PHOTOMETRIC_PALETTE)
+      return std::nullopt;
+    const std::uint64_t size = std::uint64_t{p.width} * p.height * p.samples * p.bits / 8;
+    std::uint64_t end = TIFFGetStrileOffset(tiff, 0);
+    const Row row{end, size};
+    for (std::uint32_t i = 0; i + 1 < TIFFNumberOfStrips(tiff); ++i) {
+      end += TIFFGetStrileByteCount(tiff, i);
+      if (TIFFGetStrileOffset(tiff, i + 1) != end) return std::nullopt;
+    }
+    return size > 0 && row.begin > 0 ? std::optional(row) : std::nullopt;
+  }
+
+  TiffDescription description() const {
+    const char* text = nullptr;
+    if (TIFFGetField(tiff, TIFFTAG_IMAGEDESCRIPTION, &text) != 1 || !text) return {};
+    float x = 0, y = 0;
+    TIFFGetField(tiff, TIFFTAG_XRESOLUTION, &x);
+    TIFFGetField(tiff, TIFFTAG_YRESOLUTION, &y);
+    return parse_tiff_description(text, x, y);
+  }
+
+  int page_in_row = 0;
 };
 
 bool is_tiff(std::span<const std::byte> bytes) {
@@ -240,25 +349,69 @@ TiffPages::~TiffPages() = default;
 void TiffPages::count_pages() {
   TIFF* const tiff = file_->tiff;
   if (!tiff) throw InputError(name_ + ": is no TIFF that can be read");
+  description_ = file_->description();
+  file_->errors = 0;
   count_ = static_cast<int>(std::min<std::uint64_t>(TIFFNumberOfDirectories(tiff), max_pages));
   if (count_ == 0) throw InputError(name_ + ": holds no picture");
+  if (file_->errors > 0)
+    why_fewer_ = fmt::format(
+        "{}: the list of its pictures breaks off after {}: it is cut or damaged", name_, count_);
+  const int told = description_.images;
+  if (told > 1 && count_ == 1 && why_fewer_.empty() && description_.software == "ImageJ") {
+    file_->in_row = file_->find_row();
+    if (const auto& row = file_->in_row) {
+      const std::uint64_t size = file_->file_size();
+      const std::uint64_t whole = size > row->begin ? (size - row->begin) / row->size : 0;
+      count_ = static_cast<int>(std::clamp<std::uint64_t>(whole, 1, static_cast<unsigned>(told)));
+    }
+  }
+  if (why_fewer_.empty() && count_ < told)
+    why_fewer_ = fmt::format("{}: {} tells {} pictures in it, {} are there", name_,
+                             description_.software, told, count_);
+}
+
+/// Goes to the page `next_`.
+void TiffPages::step() {
+  if (file_->in_row)
+    file_->page_in_row = next_;
+  else if (next_ > 0 && !TIFFReadDirectory(file_->tiff))
+    throw InputError(
+        fmt::format("{}: picture {} is damaged, or the file ends early", name_, next_));
+}
+
+void TiffPages::skip() {
+  step();
+  ++next_;
 }
 
 DecodedImage TiffPages::next() {
-  TIFF* const tiff = file_->tiff;
-  const auto damaged = [&] {
-    return InputError(
-        fmt::format("{}: picture {} is damaged, or the file ends early", name_, next_));
-  };
-  if (next_ > 0 && !TIFFReadDirectory(tiff)) throw damaged();
+  step();
   const Page page = file_->page();
   check_image_size(page.width, page.height, name_);
-  const bool whole = page.format == SAMPLEFORMAT_UINT || page.format == SAMPLEFORMAT_VOID;
-  if (!whole || page.samples < 1 || page.samples > 16 || page.bits > 16)
-    throw InputError(fmt::format("{}: picture {} has no samples of 1 to 16 bits", name_, next_));
-  if (!file_->is_all_there()) throw damaged();
-  auto picture = page.bits > 8 ? file_->decode_deep(page) : file_->decode_8(page);
-  if (!picture) throw damaged();
+  const bool real = !real_kind(page).empty();
+  if (page.samples < 1 || page.samples > 16)
+    throw InputError(fmt::format("{}: picture {} has {} samples a pixel, at most 16 are read",
+                                 name_, next_, page.samples));
+  if (!real && (!page.is_whole() || page.bits > 16))
+    throw InputError(fmt::format(
+        "{}: picture {} has {} samples of {} bits, which are not read: save it with 8 or 16 bits, "
+        "or as 32-bit float",
+        name_, next_,
+        page.format == SAMPLEFORMAT_IEEEFP ? "float"
+        : page.is_whole()                  ? "whole"
+                                           : "signed or complex",
+        page.bits));
+  const auto decode = [&] {
+    if (!file_->in_row && !file_->is_all_there()) return std::optional<DecodedImage>();
+    if (real) return file_->decode_real(page);
+    if (page.bits > 8) return file_->decode_deep(page);
+    return file_->in_row ? file_->decode_8_in_row(page) : file_->decode_8(page);
+  };
+  std::optional<DecodedImage> picture = decode();
+  if (!picture)
+    throw InputError(
+        fmt::format("{}: picture {} is damaged, or the file ends early", name_, next_));
+  orient(*picture, page.orientation);
   ++next_;
   return *std::move(picture);
 }

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "microswarm/formats/images/deep_image.hpp"
+#include "microswarm/formats/images/tiff_description.hpp"
 
 namespace microswarm::formats {
 
@@ -16,7 +17,10 @@ namespace microswarm::formats {
 bool is_tiff(std::span<const std::byte> bytes);
 
 /// Pages of a TIFF or BigTIFF, read one after the other in linear time. Strips and tiles, in every
-/// compression of libtiff. The size of a page is checked before decoding.
+/// compression of libtiff; samples of 1 to 16 bits, signed ones, and whole or floating ones of 32
+/// and 64 bits. Pages are turned by their orientation. The size of a page is checked before
+/// decoding. A file in the layout that ImageJ gives those above 4 GB, one directory and the pages
+/// one after the other behind its first, has all of them.
 class TiffPages {
  public:
   /// Opens a file. All members throw InputError "FILE: WHY".
@@ -28,16 +32,26 @@ class TiffPages {
   TiffPages& operator=(const TiffPages&) = delete;
 
   int count() const { return count_; }
+  /// Why there are fewer pages than the file says, "FILE: WHY"; empty if there are not.
+  const std::string& why_fewer() const { return why_fewer_; }
+  /// Description that ImageJ or OME wrote.
+  const TiffDescription& description() const { return description_; }
+
   /// Pixels of the next page: one channel (grey) or three (red, green, blue) without
-  /// transparency. May be called at most `count()` times.
+  /// transparency. `next` and `skip` may be called at most `count()` times together.
   DecodedImage next();
+  /// Passes over the next page.
+  void skip();
 
  private:
   struct File;
   void count_pages();
+  void step();
 
   std::string name_;
   std::unique_ptr<File> file_;
+  TiffDescription description_;
+  std::string why_fewer_;
   int count_ = 0;
   int next_ = 0;
 };

@@ -68,7 +68,7 @@ struct VideoForm {
 class Media {
  public:
   virtual ~Media() = default;
-  /// A JPEG or BMP without samples if they cannot be decoded.
+  /// A JPEG or BMP as it is stored, not turned; without samples if they cannot be decoded.
   virtual Photograph decode(std::span<const std::byte> bytes) const = 0;
   /// Opens a video; null if it cannot be read.
   virtual std::unique_ptr<VideoInput> open(const std::filesystem::path& file) const = 0;

@@ -42,7 +42,7 @@ class OpenCvMedia : public Media {
     try {
       const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8UC1,
                         const_cast<std::byte*>(bytes.data()));
-      const cv::Mat pixels = cv::imdecode(raw, cv::IMREAD_ANYCOLOR);
+      const cv::Mat pixels = cv::imdecode(raw, cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION);
       Photograph photograph{pixels.cols, pixels.rows, pixels.channels(), {}};
       photograph.samples.resize(pixels.total() * pixels.elemSize());
       cv::Mat out(pixels.rows, pixels.cols, pixels.type(), photograph.samples.data());

@@ -2,7 +2,9 @@
 #include "microswarm/rig/runtime/devices.hpp"
 
 #include <chrono>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "microswarm/core/execution/clock.hpp"
 #include "microswarm/core/fields/overloaded.hpp"
@@ -18,17 +20,21 @@ class PacedVideo : public vision::FrameSource {
       : video_(std::move(video)), began_(steady_seconds()) {}
   bool next(vision::VideoFrame& frame) override {
     if (!video_->next(frame)) return false;
-    const double left = began_ + frame.t - steady_seconds();
+    if (!first_) first_ = frame.t;
+    const double left = began_ + (frame.t - *first_) - steady_seconds();
     if (left > 0) std::this_thread::sleep_for(std::chrono::duration<double>(left));
     return true;
   }
   std::string why_ended() const override { return video_->why_ended(); }
   std::optional<int> count() const override { return video_->count(); }
   std::optional<double> rate() const override { return video_->rate(); }
+  std::optional<double> um_per_px() const override { return video_->um_per_px(); }
+  std::vector<std::string> notes() const override { return video_->notes(); }
 
  private:
   std::unique_ptr<vision::FrameSource> video_;
   double began_;
+  std::optional<double> first_;  ///< time of the first picture [s]
 };
 
 std::unique_ptr<vision::FrameSource> open_video(const VideoCamera& video, const Rig& rig) {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/vision/camera/frames.hpp"
 
-#include <algorithm>
-#include <cctype>
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 #include <vector>
 
 #include "microswarm/core/errors/error.hpp"
@@ -16,6 +16,10 @@
 #include "microswarm/formats/images/samples.hpp"
 #include "microswarm/formats/images/tiff.hpp"
 #include "microswarm/formats/media/media.hpp"
+#include "microswarm/vision/camera/frame_times.hpp"
+#include "microswarm/vision/camera/picture_names.hpp"
+#include "microswarm/vision/camera/stack_pages.hpp"
+#include "microswarm/vision/camera/video_recorder.hpp"
 #include "microswarm/vision/image/mat.hpp"
 
 namespace microswarm::vision {
@@ -27,32 +31,81 @@ namespace fs = std::filesystem;
   throw InputError(source.string() + ": " + why);
 }
 
-/// Base of all sources: indices, times, one size.
+/// Times that are given beforehand, one a picture.
+struct GivenTimes {
+  std::vector<double> times;  ///< [s]
+  std::string name;           ///< of their file; empty if they are of the source itself
+  bool asked = false;         ///< the user named the file
+};
+
+/// Base of all sources: indices, times, one size, one scale of grey.
 class Source : public FrameSource {
  public:
-  Source(fs::path name, std::optional<double> rate) : name_(std::move(name)), rate_(rate) {}
+  Source(fs::path name, const FrameOptions& options)
+      : name_(std::move(name)), rate_(options.rate), depth_(options.depth) {}
   std::optional<double> rate() const override { return rate_; }
   bool next(VideoFrame& frame) final {
     if (!why_ended_.empty()) return false;
     try {
-      return read(frame);
+      const bool read_one = read(frame);
+      if (!read_one && !at_end_) note_surplus_times();
+      at_end_ = !read_one;
+      return read_one;
     } catch (const InputError& error) {
-      if (next_ == 0) throw;
+      if (next_ == 0 || times_are_short_) throw;
       why_ended_ = error.what();
       return false;
     }
   }
   std::string why_ended() const override { return why_ended_; }
+  std::vector<std::string> notes() const override {
+    std::vector<std::string> lines = notes_;
+    if (beyond_ > 0)
+      lines.push_back(
+          fmt::format("{}: {} of {} pictures have samples beyond the first's scale, "
+                      "which are cut",
+                      name_.string(), beyond_, next_));
+    return lines;
+  }
+  /// Whether `count` is what can be read, if nothing is damaged; a video's header may err.
+  virtual bool count_is_certain() const { return true; }
+  void set_times(GivenTimes given) {
+    given_ = std::move(given);
+    const std::vector<double>& t = given_->times;
+    if (t.size() > 1) rate_ = static_cast<double>(t.size() - 1) / (t.back() - t.front());
+  }
+  /// Checks a number of times against a number of pictures that is certain.
+  void require_times(std::size_t pictures) const {
+    if (given_ && given_->asked && given_->times.size() != pictures)
+      fail(given_->name,
+           fmt::format("{} times, there are {} pictures", given_->times.size(), pictures));
+  }
 
  protected:
   /// The next picture; false at the end. Throws InputError.
   virtual bool read(VideoFrame& frame) = 0;
   const fs::path& name() const { return name_; }
+  void note(const std::string& what) { notes_.push_back(name_.string() + ": " + what); }
+  void end(const std::string& why) { why_ended_ = why; }
+  bool has_times() const { return given_.has_value(); }
   void set_rate(double rate) {
     if (!rate_ && std::isfinite(rate) && rate > 0 && rate < 1e6) rate_ = rate;
   }
-  /// Numbers a picture and checks its size; `file` is where it came from.
-  void number(VideoFrame& frame, const fs::path& file) {
+  /// Scales a picture as the first one that is not of 8 bits.
+  void take(formats::DecodedImage decoded, formats::Image& picture) {
+    if (!scale_ && !std::holds_alternative<formats::Image>(decoded)) {
+      scale_ = formats::scale_of(decoded);
+      if (depth_ && std::holds_alternative<formats::DeepImage>(decoded))
+        scale_ = formats::GreyScale::of_depth(*depth_);
+      else if (const std::string text = formats::scale_note(decoded, *scale_); !text.empty())
+        note(text);
+    }
+    beyond_ += formats::take_pixels(std::move(decoded), scale_.value_or(formats::GreyScale{}),
+                                    picture) > 0;
+  }
+  /// Numbers a picture and checks its size; `file` is where it came from, `t` its time, if the
+  /// source knows it.
+  void number(VideoFrame& frame, const fs::path& file, std::optional<double> t = std::nullopt) {
     const formats::Image& p = frame.picture;
     if (next_ == 0) {
       width_ = p.width;
@@ -61,8 +114,9 @@ class Source : public FrameSource {
     if (p.width != width_ || p.height != height_)
       fail(file, size_text(p.width, p.height) + " pixels, the first picture has " +
                      size_text(width_, height_));
-    frame.index = next_++;
-    frame.t = frame.index / rate_.value_or(1);
+    frame.index = next_;
+    frame.t = given_ ? given_time() : t.value_or(frame.index / rate_.value_or(1));
+    ++next_;
   }
   int given() const { return next_; }
 
@@ -70,70 +124,73 @@ class Source : public FrameSource {
   static std::string size_text(int width, int height) {
     return std::to_string(width) + "x" + std::to_string(height);
   }
+  double given_time() {
+    const auto at = static_cast<std::size_t>(next_);
+    if (at < given_->times.size()) return given_->times[at];
+    times_are_short_ = given_->asked;
+    fail(given_->name, fmt::format("{} times, {} has more pictures", at, name_.string()));
+  }
+  void note_surplus_times() {
+    if (given_ && given_->times.size() > static_cast<std::size_t>(next_))
+      note(fmt::format("{} holds {} times, there are {} pictures",
+                       given_->name.empty() ? "it" : given_->name, given_->times.size(), next_));
+  }
 
   fs::path name_;
   std::optional<double> rate_;
+  std::optional<int> depth_;
+  std::optional<formats::GreyScale> scale_;
+  std::optional<GivenTimes> given_;
   std::string why_ended_;
+  std::vector<std::string> notes_;
+  bool times_are_short_ = false;
+  bool at_end_ = false;
+  int beyond_ = 0;
   int next_ = 0;
   int width_ = 0;
   int height_ = 0;
 };
-
-/// The last run of digits in a name, without leading zeros; "" without digits.
-std::string last_number(const fs::path& file) {
-  const std::string stem = file.stem().string();
-  const auto is_digit = [](unsigned char c) { return std::isdigit(c) != 0; };
-  const auto end = std::find_if(stem.rbegin(), stem.rend(), is_digit);
-  const auto begin = std::find_if_not(end, stem.rend(), is_digit);
-  std::string digits(begin.base(), end.base());
-  digits.erase(0, std::min(digits.find_first_not_of('0'), digits.size()));
-  return digits;
-}
 
 bool is_tiff(const fs::path& file) {
   const std::string extension = lower_extension(file);
   return extension == ".tif" || extension == ".tiff";
 }
 
-/// Reads the next page; the first page that needs a depth sets it.
-void take_page(formats::TiffPages& pages, std::optional<int>& depth, formats::Image& picture) {
-  formats::DecodedImage page = pages.next();
-  const auto* deep = std::get_if<formats::DeepImage>(&page);
-  if (!depth && deep) depth = formats::used_depth(deep->samples);
-  formats::take_pixels(std::move(page), depth.value_or(16), picture);
-}
-
 /// Reads the only picture of a TIFF; in a folder a file holds one picture.
-void read_only_page(const fs::path& file, std::optional<int>& depth, formats::Image& picture) {
+formats::DecodedImage read_only_page(const fs::path& file) {
   formats::TiffPages pages(file);
   if (pages.count() > 1)
     fail(file,
          "holds " + std::to_string(pages.count()) + " pictures: name the file, not its folder");
-  take_page(pages, depth, picture);
+  return pages.next();
 }
 
 class Pictures : public Source {
  public:
-  Pictures(const fs::path& name, std::vector<fs::path> files, std::optional<double> rate,
-           std::optional<int> depth)
-      : Source(name, rate), files_(std::move(files)), depth_(depth) {}
+  Pictures(const fs::path& name, std::vector<fs::path> files, const FrameOptions& options)
+      : Source(name, options), files_(std::move(files)), numbers_(numbers_in(files_)) {
+    if (numbers_ && numbers_->gaps > 0 && options.times.empty())
+      note(
+          fmt::format("numbers in the names have {} gap{}, first between {}: taken as gaps in time",
+                      numbers_->gaps, numbers_->gaps == 1 ? "" : "s", numbers_->first_gap));
+  }
   bool read(VideoFrame& frame) override {
     const auto at = static_cast<std::size_t>(given());
     if (at >= files_.size()) return false;
-    if (is_tiff(files_[at])) {
-      read_only_page(files_[at], depth_, frame.picture);
-    } else {
-      if (!depth_) depth_ = formats::sample_depth(files_[at]).value_or(16);
-      frame.picture = formats::read_image(files_[at], *depth_);
-    }
-    number(frame, files_[at]);
+    if (is_tiff(files_[at]))
+      take(read_only_page(files_[at]), frame.picture);
+    else
+      take(formats::read_stored(files_[at]), frame.picture);
+    std::optional<double> t;
+    if (numbers_ && numbers_->gaps > 0) t = numbers_->steps[at] / rate().value_or(1);
+    number(frame, files_[at], t);
     return true;
   }
   std::optional<int> count() const override { return static_cast<int>(files_.size()); }
 
  private:
   std::vector<fs::path> files_;
-  std::optional<int> depth_;
+  std::optional<NumberedNames> numbers_;
 };
 
 std::vector<fs::path> pictures_in(const fs::path& folder) {
@@ -142,12 +199,7 @@ std::vector<fs::path> pictures_in(const fs::path& folder) {
     if (formats::has_image_extension(entry.path()) && entry.path().filename().string()[0] != '.')
       files.push_back(entry.path());
   if (files.empty()) fail(folder, "no pictures in this folder (PNG, JPEG, BMP, TIFF, PGM or PPM)");
-  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
-    const std::string p = last_number(a);
-    const std::string q = last_number(b);
-    if (p.size() != q.size()) return p.size() < q.size();
-    return p != q ? p < q : a < b;
-  });
+  sort_naturally(files);
   return files;
 }
 
@@ -166,36 +218,72 @@ void require_fit(const fs::path& source, const cv::Size& size) {
 
 class TiffStack : public Source {
  public:
-  TiffStack(const fs::path& file, std::optional<double> rate, std::optional<int> depth)
-      : Source(file, rate), pages_(file), depth_(depth) {}
+  TiffStack(const fs::path& file, const FrameOptions& options)
+      : Source(file, options),
+        pages_(file),
+        chosen_(choose_pages(pages_.description(), pages_.count(), options, file.string())) {
+    const formats::TiffDescription& told = pages_.description();
+    for (const std::string& text : chosen_.notes) note(text);
+    if (told.um_per_px && told.um_per_px_y &&
+        std::abs(*told.um_per_px - *told.um_per_px_y) > 1e-3 * *told.um_per_px)
+      note(fmt::format("pixels of {:.6g} × {:.6g} µm are not square", *told.um_per_px,
+                       *told.um_per_px_y));
+    if (options.rate || !options.times.empty()) return;
+    if (chosen_.times.size() > 1) {
+      note(fmt::format("the times are those that {} tells", told.software));
+      const double zero = chosen_.times.front();
+      for (double& t : chosen_.times) t -= zero;
+      set_times({chosen_.times, {}, false});
+    } else if (told.interval) {
+      note(fmt::format("pictures are {:.6g} s apart, as {} tells", *told.interval, told.software));
+      set_rate(1 / *told.interval);
+    }
+  }
   bool read(VideoFrame& frame) override {
-    if (given() >= pages_.count()) return false;
-    take_page(pages_, depth_, frame.picture);
+    const auto at = static_cast<std::size_t>(given());
+    if (at >= chosen_.pages.size()) {
+      end(pages_.why_fewer());
+      return false;
+    }
+    for (; passed_ < chosen_.pages[at]; ++passed_) pages_.skip();
+    take(pages_.next(), frame.picture);
+    ++passed_;
     number(frame, name());
     return true;
   }
-  std::optional<int> count() const override { return pages_.count(); }
+  std::optional<int> count() const override { return static_cast<int>(chosen_.pages.size()); }
+  bool count_is_certain() const override { return pages_.why_fewer().empty(); }
+  std::optional<double> um_per_px() const override { return pages_.description().um_per_px; }
 
  private:
   formats::TiffPages pages_;
-  std::optional<int> depth_;
+  StackPages chosen_;
+  int passed_ = 0;  ///< pages
 };
 
 class VideoFile : public Source {
  public:
-  VideoFile(const fs::path& file, std::optional<double> rate)
-      : Source(file, rate), video_(formats::media().open(file)) {
+  VideoFile(const fs::path& file, const FrameOptions& options)
+      : Source(file, options), video_(formats::media().open(file)) {
     if (!video_) fail(file, "is no video that can be read");
     require_fit(file, {video_->width, video_->height});
     set_rate(video_->rate);
+    if (!options.rate && options.times.empty()) {
+      clock_.emplace(rate().value_or(1), video_->tick);
+      take_recorded_times();
+    }
   }
   bool read(VideoFrame& frame) override {
     if (!video_->read(mat_)) {
       if (given() == 0) fail(name(), "holds no picture that can be read");
+      check_end();
       return false;
     }
     take_picture(mat_, frame.picture);
-    number(frame, name());
+    in_file_ = video_->time.value_or(in_file_);
+    std::optional<double> t;
+    if (clock_) t = clock_->next(video_->time);
+    number(frame, name(), t);
     return true;
   }
   std::optional<int> count() const override {
@@ -203,27 +291,74 @@ class VideoFile : public Source {
     if (!(told >= 1 && told < 1e9)) return std::nullopt;
     return static_cast<int>(told);
   }
+  bool count_is_certain() const override { return false; }
+  std::vector<std::string> notes() const override {
+    std::vector<std::string> lines = Source::notes();
+    if (clock_ && !has_times())
+      for (const std::string& text : clock_->notes())
+        lines.push_back(name().string() + ": " + text);
+    return lines;
+  }
 
  private:
+  /// Times that VideoRecorder wrote beside its video.
+  void take_recorded_times() {
+    const fs::path table = VideoRecorder::times_file(name());
+    std::error_code none;
+    if (!fs::is_regular_file(table, none)) return;
+    try {
+      const std::string text = read_file(table);
+      if (!is_recorded_table(text)) return;
+      set_times({parse_frame_times(text, table.string()), table.string(), false});
+      note("the times are those of " + table.string() + ", which was recorded with it");
+    } catch (const InputError& error) {
+      note("the table beside it is not used: " + std::string(error.what()));
+    }
+  }
+  /// A file without a number of pictures may say when they end.
+  void check_end() {
+    if (count() || !clock_ || video_->end <= 0) return;
+    const double end_s = video_->end;
+    if (in_file_ + 1.5 * clock_->widest() + 0.01 * end_s < end_s)
+      end(fmt::format("{}: its pictures end at {:.4g} s, it says that it lasts {:.4g} s",
+                      name().string(), in_file_, end_s));
+  }
+
   std::unique_ptr<formats::VideoInput> video_;
+  std::optional<ContainerClock> clock_;
+  double in_file_ = 0;  ///< time of the last picture in the file [s]
   cv::Mat mat_;
 };
 
-}  // namespace
-
-std::unique_ptr<FrameSource> open_frames(const fs::path& source, std::optional<double> rate,
-                                         std::optional<int> depth) {
+std::unique_ptr<Source> open_source(const fs::path& source, const FrameOptions& options) {
   std::error_code error;
   const fs::file_status status = fs::status(source, error);
   if (!fs::exists(status)) fail(source, "cannot read: No such file or directory");
   if (fs::is_directory(status))
-    return std::make_unique<Pictures>(source, pictures_in(source), rate, depth);
+    return std::make_unique<Pictures>(source, pictures_in(source), options);
   if (!fs::is_regular_file(status)) fail(source, "is neither a file nor a folder");
   if (fs::file_size(source) == 0) fail(source, "is empty");
-  if (is_tiff(source)) return std::make_unique<TiffStack>(source, rate, depth);
+  if (is_tiff(source)) return std::make_unique<TiffStack>(source, options);
   if (formats::has_image_extension(source))
-    return std::make_unique<Pictures>(source, std::vector<fs::path>{source}, rate, depth);
-  return std::make_unique<VideoFile>(source, rate);
+    return std::make_unique<Pictures>(source, std::vector<fs::path>{source}, options);
+  return std::make_unique<VideoFile>(source, options);
+}
+
+}  // namespace
+
+std::unique_ptr<FrameSource> open_frames(const fs::path& source, const FrameOptions& options) {
+  std::unique_ptr<Source> opened = open_source(source, options);
+  if (!options.times.empty()) {
+    opened->set_times({read_frame_times(options.times), options.times.string(), true});
+    if (opened->count_is_certain())
+      opened->require_times(static_cast<std::size_t>(opened->count().value_or(0)));
+  }
+  return opened;
+}
+
+std::unique_ptr<FrameSource> open_frames(const fs::path& source, std::optional<double> rate,
+                                         std::optional<int> depth) {
+  return open_frames(source, FrameOptions{.rate = rate, .depth = depth});
 }
 
 void take_channel(const formats::Image& picture, VideoChannel channel, formats::Image& grey) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "microswarm/core/fields/fields.hpp"
 #include "microswarm/formats/images/image.hpp"
@@ -17,7 +18,7 @@ namespace microswarm::vision {
 /// A picture of a video.
 struct VideoFrame {
   int index = 0;           ///< from 0
-  double t = 0;            ///< time since the first [s]
+  double t = 0;            ///< time since the first, or as a table of times says [s]
   formats::Image picture;  ///< grey or colour
 };
 
@@ -34,16 +35,33 @@ class FrameSource {
   virtual std::string why_ended() const { return {}; }
   /// Number of pictures, if known in advance; a video file may hold fewer.
   virtual std::optional<int> count() const = 0;
-  /// Frame rate [Hz], if the source reports it.
+  /// Mean frame rate [Hz], if the source reports it.
   virtual std::optional<double> rate() const = 0;
+  /// Side of a pixel [µm], if the source reports it.
+  virtual std::optional<double> um_per_px() const { return std::nullopt; }
+  /// Assumptions and omissions so far, "SOURCE: WHAT" each. Lines are only added.
+  virtual std::vector<std::string> notes() const { return {}; }
 };
 
-/// Opens a video file, a folder of pictures (PNG, JPEG, BMP, TIFF, PGM, PPM; in the order of the
-/// last number in their names) or a TIFF of many pictures. `rate` [1/s] overrides the source's; the
-/// default of a source without a rate, such as a folder, is 1/s. 16-bit samples of PNG and TIFF are
-/// numbers of `depth` bits, 8 to 16, by default as many as the first picture needs; all pictures
-/// are scaled to 8 bits by the same factor, and larger values become white. Throws InputError
-/// "SOURCE: WHY" if there is no readable picture.
+/// Options of `open_frames`.
+struct FrameOptions {
+  std::optional<double> rate = std::nullopt;        ///< [1/s], instead of the source's times
+  std::optional<int> depth = std::nullopt;          ///< bits, 8 to 16, used of 16-bit samples
+  std::filesystem::path times = {};                 ///< table of the pictures' times; empty: none
+  std::optional<int> stack_channel = std::nullopt;  ///< of a TIFF that holds several, from 1
+  std::optional<int> slice = std::nullopt;          ///< of a TIFF that holds several, from 1
+};
+
+/// Opens a video file, a folder of pictures (PNG, JPEG, BMP, TIFF, PGM, PPM; in the natural order
+/// of their names) or a TIFF of many pictures. Times are, in this order: those of the table `times`
+/// (`parse_frame_times`); `rate`; those that VideoRecorder wrote into a table beside the video;
+/// those in the video's container, or in a TIFF of ImageJ or OME; one picture a second. Where names
+/// in a folder differ by one number, its gaps are gaps in time. Samples of more than 8 bits are
+/// scaled as `scale_of` says for the first picture, or as numbers of `depth` bits. Throws
+/// InputError "SOURCE: WHY" if there is no readable picture, and for a stack of several channels,
+/// or of several slices at several times, of which none is chosen.
+std::unique_ptr<FrameSource> open_frames(const std::filesystem::path& source,
+                                         const FrameOptions& options);
 std::unique_ptr<FrameSource> open_frames(const std::filesystem::path& source,
                                          std::optional<double> rate = std::nullopt,
                                          std::optional<int> depth = std::nullopt);

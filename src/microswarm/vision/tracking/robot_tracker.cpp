@@ -24,13 +24,25 @@ RobotTracker::RobotTracker(const TrackerParams& p, double diameter, double frame
   assert(diameter > 0 && frame_time > 0);
 }
 
-const std::vector<SeenRobot>& RobotTracker::step(int frame, std::span<const Vec2> seen) {
-  for (Robot& robot : robots_) robot.filter.predict(frame_time_, noise_);
+const std::vector<SeenRobot>& RobotTracker::step(int frame, std::span<const Vec2> seen,
+                                                 std::optional<double> elapsed) {
+  predict(elapsed.value_or(frame_time_));
   find_candidates(seen);
   match(frame, seen);
   give_birth(frame, seen);
   bury();
   return sightings_;
+}
+
+void RobotTracker::predict(double elapsed) {
+  RobotNoise noise = noise_;
+  if (std::abs(elapsed - frame_time_) > 1e-9 * frame_time_) {  // else rounding of even times
+    noise.jitter *= std::sqrt(elapsed / frame_time_);
+    noise.speed_change *= std::sqrt(elapsed / frame_time_);
+  } else {
+    elapsed = frame_time_;
+  }
+  for (Robot& robot : robots_) robot.filter.predict(elapsed, noise);
 }
 
 void RobotTracker::finish() {

@@ -87,8 +87,10 @@ class RobotTracker {
   RobotTracker(const TrackerParams& params, double diameter, double frame_time);
 
   /// Processes the next frame with the detected positions [µm]. Returns the robot at each position,
-  /// in the same order. Valid until the next call.
-  const std::vector<SeenRobot>& step(int frame, std::span<const Vec2> seen);
+  /// in the same order. Valid until the next call. `elapsed` [s] is the time since the frame
+  /// before, above 0, where frames are not even; the noise of prediction grows with it.
+  const std::vector<SeenRobot>& step(int frame, std::span<const Vec2> seen,
+                                     std::optional<double> elapsed = std::nullopt);
 
   /// Ends the video: all remaining tracks die.
   void finish();
@@ -115,6 +117,7 @@ class RobotTracker {
     RobotFilter filter;
   };
 
+  void predict(double elapsed);
   void find_candidates(std::span<const Vec2> seen);
   void match(int frame, std::span<const Vec2> seen);
   void miss(Robot& robot, int frame, std::span<const Vec2> seen);

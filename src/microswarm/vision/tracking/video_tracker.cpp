@@ -16,6 +16,14 @@ double picture_scale(const TrackSettings& settings) {
 
 }  // namespace
 
+FrameOptions frame_options(const TrackSettings& settings, const std::filesystem::path& times) {
+  return {.rate = settings.rate,
+          .depth = settings.depth,
+          .times = times,
+          .stack_channel = settings.stack_channel,
+          .slice = settings.slice};
+}
+
 VideoTracker::VideoTracker(const TrackSettings& settings, double frame_time)
     : channel_(settings.channel),
       um_per_px_(picture_scale(settings)),
@@ -28,7 +36,10 @@ const std::vector<TrackRow>& VideoTracker::step(const VideoFrame& frame) {
   places_.clear();
   for (const Particle& particle : found)
     places_.push_back(place_in_world(particle.at_px, grey_.height, um_per_px_));
-  const std::vector<SeenRobot>& sightings = tracker_.step(frame.index, places_);
+  std::optional<double> elapsed;
+  if (last_ && frame.t > *last_) elapsed = frame.t - *last_;
+  last_ = frame.t;
+  const std::vector<SeenRobot>& sightings = tracker_.step(frame.index, places_, elapsed);
   rows_.clear();
   for (std::size_t i = 0; i < found.size(); ++i)
     rows_.push_back({.frame = frame.index,

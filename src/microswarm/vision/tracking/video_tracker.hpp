@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <vector>
 
@@ -13,9 +14,11 @@ namespace microswarm::vision {
 
 /// Settings of video tracking, as in a file for `microswarm track --config`.
 struct TrackSettings {
-  std::optional<double> um_per_px;  ///< required for tracking
+  std::optional<double> um_per_px;  ///< required for tracking, unless the source reports it
   std::optional<double> rate;
   std::optional<int> depth;
+  std::optional<int> stack_channel;
+  std::optional<int> slice;
   VideoChannel channel = VideoChannel::grey;
   ParticleParams find;
   TrackerParams track;
@@ -25,11 +28,17 @@ struct TrackSettings {
     visit(self.um_per_px, plain("um_per_px", 1e-6, 1e6, "Scale: side of a pixel in µm."));
     visit(self.rate, hz("rate", 1e-6, 1e6, "Frame rate; none: that of the video."));
     visit(self.depth, plain("depth", 8, 16, "Bits used of 16-bit samples; none: measured."));
+    visit(self.stack_channel,
+          plain("stack_channel", 1, 1e6, "Channel of a TIFF that holds several, from 1."));
+    visit(self.slice, plain("slice", 1, 1e6, "Slice of a TIFF that holds several, from 1."));
     visit(self.channel, plain("channel", "Colour channel used."));
     visit(self.find, plain("find", "Detection of robots in an image."));
     visit(self.track, plain("track", "Tracking of robots through the images."));
   }
 };
+
+/// Options to read the pictures by these settings; `times` is a table of their times, or empty.
+FrameOptions frame_options(const TrackSettings& settings, const std::filesystem::path& times = {});
 
 /// A robot seen in a frame. The world's origin is the picture's lower left corner, y points up. The
 /// last columns repeat number and position under the names that trackpy and its users know.
@@ -48,7 +57,7 @@ struct TrackRow {
   static void fields(Self& self, V&& visit) {
     visit(self.frame, plain("frame", "Picture, from 0."));
     visit(self.id, plain("id", "Robot, from 0 in the order of birth."));
-    visit(self.t, s("t", "Time since the first picture."));
+    visit(self.t, s("t", "Time since the first picture, or as given."));
     visit(self.position.x, um("x", "Centre, to the right from the picture's left."));
     visit(self.position.y, um("y", "Centre, up from the picture's lower border."));
     visit(self.velocity.x, um_per_s("vx", "Velocity by the filter, to the right."));
@@ -66,7 +75,8 @@ struct TrackRow {
 /// Finds and tracks the robots of a video, picture by picture.
 class VideoTracker {
  public:
-  /// `frame_time` is the time between pictures [s]. Throws InputError for inconsistent settings.
+  /// `frame_time` is the mean time between pictures [s]; the filter goes by their own. Throws
+  /// InputError for inconsistent settings.
   VideoTracker(const TrackSettings& settings, double frame_time);
 
   /// Processes the next picture. Returns the rows of the robots seen in it, valid until the next
@@ -81,6 +91,7 @@ class VideoTracker {
   double um_per_px_;
   ParticleFinder finder_;
   RobotTracker tracker_;
+  std::optional<double> last_;  ///< time of the picture before [s]
   formats::Image grey_;
   std::vector<Vec2> places_;
   std::vector<TrackRow> rows_;

@@ -10,18 +10,23 @@ TrackResult track_video(FrameSource& frames, const std::string& source,
                      .settings = settings,
                      .frame_time = 1 / frames.rate().value_or(1),
                      .promised = frames.count(),
+                     .times = {},
+                     .notes = {},
                      .rows = {},
                      .events = {}};
-  VideoTracker tracker(settings, result.frame_time);
+  if (!settings.um_per_px) result.settings.um_per_px = frames.um_per_px();
+  VideoTracker tracker(result.settings, result.frame_time);
   VideoFrame frame;
   while (!stop() && frames.next(frame)) {
     const std::vector<TrackRow>& rows = tracker.step(frame);
     result.rows.insert(result.rows.end(), rows.begin(), rows.end());
     result.frames = frame.index + 1;
+    result.times.push_back(frame.t);
     if (on_tracked) on_tracked(frame, rows);
   }
   tracker.finish();
   result.events = tracker.events();
+  result.notes = frames.notes();
   return result;
 }
 

@@ -15,9 +15,11 @@ namespace microswarm::vision {
 struct TrackResult {
   std::string source;
   TrackSettings settings;
-  double frame_time = 1;  ///< [s]
+  double frame_time = 1;  ///< mean [s]
   int frames = 0;
-  std::optional<int> promised;  ///< number of frames stated by the video
+  std::optional<int> promised;     ///< number of frames stated by the video
+  std::vector<double> times;       ///< of each picture [s]
+  std::vector<std::string> notes;  ///< what was assumed in reading the pictures
   std::vector<TrackRow> rows;
   std::vector<TrackEvent> events;
 };
@@ -26,8 +28,8 @@ struct TrackResult {
 using OnTracked = std::function<void(const VideoFrame&, const std::vector<TrackRow>&)>;
 
 /// Tracks picture by picture to the end of `frames`, or until `stop`. A source without a rate
-/// has one picture a second. `source` is its name in the result. Throws InputError for inconsistent
-/// settings, and like FrameSource::next.
+/// has one picture a second; settings without a scale have that of the source. `source` is its name
+/// in the result. Throws InputError for inconsistent settings, and like FrameSource::next.
 TrackResult track_video(FrameSource& frames, const std::string& source,
                         const TrackSettings& settings, const OnTracked& on_tracked,
                         const Stop& stop = {});

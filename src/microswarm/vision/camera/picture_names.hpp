@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace microswarm::vision {
+
+/// Natural order of names: runs of digits are compared as numbers, the rest letter by letter.
+bool naturally_before(std::string_view a, std::string_view b);
+
+/// Sorts files by the natural order of their names without extensions.
+void sort_naturally(std::vector<std::filesystem::path>& files);
+
+/// Numbers in the names of a series.
+struct NumberedNames {
+  /// For each file its number's distance from the first one's, in steps; a step is the usual
+  /// distance of neighbours.
+  std::vector<double> steps;
+  int gaps = 0;           ///< neighbours that are farther apart than a step
+  std::string first_gap;  ///< "f005.png and f026.png"
+};
+
+/// Numbers of sorted files, whose names must be alike except for one number; nothing otherwise.
+std::optional<NumberedNames> numbers_in(const std::vector<std::filesystem::path>& files);
+
+}  // namespace microswarm::vision

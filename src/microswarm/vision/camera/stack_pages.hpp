@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "microswarm/formats/images/tiff_description.hpp"
+#include "microswarm/vision/camera/frames.hpp"
+
+namespace microswarm::vision {
+
+/// Pages of a stack that are one after the other in time.
+struct StackPages {
+  std::vector<int> pages;     ///< from 0, ascending
+  std::vector<double> times;  ///< of each [s] as the file says; empty without
+  std::vector<std::string> notes;
+};
+
+/// Chooses those of one channel and slice among `count` pages. Slices of a stack without times are
+/// taken as times, as ImageJ stores a plain stack, unless one is chosen. Throws InputError
+/// "NAME: WHY" if there are several and none is chosen, or one that is not there.
+StackPages choose_pages(const formats::TiffDescription& description, int count,
+                        const FrameOptions& options, const std::string& name);
+
+}  // namespace microswarm::vision
