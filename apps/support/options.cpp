@@ -7,7 +7,6 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/lines.hpp"
 #include "microswarm/core/text/text.hpp"
-#include "microswarm/formats/images/image.hpp"
 #include "microswarm/formats/map_file.hpp"
 
 namespace microswarm::cli {
@@ -95,6 +94,12 @@ void add_json(Command command, bool& value) {
   command.add_flag("--json", value, "Print the result as JSON");
 }
 
+formats::Image read_photo(const std::string& file) {
+  formats::ReadPicture picture = formats::read_picture(file);
+  note_each(picture.notes);
+  return std::move(picture.image);
+}
+
 void add_photo(Command command, PhotoOptions& options) {
   command.add_option("--photo", options.file, "Photograph as background of the pictures")
       .type_name("FILE")
@@ -107,7 +112,7 @@ report::ReportOptions report_options(const PhotoOptions& options) {
   if (options.file.empty()) return {};
   if (!options.um_per_px)
     throw InputError(options.file + ": µm per px is missing: give --um-per-px");
-  return {formats::read_photograph(options.file), *options.um_per_px};
+  return {read_photo(options.file), *options.um_per_px};
 }
 
 std::vector<double> numbers(std::string_view text) {

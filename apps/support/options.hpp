@@ -9,6 +9,7 @@
 
 #include "microswarm/config/type.hpp"
 #include "microswarm/formats/map_file.hpp"
+#include "microswarm/formats/images/image.hpp"
 #include "microswarm/report/run_report.hpp"
 #include "support/cli.hpp"
 #include "support/command.hpp"
@@ -52,6 +53,9 @@ void add_settings(Command command, std::vector<std::string>& values, const char*
 /// Completes keys of `keys()` and, after `=`, their values.
 Suggest suggest_settings(const Type& (*keys)());
 void add_json(Command command, bool& value);
+
+/// Reads a photograph; what was assumed in it is a note. Throws InputError.
+formats::Image read_photo(const std::string& file);
 
 /// Option `--photo` with its `--um-per-px`, for commands that draw reports.
 struct PhotoOptions {

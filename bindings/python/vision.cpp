@@ -25,11 +25,17 @@ py::dict segment(const py::object& photo, double um_per_px, double smooth, const
     take_array(photo.cast<py::array>(), depth, name, image);
   }
   vision::VesselSegmentation found;
+  Notes notes;
   Map map = interruptible([&](const Stop& stop) {
-    if (image.pixels.empty()) image = formats::read_photograph(name);
+    if (image.pixels.empty()) {
+      formats::ReadPicture read = formats::read_picture(name);
+      image = std::move(read.image);
+      notes = std::move(read.notes);
+    }
     found = vision::segment_vessels(image, params, stop);
     return vision::vessel_map(found, um_per_px, smooth, name, stop);
   });
+  warn(notes);
   py::dict out;
   out["map"] = map_in_memory(std::move(map));
   out["mask"] = to_array(found.vessels);
@@ -81,10 +87,15 @@ py::dict to_tracks(const vision::TrackResult& result) {
 class ArrayTracker {
  public:
   explicit ArrayTracker(const Given& settings)
-      : result_{.settings = track_settings(settings), .promised = {}, .rows = {}, .events = {}},
+      : result_{.settings = track_settings(settings),
+                .promised = {},
+                .times = {},
+                .notes = {},
+                .rows = {},
+                .events = {}},
         tracker_(result_.settings, 1 / result_.settings.rate.value_or(1)) {}
 
-  void step(const py::array& array) {
+  void step(const py::array& array, const std::optional<double>& t) {
     const std::string name = "frame " + std::to_string(result_.frames);
     take_array(array, result_.settings.depth, name, frame_.picture);
     const formats::Image& picture = frame_.picture;
@@ -98,7 +109,7 @@ class ArrayTracker {
                        std::to_string(height_) + " × " + std::to_string(width_));
     const Free free;
     frame_.index = result_.frames;
-    frame_.t = frame_.index / result_.settings.rate.value_or(1);
+    frame_.t = t.value_or(frame_.index / result_.settings.rate.value_or(1));
     const std::vector<vision::TrackRow>& rows = tracker_.step(frame_);
     result_.rows.insert(result_.rows.end(), rows.begin(), rows.end());
     ++result_.frames;
@@ -117,13 +128,16 @@ class ArrayTracker {
 };
 
 /// Tracks the robots of a video file or a folder of pictures.
-py::dict track_file(const std::string& file, const Given& given, const py::object& report) {
+py::dict track_file(const std::string& file, const Given& given, const std::string& times,
+                    const py::object& report) {
   const vision::TrackSettings settings = track_settings(given);
   std::atomic<double> done = 0;
   std::string ended;
   const auto work = [&](const Stop& stop) {
-    const auto frames = vision::open_frames(file, settings.rate, settings.depth);
+    const auto frames = vision::open_frames(file, vision::frame_options(settings, times));
     if (!frames->rate()) throw InputError(file + ": tells no times: give fps or times_s");
+    if (!settings.um_per_px && !frames->um_per_px())
+      throw InputError(file + ": tells no scale: give um_per_px");
     const double all = frames->count().value_or(0);
     vision::TrackResult result = vision::track_video(
         *frames, file, settings,
@@ -141,6 +155,7 @@ py::dict track_file(const std::string& file, const Given& given, const py::objec
   });
   py::dict out = to_tracks(result);
   out["ended"] = ended;
+  out["notes"] = result.notes;
   return out;
 }
 

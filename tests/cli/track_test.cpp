@@ -109,10 +109,10 @@ TEST_F(Track, SuggestsWhatSeparatesRobotsFromNoise) {
            "find.min_mass=" + std::to_string(json.at("min_mass").get<int>())});
   EXPECT_EQ(set.err, "");
   EXPECT_NE(set.out.find("8 frames, 3.0 robots in each"), std::string::npos) << set.out;
-  write("noisy/f9.pgm", pgm(3, 2, [](int, int) { return 99; }));
+  write("noisy/f8.pgm", pgm(3, 2, [](int, int) { return 99; }));
   const Outcome odd = run({"track", "noisy", "--suggest"});
   EXPECT_EQ(odd.code, 0);
-  EXPECT_TRUE(is_one_line_naming(odd.err, "note", {"f9.pgm", "3x2"})) << odd.err;
+  EXPECT_TRUE(is_one_line_naming(odd.err, "note", {"f8.pgm", "3x2"})) << odd.err;
   refused({"track", "noisy", "--um-per-px", "1"}, naming("track", {"--out"}));
   refused({"track", "none.mp4", "--suggest"}, naming("none.mp4", {"No such file"}));
 }
@@ -198,6 +198,45 @@ TEST_F(Track, BadInputIsRefused) {
   fs::create_directories(at.folder / "nothing");
   bad({"nothing", "--um-per-px", "1", "--out", "out"},
       naming("nothing", {"PNG", "JPEG", "BMP", "PGM", "PPM"}));
+}
+
+TEST_F(Track, TimesOfATableAreThoseOfTheTracks) {
+  film("video", 12);
+  std::string times = "picture;t_s\n";
+  for (int k = 0; k < 12; ++k)
+    times += std::to_string(k) + ";" + std::to_string(5 + (k < 6 ? 0.1 * k : 0.5 * k - 2)) + "\n";
+  write("times.csv", times);
+  const Arguments words{"track", "video",     "--um-per-px", "0.5",   "--out",
+                        "out",   "--times", "times.csv",   "--json"};
+  const Json json = Json::parse(good(words));
+  EXPECT_EQ(json.at("notes"), Json::array());
+  // 0.5 µm a picture each way, in 3.5 - 0 = 3.5 s for eleven steps.
+  EXPECT_NEAR(json.at("mean_speed_um_per_s"), 11 * 0.5 * std::sqrt(2.0) / 3.5, 0.01);
+  const std::string csv = read("out/tracks.csv");
+  EXPECT_NE(csv.find("\n0,0,5,"), std::string::npos);
+  EXPECT_NE(csv.find("\n11,0,8.5,"), std::string::npos);
+  EXPECT_TRUE(read("out/events.csv").starts_with("frame,t_s,event,id,other\n0,5,birth,0,\n"));
+  Arguments both = words;
+  both.insert(both.end(), {"--rate", "10"});
+  refused(both, naming("times.csv", {"rate"}));
+  write("times.csv", "0\n1\n");
+  refused(words, "times.csv: 2 times, there are 12 pictures");
+  write("times.csv", "0\n1\n1\n");
+  refused(words, "times.csv:3: time 1 s is not after 1 s");
+}
+
+TEST_F(Track, GapsInNamesAreGapsInTimeAndTold) {
+  film("video", 12);
+  for (int k = 11; k >= 6; --k)
+    fs::rename(at.folder / ("video/f" + std::to_string(k) + ".pgm"),
+               at.folder / ("video/f" + std::to_string(k + 20) + ".pgm"));
+  const Outcome outcome = run({"track", "video", "--um-per-px", "0.5", "--rate", "10", "--out",
+                               "out", "--no-overlay", "--json"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_TRUE(is_one_line_naming(outcome.err, "note", {"1 gap", "f5.pgm and f26.pgm"}))
+      << outcome.err;
+  EXPECT_EQ(Json::parse(outcome.out).at("notes").size(), 1U);
+  EXPECT_NE(read("out/tracks.csv").find("\n6,0,2.6,"), std::string::npos);
 }
 
 TEST_F(Track, APictureThatCannotBeReadEndsAFolder) {

@@ -122,12 +122,42 @@ def test_times_of_ones_own(video, tmp_path):
     for bad in (times[:-1], times[::-1], [1], "soon", np.full(12, np.nan), np.zeros((12, 2)), None):
         with pytest.raises(ms.InputError, match="times"):
             ms.track(video, 0.5, times_s=bad)
-    with pytest.raises(ms.InputError, match="11 times, there are 12"):
+    with pytest.raises(ms.InputError, match="11 times, there are more"):
         ms.track((one for one in video), 0.5, times_s=times[:-1])
     with pytest.raises(ms.InputError, match="both"):
         ms.track(video, 0.5, 4, times_s=times)
     with pytest.raises(ms.InputError, match="tells no times"):
         ms.track(folder, 0.5)
+    table = tmp_path / "times.csv"
+    table.write_text("picture,t_s\n" + "".join(f"{k},{t}\n" for k, t in enumerate(times)))
+    assert ms.track(folder, 0.5, times_s=table, min_mass=100).tobytes() == tracks.tobytes()
+    table.write_text("1\n2\n")
+    with pytest.raises(ms.InputError, match="2 times, there are 12 pictures"):
+        ms.track(folder, 0.5, times_s=table)
+
+
+def test_velocities_follow_uneven_times(video):
+    times = np.where(np.arange(12) < 6, np.arange(12) / 4, np.arange(12) - 4.5)
+    tracks = ms.track(video, 0.5, times_s=times, min_mass=100)
+    even = ms.track(video, 0.5, 4, min_mass=100)
+    last, same = (one[one["frame"] == 11] for one in (tracks, even))
+    assert np.allclose(last["vx_um_per_s"], same["vx_um_per_s"] / 4, rtol=0.1)
+
+
+def test_gaps_in_names_are_gaps_in_time(video, tmp_path):
+    folder = folder_of(tmp_path / "in", video)
+    for k in range(6, 12):
+        (folder / f"{k:03}.pgm").rename(folder / f"{k + 20:03}.pgm")
+    with pytest.warns(UserWarning, match="1 gap, first between 005.pgm and 026.pgm"):
+        tracks = ms.track(folder, 0.5, 4, min_mass=100)
+    assert set(tracks["t_s"].tolist()) == {k / 4 for k in (*range(6), *range(26, 32))}
+
+
+def test_a_scale_is_needed(video, tmp_path):
+    with pytest.raises(ms.InputError, match="um_per_px is missing"):
+        ms.track(video, fps=4)
+    with pytest.raises(ms.InputError, match="tells no scale: give um_per_px"):
+        ms.track(folder_of(tmp_path / "in", video), fps=4)
 
 
 def test_one_picture_at_a_time_is_held(video):

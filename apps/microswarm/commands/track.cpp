@@ -20,6 +20,7 @@ struct TrackOptions {
   std::string video;
   std::string out;
   std::string config;
+  std::string times;
   std::optional<double> um_per_px;
   std::optional<double> rate;
   std::vector<std::string> settings;
@@ -39,9 +40,18 @@ vision::TrackSettings to_settings(const TrackOptions& o) {
   }
   if (o.um_per_px) settings.um_per_px = o.um_per_px;
   if (o.rate) settings.rate = o.rate;
-  if (!settings.um_per_px && !o.suggest)
-    throw InputError(o.video + ": µm per px is missing: give --um-per-px");
+  if (settings.rate && !o.times.empty())
+    throw InputError(o.times + ": times and a rate are both given");
   return settings;
+}
+
+/// Takes the scale of the source where none is given.
+void find_scale(vision::TrackSettings& settings, const vision::FrameSource& source,
+                const std::string& name) {
+  if (settings.um_per_px) return;
+  settings.um_per_px = source.um_per_px();
+  if (!settings.um_per_px) throw InputError(name + ": µm per px is missing: give --um-per-px");
+  note("note: {}: a pixel is {:.6g} µm, as the file tells\n", name, *settings.um_per_px);
 }
 
 /// Tracks the video with a progress bar; `overlay` may be null.
@@ -72,19 +82,23 @@ void note_noise(const vision::TrackResult& result) {
 int track(const TrackOptions& o, const Context& context) {
   if (o.suggest) return suggest_tracking(o.video, to_settings(o), o.out, o.json, context.stop);
   if (o.out.empty()) throw InputError("track: --out is missing");
-  const vision::TrackSettings settings = to_settings(o);
+  vision::TrackSettings settings = to_settings(o);
   const std::unique_ptr<vision::FrameSource> source =
-      vision::open_frames(o.video, settings.rate, settings.depth);
+      vision::open_frames(o.video, vision::frame_options(settings, o.times));
+  find_scale(settings, *source, o.video);
   if (!source->rate())
-    note("note: {} has no times, one picture a second is assumed: give --rate\n", o.video);
+    note("note: {} has no times, one picture a second is assumed: give --rate or --times\n",
+         o.video);
   const OutFolder hold(o.out);
   const std::filesystem::path folder = o.out;
   keep_track_input(folder, o.video);
   keep_track_input(folder, o.config);
+  keep_track_input(folder, o.times);
   std::optional<vision::VideoFileWriter> overlay;
   if (!o.no_overlay) overlay.emplace(folder / "overlay.mp4", source->rate().value_or(1));
   const vision::TrackResult result =
       follow(*source, o.video, settings, overlay ? &*overlay : nullptr, context.stop);
+  note_each(result.notes);
   if (const std::string why = source->why_ended(); !why.empty())
     note("note: the tracks end at picture {}: {}\n", result.frames, why);
   else if (!context.stop.requested() && result.frames + 1 < result.promised.value_or(0))
@@ -126,6 +140,8 @@ void add_track(Command app, Action& action) {
   cmd.add_option("--rate", o->rate, "Frames per second; overrides the value in the video")
       .type_name("NUMBER")
       .check(number(1e-6, 1e6));
+  cmd.add_option("--times", o->times, "Times of the pictures: seconds, one a line, or column t_s")
+      .type_name("FILE");
   cmd.add_option("--config", o->config, "Settings file (YAML); other options override it")
       .type_name("FILE");
   add_settings(cmd, o->settings, "Override a value, e.g. find.tone=bright",

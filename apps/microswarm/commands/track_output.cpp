@@ -28,7 +28,7 @@ struct EventRow {
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.frame, plain("frame", "Picture, from 0."));
-    visit(self.t, s("t", "Time since the first picture."));
+    visit(self.t, s("t", "Time since the first picture, or as given."));
     visit(self.event, plain("event", "Kind of the event."));
     visit(self.id, plain("id", "Robot."));
     visit(self.other, plain("other", "Robot it merged with or split from."));
@@ -38,7 +38,8 @@ struct EventRow {
 std::string events_csv(const vision::TrackResult& result) {
   std::vector<EventRow> rows;
   for (const vision::TrackEvent& e : result.events)
-    rows.push_back({e.frame, e.frame * result.frame_time, e.change, e.id, e.other});
+    rows.push_back(
+        {e.frame, result.times.at(static_cast<std::size_t>(e.frame)), e.change, e.id, e.other});
   return io::csv_table(rows);
 }
 
@@ -65,6 +66,10 @@ std::string tracks_h5(const vision::TrackResult& result) {
   file.attribute("/", "um_per_px", result.settings.um_per_px.value_or(0));
   file.attribute("/", "frame_time_s", result.frame_time);
   file.text("/settings", to_yaml(result.settings));
+  file.text("/notes", fmt::format("{}", fmt::join(result.notes, "\n")));
+  file.dataset("/times_s", result.times);
+  file.attribute("/times_s", "unit", "s");
+  file.attribute("/times_s", "description", "Time of each picture.");
   for (const io::Column& column : io::to_columns<vision::TrackRow>(io::ColumnUnits::shown)) {
     const std::string path = "/tracks/" + column.key;
     if (column.kind == io::ColumnKind::integer) {
@@ -128,7 +133,9 @@ nlohmann::ordered_json tracks_json(const vision::TrackResult& result) {
           {"drift_px", pair(1 / scale, -1 / scale)},
           {"mean_speed_um_per_s", s.mean_speed ? Json(*s.mean_speed) : Json(nullptr)},
           {"merges", count_changes(result, vision::TrackChange::merge)},
-          {"splits", count_changes(result, vision::TrackChange::split)}};
+          {"splits", count_changes(result, vision::TrackChange::split)},
+          {"um_per_px", scale},
+          {"notes", result.notes}};
 }
 
 std::string track_summary(const vision::TrackResult& result) {

@@ -32,6 +32,7 @@ std::vector<formats::Image> sample(vision::FrameSource& source, vision::VideoCha
       vision::take_channel(frame.picture, channel, pictures.emplace_back());
   if (const std::string why = source.why_ended(); !why.empty())
     note("note: the pictures end at picture {}: {}\n", read, why);
+  note_each(source.notes());
   return pictures;
 }
 
@@ -143,7 +144,7 @@ void draw(const vision::ParticleSuggestion& s, const std::filesystem::path& file
 
 int suggest_tracking(const std::string& source, const vision::TrackSettings& settings,
                      const std::filesystem::path& out, bool json, const Stop& stop) {
-  const auto frames = vision::open_frames(source, settings.rate, settings.depth);
+  const auto frames = vision::open_frames(source, vision::frame_options(settings));
   const std::vector<formats::Image> pictures = sample(*frames, settings.channel, stop);
   if (stop.requested()) return not_reached;
   if (pictures.empty()) throw InputError(source + ": has no pictures");

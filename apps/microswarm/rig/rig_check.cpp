@@ -58,6 +58,7 @@ void ask_camera(const rig::Rig& rig, const CheckOptions& o, const Stop& stop, An
     return answers.say(true, "camera", "simulated");
   try {
     std::unique_ptr<vision::FrameSource> source = rig::open_rig_camera(rig);
+    note_each(source->notes());
     const std::optional<double> rate = source->rate();
     vision::NewestFrame camera(std::move(source), "camera", rig::camera_watch(rig.params));
     answer(answers, rig::check_camera(camera, rig, rate, o.seconds, stop));

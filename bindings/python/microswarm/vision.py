@@ -64,7 +64,7 @@ def segment(image: Any, um_per_px: float, *, smooth_px: float = 1.0, **values: A
 
 def track(
     frames: Union[np.ndarray, Iterable[Any], PathLike],
-    um_per_px: float,
+    um_per_px: Optional[float] = None,
     fps: Optional[float] = None,
     *,
     times_s: Any = None,
@@ -77,14 +77,18 @@ def track(
     frames         array of shape (n, height, width) or (n, height, width, 3), any iterable of such pictures,
                    which are held one at a time, or the name of a video, folder of pictures or TIFF. Pictures are
                    uint8, or uint16, whose numbers have as many bits as the first picture needs, or `depth`.
-    um_per_px      side of a pixel, 1e-6 to 1e6
-    fps            frame rate [Hz]; default: the video's own
-    times_s        time of each picture, ascending, instead of fps. The tracker assumes even times with the same mean
-                   distance, also in velocities.
+    um_per_px      side of a pixel, 1e-6 to 1e6; default: what ImageJ or OME wrote into a TIFF
+    fps            frame rate [Hz]; default: the times of the file, or of the table that `rig run --video` wrote beside
+                   it
+    times_s        time of each picture [s], ascending, instead of fps, or for a file the name of a table of them:
+                   one a line, or a column t_s
     return_events  return (tracks, events)
     progress       called with the completed share; False: nothing is shown
     values         values of `track --set`, with or without their group: diameter_px=11, min_mass=40, tone="bright",
-                   channel="red", memory=5, search_range_um=4, or find={"diameter_px": 11}
+                   channel="red", memory=5, search_range_um=4, stack_channel=2 and slice=1 of a TIFF that holds
+                   several, or find={"diameter_px": 11}
+
+    What was assumed in reading a file is a warning.
 
     Returns a structured array with a row for each robot in each picture, ordered by pictures, which pandas.DataFrame
     accepts. Columns as trackpy's: frame and particle, from 0; x and y in pixels, where y points down and (0, 0) is the
@@ -93,18 +97,25 @@ def track(
     `signal` are grey values of 8 bits. Events have frame, event ("birth", "death", "merge", "split"), particle and
     other, -1 without.
     """
-    scale = in_range("um_per_px", um_per_px, 1e-6, 1e6)
-    times = None if times_s is None else ascending(times_s)
+    is_file = isinstance(frames, (str, os.PathLike))
+    if times_s is not None and fps is not None:
+        raise InputError("fps and times_s are both given")
+    table = path_text(times_s, "times_s") if is_file and isinstance(times_s, (str, os.PathLike)) else ""
+    times = None if times_s is None or table else ascending(times_s)
     if times is not None:
-        if fps is not None:
-            raise InputError("fps and times_s are both given")
         fps = (len(times) - 1) / (times[-1] - times[0])
-    settings = [setting("um_per_px", scale), *track_settings(values)]
+    settings = track_settings(values)
+    if um_per_px is not None:
+        settings.insert(0, setting("um_per_px", in_range("um_per_px", um_per_px, 1e-6, 1e6)))
+    elif not is_file:
+        raise InputError("um_per_px is missing: arrays tell no scale")
     if fps is not None:
         settings.append(setting("rate_hz", in_range("fps", fps, 1e-6, 1e6)))
     with shown(progress) as report:
-        if isinstance(frames, (str, os.PathLike)):
-            made = _core.track_file(path_text(frames, "frames"), settings, report)
+        if is_file:
+            made = _core.track_file(path_text(frames, "frames"), settings, table, report)
+            for note in made["notes"]:
+                warnings.warn(note, stacklevel=2)
             if made["ended"]:
                 warnings.warn(f"the tracks end at picture {made['frames']}: {made['ended']}", stacklevel=2)
         elif fps is None:
@@ -135,7 +146,9 @@ def track_arrays(frames: Any, settings: list[tuple[str, str]], report: Any, time
     tracker = _core.ArrayTracker(settings)
     done = 0
     for done, frame in enumerate(pictures, 1):
-        tracker.step(picture_of(f"frame {done - 1}", frame))
+        if times is not None and done > len(times):
+            raise InputError(f"times_s has {len(times)} times, there are more pictures")
+        tracker.step(picture_of(f"frame {done - 1}", frame), None if times is None else times[done - 1])
         if report and count:
             report(min(1.0, done / count))
     if done == 0:

@@ -49,7 +49,7 @@ struct SeeOptions {
 
 /// Reads a picture of the same scene. Throws InputError if its size differs.
 formats::Image read_still(const std::string& file, const formats::Image& picture) {
-  formats::Image still = formats::read_photograph(file);
+  formats::Image still = read_photo(file);
   if (still.width != picture.width || still.height != picture.height)
     throw InputError(fmt::format("{}: is {} × {} px, the picture is {} × {} px", file, still.width,
                                  still.height, picture.width, picture.height));

@@ -46,7 +46,7 @@ vision::AnyCameraParams find_camera(const std::string& source, const std::string
 }
 
 formats::Image take_picture(const std::string& source, const vision::AnyCameraParams& camera) {
-  if (!is_camera(source)) return formats::read_photograph(source);
+  if (!is_camera(source)) return read_photo(source);
   vision::NewestFrame live = vision::live_camera(camera_for(source, camera));
   vision::LiveFrame frame;
   const double began = steady_seconds();
