@@ -106,7 +106,7 @@ def rows(turns, steps):
         yield Row(f"gathering, {name}, {physics}, {BATCH} at once, renewed in place", "steps of each per second", "1/s", all_of_them, their, peer_name, aim)
         yield Row(f"gathering, {name}, {physics}, {BATCH} at once, renewed in place", "robot-steps per second", "1/s", PARTICLES * all_of_them, aim=ROBOT_STEPS)
     scenario = ROOT / "scenarios" / "first_flight.yaml"
-    many = environments.NavigationVectorEnv(BATCH, scenario, random_start=True, random_goal=True)
+    many = environments.NavigationVectorEnv(BATCH, scenario, random_start=True, random_goal=True, scaled=False)
     many.reset(seed=1)
     given = np.column_stack((random.uniform(-3, 3, BATCH), np.ones(BATCH)))
     made = statistics.median(BATCH * speed(many.step, [given] * max(2, steps // 50)) for _ in range(turns))

@@ -3,12 +3,14 @@
 #include <numbers>
 
 #include "calls.hpp"
+#include "environment_states.hpp"
 #include "guarded.hpp"
 #include "microswarm/config/write.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/environments/environment_batch.hpp"
 #include "microswarm/environments/gathering/gathering_episode.hpp"
 #include "microswarm/environments/navigation/navigation_episode.hpp"
+#include "microswarm/environments/navigation/navigation_picture.hpp"
 #include "scenario_text.hpp"
 
 namespace microswarm::python {
@@ -28,16 +30,19 @@ struct Environments {
   using Episode = Episode_;
   using Number = Number_;
 
-  std::unique_ptr<const Task> task;
+  std::shared_ptr<const Task> task;
   std::vector<py::ssize_t> shape;  ///< of one observation
   environments::EnvironmentBatch<Episode, Number> batch;
   QuickCalls steps;
 
-  Environments(Task given, std::vector<py::ssize_t> of_one, std::size_t count, std::uint64_t seed,
-               int threads)
-      : task(std::make_unique<const Task>(std::move(given))),
+  Environments(Task given, std::vector<py::ssize_t> of_one, std::size_t count, int threads,
+               environments::Autoreset autoreset)
+      : task(std::make_shared<const Task>(std::move(given))),
         shape(std::move(of_one)),
-        batch(*task, count, size(count), seed, threads) {}
+        // same_step keeps the last observations beside the new ones
+        batch(*task, count,
+              size(autoreset == environments::Autoreset::same_step ? 2 * count : count), 0, threads,
+              autoreset) {}
   /// Numbers of one observation. Throws InputError if all environments take more than 8 GB.
   std::size_t size(std::size_t count = 1) const {
     constexpr double most = 8e9;
@@ -52,13 +57,22 @@ struct Environments {
 };
 using Gathering =
     Environments<environments::GatheringTask, environments::GatheringEpisode, std::uint8_t>;
-using Navigation =
-    Environments<environments::NavigationTask, environments::NavigationEpisode, float>;
+struct Navigation
+    : Environments<environments::NavigationTask, environments::NavigationEpisode, float> {
+  using Environments::Environments;
+  std::shared_ptr<const environments::NavigationPicture> picture;  ///< made when it is asked for
+};
+
+environments::Autoreset to_autoreset(const std::string& name) {
+  if (name == "SameStep") return environments::Autoreset::same_step;
+  if (name == "Disabled") return environments::Autoreset::disabled;
+  return environments::Autoreset::next_step;
+}
 
 std::unique_ptr<Guarded<Gathering>> open_gathering(
     const py::array_t<std::uint8_t, py::array::c_style>& free,
     const std::optional<std::array<int, 2>>& goal, const Given& settings, std::size_t count,
-    int threads) {
+    int threads, const std::string& autoreset) {
   if (free.ndim() != 2) throw InputError("a maze must have 2 dimensions");
   const auto rules = to_rules<environments::GatheringRules>(settings);
   std::optional<environments::MazePlace> place;
@@ -70,19 +84,21 @@ std::unique_ptr<Guarded<Gathering>> open_gathering(
     environments::GatheringTask task(environments::GatheringMaze(cells, width, height), rules,
                                      place);
     const std::vector<py::ssize_t> shape{task.maze.height(), task.maze.width(), task.channels()};
-    return std::make_unique<Gathering>(std::move(task), shape, count, 0, threads);
+    return std::make_unique<Gathering>(std::move(task), shape, count, threads,
+                                       to_autoreset(autoreset));
   });
   return std::make_unique<Guarded<Gathering>>(std::move(made), "environment");
 }
 
 std::unique_ptr<Guarded<Navigation>> open_navigation(const ScenarioText& scenario,
                                                      const Given& settings, std::size_t count,
-                                                     int threads) {
+                                                     int threads, const std::string& autoreset) {
   const auto rules = to_rules<environments::NavigationRules>(settings);
   auto made = interruptible([&](const Stop&) {
     environments::NavigationTask task(scenario.open(), rules);
     const std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(task.observation_size())};
-    return std::make_unique<Navigation>(std::move(task), shape, count, 0, threads);
+    return std::make_unique<Navigation>(std::move(task), shape, count, threads,
+                                        to_autoreset(autoreset));
   });
   return std::make_unique<Guarded<Navigation>>(std::move(made), "environment");
 }
@@ -93,11 +109,21 @@ std::size_t to_action(const Gathering&, std::uint8_t action) {
   return action;
 }
 
-/// Action from a heading [rad] and a share of the maximum speed.
-environments::NavigationAction to_action(const Navigation& all, double heading, double share) {
-  if (!std::isfinite(heading) || !(share >= 0 && share <= 1))
+/// Action from a heading [rad] and a share of the maximum speed; scaled from a velocity as a share
+/// of the maximum in x and y, of which what is longer than 1 is cut.
+environments::NavigationAction to_action(const Navigation& all, double first, double second) {
+  if (all.task->rules().scaled) {
+    constexpr double most = 1 + 1e-5;  // as float32 rounds
+    if (!(std::abs(first) <= most && std::abs(second) <= most))
+      throw InputError(
+          "an action must be 2 numbers from -1 to 1, the velocity in x and y as shares of the "
+          "maximum; with scaled=False it is a heading_rad and a share of the speed");
+    const Vec2 velocity{first, second};
+    return {heading_along(velocity), std::min(norm(velocity), 1.0) * all.task->max_speed()};
+  }
+  if (!std::isfinite(first) || !(second >= 0 && second <= 1))
     throw InputError("an action must be a finite heading_rad and a share of the speed from 0 to 1");
-  return {heading, share * all.task->max_speed()};
+  return {first, second * all.task->max_speed()};
 }
 
 /// A copy of one observation.
@@ -109,15 +135,37 @@ py::array_t<typename All::Number> observation(All& all, std::size_t index) {
   return copy;
 }
 
+/// Success and reason at the end of an episode, else empty.
+py::dict info(const environments::EnvironmentStep& made) {
+  py::dict out;
+  if (!made.has_ended()) return out;
+  out["success"] = py::bool_(made.success);
+  out["is_success"] = py::bool_(made.success);  // the name that Stable-Baselines3 looks for
+  out["reason"] = py::str(made.reason.data(), made.reason.size());
+  return out;
+}
+
 /// Result of a step in Gymnasium's form; py::make_tuple would take half of a step's time.
 template <class All>
 py::tuple step_one(All& all, const environments::EnvironmentStep& made) {
   py::tuple out(5);
   PyObject* const parts[] = {observation(all, 0).release().ptr(), PyFloat_FromDouble(made.reward),
                              PyBool_FromLong(made.terminated), PyBool_FromLong(made.truncated),
-                             PyDict_New()};
+                             info(made).release().ptr()};
   for (py::ssize_t i = 0; i < 5; ++i) PyTuple_SET_ITEM(out.ptr(), i, parts[i]);
   return out;
+}
+
+/// Index, success and reason of each episode that has ended with the last step; none if none has.
+template <class All>
+py::object ends(const All& all) {
+  py::list list;
+  for (std::size_t i = 0; i < all.batch.count(); ++i) {
+    const environments::EnvironmentStep& made = all.batch.made(i);
+    if (made.has_ended())
+      list.append(py::make_tuple(i, made.success, py::str(made.reason.data(), made.reason.size())));
+  }
+  return list.empty() ? py::object(py::none()) : py::object(std::move(list));
 }
 
 /// Checks the array for a copy of all observations; null without one.
@@ -145,7 +193,7 @@ py::tuple step_all(All& all, Copy<All>& copy, Action&& action) {
     all.batch.step(action, to, ended, cut, copied, stop);
     return true;
   });
-  return py::make_tuple(rewards, terminated, truncated);
+  return py::make_tuple(rewards, terminated, truncated, ends(all));
 }
 
 /// Calls `work(environments, index)` if that environment exists.
@@ -157,6 +205,18 @@ auto of_one(Work work) {
       return work(all, index);
     });
   };
+}
+
+/// Begins an episode in the environments of a mask.
+template <class All>
+void reset_some(All& all, const std::vector<std::optional<std::uint64_t>>& seeds,
+                const std::vector<std::uint8_t>& mask) {
+  if (seeds.size() != all.batch.count() || mask.size() != all.batch.count())
+    throw InputError("there must be a seed and an entry of the mask for each environment");
+  all.steps.call([&](const Stop& stop) {
+    all.batch.reset(seeds, mask, stop);
+    return true;
+  });
 }
 
 /// Adds the methods that all kinds of environments have.
@@ -173,6 +233,30 @@ py::class_<Guarded<All>> add_kind(py::module_& module, const char* name) {
                });
              });
            })
+      .def("reset_some",
+           [](Guarded<All>& open, const std::vector<std::optional<std::uint64_t>>& seeds,
+              const std::vector<std::uint8_t>& mask) {
+             open.use([&](All& all) { reset_some(all, seeds, mask); });
+           })
+      .def("copy",
+           [](Guarded<All>& open) {
+             return open.use([](All& all) {
+               auto made = interruptible([&](const Stop&) { return std::make_unique<All>(all); });
+               return std::make_unique<Guarded<All>>(std::move(made), "environment");
+             });
+           })
+      .def("states", [](Guarded<All>& open) { return open.use(states<All>); })
+      .def("restore",
+           [](Guarded<All>& open, const std::vector<py::tuple>& given) {
+             open.use([&](All& all) { restore(all, given); });
+           })
+      // Last observation of an episode that ended with the last step.
+      .def("final_observation", of_one<All>([](All& all, std::size_t index) {
+             const auto last = all.batch.final_observation(index);
+             py::array_t<typename All::Number> copy(all.shape);
+             std::ranges::copy(last, copy.mutable_data());
+             return copy;
+           }))
       // A view of the observations, which each step updates.
       .def("observations",
            [](Guarded<All>& open) {
@@ -215,6 +299,18 @@ py::array_t<std::int64_t> costs(Gathering& all, std::size_t index) {
       *out++ = cost == environments::MazeCosts::unreached ? -1 : std::int64_t{cost};
     }
   return array;
+}
+
+/// Colour picture of an environment, whose longer side has `side` pixels.
+ByteArray picture(Navigation& all, std::size_t index) {
+  constexpr std::size_t side = 480;
+  if (!all.picture)
+    all.picture = std::make_shared<environments::NavigationPicture>(*all.task, side);
+  ByteArray image({static_cast<py::ssize_t>(all.picture->height()),
+                   static_cast<py::ssize_t>(all.picture->width()), py::ssize_t{3}});
+  all.picture->draw(all.batch.episode(index),
+                    {image.mutable_data(), static_cast<std::size_t>(image.size())});
+  return image;
 }
 
 void add_gathering(py::module_& module) {
@@ -287,6 +383,7 @@ void add_navigation(py::module_& module) {
            [](Guarded<Navigation>& open) {
              return open.use([](Navigation& all) { return all.task->max_speed(); });
            })
+      .def("picture", of_one<Navigation>(picture))
       .def("state", of_one<Navigation>([](Navigation& all, std::size_t index) {
              const environments::NavigationEpisode& episode = all.batch.episode(index);
              const Pose2& pose = episode.pose();

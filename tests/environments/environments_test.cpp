@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <filesystem>
 
 #include "microswarm/core/errors/error.hpp"
@@ -136,6 +137,66 @@ TEST(EnvironmentBatch, NeedsAResetAfterAStop) {
   batch.step(east, rewards, ended, cut);
 }
 
+TEST_P(GatheringPhysics, ACopyAndARestoredStateGoOnIdentically) {
+  GatheringRules random = rules(GetParam());
+  random.particle_count = ParticleCount::random;
+  for (const std::optional<MazePlace> goal : {std::optional<MazePlace>(), {MazePlace{0, 0}}}) {
+    const GatheringTask task(ring(), random, goal);
+    std::vector<std::uint8_t> first(task.picture_size()), second = first, third = first;
+    GatheringEpisode episode(task, 3, first);
+    for (std::size_t step = 0; step < 100; ++step) {
+      if (step % 40 == 39) episode.reset();
+      episode.step(action_at(step, 1));
+    }
+    GatheringEpisode copy(episode, second);
+    GatheringEpisode restored(task, 1, third);
+    restored.restore(episode.state());
+    for (std::size_t step = 0; step < 100; ++step) {
+      ASSERT_EQ(first, second);
+      ASSERT_EQ(first, third);
+      const std::size_t action = action_at(step, 2);
+      const double reward = episode.step(action).reward;
+      ASSERT_EQ(copy.step(action).reward, reward);
+      ASSERT_EQ(restored.step(action).reward, reward);
+      if (step % 30 == 29) episode.reset(), copy.reset(), restored.reset();
+    }
+  }
+}
+
+TEST(EnvironmentBatch, BeginsTheNextEpisodeAsItsModeSays) {
+  const GatheringTask task(ring(), rules(ParticlePhysics::algorithmic), MazePlace{0, 0});
+  std::vector<double> rewards(2);
+  std::vector<std::uint8_t> ended(2), cut(2);
+  const auto step = [&](Batch& batch) {
+    batch.step([](std::size_t i) { return i; }, rewards, ended, cut);
+    return batch.made(1);
+  };
+  for (const Autoreset mode : {Autoreset::next_step, Autoreset::same_step, Autoreset::disabled}) {
+    Batch batch(task, 2, task.picture_size(), 1, 1, mode);
+    EnvironmentStep made;
+    for (int i = 0; i < 30; ++i) made = step(batch);
+    EXPECT_TRUE(cut[1]);
+    EXPECT_FALSE(made.success);
+    EXPECT_EQ(made.reason, "step_limit");
+    EXPECT_EQ(batch.episode(1).steps(), mode == Autoreset::same_step ? 0 : 30);
+    if (mode == Autoreset::same_step) {
+      EXPECT_NE(std::ranges::count(batch.final_observation(1), 255), 0);
+      EXPECT_FALSE(std::ranges::equal(batch.final_observation(1),
+                                      std::span(*batch.observations()).last(batch.size())));
+    }
+    if (mode == Autoreset::disabled) {
+      EXPECT_THROW(step(batch), InputError);
+      const std::vector<std::optional<std::uint64_t>> seeds(2);
+      batch.reset(seeds, std::vector<std::uint8_t>{1, 0});
+      EXPECT_THROW(step(batch), InputError);
+      batch.reset(seeds, std::vector<std::uint8_t>{0, 1});
+      EXPECT_EQ(batch.episode(0).steps(), 0);
+    }
+    EXPECT_EQ(step(batch).reason, "");
+    EXPECT_EQ(batch.episode(1).steps(), mode == Autoreset::next_step ? 0 : 1);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Each, GatheringPhysics,
                          testing::Values(ParticlePhysics::algorithmic, ParticlePhysics::fuzzy,
                                          ParticlePhysics::physical),
@@ -183,6 +244,31 @@ TEST(NavigationEpisode, EndsInTheGoal) {
   EXPECT_LE(distance(episode.pose().position, episode.goal()),
             task.scenario().goal_tolerance * (1 + 1e-9));
   EXPECT_EQ(episode.step({0, task.max_speed()}).reward, 0);
+}
+
+TEST(NavigationEpisode, ACopyGoesOnIdenticallyAndScaledNumbersAreSmall) {
+  for (const bool scaled : {true, false}) {
+    NavigationRules rules;
+    rules.random_start = rules.random_goal = true;
+    rules.scaled = scaled;
+    const NavigationTask task(experiment::open_experiment(scenarios / "first_flight.yaml"), rules);
+    std::vector<float> first(task.observation_size()), second = first;
+    NavigationEpisode episode(task, 2, first);
+    const auto go = [&](NavigationEpisode& one, int step) {
+      return one.step({0.1 * step, task.max_speed()});
+    };
+    episode.reset();
+    for (int step = 0; step < 20; ++step) go(episode, step);
+    NavigationEpisode copy(episode, second);
+    for (int step = 0; step < 200; ++step) {
+      ASSERT_EQ(first, second);
+      const EnvironmentStep made = go(episode, step);
+      ASSERT_EQ(go(copy, step).reward, made.reward);
+      if (made.has_ended()) episode.reset(), copy.reset();
+      const float most = std::ranges::max(first, {}, [](float v) { return std::abs(v); });
+      ASSERT_EQ(std::abs(most) <= 1, scaled);
+    }
+  }
 }
 
 TEST(NavigationTask, RefusesRobots) {

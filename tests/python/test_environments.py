@@ -2,7 +2,6 @@
 """Environments for learning."""
 
 import gc
-import importlib.util
 import os
 import pathlib
 import threading
@@ -47,7 +46,8 @@ def test_a_gathering_is_that_of_the_rules_said_again(maze, physics):
             expected, value, done = reference.step(action)
             assert np.array_equal(observation, expected)
             assert reward == pytest.approx(value, abs=1e-12)
-            assert terminated == done and not truncated and info == {}
+            assert terminated == done and not truncated
+            assert info == ({"success": True, "is_success": True, "reason": "gathered"} if done else {})
             ended = ended or done
     assert len(env.particle_locations) == 150
 
@@ -281,8 +281,6 @@ def test_environments_have_what_gymnasiums_have(maze):
     assert batch.closed
     with pytest.raises(ms.InputError, match="closed"):
         batch.reset()
-    if importlib.util.find_spec("gymnasium") is None:
-        assert NavigationEnv(SCENARIOS / "first_flight.yaml").render() is None
 
 
 def test_two_threads_on_one_environment_are_told(maze):
@@ -310,7 +308,7 @@ def test_a_picture_is_drawn(maze):
 
 
 def test_navigation_goes_to_the_goal():
-    env = NavigationEnv(ms.Scenario.load(SCENARIOS / "first_flight.yaml").set("obstacles", "[]"))
+    env = NavigationEnv(ms.Scenario.load(SCENARIOS / "first_flight.yaml").set("obstacles", "[]"), scaled=False)
     observation, info = env.reset(seed=1)
     assert observation in env.observation_space and info == {}
     assert observation[:2].tolist() == pytest.approx([1600, 0]) and observation[5] == 40
@@ -318,12 +316,13 @@ def test_navigation_goes_to_the_goal():
     total = 0.0
     for steps in range(1, 1000):
         heading = np.arctan2(observation[1], observation[0])
-        observation, reward, terminated, truncated, _ = env.step((heading, 1))
+        observation, reward, terminated, truncated, info = env.step((heading, 1))
         total += reward
         if terminated or truncated:
             break
     state = env.state
     assert terminated and not truncated and state["status"] == "solved"
+    assert info == {"success": True, "is_success": True, "reason": "solved"}
     assert np.hypot(state["x_um"] - state["goal_x_um"], state["y_um"] - state["goal_y_um"]) <= 50.001
     limit = ms.Scenario.load(SCENARIOS / "first_flight.yaml").time_limit_s
     tick = ms.Scenario.load(SCENARIOS / "first_flight.yaml").tick_s
@@ -336,10 +335,11 @@ def test_a_contact_and_the_time_limit_end_a_navigation():
     env = NavigationEnv(SCENARIOS / "first_flight.yaml")
     env.reset(seed=1)
     for _ in range(1000):
-        _, reward, terminated, truncated, _ = env.step((np.pi, 1))
+        _, reward, terminated, truncated, info = env.step((-1, 0))
         if terminated or truncated:
             break
     assert terminated and env.state["status"] == "collided" and reward < -0.9
+    assert info == {"success": False, "is_success": False, "reason": "collided"}
     env = NavigationEnv(ms.Scenario.load(SCENARIOS / "first_flight.yaml").set("time_limit_s", 2), time_penalty=0)
     env.reset(seed=1)
     tick = ms.Scenario.load(SCENARIOS / "first_flight.yaml").tick_s
@@ -360,7 +360,7 @@ def test_navigation_moves_as_a_run_does():
             return 0.05 * self.tick, 0.5 * 80
 
     record = ms.run(scenario, navigator=Turning(), seed=3)
-    env = NavigationEnv(scenario)
+    env = NavigationEnv(scenario, scaled=False)
     env.reset(seed=3)
     assert env.max_speed_um_per_s == 80
     places = [(env.state["x_um"], env.state["y_um"])]
@@ -380,7 +380,7 @@ def test_many_navigations_at_once_are_single_ones():
     assert np.array_equal(*first) and np.array_equal(first[0][5], alone) and alone.shape == (6 + 5 + 10,)
     assert len(np.unique(first[0], axis=0)) == 12
     for tick in range(60):
-        given = np.column_stack((np.linspace(-3, 3, 12), np.full(12, 1.0)))
+        given = np.column_stack((np.linspace(-1, 1, 12), np.full(12, 0.3)))
         steps = [batch.step(given) for batch in batches]
         assert all(np.array_equal(a, b) for a, b in zip(steps[0][:4], steps[1][:4]))
         if tick == 0 or not ended:
@@ -391,7 +391,7 @@ def test_many_navigations_at_once_are_single_ones():
 
 def test_obstacles_are_seen_with_their_velocity():
     scenario = ms.Scenario.load(SCENARIOS / "oncoming.yaml")
-    env = NavigationEnv(scenario, obstacles=1, rays=0)
+    env = NavigationEnv(scenario, obstacles=1, rays=0, scaled=False)
     env.reset(seed=1)
     for _ in range(3):
         observation = env.step((0, 0))[0]
@@ -417,7 +417,11 @@ def test_the_arguments_of_a_navigation_are_checked():
         with pytest.raises(ms.InputError, match=words):
             call()
     env = NavigationEnv(SCENARIOS / "first_flight.yaml")
-    for bad in ((1,), (1, 2, 3), (10**400, 1), None, (np.nan, 1), (0, -0.1), (0, 1.1), (0, np.nan), "ab", 5):
+    for bad in ((1,), (1, 1, 1), (10**400, 1), None, (np.nan, 1), (0, -1.1), (2, 0), (0, np.inf), "ab", 5):
+        with pytest.raises(ms.InputError, match="action"):
+            env.step(bad)
+    env = NavigationEnv(SCENARIOS / "first_flight.yaml", scaled=False)
+    for bad in ((np.nan, 1), (0, -0.1), (0, 1.1), (0, np.nan)):
         with pytest.raises(ms.InputError, match="action"):
             env.step(bad)
     batch = NavigationVectorEnv(2, SCENARIOS / "first_flight.yaml")
@@ -436,14 +440,3 @@ def test_spaces():
         assert "(" in repr(space)
     assert 8 not in Discrete(8) and -1 not in Discrete(8) and 1.5 not in Discrete(8) and "a" not in Discrete(8)
     assert np.full((3, 2), 300) not in Box(0, 255, (3, 2), np.uint8) and np.zeros((2, 3), np.uint8) not in Box(0, 255, (3, 2), np.uint8)
-
-
-@pytest.mark.skipif(importlib.util.find_spec("gymnasium") is None, reason="Gymnasium is not installed")
-def test_gymnasium_makes_them(maze):
-    import gymnasium
-    from gymnasium.utils.env_checker import check_env
-
-    env = gymnasium.make("VesselPhysicalFixedPCFixedGoal-v0", maze=maze, goal=GOAL)
-    check_env(env.unwrapped)
-    observation, _ = env.reset(seed=1)
-    assert observation in env.observation_space

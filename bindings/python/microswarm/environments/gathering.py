@@ -16,7 +16,8 @@ import numpy as np
 from .. import _core
 from ..maps import Map
 from ..values import InputError, array_of, free_pixels, grid_of, number, path_text, setting, told, whole
-from .environment import SingleEnvironment, Steps, VectorEnvironment, count_of
+from .bases import AutoresetMode
+from .environment import SingleEnvironment, Steps, VectorEnvironment, View, count_of, mode_of, render_mode_of
 from .spaces import Box, Discrete, MultiDiscrete
 
 Maze = Union[np.ndarray, Map, str, "os.PathLike[str]"]
@@ -108,9 +109,10 @@ def free_cells(maze: Maze, cell_um: Optional[float] = None) -> np.ndarray:
     return free_pixels("maze", grid_of("maze", maze, MAX_SIDE), "give maze >= a threshold")
 
 
-def _batch(
+def _arguments(
     num_envs: int,
     threads: int,
+    mode: Any,
     maze: Maze,
     goal: Any,
     n_particles: Union[int, str] = 256,
@@ -118,7 +120,8 @@ def _batch(
     observation_type: str = "simple",
     cell_um: Optional[float] = None,
     **rules: Any,
-) -> _core.GatheringBatch:
+) -> tuple[Any, ...]:
+    """Arguments of the native module."""
     rules |= {"physics": physics, "observation": observation_type}
     if isinstance(n_particles, str):
         if n_particles not in ("random", "filled"):
@@ -138,10 +141,45 @@ def _batch(
         except (TypeError, ValueError):
             raise InputError(f"goal is {told(goal)}, must be (column, row) or None for a random one") from None
         place = [whole("goal column", column, MAX_SIDE - 1), whole("goal row", row, MAX_SIDE - 1)]
-    return _core.GatheringBatch(free, place, [setting(key, value) for key, value in rules.items()], num_envs, threads)
+    return free, place, [setting(key, value) for key, value in rules.items()], num_envs, threads, mode.value
 
 
-class GatheringEnv(SingleEnvironment):
+class GatheringView(View):
+    """Attributes of one gathering."""
+
+    @property
+    def particle_locations(self) -> np.ndarray:
+        """Row and column of each particle; the order is undefined once particles have met."""
+        return self._core.particles(self._index)
+
+    @property
+    def particle_weights(self) -> np.ndarray:
+        """Weight of each particle; empty unless the physics is "physical"."""
+        return self._core.weights(self._index)
+
+    @property
+    def goal(self) -> tuple[int, int]:
+        """Column and row of the goal."""
+        return self._core.goal(self._index)
+
+    @property
+    def costs(self) -> np.ndarray:
+        """Steps from each cell to the goal; −1 for walls and cells from which it cannot be reached."""
+        return self._core.costs(self._index)
+
+    def render(self) -> np.ndarray:
+        """Colour picture of uint8, shape (rows, columns, 3)."""
+        costs = self.costs
+        image = np.where((costs >= 0)[:, :, None], np.array([90, 150, 190], np.uint8), np.array([15, 30, 65], np.uint8))
+        column, row = self.goal
+        image[(costs >= 0) & (costs <= self.rules["goal_range"])] = (150, 190, 160)
+        places = self.particle_locations
+        image[places[:, 0], places[:, 1]] = (250, 250, 100)
+        image[row, column] = (220, 60, 50)
+        return image
+
+
+class GatheringEnv(GatheringView, SingleEnvironment):
     """Particles in a maze that all follow the same input, to be gathered at a goal.
 
     action_space         Discrete(8): east, south-east, south, south-west, west, north-west, north, north-east
@@ -151,6 +189,7 @@ class GatheringEnv(SingleEnvironment):
                          costs, minus 1 / the estimated length of an episode
     terminated           all are within goal_range steps of the goal
     truncated            max_episode_steps have passed
+    info                 at the end of an episode "success" and "is_success", and "reason": "gathered" or "step_limit"
 
     maze         see free_cells()
     goal         (column, row), "default" for a maze of the benchmark, or None: a random one each episode
@@ -163,15 +202,19 @@ class GatheringEnv(SingleEnvironment):
     """
 
     metadata = {"render_modes": ["rgb_array"], "render_fps": 25}
+    _opened_by = _core.GatheringBatch
+    _native = ("_core", "_step")
 
     def __init__(self, maze: Maze, goal: Any = "default", *, render_mode: Optional[str] = None, **values: Any) -> None:
-        if render_mode not in (None, "rgb_array"):
-            raise InputError(f"render_mode is {told(render_mode)}, must be 'rgb_array' or None")
-        self.render_mode = render_mode
-        self._core = _batch(1, 1, maze, goal, **values)
-        self._step = self._core.step_one
+        self.render_mode = render_mode_of(render_mode)
+        self._arguments = _arguments(1, 1, AutoresetMode.NEXT_STEP, maze, goal, **values)
+        self._attach(self._open())
         self.action_space = Discrete(8)
         self.observation_space = Box(0, 255, self._shape(), np.uint8)
+
+    def _attach(self, core: Any) -> None:
+        super()._attach(core)
+        self._step = core.step_one
 
     def step(self, action: Any) -> tuple[np.ndarray, float, bool, bool, dict[str, Any]]:
         """Applies an input; returns (observation, reward, terminated, truncated, info)."""
@@ -180,54 +223,38 @@ class GatheringEnv(SingleEnvironment):
         except TypeError:
             raise InputError(f"action is {told(action)}, must be a whole number from 0 to 7") from None
 
-    @property
-    def particle_locations(self) -> np.ndarray:
-        """Row and column of each particle; the order is undefined once particles have met."""
-        return self._core.particles(0)
-
-    @property
-    def particle_weights(self) -> np.ndarray:
-        """Weight of each particle; empty unless the physics is "physical"."""
-        return self._core.weights(0)
-
-    @property
-    def goal(self) -> tuple[int, int]:
-        """Column and row of the goal."""
-        return self._core.goal(0)
-
-    @property
-    def costs(self) -> np.ndarray:
-        """Steps from each cell to the goal; −1 for walls and cells from which it cannot be reached."""
-        return self._core.costs(0)
-
-    def render(self) -> np.ndarray:
-        """Colour picture, shape (rows, columns, 3)."""
-        costs = self.costs
-        image = np.where((costs >= 0)[:, :, None], np.array([90, 150, 190], np.uint8), np.array([15, 30, 65], np.uint8))
-        column, row = self.goal
-        image[(costs >= 0) & (costs <= self.rules["goal_range"])] = (150, 190, 160)
-        places = self.particle_locations
-        image[places[:, 0], places[:, 1]] = (250, 250, 100)
-        image[row, column] = (220, 60, 50)
-        return image
-
 
 class GatheringVectorEnv(VectorEnvironment):
     """`num_envs` gatherings of the same maze and rules, stepped together on all cores.
 
-    Environment i is seeded with seed + i and equals a GatheringEnv with that seed. After the end of an episode, the
-    following step begins the next one, with reward 0 (Gymnasium's "next step"). The arguments are those of
-    GatheringEnv.
+    Environment i is seeded with seed + i and equals a GatheringEnv with that seed. The arguments are those of
+    GatheringEnv, and:
 
-    threads    number of threads; 0: one a core. Results do not depend on it
-    copy       False: each step updates and returns the same array of observations
+    threads           number of threads; 0: one a core. Results do not depend on it
+    copy              False: each step updates and returns the same array of observations
+    autoreset_mode    as Gymnasium's AutoresetMode, or its text. "NextStep": the step after the end of an episode begins the
+                      next one, with reward 0; "SameStep": the step that ends it, infos has "final_obs" and "final_info";
+                      "Disabled": a reset with a "reset_mask"
     """
 
+    _opened_by = _core.GatheringBatch
+    _view = GatheringView
+
     def __init__(
-        self, num_envs: int, maze: Maze, goal: Any = "default", *, threads: int = 0, copy: bool = True, **values: Any
+        self,
+        num_envs: int,
+        maze: Maze,
+        goal: Any = "default",
+        *,
+        threads: int = 0,
+        copy: bool = True,
+        autoreset_mode: Any = AutoresetMode.NEXT_STEP,
+        render_mode: Optional[str] = None,
+        **values: Any,
     ) -> None:
-        core = _batch(count_of(num_envs), whole("threads", threads, 1024), maze, goal, **values)
-        super().__init__(core, num_envs, copy)
+        mode = mode_of(autoreset_mode)
+        self._arguments = _arguments(count_of(num_envs), whole("threads", threads, 1024), mode, maze, goal, **values)
+        super().__init__(num_envs, copy, mode, render_mode_of(render_mode))
         self.single_action_space = Discrete(8)
         self.single_observation_space = Box(0, 255, self._all.shape[1:], np.uint8)
         self.action_space = MultiDiscrete([8] * num_envs)
@@ -244,13 +271,3 @@ class GatheringVectorEnv(VectorEnvironment):
     def particle_locations(self, index: int) -> np.ndarray:
         """Row and column of each particle of an environment."""
         return self._core.particles(whole("index", index, self.num_envs - 1))
-
-
-def make(id: str, **values: Any) -> GatheringEnv:
-    """An environment by its name in the benchmark; `values` override those of the name."""
-    return GatheringEnv(**values_of(id) | values)
-
-
-def make_vec(id: str, num_envs: int, **values: Any) -> GatheringVectorEnv:
-    """`num_envs` environments by their name in the benchmark, stepped together."""
-    return GatheringVectorEnv(num_envs, **values_of(id) | values)

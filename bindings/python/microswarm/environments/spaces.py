@@ -8,20 +8,8 @@ from typing import Any, Optional
 import numpy as np
 
 try:
-    from gymnasium import Env
     from gymnasium.spaces import Box, Discrete, MultiDiscrete
 except ModuleNotFoundError:
-
-    class Env:  # type: ignore[no-redef]
-        """Base class of environments."""
-
-        metadata: dict[str, Any] = {"render_modes": []}
-        render_mode: Optional[str] = None
-        spec: Any = None
-
-        def render(self) -> Any:
-            """Not supported: no picture."""
-            return None
 
     class _Space:
         shape: tuple[int, ...]
@@ -40,6 +28,12 @@ except ModuleNotFoundError:
         def contains(self, value: Any) -> bool:
             """Whether a value belongs to this space."""
             raise NotImplementedError
+
+        def __eq__(self, other: Any) -> bool:
+            return type(self) is type(other) and repr(self) == repr(other) and self._bounds_equal(other)
+
+        def _bounds_equal(self, other: Any) -> bool:
+            return True
 
     class Discrete(_Space):  # type: ignore[no-redef]
         """The whole numbers from 0 to n − 1."""
@@ -77,6 +71,9 @@ except ModuleNotFoundError:
             array = np.asarray(value)
             return array.shape == self.shape and array.dtype.kind in "iu" and bool(((array >= 0) & (array < self.nvec)).all())
 
+        def _bounds_equal(self, other: Any) -> bool:
+            return np.array_equal(self.nvec, other.nvec)
+
         def __repr__(self) -> str:
             return f"MultiDiscrete({self.nvec})"
 
@@ -103,8 +100,11 @@ except ModuleNotFoundError:
             array = np.asarray(value)
             return np.can_cast(array.dtype, self.dtype) and array.shape == self.shape and bool(((array >= self.low) & (array <= self.high)).all())
 
+        def _bounds_equal(self, other: Any) -> bool:
+            return np.array_equal(self.low, other.low) and np.array_equal(self.high, other.high)
+
         def __repr__(self) -> str:
             return f"Box({self.low.min()}, {self.high.max()}, {self.shape}, {self.dtype})"
 
 
-__all__ = ["Box", "Discrete", "Env", "MultiDiscrete"]
+__all__ = ["Box", "Discrete", "MultiDiscrete"]

@@ -71,27 +71,64 @@ std::size_t GatheringTask::episode_bytes() const {
     particles = std::min(particles, max_random_particles);
   const std::size_t a_particle = rules.physics == ParticlePhysics::physical ? 56 : 8;
   const std::size_t of_goal = goal ? 0 : 4 * maze.size() + picture_size();
+  const auto inputs = static_cast<std::size_t>(std::min(rules.max_episode_steps, 100'000));
   constexpr std::size_t itself = 1000;
-  return a_particle * particles + of_goal + itself;
+  return a_particle * particles + of_goal + inputs + itself;
 }
 
 GatheringEpisode::GatheringEpisode(const GatheringTask& task, std::uint64_t seed,
                                    std::span<std::uint8_t> picture)
     : task_(task),
+      seed_(seed),
       rng_(seed, Purpose::learning),
       motion_(task_.maze, task_.rules),
       picture_(picture) {
   reset();
 }
 
+GatheringEpisode::GatheringEpisode(const GatheringEpisode& other, std::span<std::uint8_t> picture)
+    : GatheringEpisode(other) {
+  picture_ = picture;
+  std::ranges::copy(other.picture_, picture_.begin());
+}
+
 void GatheringEpisode::reset(std::uint64_t seed) {
+  seed_ = seed;
   rng_ = Rng(seed, Purpose::learning);
+  drawn_ = 0;
   reset();
+}
+
+GatheringState GatheringEpisode::state() const {
+  return {.seed = seed_, .draws = drawn_before_, .actions = actions_};
+}
+
+EnvironmentStep GatheringEpisode::restore(const GatheringState& state) {
+  if (state.draws > GatheringState::max_draws)
+    throw InputError(fmt::format("a state of an environment has {} draws, must be at most {}",
+                                 state.draws, GatheringState::max_draws));
+  for (const std::uint8_t action : state.actions)
+    if (action >= GatheringMaze::moves.size())
+      throw InputError(fmt::format("a state of an environment has the input {}, must be 0 to {}",
+                                   action, GatheringMaze::moves.size() - 1));
+  seed_ = state.seed;
+  rng_ = Rng(seed_, Purpose::learning);
+  for (std::uint64_t i = 0; i < state.draws; ++i) rng_.bits();
+  drawn_ = state.draws;
+  reset();
+  EnvironmentStep made;
+  for (const std::uint8_t action : state.actions) made = step(action);
+  return made;
 }
 
 void GatheringEpisode::reset() {
   const GatheringMaze& maze = task_.maze;
-  if (!task_.goal) own_costs_ = maze.costs_to(maze.cells()[rng_.below(maze.cells().size())]);
+  drawn_before_ = drawn_;
+  actions_.clear();
+  if (!task_.goal) {
+    own_costs_ = maze.costs_to(maze.cells()[rng_.below(maze.cells().size())]);
+    ++drawn_;
+  }
   length_estimate_ = maze.episode_length_estimate(costs());
   // Only cells from which the goal can be reached.
   std::vector<std::uint32_t> cells;
@@ -105,6 +142,7 @@ void GatheringEpisode::reset() {
       break;
     case ParticleCount::random:
       n = 1 + rng_.below(std::max<std::size_t>(std::min(n, max_random_particles), 2) - 1);
+      ++drawn_;
       break;
     case ParticleCount::filled:
       break;
@@ -112,6 +150,7 @@ void GatheringEpisode::reset() {
   for (std::size_t i = 0; i < n; ++i) std::swap(cells[i], cells[i + rng_.below(cells.size() - i)]);
   cells.resize(n);
   motion_.place(std::move(cells), rng_);
+  drawn_ += n + motion_.weights().size();  // for the cells and the weights
   steps_ = 0;
   start_total_ = std::max(costs().mean * static_cast<double>(n), 1.0);
   last_total_ = start_total_;
@@ -124,6 +163,8 @@ EnvironmentStep GatheringEpisode::step(std::size_t action) {
   erase_particles();
   motion_.step(action, rng_);
   draw_particles();
+  if (task_.rules.physics == ParticlePhysics::fuzzy) ++drawn_;
+  actions_.push_back(static_cast<std::uint8_t>(action));
   ++steps_;
   const Cost now = cost();
   const GatheringRules& rules = task_.rules;
@@ -135,6 +176,8 @@ EnvironmentStep GatheringEpisode::step(std::size_t action) {
   last_max_ = now.max;
   made.terminated = now.max <= static_cast<std::uint32_t>(rules.goal_range);
   made.truncated = !made.terminated && steps_ >= rules.max_episode_steps;
+  made.success = made.terminated;
+  if (made.has_ended()) made.reason = made.terminated ? "gathered" : "step_limit";
   return made;
 }
 

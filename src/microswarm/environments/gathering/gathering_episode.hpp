@@ -35,12 +35,24 @@ struct GatheringTask {
   std::vector<std::uint32_t> pixels;
 };
 
+/// State of a gathering, from which it continues identically: what was drawn from the random
+/// numbers of its seed before the episode, and the episode's inputs.
+struct GatheringState {
+  std::uint64_t seed = 0;
+  std::uint64_t draws = 0;
+  std::vector<std::uint8_t> actions{};
+
+  static constexpr std::uint64_t max_draws = 100'000'000'000;
+};
+
 /// Sequence of episodes of a gathering, with their picture. Equal seeds give equal episodes on
 /// every machine.
 class GatheringEpisode {
  public:
   /// `picture` has picture_size() bytes; it and the task must outlive this object.
   GatheringEpisode(const GatheringTask& task, std::uint64_t seed, std::span<std::uint8_t> picture);
+  /// A gathering in the state of `other`, which draws into `picture`.
+  GatheringEpisode(const GatheringEpisode& other, std::span<std::uint8_t> picture);
 
   /// Begins the first episode of a seed.
   void reset(std::uint64_t seed);
@@ -48,6 +60,10 @@ class GatheringEpisode {
   void reset();
   /// Sends one of the eight inputs to all particles and draws the picture.
   EnvironmentStep step(std::size_t action);
+  GatheringState state() const;
+  /// Plays the episode of a state again; returns its last step. Throws InputError for an input
+  /// above 7 or more draws than max_draws.
+  EnvironmentStep restore(const GatheringState& state);
 
   const ParticleMotion& motion() const { return motion_; }
   std::uint32_t goal() const { return costs().goal; }
@@ -66,7 +82,11 @@ class GatheringEpisode {
   Cost cost() const;
 
   const GatheringTask& task_;
+  std::uint64_t seed_;
   Rng rng_;
+  std::uint64_t drawn_ = 0;         ///< numbers drawn from rng_
+  std::uint64_t drawn_before_ = 0;  ///< before this episode
+  std::vector<std::uint8_t> actions_;
   ParticleMotion motion_;
   std::span<std::uint8_t> picture_;
   std::vector<std::uint8_t> background_;  ///< of the channel of the particles

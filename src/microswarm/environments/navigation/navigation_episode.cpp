@@ -38,6 +38,15 @@ double free_distance(const Snapshot& world, Vec2 from, Vec2 direction, double ra
   return std::min(reached, range);
 }
 
+/// Shortens a vector of the length d to d / (d + reach).
+void squash(std::span<float, 2> v, double reach) {
+  const double by = 1 / (norm({v[0], v[1]}) + reach);
+  for (float& one : v) one = static_cast<float>(one * by);
+}
+void squash(float& length, double reach) {
+  length = static_cast<float>(length / (double{length} + reach));
+}
+
 }  // namespace
 
 /// Navigator that returns the agent's action.
@@ -67,10 +76,20 @@ std::size_t NavigationTask::observation_size() const {
          obstacle_numbers * static_cast<std::size_t>(rules_.obstacles);
 }
 
+std::size_t NavigationTask::episode_bytes() const {
+  const double ticks = std::min(scenario().time_limit / scenario().tick, 1e5);
+  return 20'000 + 1000 * scenario().obstacles.size() +
+         sizeof(NavigationAction) * static_cast<std::size_t>(ticks);
+}
+
 NavigationEpisode::NavigationEpisode(const NavigationTask& task, std::uint64_t seed,
                                      std::span<float> observation)
     : task_(task), seed_(seed), observation_(observation) {
   reset(seed);
+}
+NavigationEpisode::NavigationEpisode(const NavigationEpisode& other, std::span<float> observation)
+    : task_(other.task_), seed_(other.seed_), observation_(observation) {
+  restore(other.state());
 }
 NavigationEpisode::~NavigationEpisode() = default;
 NavigationEpisode::NavigationEpisode(NavigationEpisode&&) noexcept = default;
@@ -81,7 +100,24 @@ void NavigationEpisode::reset(std::uint64_t seed) {
   reset();
 }
 
+NavigationState NavigationEpisode::state() const {
+  return {.seed = seed_, .trial = trial_ - 1, .actions = actions_};
+}
+
+EnvironmentStep NavigationEpisode::restore(const NavigationState& state) {
+  for (const NavigationAction& action : state.actions)
+    if (!std::isfinite(action.heading) || !(action.speed >= 0 && action.speed <= task_.max_speed()))
+      throw InputError("a state of an environment has an input that is no heading and speed");
+  seed_ = state.seed;
+  trial_ = state.trial;
+  reset();
+  EnvironmentStep made;
+  for (const NavigationAction& action : state.actions) made = step(action);
+  return made;
+}
+
 void NavigationEpisode::reset() {
+  actions_.clear();
   experiment::Scenario scenario = task_.scenario();
   scenario.seed = seed_;
   const NavigationRules& rules = task_.rules();
@@ -104,22 +140,34 @@ void NavigationEpisode::reset() {
                                .keep = experiment::Keep::nothing});
   ++trial_;
   status_ = Status::running;
+  cut_ = false;
   look(nullptr);
   start_distance_ = std::max(distance_, goal_tolerance);
 }
 
 EnvironmentStep NavigationEpisode::step(const NavigationAction& action) {
   EnvironmentStep made;
-  if (status_ != Status::running)
-    return {.terminated = status_ != Status::time_limit,
-            .truncated = status_ == Status::time_limit};
-  agent_->command = action;
+  if (status_ == Status::running) {
+    agent_->command = action;
+    actions_.push_back(action);
+    made = advance();
+  }
+  made.terminated = status_ != Status::running && !cut_;
+  made.truncated = cut_;
+  made.success = status_ == Status::solved;
+  if (made.has_ended()) made.reason = to_string(status_);
+  return made;
+}
+
+/// The next tick; sets the status and returns the reward.
+EnvironmentStep NavigationEpisode::advance() {
+  EnvironmentStep made;
   const double before = distance_;
   const experiment::Scenario& scenario = session_->scenario();
   const experiment::Tick* tick = session_->step();
   if (tick && tick->end) {  // the hold limit or the number of steps is reached
     status_ = *tick->end;
-    made.truncated = true;
+    cut_ = true;
     return made;
   }
   const NavigationRules& rules = task_.rules();
@@ -136,34 +184,57 @@ EnvironmentStep NavigationEpisode::step(const NavigationAction& action) {
   look(tick);
   made.reward += (before - distance_) / start_distance_;
   made.reward -= rules.time_penalty * scenario.tick / scenario.time_limit;
-  made.terminated = status_ != Status::running;
-  if (!made.terminated && time_ >= scenario.time_limit - 1e-9 * scenario.tick) {
+  const bool was_last = rules.max_episode_steps > 0 &&
+                        actions_.size() >= static_cast<std::size_t>(rules.max_episode_steps);
+  if (status_ == Status::running &&
+      (was_last || time_ >= scenario.time_limit - 1e-9 * scenario.tick)) {
     status_ = Status::time_limit;
-    made.truncated = true;
+    cut_ = true;
   }
   return made;
 }
+
+Snapshot NavigationEpisode::world() const { return plant_->ground_truth()->world->at(time_); }
 
 /// Takes the state at the end of a tick, or the first one.
 void NavigationEpisode::look(const experiment::Tick* tick) {
   const GroundTruth truth = *plant_->ground_truth();
   pose_ = truth.swarm.pose;
-  double radius = truth.swarm.radius;
+  radius_ = truth.swarm.radius;
   if (tick && !tick->trajectory.empty()) {  // it may end with a contact or the arrival
     pose_ = tick->trajectory.back().pose;
-    radius = tick->trajectory.back().radius;
+    radius_ = tick->trajectory.back().radius;
   }
   time_ = truth.now;
   distance_ = distance(pose_.position, goal_);
   const Vec2 to_goal = goal_ - pose_.position;
   const Vec2 ahead = unit_vector(pose_.heading);
   const std::array<double, NavigationTask::own_numbers> own{to_goal.x, to_goal.y,   ahead.x,
-                                                            ahead.y,   truth.speed, radius};
+                                                            ahead.y,   truth.speed, radius_};
   std::ranges::transform(own, observation_.begin(), [](double v) { return static_cast<float>(v); });
   const Snapshot world = truth.world->at(truth.now);
   const auto rays = static_cast<std::size_t>(task_.rules().rays);
   see_rays(world, observation_.subspan(NavigationTask::own_numbers, rays));
   see_obstacles(world, observation_.subspan(NavigationTask::own_numbers + rays));
+  if (task_.rules().scaled) scale_observation();
+}
+
+void NavigationEpisode::scale_observation() const {
+  const double reach = task_.rules().ray_range;
+  const double max_speed = task_.max_speed();
+  squash(observation_.first<2>(), reach);
+  float& speed = observation_[4];
+  speed = static_cast<float>(std::min(speed / max_speed, 1.0));
+  squash(observation_[5], reach);
+  std::span<float> rest = observation_.subspan(NavigationTask::own_numbers);
+  const auto rays = static_cast<std::size_t>(task_.rules().rays);
+  for (float& ray : rest.first(rays)) ray = static_cast<float>(ray / reach);
+  for (rest = rest.subspan(rays); !rest.empty();
+       rest = rest.subspan(NavigationTask::obstacle_numbers)) {
+    squash(rest.first<2>(), reach);
+    squash(rest[2], reach);
+    squash(rest.subspan<3, 2>(), max_speed);
+  }
 }
 
 void NavigationEpisode::see_rays(const Snapshot& world, std::span<float> out) const {

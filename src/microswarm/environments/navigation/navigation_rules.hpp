@@ -18,6 +18,8 @@ struct NavigationRules {
   double arrival_reward = 1;
   double contact_penalty = 1;
   double time_penalty = 0.5;
+  bool scaled = true;
+  int max_episode_steps = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.rays, plain("rays", 0, 360, "Directions in which distances are seen."));
@@ -29,6 +31,9 @@ struct NavigationRules {
     visit(self.contact_penalty, plain("contact_penalty", 0, 1e6, "Reward that a contact costs."));
     visit(self.time_penalty,
           plain("time_penalty", 0, 1e6, "Reward that the whole time limit costs."));
+    visit(self.scaled, plain("scaled", "Observations and actions from -1 to 1, not in um."));
+    visit(self.max_episode_steps,
+          plain("max_episode_steps", 0, 1e9, "Ticks after which it is cut; 0: no such limit."));
   }
 };
 
