@@ -7,6 +7,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/experiment/queries/gather_query.hpp"
 #include "microswarm/experiment/queries/global_query.hpp"
+#include "microswarm/experiment/session/replay.hpp"
 #include "microswarm/experiment/session/session.hpp"
 #include "microswarm/formats/write_map.hpp"
 

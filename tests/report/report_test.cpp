@@ -13,6 +13,7 @@
 #include "microswarm/report/rows.hpp"
 #include "microswarm/report/run_picture.hpp"
 #include "microswarm/report/run_report.hpp"
+#include "tests/runs.hpp"
 
 namespace microswarm::report {
 namespace {

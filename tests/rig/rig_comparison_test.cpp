@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "microswarm/experiment/session/session.hpp"
 #include "tests/files.hpp"
 
 namespace microswarm::rig {
