@@ -26,7 +26,8 @@ const nlohmann::ordered_json* member(const nlohmann::ordered_json& value, std::s
 
 InputError no_metric(std::string_view name, const experiment::Metrics& metrics) {
   std::vector<std::string> names;
-  for (const auto& [key, value] : experiment::metrics_json(metrics).items()) names.push_back(key);
+  const nlohmann::ordered_json all = experiment::metrics_json(metrics);
+  for (const auto& [key, value] : all.items()) names.push_back(key);
   const std::string_view near =
       nearest_word(name, std::vector<std::string_view>(names.begin(), names.end()));
   return InputError("there is no metric " + quote(name) +

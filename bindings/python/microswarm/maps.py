@@ -75,12 +75,6 @@ class Map(Drawable):
         open_pixels = bright if free == "bright" else ~bright
         return cls(_core.Map.from_pixels(np.ascontiguousarray(open_pixels, dtype=np.uint8), number("um_per_px", um_per_px), number("simplify_um", simplify_um)))
 
-    def __copy__(self) -> "Map":
-        return self  # it never changes
-
-    def __deepcopy__(self, _: Any) -> "Map":
-        return self
-
     @property
     def bounds_um(self) -> tuple[float, float, float, float]:
         """x_lo, y_lo, x_hi, y_hi."""
