@@ -150,7 +150,7 @@ TEST(RosErrors, NameFileAndValue) {
   EXPECT_EQ(complaint("image: a\nresolution: 1\norigin: [0, 0]\n"),
             "x.yaml: origin of 2 numbers, 3 expected: x, y, yaw");
   EXPECT_TRUE(test::is_one_line_naming(complaint("image: a\nresolution: 1\norigin: [0, 0, -nan]\n"),
-                                       "x.yaml:3", {"yaw", "-nan", "write 0"}));
+                                       "x.yaml:3:16", {"yaw", "-nan", "write 0"}));
   EXPECT_NE(complaint(std::string(plain) + "free_tresh: 0.1\n").find("free_thresh"),
             std::string::npos);
   EXPECT_TRUE(test::is_one_line_naming(complaint(std::string(plain) + "free_thresh: 0.9\n"),
