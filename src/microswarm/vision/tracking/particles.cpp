@@ -22,6 +22,18 @@ namespace {
 
 constexpr std::size_t together = 4;  // particles that are described at once
 constexpr double move_from = 0.6;    // [px] a mask farther from its centroid moves
+constexpr int single_steps = 10;     // moves by a pixel, as in trackpy
+
+constexpr double cut_level = 0.15;     // of a particle's level, at the rim of a mask that cuts it
+constexpr double edge_low = 0.25;      // of its level, which greys must exceed if it is large
+constexpr double edge_high = 0.75;     // and from which they count alike
+constexpr int max_soft_rounds = 30;    // of a mask between pixels
+constexpr double settled_move = 5e-4;  // [px] moves of its centre that end it
+constexpr double beyond = 1.6;         // of a move, since each goes only a part of the way
+constexpr double far_from_mask = 2;    // [px] from which it is at another particle
+
+constexpr std::uint8_t by_itself = 1;  // marks of pixels where a mask was
+constexpr std::uint8_t by_another = 2;
 
 int odd(int diameter) { return diameter | 1; }
 
@@ -101,10 +113,11 @@ const std::vector<Particle>& ParticleFinder::find(const formats::Image& grey) {
   height_ = grey.height;
   scale_to_bytes(band_pass_.filter(grey));
   find_peaks();
-  particles_.clear();
-  for (Peak& peak : peaks_) particles_.push_back(refine(peak));
+  thin_plateaus(peaks_);
+  refine_peaks();
   keep_apart();
   for (std::size_t i = 0; i < particles_.size(); i += together) describe(i);
+  for (std::size_t i = 0; i < particles_.size(); ++i) centre(particles_[i], peaks_[i]);
   if (params_.shape == ParticleShape::ring) fit_rings(grey);
   return particles_;
 }
@@ -141,7 +154,8 @@ void ParticleFinder::find_peaks() {
   peaks_.clear();
   constexpr int stretch = 64;  // values of a row tested at once
   const auto threshold = static_cast<std::uint8_t>(peak_threshold());
-  const int margin = std::max(radius_, separation_ / 2 - 1);
+  if (std::min(width_, height_) <= 2 * radius_) return;
+  const int margin = is_large() ? 0 : std::max(radius_, separation_ / 2 - 1);
   const cv::Mat around =
       highest_around(cv::Mat(height_, width_, CV_8U, bytes_.data()), square_in(separation_));
   for (int row = margin; row < height_ - margin; ++row) {
@@ -157,22 +171,65 @@ void ParticleFinder::find_peaks() {
   }
 }
 
-Particle ParticleFinder::refine(Peak& at) const {
-  Particle particle;
+Vec2 ParticleFinder::measure(Peak at, Particle& particle) const {
+  const auto [mass, along_x, along_y] = window_.moments(bytes_.data() + pixel_index(at), width_);
+  const auto total = static_cast<double>(mass);
+  const Vec2 off{static_cast<double>(along_x) / total, static_cast<double>(along_y) / total};
+  particle.at_px = Vec2{static_cast<double>(at.column), static_cast<double>(at.row)} + off;
+  particle.mass = greys_per_byte_ * total;
+  return off;
+}
+
+// Moves of a round mask to its centroid ascend the density of a parabolic kernel (mean shift), so
+// they end.
+Peak ParticleFinder::moved(Peak at, Vec2 off, int move) const {
+  const auto step = [&](double d) {
+    const int pixels = std::abs(d) > move_from ? 1 : 0;
+    const int all = move < single_steps ? pixels : std::max(pixels, static_cast<int>(std::abs(d)));
+    return d > 0 ? all : -all;
+  };
+  return {std::clamp(at.column + step(off.x), radius_, width_ - 1 - radius_),
+          std::clamp(at.row + step(off.y), radius_, height_ - 1 - radius_)};
+}
+
+void ParticleFinder::refine_peaks() {
+  const int limit = params_.max_moves > 0 ? params_.max_moves : odd(params_.diameter) + 20;
+  particles_.clear();
+  settled_.clear();
+  visited_.resize(static_cast<std::size_t>(width_) * height_);
+  std::size_t kept = 0;
+  for (const Peak& peak : peaks_) {
+    Peak at{std::clamp(peak.column, radius_, width_ - 1 - radius_),
+            std::clamp(peak.row, radius_, height_ - 1 - radius_)};
+    Particle particle;
+    const Walk end = refine(at, particle, limit);
+    if (end == Walk::known || (is_large() && !is_inside(particle.at_px))) continue;
+    peaks_[kept++] = at;
+    settled_.push_back(end == Walk::stands);
+    particles_.push_back(particle);
+  }
+  peaks_.resize(kept);
+  for (const std::size_t pixel : path_) visited_[pixel] = 0;
+  path_.clear();
+}
+
+ParticleFinder::Walk ParticleFinder::refine(Peak& at, Particle& particle, int limit) {
+  const std::size_t first = path_.size();
+  Walk end = Walk::moves;
   for (int move = 0;; ++move) {
-    const auto [mass, along_x, along_y] = window_.moments(
-        bytes_.data() + static_cast<std::size_t>(at.row) * width_ + at.column, width_);
-    const auto total = static_cast<double>(mass);
-    const Vec2 off{static_cast<double>(along_x) / total, static_cast<double>(along_y) / total};
-    particle.at_px = Vec2{static_cast<double>(at.column), static_cast<double>(at.row)} + off;
-    particle.mass = greys_per_byte_ * total;
-    const auto step = [](double d) { return d > move_from ? 1 : d < -move_from ? -1 : 0; };
-    const Peak next{std::clamp(at.column + step(off.x), radius_, width_ - 1 - radius_),
-                    std::clamp(at.row + step(off.y), radius_, height_ - 1 - radius_)};
-    if (move + 1 >= params_.max_moves || next == at) break;
+    const std::size_t pixel = pixel_index(at);
+    if (visited_[pixel] == by_another) end = Walk::known;
+    const bool is_circle = visited_[pixel] == by_itself;
+    if (end == Walk::known || is_circle) break;
+    visited_[pixel] = by_itself;
+    path_.push_back(pixel);
+    const Peak next = moved(at, measure(at, particle), move);
+    if (next == at) end = Walk::stands;
+    if (end == Walk::stands || move + 1 >= limit) break;
     at = next;
   }
-  return particle;
+  for (std::size_t i = first; i < path_.size(); ++i) visited_[path_[i]] = by_another;
+  return end;
 }
 
 // Several at once, since each sum waits for its last addition.
@@ -181,7 +238,7 @@ void ParticleFinder::describe(std::size_t first) {
   std::array<const std::uint8_t*, together> middle{};
   for (std::size_t k = 0; k < together; ++k) {
     const Peak at = peaks_[first + std::min(k, count - 1)];
-    middle[k] = bytes_.data() + static_cast<std::size_t>(at.row) * width_ + at.column;
+    middle[k] = bytes_.data() + pixel_index(at);
   }
   std::array<std::int64_t, together> mass{};
   std::array<std::int64_t, together> second_moment{};
@@ -210,6 +267,76 @@ void ParticleFinder::describe(std::size_t first) {
   }
 }
 
+bool ParticleFinder::is_inside(Vec2 at_px) const {
+  const double least = radius_ - 1;
+  return std::min(at_px.x, at_px.y) >= least && at_px.x <= width_ - 1 - least &&
+         at_px.y <= height_ - 1 - least;
+}
+
+// The mask at whole pixels cuts a particle that hardly fits into it on one side, and its centroid
+// stays near the mask's centre. A mask between pixels, with a soft edge, does not.
+void ParticleFinder::centre(Particle& particle, Peak at) const {
+  const std::uint8_t* middle = bytes_.data() + pixel_index(at);
+  std::int64_t mass = 0, squares = 0, rim = 0, rim_pixels = 0;
+  for (const MaskPixel& m : mask_) {
+    const int value = middle[m.offset(width_)];
+    mass += value;
+    squares += static_cast<std::int64_t>(value) * value;
+    if (m.dx * m.dx + m.dy * m.dy <= (radius_ - 1) * (radius_ - 1)) continue;
+    rim += value;
+    ++rim_pixels;
+  }
+  // The level of a particle is the mean grey of its mass.
+  const double level = static_cast<double>(squares) / static_cast<double>(mass);
+  const bool is_cut =
+      static_cast<double>(rim) > cut_level * level * static_cast<double>(rim_pixels);
+  if (!is_cut && !is_large()) return;
+  std::array<double, 256> weights{};
+  for (std::size_t v = 0; v < weights.size(); ++v) {
+    const auto value = static_cast<double>(v);
+    weights[v] = is_large()
+                     ? std::clamp((value / level - edge_low) / (edge_high - edge_low), 0.0, 1.0)
+                     : value;
+  }
+  if (!is_cut) {
+    double total = 0;
+    Vec2 sum;
+    for (const MaskPixel& m : mask_) {
+      const double weight = weights[middle[m.offset(width_)]];
+      total += weight;
+      sum += weight * Vec2{1.0 * m.dx, 1.0 * m.dy};
+    }
+    particle.at_px = Vec2{1.0 * at.column, 1.0 * at.row} + sum / total;
+    return;
+  }
+  Vec2 centre = particle.at_px;
+  for (int round = 0; round < max_soft_rounds; ++round) {
+    const Vec2 next = soft_centroid(centre, weights);
+    const double moved_by = distance(next, centre);
+    if (distance(next, particle.at_px) > far_from_mask) return;  // it runs to a neighbour
+    centre = next;
+    if (moved_by < settled_move) break;
+  }
+  particle.at_px = centre;
+}
+
+Vec2 ParticleFinder::soft_centroid(Vec2 centre, const std::array<double, 256>& weights) const {
+  const int reach = radius_ + 1;
+  const auto around_x = static_cast<int>(std::lround(centre.x));
+  const auto around_y = static_cast<int>(std::lround(centre.y));
+  double total = 0;
+  Vec2 sum;
+  for (int y = std::max(0, around_y - reach); y <= std::min(height_ - 1, around_y + reach); ++y)
+    for (int x = std::max(0, around_x - reach); x <= std::min(width_ - 1, around_x + reach); ++x) {
+      const Vec2 off = Vec2{1.0 * x, 1.0 * y} - centre;
+      const double inside = std::clamp(radius_ + 0.5 - norm(off), 0.0, 1.0);
+      const double weight = inside * weights[bytes_[pixel_index({x, y})]];
+      total += weight;
+      sum += weight * off;
+    }
+  return total > 0 ? centre + beyond / total * sum : centre;
+}
+
 void ParticleFinder::fit_rings(const formats::Image& grey) {
   for (Particle& particle : particles_) {
     const auto ring = fit_ring(grey, particle.at_px, radius_, params_.tone == ParticleTone::bright);
@@ -235,8 +362,10 @@ void ParticleFinder::keep_apart() {
       dropped[order[a.mass < b.mass ? i : k]] = true;
     }
   std::size_t kept = 0;
+  unsettled_ = 0;
   for (std::size_t i = 0; i < particles_.size(); ++i) {
     if (dropped[i] || particles_[i].mass <= params_.min_mass) continue;
+    if (!settled_[i]) ++unsettled_;
     peaks_[kept] = peaks_[i];
     particles_[kept++] = particles_[i];
   }

@@ -12,6 +12,7 @@
 #include "microswarm/formats/images/image.hpp"
 #include "microswarm/geometry/vec2.hpp"
 #include "microswarm/vision/tracking/band_pass.hpp"
+#include "microswarm/vision/tracking/peaks.hpp"
 #include "microswarm/vision/tracking/round_window.hpp"
 
 namespace microswarm::vision {
@@ -44,7 +45,7 @@ struct ParticleParams {
   double noise = 1;
   double min_foreground = 1;
   double percentile = 64;
-  int max_moves = 10;
+  int max_moves = 0;
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
@@ -62,7 +63,8 @@ struct ParticleParams {
               .formerly("least_rise"));
     visit(self.percentile,
           plain("percentile", 0, 100, "Percentile of the foreground that a peak must exceed."));
-    visit(self.max_moves, plain("max_moves", 1, 1000, "Maximum number of centroid refinements."));
+    visit(self.max_moves,
+          plain("max_moves", 0, 10000, "Maximum centroid refinements; 0: diameter + 20, enough."));
   }
 };
 
@@ -78,26 +80,36 @@ struct Particle {
 
 /// Finds particles with subpixel centres by the method of Crocker and Grier [crocker], with the
 /// conventions of trackpy. The picture is band-passed. Peaks are local maxima above a percentile. A
-/// round mask moves from each peak to the centroid. Of two particles that are too close, the
-/// fainter is dropped.
+/// round mask moves from each peak until its centre is at the centroid: by a pixel at first, as in
+/// trackpy, then at once, which ends after a few moves also for discs of hundreds of pixels. Of two
+/// particles that are too close, the fainter is dropped.
+///
+/// A mask that cuts a particle, which it shows by the greys at its rim, is moved between pixels
+/// until its centre is at the centroid: positions do not cling to pixels.
+///
+/// From a diameter of `large_diameter` on, particles are rarely points and often flat discs. The
+/// highest pixel of a disc may be anywhere in it, so peaks are also taken near the border. Greys
+/// below a quarter of the particle's own level do not count for the centre and those above three
+/// quarters count alike, since the noise in its area would otherwise move the centre.
 class ParticleFinder {
  public:
   /// Throws InputError if the Gaussian of `noise` is as wide as a particle.
   explicit ParticleFinder(const ParticleParams& params);
 
+  static constexpr int large_diameter = 15;  ///< [px]
+
   /// The particles of a one-channel picture, in the order of their peaks, row by row. Particles
   /// closer to the border than their radius are omitted. Valid until the next call.
   const std::vector<Particle>& find(const formats::Image& grey);
+
+  /// Number of particles of the last picture whose centroid still moved when the limit of moves
+  /// ended the refinement: their centres are wrong.
+  int unsettled() const { return unsettled_; }
 
   /// Maximum distance of a particle's pixels from its centre: half the diameter [px].
   int radius_px() const { return radius_; }
 
  private:
-  struct Peak {
-    int column = 0;
-    int row = 0;
-    friend bool operator==(const Peak&, const Peak&) = default;
-  };
   struct MaskPixel {
     int dx = 0;
     int dy = 0;
@@ -109,10 +121,30 @@ class ParticleFinder {
   void scale_to_bytes(const std::vector<float>& rise);
   void find_peaks();
   int peak_threshold() const;
-  /// Moves the peak to its centroid; measures all but what describe() does.
-  Particle refine(Peak& peak) const;
+  /// End of the moves of a mask: at its centroid, where another mask was, or by the limit.
+  enum class Walk { stands, known, moves };
+
+  /// Moves each peak to its centroid. Peaks that meet on the way are one particle.
+  void refine_peaks();
+  Walk refine(Peak& at, Particle& particle, int limit);
+  /// Measures the mask around a pixel; returns the distance of the centroid.
+  Vec2 measure(Peak at, Particle& particle) const;
+  /// Pixel to which the mask moves from `at` for a centroid that is `off` from it.
+  Peak moved(Peak at, Vec2 off, int move) const;
   /// Measures the rest of this particle and of some that follow.
   void describe(std::size_t first);
+  /// Corrects the centre of a large particle and of one that the mask cuts.
+  void centre(Particle& particle, Peak at) const;
+  /// Centroid of the weights of greys in a round mask with a soft edge, between pixels.
+  Vec2 soft_centroid(Vec2 centre, const std::array<double, 256>& weights) const;
+  std::size_t pixel_index(Peak at) const {
+    return static_cast<std::size_t>(at.row) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(at.column);
+  }
+  bool is_large() const { return odd_diameter() >= large_diameter; }
+  int odd_diameter() const { return 2 * radius_ + 1; }
+  /// Whether a point is as far from the border as a particle must be.
+  bool is_inside(Vec2 at_px) const;
   void fit_rings(const formats::Image& grey);
   void keep_apart();
 
@@ -124,9 +156,13 @@ class ParticleFinder {
   std::vector<MaskPixel> mask_;
   int width_ = 0;
   int height_ = 0;
+  int unsettled_ = 0;
   double greys_per_byte_ = 0;
   std::vector<std::uint8_t> bytes_;  ///< the filtered picture, its highest at 255; then zeros
   std::vector<Peak> peaks_;
+  std::vector<std::uint8_t> visited_;  ///< marks of pixels where a mask was
+  std::vector<std::size_t> path_;      ///< these pixels
+  std::vector<bool> settled_;          ///< of each particle
   std::vector<Particle> particles_;
 };
 
