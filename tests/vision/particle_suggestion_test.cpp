@@ -8,6 +8,7 @@
 
 #include "microswarm/vision/camera/frames.hpp"
 #include "tests/files.hpp"
+#include "tests/vision/discs.hpp"
 #include "tests/vision/spots.hpp"
 
 namespace microswarm::vision {
@@ -59,6 +60,36 @@ TEST(ParticleSuggestion, TheOtherToneAndAnotherDiameter) {
   EXPECT_GT(size.params.diameter, 25);
   EXPECT_LT(size.params.diameter, 45);
   EXPECT_EQ(found_in(large[0], size.params), 3 * 2);
+}
+
+TEST(ParticleSuggestion, FlatDiscsOfAnySizeAreFoundWithIt) {
+  for (const double contrast : {-90.0, 70.0})
+    for (const double noise : {0.0, 2.0, 8.0})
+      for (const int radius : {4, 6, 8, 12, 15, 22, 30, 45, 70, 100}) {
+        Rng rng(5, Purpose::test);
+        std::vector<formats::Image> pictures;
+        for (int k = 0; k < 3; ++k)
+          pictures.push_back(test::two_discs(radius, contrast, noise, rng).picture);
+        const ParticleSuggestion s = suggest_particles(pictures, {});
+        const auto what = testing::Message()
+                          << radius << " px, " << contrast << ", noise " << noise;
+        EXPECT_EQ(s.params.tone, contrast < 0 ? ParticleTone::dark : ParticleTone::bright) << what;
+        EXPECT_TRUE(s.knows_diameter) << what;
+        EXPECT_GE(s.params.diameter, 2 * radius) << what;
+        EXPECT_LE(s.params.diameter, 3 * radius) << what;
+        for (const formats::Image& picture : pictures)
+          EXPECT_EQ(found_in(picture, s.params), 2) << what;
+      }
+}
+
+TEST(ParticleSuggestion, OnePictureOfTwoLargeRobotsIsEnough) {
+  Rng rng(8, Purpose::test);
+  for (const int radius : {10, 35, 80}) {
+    const std::vector<formats::Image> one{test::two_discs(radius, 80, 4, rng).picture};
+    const ParticleSuggestion s = suggest_particles(one, {});
+    EXPECT_NEAR(s.params.diameter, 2.3 * radius, 0.3 * radius);
+    EXPECT_EQ(found_in(one[0], s.params), 2) << radius;
+  }
 }
 
 TEST(ParticleSuggestion, SaysWhenThereIsNoGap) {

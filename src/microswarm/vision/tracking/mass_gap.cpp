@@ -17,7 +17,9 @@ constexpr double wide = 0.5;            // [decades] of a gap that pairs of robo
 constexpr double rare = 0.01;           // share of all features that outliers have at most
 constexpr double enough_robots = 0.25;  // beside lighter features that have a tone
 constexpr double min_count = 3;         // features on either side
-constexpr double toneless = 0.3;        // share of the other tone's features from which it is noise
+constexpr double clear_ratio =
+    10;                           // ratio of masses from which fewer will do, as of one large robot
+constexpr double toneless = 0.3;  // share of the other tone's features from which it is noise
 
 struct Gap {
   std::size_t from, to;  // bins
@@ -104,8 +106,10 @@ MassKinds mass_kinds(std::span<const double> masses, std::span<const double> oth
     at = gap->to;
     const MassGap found{bin_mass(gap->from), bin_mass(gap->to)};
     const double from = gaps.empty() ? 0 : gaps.back().robots_from;
-    if (count_between(sorted, from, found.noise_to) >= enough &&
-        count_between(sorted, found.robots_from, infinity) >= enough)
+    const bool is_clear = found.robots_from > clear_ratio * found.noise_to;
+    if (count_between(sorted, from, found.noise_to) >= (is_clear ? 1 : enough) &&
+        count_between(sorted, found.robots_from, infinity) >=
+            (is_clear ? std::max(1.0, 0.5 * pictures) : enough))
       gaps.push_back(found);
   }
   // Kinds of noise come first. Beyond a wide gap are no pairs: what is before it is an outlier of
