@@ -154,5 +154,32 @@ TEST(RobotTracker, NothingBeyondTheSearchRangeIsTaken) {
   EXPECT_EQ(other.step(1, std::vector<Vec2>{{3.9, 0}})[0].id, 0);
 }
 
+TEST(RobotTracker, AGivenSearchRangeIsTheRange) {
+  for (const double speed : {3.0, 8.0, 19.0, 95.0}) {  // [µm a frame], for robots of 10 µm
+    RobotTracker given({.search_range = 1.05 * speed}, diameter, dt);
+    for (int k = 0; k < 12; ++k)
+      ASSERT_EQ(given.step(k, std::vector<Vec2>{{speed * k, 2}})[0].id, 0) << speed << " at " << k;
+    RobotTracker without({}, diameter, dt);
+    for (int k = 0; k < 12; ++k) without.step(k, std::vector<Vec2>{{speed * k, 2}});
+    EXPECT_EQ(without.births(), speed > search_range({}, diameter) ? 12 : 1) << speed;
+  }
+  RobotTracker narrow({.gate = 0.5, .search_range = 20}, diameter, dt);
+  narrow.step(0, std::vector<Vec2>{{0, 0}});
+  EXPECT_EQ(narrow.step(1, std::vector<Vec2>{{19.9, 0}})[0].id, 0);  // whatever the gate
+}
+
+TEST(RobotTracker, FastRobotsInASwarmKeepTheirNames) {
+  std::vector<Vec2> places;
+  for (int i = 0; i < 30; ++i) places.push_back({45.0 * (i % 6), 45.0 * (i / 6)});
+  RobotTracker tracker({.search_range = 22}, diameter, dt);
+  for (int k = 0; k < 30; ++k) {
+    const auto& at = tracker.step(k, places);
+    for (std::size_t i = 0; i < at.size(); ++i) ASSERT_EQ(at[i].id, static_cast<int>(i)) << k;
+    for (std::size_t i = 0; i < places.size(); ++i)
+      places[i] += 18 * unit_vector(0.3 + 0.02 * static_cast<double>(i) + 0.03 * k);
+  }
+  EXPECT_EQ(tracker.births(), 30);
+}
+
 }  // namespace
 }  // namespace microswarm::vision

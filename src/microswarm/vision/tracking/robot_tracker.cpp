@@ -14,9 +14,11 @@ RobotTracker::RobotTracker(const TrackerParams& p, double diameter, double frame
     : noise_{.measurement = p.measurement.value_or(diameter / 50),
              .jitter = p.jitter.value_or(diameter / 10),
              .speed_change = p.speed_change.value_or(diameter / 100 / frame_time),
-             .start_speed = p.start_speed.value_or(diameter / 20 / frame_time)},
+             .start_speed = p.start_speed.value_or(
+                 std::max(diameter / 20, p.search_range.value_or(0) / 2) / frame_time)},
       gate_(p.gate),
-      search_range_(p.search_range.value_or(5 * diameter / 11)),
+      search_range_(search_range(p, diameter)),
+      is_range_given_(p.search_range.has_value()),
       touch_(p.touch.value_or(1.2 * diameter)),
       frame_time_(frame_time),
       memory_(p.memory),
@@ -51,7 +53,8 @@ void RobotTracker::finish() {
 }
 
 /// Collects pairs within reach, with the negative log-likelihood as cost: an uncertain robot has a
-/// weaker claim to a position than one predicted there.
+/// weaker claim to a position than one predicted there. A position within a given range is a
+/// candidate however unlikely it is, and better than none.
 void RobotTracker::find_candidates(std::span<const Vec2> seen) {
   by_height_.resize(seen.size());
   std::iota(by_height_.begin(), by_height_.end(), 0);
@@ -63,11 +66,15 @@ void RobotTracker::find_candidates(std::span<const Vec2> seen) {
     least = least > 0 ? std::min(least, variance) : variance;
   }
   edges_.clear();
+  unseen_cost_ = gate_ * gate_;
   for (int row = 0; row < std::ssize(robots_); ++row) {
     const RobotFilter& filter = robots_[row].filter;
     const double variance = filter.seen_variance(noise_);
-    const double reach = std::min(search_range_, gate_ * std::sqrt(variance));
+    const double reach =
+        is_range_given_ ? search_range_ : std::min(search_range_, gate_ * std::sqrt(variance));
     const double doubt = 2 * maths::log(variance / least);
+    if (is_range_given_ && variance > 0)
+      unseen_cost_ = std::max(unseen_cost_, reach * reach / variance + doubt);
     auto at = std::lower_bound(by_height_.begin(), by_height_.end(), filter.place().y - reach,
                                [&](int i, double y) { return seen[i].y < y; });
     for (; at != by_height_.end() && seen[*at].y <= filter.place().y + reach; ++at) {
@@ -79,7 +86,7 @@ void RobotTracker::find_candidates(std::span<const Vec2> seen) {
 
 void RobotTracker::match(int frame, std::span<const Vec2> seen) {
   const auto& column_at = assignment_.solve(static_cast<int>(robots_.size()),
-                                            static_cast<int>(seen.size()), edges_, gate_ * gate_);
+                                            static_cast<int>(seen.size()), edges_, unseen_cost_);
   sightings_.assign(seen.size(), {});
   robot_at_.assign(seen.size(), std::nullopt);
   for (int row = 0; row < std::ssize(robots_); ++row) {

@@ -34,9 +34,10 @@ struct TrackerParams {
     visit(self.min_lifetime,
           plain("min_lifetime", 1, 10000, "Frames a robot must exist to merge or split.")
               .formerly("lasting"));
-    visit(self.gate, plain("gate", 0.1, 100, "Mahalanobis distance of the search gate."));
+    visit(self.gate,
+          plain("gate", 0.1, 100, "Mahalanobis distance of the gate if no range is given."));
     visit(self.search_range,
-          um("search_range", 0, 1e6, "Search radius; none: 5/11 of the diameter."));
+          um("search_range", 0, 1e6, "Search radius; none: 5/11 of the diameter, in the gate."));
     visit(self.measurement,
           um("measurement", 1e-9, 1e6, "Measurement noise (sd); none: 1/50 of the diameter."));
     visit(self.jitter,
@@ -44,11 +45,16 @@ struct TrackerParams {
     visit(self.speed_change,
           um_per_s("speed_change", 0, 1e9,
                    "Velocity noise per frame (sd); none: diameter / 100 a frame."));
-    visit(self.start_speed,
-          um_per_s("start_speed", 0, 1e9, "Initial velocity (sd); none: diameter / 20 a frame."));
+    visit(self.start_speed, um_per_s("start_speed", 0, 1e9,
+                                     "Initial velocity (sd); none: from diameter, search range."));
     visit(self.touch, um("touch", 0, 1e6, "Distance of a merge or split; none: 1.2 diameters."));
   }
 };
+
+/// Search radius [µm] for robots of `diameter` [µm]: the given one, or the default.
+inline double search_range(const TrackerParams& params, double diameter) {
+  return params.search_range.value_or(5 * diameter / 11);
+}
 
 /// A robot seen in a frame.
 struct SeenRobot {
@@ -79,8 +85,9 @@ struct TrackEvent {
 };
 
 /// Tracks robots through the frames of a video. A RobotFilter predicts each robot; positions within
-/// its gate are candidates. The most likely assignment of robots to positions is chosen. A robot
-/// that is not seen is predicted for some frames. The tracker is deterministic.
+/// the search range, if one is given, or else within its gate are candidates. The most likely
+/// assignment of robots to positions is chosen. A robot that is not seen is predicted for some
+/// frames. The tracker is deterministic.
 class RobotTracker {
  public:
   /// `diameter` [µm] of the robots and `frame_time` [s] between frames, both above 0.
@@ -130,6 +137,7 @@ class RobotTracker {
   RobotNoise noise_;
   double gate_;
   double search_range_;
+  bool is_range_given_;
   double touch_;
   double frame_time_;
   int memory_;
@@ -140,6 +148,7 @@ class RobotTracker {
   std::vector<int> by_height_;                ///< indices of the detected positions, sorted by y
   std::vector<std::optional<int>> robot_at_;  ///< index of the robot at each detected position
   std::vector<AssignmentEdge> edges_;
+  double unseen_cost_ = 0;  ///< that an edge must not exceed to be taken
   Assignment assignment_;
   std::vector<SeenRobot> sightings_;
   std::vector<TrackEvent> events_;
