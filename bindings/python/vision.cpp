@@ -79,6 +79,8 @@ py::dict to_tracks(const vision::TrackResult& result) {
   out["rows"] = columns_of_list({&type_of<std::vector<vision::TrackRow>>(), &result.rows});
   out["events"] = to_dict(result.events);
   out["frames"] = result.frames;
+  out["unsettled"] = result.unsettled;
+  out["search_range_um"] = search_range(result.settings);
   out["is_noise"] = vision::looks_like_noise(summarise(result.rows, result.frames));
   return out;
 }
@@ -117,6 +119,7 @@ class ArrayTracker {
   py::dict finish() {
     tracker_.finish();
     result_.events = tracker_.events();
+    result_.unsettled = tracker_.unsettled();
     return to_tracks(result_);
   }
 

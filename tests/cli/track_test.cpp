@@ -117,6 +117,135 @@ TEST_F(Track, SuggestsWhatSeparatesRobotsFromNoise) {
   refused({"track", "none.mp4", "--suggest"}, naming("none.mp4", {"No such file"}));
 }
 
+TEST_F(Track, LoneFastRobotsNeedARange) {
+  fs::create_directories(at.folder / "fast");
+  for (int k = 0; k < 9; ++k)
+    write("fast/f" + std::to_string(k) + ".pgm", pgm(200, 40, [&](int x, int y) {
+            const double dx = x - (20 + 18 * k);
+            const double dy = y - 20;
+            return dx * dx + dy * dy < 20 ? 220 : 40;
+          }));
+  const Arguments words{"track",  "fast",  "--um-per-px",      "0.5",   "--rate",
+                        "10",     "--set", "find.tone=bright", "--out", "out",
+                        "--json", "--set", "find.min_mass=100"};
+  const Outcome alone = run(words);
+  EXPECT_TRUE(is_one_line_naming(alone.err, "note", {"9 of 9", "2.5 µm", "track.search_range_um"}))
+      << alone.err;
+  EXPECT_EQ(Json::parse(alone.out).at("tracks_1_frame"), 9);
+  Arguments wide = words;
+  wide.insert(wide.end(), {"--set", "track.search_range_um=10"});
+  const Outcome one = run(wide);
+  EXPECT_EQ(one.err, "");
+  EXPECT_EQ(Json::parse(one.out).at("tracks"), 1);
+  EXPECT_EQ(Json::parse(one.out).at("search_range_um"), 10);
+}
+
+TEST_F(Track, OnlyInARegionOrAMask) {
+  film("video", 12);
+  const Arguments words{"track", "video", "--um-per-px", "0.5",    "--rate",
+                        "10",    "--out", "out",         "--json", "--no-overlay"};
+  const auto tracks = [&](Arguments more) {
+    Arguments all = words;
+    all.insert(all.end(), more.begin(), more.end());
+    return Json::parse(good(all)).at("tracks").get<int>();
+  };
+  EXPECT_EQ(tracks({}), 12);
+  EXPECT_EQ(tracks({"--region", "50,50,75,100"}), 4);  // two columns and two rows
+  EXPECT_EQ(tracks({"--set", "region.x_px=50", "--set", "region.y_px=50", "--set",
+                    "region.width_px=75", "--set", "region.height_px=100"}),
+            4);
+  write("mask.pgm", pgm(200, 160, [](int x, int) { return x < 60 ? 255 : 0; }));
+  EXPECT_EQ(tracks({"--mask", "mask.pgm"}), 3);
+  write("small.pgm", pgm(20, 10, [](int, int) { return 255; }));
+  const auto bad = [&](Arguments more, const Complaint& line) {
+    Arguments all = words;
+    all.insert(all.end(), more.begin(), more.end());
+    refused(all, line);
+  };
+  bad({"--mask", "small.pgm"}, naming("mask", {"20x10", "200x160"}));
+  bad({"--region", "50,50,160,20"}, naming("region", {"210", "200x160"}));
+  bad({"--region", "50,50,60"}, naming("--region", {"50,50,60", "X,Y,WIDTH,HEIGHT"}));
+  bad({"--region", "50,50,0.5,9"}, naming("--region", {"whole pixels"}));
+}
+
+TEST_F(Track, SeveralVideosGetAFolderEach) {
+  film("a/one", 6);
+  film("b/one", 4);
+  write("bad.mp4", std::string(3000, 'v'));
+  const Outcome outcome = run({"track", "a/one", "bad.mp4", "b/one", "--um-per-px", "0.5", "--rate",
+                               "10", "--out", "out", "--no-overlay"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_TRUE(names(outcome.err, "bad.mp4: is no video that can be read")) << outcome.err;
+  EXPECT_TRUE(names(outcome.err, "1 of 3 videos")) << outcome.err;
+  EXPECT_TRUE(read("out/one/tracks.csv").starts_with("frame,"));
+  EXPECT_TRUE(read("out/one-2/tracks.csv").starts_with("frame,"));
+  const std::string summary = read("out/summary.csv");
+  EXPECT_NE(summary.find("\na/one,one,6,72,12,"), std::string::npos) << summary;
+  EXPECT_NE(summary.find("\nb/one,one-2,4,48,12,"), std::string::npos) << summary;
+  EXPECT_NE(summary.find("\nbad.mp4,bad,"), std::string::npos) << summary;
+  const Json all = Json::parse(good({"track", "a/one", "b/one", "--um-per-px", "0.5", "--rate",
+                                     "10", "--out", "out", "--no-overlay", "--json"}));
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[1].at("video"), "b/one");
+  EXPECT_EQ(all[1].at("features"), 48);
+}
+
+TEST_F(Track, MotionIsWrittenAndDrawn) {
+  film("video", 12);
+  const Outcome outcome = run({"track", "video", "--um-per-px", "0.5", "--rate", "10", "--out",
+                               "out", "--no-overlay", "--motion", "--json"});
+  const Json motion = Json::parse(outcome.out).at("motion");
+  EXPECT_NEAR(motion.at("msd_exponent"), 2, 0.01);
+  EXPECT_NEAR(motion.at("median_speed_um_per_s"), 5 * std::sqrt(2.0), 0.05);
+  EXPECT_TRUE(
+      read("out/msd.csv")
+          .starts_with("lag,lag_s,msd_um2,standard_error_um2,tracks,displacements\n1,0.1,0."))
+      << read("out/msd.csv");
+  EXPECT_TRUE(read("out/drift.csv").starts_with("frame,t_s,x_um,y_um,robots\n0,0,0,0,0\n1,0.1,"))
+      << read("out/drift.csv");
+  EXPECT_TRUE(read("out/robots.csv").starts_with("id,first_frame,frames,duration_s,path_um,"));
+  for (const std::string file : {"trajectories.png", "motion.png"})
+    EXPECT_EQ(read("out/" + file).substr(1, 3), "PNG") << file;
+  const std::string text = good({"track", "video", "--um-per-px", "0.5", "--rate", "10", "--out",
+                                 "out", "--no-overlay", "--motion", "--remove-drift"});
+  EXPECT_NE(text.find("msd.csv"), std::string::npos) << text;
+  refused({"track", "video", "--um-per-px", "1", "--out", "out", "--remove-drift"},
+          naming("track", {"--remove-drift", "--motion"}));
+}
+
+TEST_F(Track, CentresThatDidNotSettleAreTold) {
+  fs::create_directories(at.folder / "large");
+  for (int k = 0; k < 2; ++k)
+    write("large/f" + std::to_string(k) + ".pgm", pgm(300, 200, [&](int x, int y) {
+            const double dx = x - 150;
+            const double dy = y - 100;
+            return (dx * dx + dy * dy < 50 * 50 ? 60 : 180) + (x * 7919 + y * 104729 + k) % 5;
+          }));
+  const Arguments words{"track",
+                        "large",
+                        "--um-per-px",
+                        "1",
+                        "--rate",
+                        "10",
+                        "--json",
+                        "--set",
+                        "find.diameter_px=115",
+                        "--out",
+                        "out",
+                        "--set",
+                        "find.min_mass=10000"};
+  const Outcome free = run(words);
+  EXPECT_EQ(free.err, "");
+  EXPECT_EQ(Json::parse(free.out).at("unsettled"), 0);
+  EXPECT_EQ(Json::parse(free.out).at("features"), 2);
+  Arguments limited = words;
+  limited.insert(limited.end(), {"--set", "find.max_moves=1"});
+  const Outcome stopped = run(limited);
+  EXPECT_TRUE(is_one_line_naming(stopped.err, "note", {"2 of 2", "find.max_moves=1"}))
+      << stopped.err;
+  EXPECT_EQ(Json::parse(stopped.out).at("unsettled"), 2);
+}
+
 TEST_F(Track, JsonTellsDriftAndSpeed) {
   film("video", 12);
   const Json json = Json::parse(good({"track", "video", "--um-per-px", "0.5", "--rate", "10",

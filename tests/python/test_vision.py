@@ -104,6 +104,24 @@ def test_tracks_are_where_the_robots_are(video):
     assert last["vy_um_per_s"][0] == pytest.approx(-1, rel=0.3)
 
 
+def test_fast_robots_need_a_range():
+    fast = np.stack([spots([(12 + 14 * k, 30)]) for k in range(6)])
+    with pytest.warns(UserWarning, match="search_range_um"):
+        alone = ms.track(fast, 0.5, 4, min_mass=100)
+    assert len(set(alone["particle"].tolist())) == 6
+    assert set(ms.track(fast, 0.5, 4, min_mass=100, search_range_um=8)["particle"].tolist()) == {0}
+
+
+def test_a_region_is_tracked_in(video):
+    whole = ms.track(video, 0.5, 4, min_mass=100)
+    right = ms.track(video, 0.5, 4, min_mass=100, region={"x_px": 50, "y_px": 10, "width_px": 50, "height_px": 50})
+    assert set(right["particle"].tolist()) == {0}
+    there = whole[whole["x"] > 50]
+    assert np.abs(np.sort(right["x"]) - np.sort(there["x"])).max() < 0.05
+    with pytest.raises(ms.InputError, match="region"):
+        ms.track(video, 0.5, 4, region={"x_px": 90, "y_px": 10, "width_px": 50, "height_px": 50})
+
+
 def test_pandas_takes_tracks(video):
     pandas = pytest.importorskip("pandas")
     table = pandas.DataFrame(ms.track(video, 0.5, 4, min_mass=100))

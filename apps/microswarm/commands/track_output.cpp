@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "commands/track_motion.hpp"
 #include "microswarm/config/write.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/version.hpp"
@@ -63,6 +64,7 @@ std::string tracks_h5(const vision::TrackResult& result) {
   file.attribute("/", "version", version);
   file.attribute("/", "source", result.source);
   file.attribute("/", "frames", std::int64_t{result.frames});
+  file.attribute("/", "unsettled", std::int64_t{result.unsettled});
   file.attribute("/", "um_per_px", result.settings.um_per_px.value_or(0));
   file.attribute("/", "frame_time_s", result.frame_time);
   file.text("/settings", to_yaml(result.settings));
@@ -105,10 +107,36 @@ std::string tracks_h5(const vision::TrackResult& result) {
 
 }  // namespace
 
+void VideoRow::take(const vision::TrackResult& result) {
+  frames = result.frames;
+  summary = vision::summarise(result.rows, result.frames);
+  unsettled = result.unsettled;
+}
+
+std::string summary_csv(const std::vector<VideoRow>& rows) {
+  std::string text =
+      "video,folder,frames,features,tracks,tracks_10_frames,tracks_1_frame,unsettled,drift_x_um,"
+      "drift_y_um,mean_speed_um_per_s,error\n";
+  for (const VideoRow& row : rows) {
+    const vision::TrackSummary& s = row.summary;
+    const auto drift = [&](double v) { return s.drift ? fmt::format("{}", v) : ""; };
+    text += fmt::format("{},{},", io::csv_text(row.video), io::csv_text(row.folder));
+    if (row.error.empty())
+      text += fmt::format("{},{},{},{},{},{},{},{},{},\n", row.frames, s.features, s.tracks,
+                          s.long_tracks, s.single_tracks, row.unsettled,
+                          drift(s.drift.value_or(Vec2{}).x), drift(s.drift.value_or(Vec2{}).y),
+                          s.mean_speed ? fmt::format("{}", *s.mean_speed) : "");
+    else
+      text += ",,,,,,,,," + io::csv_text(row.error) + "\n";
+  }
+  return text;
+}
+
 void keep_track_input(const std::filesystem::path& folder, const std::string& input) {
   for (const char* name :
        {"tracks.csv", "events.csv", "tracks.h5", "overlay.mp4", "overlay", "masses.png"})
     keep_input((folder / name).string(), input);
+  for (const char* name : motion_files) keep_input((folder / name).string(), input);
 }
 
 void write_tracks(const vision::TrackResult& result, const std::filesystem::path& folder) {
@@ -134,6 +162,9 @@ nlohmann::ordered_json tracks_json(const vision::TrackResult& result) {
           {"mean_speed_um_per_s", s.mean_speed ? Json(*s.mean_speed) : Json(nullptr)},
           {"merges", count_changes(result, vision::TrackChange::merge)},
           {"splits", count_changes(result, vision::TrackChange::split)},
+          {"tracks_1_frame", s.single_tracks},
+          {"search_range_um", search_range(result.settings)},
+          {"unsettled", result.unsettled},
           {"um_per_px", scale},
           {"notes", result.notes}};
 }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "microswarm/vision/tracking/video_tracks.hpp"
 
@@ -18,6 +19,18 @@ void keep_track_input(const std::filesystem::path& folder, const std::string& in
 
 /// Result for --json.
 nlohmann::ordered_json tracks_json(const vision::TrackResult& result);
+/// A row of summary.csv, on one video of several.
+struct VideoRow {
+  std::string video;
+  std::string folder;
+  std::string error{};  ///< empty if it was tracked
+  int frames = 0;
+  vision::TrackSummary summary{};
+  int unsettled = 0;
+  void take(const vision::TrackResult& result);
+};
+std::string summary_csv(const std::vector<VideoRow>& rows);
+
 /// Summary in a few lines.
 std::string track_summary(const vision::TrackResult& result);
 

@@ -86,7 +86,9 @@ def track(
     progress       called with the completed share; False: nothing is shown
     values         values of `track --set`, with or without their group: diameter_px=11, min_mass=40, tone="bright",
                    channel="red", memory=5, search_range_um=4, stack_channel=2 and slice=1 of a TIFF that holds
-                   several, or find={"diameter_px": 11}
+                   several, or find={"diameter_px": 11}. search_range_um is the farthest that a robot moves from
+                   picture to picture; fast ones need it. region={"x_px": 10, "y_px": 0, "width_px": 300,
+                   "height_px": 200} tracks in a part of the pictures
 
     What was assumed in reading a file is a warning.
 
@@ -125,7 +127,13 @@ def track(
     if times is not None and len(times) != made["frames"]:
         raise InputError(f"times_s has {len(times)} times, there are {made['frames']} pictures")
     if made["is_noise"]:
-        warnings.warn("most tracks are one picture long: noise may be taken for robots; raise min_mass", stacklevel=2)
+        warnings.warn(
+            "most tracks are one picture long: noise may be taken for robots, raise min_mass; or robots move more than "
+            f"the search range of {made['search_range_um']:.4g} µm a picture, give search_range_um",
+            stacklevel=2,
+        )
+    if made["unsettled"]:
+        warnings.warn(f"{made['unsettled']} features did not settle on their centroids", stacklevel=2)
     tracks = tracks_of(made)
     if times is not None:
         tracks["t_s"] = times[tracks["frame"]]

@@ -2,6 +2,7 @@
 #include "microswarm/vision/tracking/track_overlay.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <opencv2/core.hpp>
@@ -11,6 +12,7 @@
 #include "microswarm/core/maths/maths.hpp"
 #include "microswarm/vision/image/mat.hpp"
 #include "microswarm/vision/image/strokes.hpp"
+#include "microswarm/vision/tracking/track_marks.hpp"
 
 namespace microswarm::vision {
 namespace {
@@ -19,18 +21,13 @@ constexpr std::size_t trail_length = 20;  // frames
 constexpr int forgotten_after = 20;       // frames unseen
 constexpr int max_numbered = 100;         // robots; beyond this, numbers are omitted
 
-/// One of six colours safe for colour-blind readers (Okabe & Ito), by id.
-cv::Scalar track_colour(int id) {
-  static const std::array<cv::Scalar, 6> colours{
-      {{230, 159, 0}, {86, 180, 233}, {0, 158, 115}, {240, 228, 66}, {0, 114, 178}, {213, 94, 0}}};
-  return colours[static_cast<std::size_t>(id) % colours.size()];
-}
-
 std::string short_number(const char* form, double value) {
   char text[64];
   std::snprintf(text, sizeof text, form, value);
   return text;
 }
+
+double legend_size(const cv::Mat& picture) { return std::clamp(picture.cols / 1200.0, 0.35, 2.0); }
 
 void take_in_colour(const formats::Image& picture, formats::Image& colour) {
   colour.width = picture.width;
@@ -46,7 +43,23 @@ void take_in_colour(const formats::Image& picture, formats::Image& colour) {
 
 /// Draws the scale bar at the lower left, and time and count at the upper left.
 void draw_legend(cv::Mat& picture, double um_per_px, double t, std::size_t robots) {
-  const double size = std::clamp(picture.cols / 1200.0, 0.35, 2.0);
+  const double size = legend_size(picture);
+  const int step = static_cast<int>(30 * size);
+  draw_scale_bar(picture, um_per_px);
+  draw_text(picture, short_number("%.2f s", t) + ", " + std::to_string(robots) + " robots",
+            {step, step + step / 4}, size);
+}
+
+}  // namespace
+
+cv::Scalar track_colour(int id) {
+  static const std::array<cv::Scalar, 6> colours{
+      {{230, 159, 0}, {86, 180, 233}, {0, 158, 115}, {240, 228, 66}, {0, 114, 178}, {213, 94, 0}}};
+  return colours[static_cast<std::size_t>(id) % colours.size()];
+}
+
+void draw_scale_bar(cv::Mat& picture, double um_per_px) {
+  const double size = legend_size(picture);
   const int step = static_cast<int>(30 * size);
   const double bar = scale_bar_length(picture.cols * um_per_px);
   const int length = static_cast<int>(std::lround(bar / um_per_px));
@@ -54,11 +67,7 @@ void draw_legend(cv::Mat& picture, double um_per_px, double t, std::size_t robot
   cv::rectangle(picture, box + cv::Size(2, 2) - cv::Point(1, 1), black, cv::FILLED);
   cv::rectangle(picture, box, white, cv::FILLED);
   draw_text(picture, short_number("%g um", bar), {step, box.y - step / 3}, size);
-  draw_text(picture, short_number("%.2f s", t) + ", " + std::to_string(robots) + " robots",
-            {step, step + step / 4}, size);
 }
-
-}  // namespace
 
 double scale_bar_length(double width) {
   const double about = width / 5;

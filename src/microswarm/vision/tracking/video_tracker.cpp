@@ -24,40 +24,48 @@ FrameOptions frame_options(const TrackSettings& settings, const std::filesystem:
           .slice = settings.slice};
 }
 
+double search_range(const TrackSettings& settings) {
+  return search_range(settings.track, settings.find.diameter * picture_scale(settings));
+}
+
 VideoTracker::VideoTracker(const TrackSettings& settings, double frame_time)
     : channel_(settings.channel),
       um_per_px_(picture_scale(settings)),
       finder_(settings.find),
-      tracker_(settings.track, settings.find.diameter * um_per_px_, frame_time) {}
+      tracker_(settings.track, settings.find.diameter * um_per_px_, frame_time),
+      area_(settings.region, settings.mask, 2 * finder_.radius_px() + 2) {}
 
 const std::vector<TrackRow>& VideoTracker::step(const VideoFrame& frame) {
   take_channel(frame.picture, channel_, grey_);
-  const std::vector<Particle>& found = finder_.find(grey_);
+  found_ = finder_.find(area_.crop(grey_));
+  for (Particle& particle : found_) particle.at_px += area_.offset();
+  std::erase_if(found_, [&](const Particle& p) { return !area_.contains(p.at_px); });
+  unsettled_ += finder_.unsettled();
   places_.clear();
-  for (const Particle& particle : found)
+  for (const Particle& particle : found_)
     places_.push_back(place_in_world(particle.at_px, grey_.height, um_per_px_));
   std::optional<double> elapsed;
   if (last_ && frame.t > *last_) elapsed = frame.t - *last_;
   last_ = frame.t;
   const std::vector<SeenRobot>& sightings = tracker_.step(frame.index, places_, elapsed);
   rows_.clear();
-  for (std::size_t i = 0; i < found.size(); ++i)
+  for (std::size_t i = 0; i < found_.size(); ++i)
     rows_.push_back({.frame = frame.index,
                      .t = frame.t,
                      .id = sightings[i].id,
                      .position = places_[i],
                      .velocity = sightings[i].velocity,
-                     .radius = um_per_px_ * found[i].radius_px,
-                     .mass = found[i].mass,
-                     .signal = found[i].signal,
-                     .eccentricity = found[i].eccentricity,
-                     .at_px = found[i].at_px});
+                     .radius = um_per_px_ * found_[i].radius_px,
+                     .mass = found_[i].mass,
+                     .signal = found_[i].signal,
+                     .eccentricity = found_[i].eccentricity,
+                     .at_px = found_[i].at_px});
   return rows_;
 }
 
 bool looks_like_noise(const TrackSummary& s) {
-  constexpr int min_frames = 5;  // fewer are not significant
-  return s.frames >= min_frames && s.tracks > 10 && 2 * s.single_tracks > s.tracks;
+  constexpr int enough = 5;  // frames and tracks; fewer are not significant
+  return s.frames >= enough && s.single_tracks >= enough && 2 * s.single_tracks > s.tracks;
 }
 
 TrackSummary summarise(const std::vector<TrackRow>& rows, int frames) {

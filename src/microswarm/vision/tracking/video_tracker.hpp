@@ -9,6 +9,7 @@
 #include "microswarm/vision/camera/frames.hpp"
 #include "microswarm/vision/tracking/particles.hpp"
 #include "microswarm/vision/tracking/robot_tracker.hpp"
+#include "microswarm/vision/tracking/search_area.hpp"
 
 namespace microswarm::vision {
 
@@ -22,6 +23,8 @@ struct TrackSettings {
   VideoChannel channel = VideoChannel::grey;
   ParticleParams find;
   TrackerParams track;
+  std::optional<PictureRegion> region;
+  formats::Mask mask;  ///< pixels in which robots are tracked; empty: all. Not in files.
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
@@ -34,6 +37,7 @@ struct TrackSettings {
     visit(self.channel, plain("channel", "Colour channel used."));
     visit(self.find, plain("find", "Detection of robots in an image."));
     visit(self.track, plain("track", "Tracking of robots through the images."));
+    visit(self.region, plain("region", "Rectangle to track in; none: the whole picture."));
   }
 };
 
@@ -72,6 +76,9 @@ struct TrackRow {
   }
 };
 
+/// Search radius of the tracker with these settings, which have a scale [µm].
+double search_range(const TrackSettings& settings);
+
 /// Finds and tracks the robots of a video, picture by picture.
 class VideoTracker {
  public:
@@ -80,11 +87,13 @@ class VideoTracker {
   VideoTracker(const TrackSettings& settings, double frame_time);
 
   /// Processes the next picture. Returns the rows of the robots seen in it, valid until the next
-  /// call.
+  /// call. Throws InputError if the region or the mask does not fit the picture.
   const std::vector<TrackRow>& step(const VideoFrame& frame);
   /// Ends the video.
   void finish() { tracker_.finish(); }
   const std::vector<TrackEvent>& events() const { return tracker_.events(); }
+  /// Robots whose centres had not settled when the limit of moves ended them, in all pictures.
+  int unsettled() const { return unsettled_; }
 
  private:
   VideoChannel channel_;
@@ -92,7 +101,10 @@ class VideoTracker {
   ParticleFinder finder_;
   RobotTracker tracker_;
   std::optional<double> last_;  ///< time of the picture before [s]
+  int unsettled_ = 0;
   formats::Image grey_;
+  SearchArea area_;
+  std::vector<Particle> found_;
   std::vector<Vec2> places_;
   std::vector<TrackRow> rows_;
 };
@@ -124,7 +136,8 @@ struct TrackSummary {
 /// Summarises tracks. `rows` are sorted by frame; `frames` is the number of processed frames.
 TrackSummary summarise(const std::vector<TrackRow>& rows, int frames);
 
-/// Whether most tracks of a video are of one frame, as those of noise are.
+/// Whether most tracks of a video are of one frame, as those of noise are, and of robots that move
+/// beyond the search range from frame to frame.
 bool looks_like_noise(const TrackSummary& summary);
 
 }  // namespace microswarm::vision

@@ -25,6 +25,7 @@ TrackResult track_video(FrameSource& frames, const std::string& source,
     if (on_tracked) on_tracked(frame, rows);
   }
   tracker.finish();
+  result.unsettled = tracker.unsettled();
   result.events = tracker.events();
   result.notes = frames.notes();
   return result;

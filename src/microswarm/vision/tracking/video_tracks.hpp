@@ -17,6 +17,7 @@ struct TrackResult {
   TrackSettings settings;
   double frame_time = 1;  ///< mean [s]
   int frames = 0;
+  int unsettled = 0;               ///< robots whose centres did not settle
   std::optional<int> promised;     ///< number of frames stated by the video
   std::vector<double> times;       ///< of each picture [s]
   std::vector<std::string> notes;  ///< what was assumed in reading the pictures
