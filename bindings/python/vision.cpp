@@ -41,6 +41,9 @@ py::dict segment(const py::object& photo, double um_per_px, double smooth, const
   out["mask"] = to_array(found.vessels);
   out["field_of_view"] = to_array(found.field_of_view);
   out["method"] = std::string(enum_name(found.method));
+  out["polarity"] = std::string(enum_name(found.polarity));
+  out["two_level_share"] = py::cast(found.two_level_share);
+  out["polarity_odds"] = py::cast(found.polarity_odds);
   out["vessel_share"] = found.view_share;
   out["kept_share"] = found.kept_share;
   out["pieces"] = found.pieces;

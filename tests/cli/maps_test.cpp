@@ -220,6 +220,13 @@ TEST_F(Maps, Segment) {
   const Json check = about("check", "maps/vessels.geojson", false);
   EXPECT_EQ(check.at("free_pieces"), 1);
   EXPECT_GT(check.at("widest_um"), 30);
+  EXPECT_EQ(found.at("method"), "regions");
+  EXPECT_EQ(found.at("polarity"), "dark");
+  EXPECT_GT(found.at("two_level_share"), 0.9);
+  EXPECT_GT(found.at("polarity_odds"), 1);
+  const std::string told =
+      good({"map", "segment", "photo.pgm", "--um-per-px", "5", "--out", "v.geojson"});
+  EXPECT_NE(told.find("method: regions, dark"), std::string::npos) << told;
   refused({"map", "segment", "photo.pgm", "--um-per-px", "5", "--set", "min_widt_px=6"},
           naming("--set min_widt_px", {"min_widt_px", "min_width_px"}));
 }

@@ -294,8 +294,18 @@ def test_the_map_is_free_where_the_mask_is(tmp_path):
     middles = np.column_stack(((columns + 0.5) * 5, (120 - rows - 0.5) * 5))
     assert found.map.is_free(middles[inner]).all()
     write_pnm(tmp_path / "p.pgm", picture)
-    for same in (tmp_path / "p.pgm", np.asfortranarray(picture), picture[::-1][::-1], np.stack([picture] * 3, -1), picture[..., None]):
+    for same in (tmp_path / "p.pgm", np.asfortranarray(picture), picture[::-1][::-1], np.stack([picture] * 3, -1), picture[..., None], picture.astype(np.uint16) * 16):
         assert np.array_equal(ms.segment(same, 5, method="regions", polarity="dark").mask, found.mask)
+
+
+def test_method_and_polarity_are_named():
+    picture = np.full((160, 220), 190, np.uint8)
+    picture[70:90, :] = 90
+    for image, polarity in ((picture, "dark"), ((280 - picture.astype(int)).astype(np.uint8), "bright")):
+        found = ms.segment(image, 5)
+        assert (found.method, found.polarity) == ("regions", polarity)
+        assert found.two_level_share > 0.9 and found.polarity_odds > 1
+    assert ms.segment(picture, 5, method="regions", polarity="dark").two_level_share is None
 
 
 @pytest.mark.parametrize(

@@ -88,10 +88,10 @@ export class VesselSearch {
   }
 }
 
-function described(found: { [name: string]: number }): string {
+function described(found: { [name: string]: number } & { choice?: string }): string {
   const percent = (share: number | undefined) => `${number(100 * (share ?? 0), 3)} %`;
   return (
     `Vessels cover ${percent(found['view_share'])} of the view; wide ones are ${number(found['wide_width_px'] ?? 0, 3)} px; ` +
-    `${percent(found['kept_share'])} of ${found['pieces']} pieces are kept.`
+    `${percent(found['kept_share'])} of ${found['pieces']} pieces are kept. Method: ${found.choice ?? '?'}.`
   );
 }

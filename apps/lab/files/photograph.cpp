@@ -54,7 +54,8 @@ FoundVessels find_vessels(const std::filesystem::path& photograph, const PhotoRe
   const vision::VesselSegmentation found = searched(photo, request);
   const TemporaryFile picture("overlay.png");
   formats::write_png(picture.path(), vision::overlay(photo, found.vessels));
-  const nlohmann::json json{{"view_share", found.view_share},
+  const nlohmann::json json{{"choice", vision::describe_choice(found)},
+                            {"view_share", found.view_share},
                             {"pieces", found.pieces},
                             {"kept_share", found.kept_share},
                             {"bridges", found.bridges},

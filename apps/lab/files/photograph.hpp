@@ -12,7 +12,7 @@ namespace microswarm::lab {
 /// Vessels found in a photograph.
 struct FoundVessels {
   std::string png;   ///< the photograph with their outline
-  std::string json;  ///< share of the view, pieces, kept share, widths [px]
+  std::string json;  ///< method and polarity, share of the view, pieces, kept share, widths [px]
 };
 
 /// JSON Schema of the search's parameters.

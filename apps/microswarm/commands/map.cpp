@@ -156,7 +156,11 @@ int segment(const SegmentOptions& o, const Context& context) {
   formats::write_map(out, map, cell);
   formats::write_png(picture, vision::overlay(photo, found.vessels));
 
-  Json json{{"vessel_share", found.view_share},
+  Json json{{"method", std::string(enum_name(found.method))},
+            {"polarity", std::string(enum_name(found.polarity))},
+            {"two_level_share", json_share(found.two_level_share)},
+            {"polarity_odds", json_share(found.polarity_odds)},
+            {"vessel_share", found.view_share},
             {"pieces", found.pieces},
             {"kept_share", found.kept_share},
             {"bridges", found.bridges},
@@ -164,11 +168,10 @@ int segment(const SegmentOptions& o, const Context& context) {
             {"map", out.string()},
             {"overlay", picture.string()}};
   std::string text = fmt::format(
-      "vessels cover {:.1f} % of the view, wide ones {:.0f} µm; {} gaps bridged; kept {:.0f} % of "
-      "{} "
-      "pieces\n",
-      100 * found.view_share, found.wide_width_px * cell, found.bridges, 100 * found.kept_share,
-      found.pieces);
+      "method: {}\nvessels cover {:.1f} % of the view, wide ones {:.0f} µm; {} gaps bridged; kept "
+      "{:.0f} % of {} pieces\n",
+      vision::describe_choice(found), 100 * found.view_share, found.wide_width_px * cell,
+      found.bridges, 100 * found.kept_share, found.pieces);
   if (truth) {
     const vision::Agreement a = vision::compare(*truth, found.vessels, &found.field_of_view);
     json["sensitivity"] = json_share(a.sensitivity());
@@ -188,12 +191,10 @@ int segment(const SegmentOptions& o, const Context& context) {
 void add_segment(Command map, Action& action) {
   auto o = std::make_shared<SegmentOptions>();
   Command cmd = map.add_command(
-      "segment", "Segment dark vessels in a photograph; writes a map and an overlay picture",
+      "segment", "Segment vessels or channels in a photograph; writes a map and an overlay picture",
       "map segment samples/vessels/retina.png --um-per-px 6 --out vessels.geojson");
-  cmd.add_option(
-         "photo", o->photo,
-         "Photograph of vessels darker than their surroundings, or camera such as /dev/video0 or "
-         "genicam:ID")
+  cmd.add_option("photo", o->photo,
+                 "Photograph of vessels or channels, or camera such as /dev/video0 or genicam:ID")
       .required()
       .type_name("FILE")
       .input();

@@ -23,7 +23,10 @@ class Segmentation:
     mask             vessels, as booleans of shape (height, width), the upper row first
     map              the Map, free in the vessels; the lower left corner of the picture is (0, 0), y points up
     field_of_view    area shown by the optics, like `mask`
-    method           method that was used, "lines" or "regions"
+    method           method that was taken, "lines" or "regions"
+    polarity         polarity that was taken, "dark" or "bright"
+    two_level_share  share of the variance that two greys explain: above 0.9 `regions` are taken; None if method= was given
+    polarity_odds    evidence for the polarity over that for the other, 1 or more; None if polarity= was given
     vessel_share     area of the vessels, as a share of the field of view
     wide_width_um    width of the wide vessels
     pieces           connected networks, of which `kept_share` of the area was kept
@@ -35,6 +38,9 @@ class Segmentation:
         self.mask: np.ndarray = made["mask"]
         self.field_of_view: np.ndarray = made["field_of_view"]
         self.method: str = made["method"]
+        self.polarity: str = made["polarity"]
+        self.two_level_share: Optional[float] = made["two_level_share"]
+        self.polarity_odds: Optional[float] = made["polarity_odds"]
         self.vessel_share: float = made["vessel_share"]
         self.wide_width_um: float = made["wide_width_um"]
         self.pieces: int = made["pieces"]
@@ -42,7 +48,7 @@ class Segmentation:
         self.bridges: int = made["bridges"]
 
     def __repr__(self) -> str:
-        return f"<Segmentation: vessels cover {100 * self.vessel_share:.3g} %, wide ones {self.wide_width_um:.4g} µm>"
+        return f"<Segmentation by {self.method}, {self.polarity}: vessels cover {100 * self.vessel_share:.3g} %, wide ones {self.wide_width_um:.4g} µm>"
 
 
 def segment(image: Any, um_per_px: float, *, smooth_px: float = 1.0, **values: Any) -> Segmentation:
@@ -189,7 +195,7 @@ def tracks_of(made: dict[str, Any]) -> np.ndarray:
 
 def structured(columns: dict[str, np.ndarray]) -> np.ndarray:
     """Columns of equal length as a structured array."""
-    array = np.empty(len(columns["frame"]), dtype=[(key, column.dtype) for key, column in columns.items()])
+    array = np.empty(len(next(iter(columns.values()))), dtype=[(key, column.dtype) for key, column in columns.items()])
     for key, column in columns.items():
         array[key] = column
     return array

@@ -24,6 +24,17 @@ cv::Mat brightest_channel(const cv::Mat& picture) {
   return brightest;
 }
 
+/// Whether a surround leaves out at least three of the picture's corners: what is dark elsewhere
+/// are channels.
+bool leaves_out_corners(const cv::Mat& view) {
+  const int right = view.cols - 1;
+  const int bottom = view.rows - 1;
+  int corners = 0;
+  for (const cv::Point p : {cv::Point(0, 0), {right, 0}, {0, bottom}, {right, bottom}})
+    corners += view.at<std::uint8_t>(p) == 0;
+  return corners >= 3;
+}
+
 double solidity(const cv::Mat& piece) {
   std::vector<cv::Point> points, hull;
   cv::findNonZero(piece, points);
@@ -47,6 +58,7 @@ formats::Mask field_of_view(const formats::Image& image) {
   if (bright_count > (1 - min_surround) * total || view_count < min_view * total ||
       view_count < min_of_bright * bright_count)
     return to_mask(whole);
+  if (!leaves_out_corners(view)) return to_mask(whole);
   fill_holes(view, total);
   return to_mask(solidity(view) < min_solidity ? whole : view);
 }

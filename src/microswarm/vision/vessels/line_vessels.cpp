@@ -21,6 +21,9 @@ namespace {
 constexpr double working_radius = 4.3;      // [px] of the wide vessels; optimal for the filter
 constexpr double first_diameter = 900;      // [px] of the view in the first measurement of widths
 constexpr double max_diameter = 2000;       // [px] maximum of the view at working resolution
+constexpr double tone_diameter = 450;       // [px] of the view on which their tone is measured
+constexpr double tone_radius = 3;           // [px] of wide vessels there
+constexpr double tail_quantile = 0.97;      // of the line score
 constexpr double wide_line_quantile = 0.8;  // quantile of the depths of vessel pixels ...
 constexpr double wide_factor = 1.35;        // ... times this is the wide radius
 constexpr double first_blur = 2.2;          // [px] widening of vessels in the first measurement
@@ -28,7 +31,11 @@ constexpr double soft_rim = 0.01;           // of the view's diameter
 constexpr double dark_noise = 15;           // [grey levels] below which absorbance is unreliable
 constexpr double opening = 8;               // diameter of the opening's disc in wide radii
 constexpr double min_disc = 10;             // [px] minimum diameter of that disc after downsampling
-constexpr double sure_margin = 0.5;         // spreads above the threshold
+constexpr double clear_quantile = 0.99;     // of the line score, which clear lines reach ...
+// ... in spreads above the median: on a clean background the interquartile range is tiny, and the
+// flanks of the filter's answer would be lines.
+constexpr double max_clear_spreads = 10;
+constexpr double sure_margin = 0.5;  // spreads above the threshold
 constexpr double small_piece = 0.2;  // relative to the minimum piece: too small to be bridged
 constexpr double reflex = 0.3;       // squares of the wide width: holes left by light reflexes
 
@@ -116,7 +123,9 @@ double quantile(const cv::Mat& values, const cv::Mat& where, double q) {
 Lines find_lines(const Working& w, double wide_radius, const VesselParams& params) {
   cv::Mat score = line_score(w.absorbance, w.view, {.wide_radius = wide_radius});
   const double median = quantile(score, w.view, 0.5);
-  const double spread = quantile(score, w.view, 0.75) - quantile(score, w.view, 0.25);
+  const double most = (quantile(score, w.view, clear_quantile) - median) / max_clear_spreads;
+  const double spread =
+      std::max(most, quantile(score, w.view, 0.75) - quantile(score, w.view, 0.25));
   if (spread <= 0) {
     const cv::Mat none = cv::Mat::zeros(w.view.size(), CV_8U);
     return {none, none, score};
@@ -126,6 +135,13 @@ Lines find_lines(const Working& w, double wide_radius, const VesselParams& param
                                     (score > std::max(params.threshold, params.seed_threshold)));
   const cv::Mat fitted = fitted_walls(w.absorbance, rough, w.view, wide_radius, params.wall_level);
   return {fitted, rough & (score > params.threshold + sure_margin), score};
+}
+
+/// Distance of the largest line scores from the median, in interquartile ranges.
+double tail(const cv::Mat& score, const cv::Mat& view) {
+  const double spread = quantile(score, view, 0.75) - quantile(score, view, 0.25);
+  return spread > 0 ? (quantile(score, view, tail_quantile) - quantile(score, view, 0.5)) / spread
+                    : 0;
 }
 
 /// Radius of the wide vessels in pixels of the picture, from a first segmentation at low
@@ -141,6 +157,16 @@ double measured_radius(const cv::Mat& grey, const cv::Mat& view, bool bright,
 }
 
 }  // namespace
+
+double odds_of_bright_lines(const cv::Mat& grey, const cv::Mat& view) {
+  const double scale = std::min(1.0, tone_diameter / view_diameter(view));
+  double tails[2] = {};
+  for (const bool bright : {false, true}) {
+    const Working w = at_scale(grey, view, scale, tone_radius, bright);
+    tails[bright] = tail(line_score(w.absorbance, w.view, {.wide_radius = tone_radius}), w.view);
+  }
+  return tails[0] > 0 && tails[1] > 0 ? tails[1] / tails[0] : 1;
+}
 
 FoundVessels line_vessels(const cv::Mat& grey, const cv::Mat& view, bool bright,
                           const VesselParams& params, const Stop& stop) {

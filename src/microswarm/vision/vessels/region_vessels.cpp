@@ -23,16 +23,21 @@ std::array<double, 256> histogram(const cv::Mat& grey, const cv::Mat& view) {
   return counts;
 }
 
-double largest_share(const cv::Mat& set) {
-  return static_cast<double>(cv::countNonZero(largest_piece(set))) /
-         std::max(1, cv::countNonZero(set));
+/// Share of the set in one piece, over the mean depth of the set.
+double networkness(const cv::Mat& set) {
+  const int area = cv::countNonZero(set);
+  if (area == 0) return 0;
+  const double share = static_cast<double>(cv::countNonZero(largest_piece(set))) / area;
+  return share / cv::mean(depth_in(set), set)[0];
 }
 
+/// Width of wide channels; in a channel all depths up to half its width are as frequent.
 double find_wide_width(const cv::Mat& set) {
   std::vector<float> depths = values_in(depth_in(set), set);
   if (depths.empty()) return 0;
   const double last = static_cast<double>(depths.size() - 1);
-  return 2 * ranked(std::move(depths), static_cast<std::size_t>(wide_region_quantile * last));
+  const auto rank = static_cast<std::size_t>(wide_region_quantile * last);
+  return 2 / wide_region_quantile * ranked(std::move(depths), rank);
 }
 
 }  // namespace
@@ -65,14 +70,18 @@ TwoGreys two_greys(const cv::Mat& grey, const cv::Mat& view) {
   return result;
 }
 
-bool bright_is_network(const TwoGreys& greys, const cv::Mat& view) {
-  return largest_share(greys.bright) > largest_share(view & ~greys.bright);
+double odds_of_bright_network(const cv::Mat& bright, const cv::Mat& view) {
+  const double of_bright = networkness(bright);
+  const double of_dark = networkness(view & ~bright);
+  if (of_bright == 0 || of_dark == 0) return 1;
+  return of_bright / of_dark;
 }
 
-FoundVessels region_vessels(const TwoGreys& greys, const cv::Mat& view, bool bright,
+FoundVessels region_vessels(const cv::Mat& levels, const cv::Mat& view, bool bright,
                             const VesselParams& params) {
   FoundVessels found;
-  found.vessels = bright ? greys.bright.clone() : cv::Mat(view & ~greys.bright);
+  found.vessels = bright ? levels > params.wall_level : levels < 1 - params.wall_level;
+  found.vessels &= view;
   cv::medianBlur(found.vessels, found.vessels, bad_pixels);
   found.wide_width_px = params.wide_width > 0 ? params.wide_width : find_wide_width(found.vessels);
   const double wide_area = found.wide_width_px * found.wide_width_px;

@@ -16,12 +16,13 @@ struct TwoGreys {
 /// Splits `grey` (8-bit, one channel) within `view`, after a median filter against bad pixels.
 TwoGreys two_greys(const cv::Mat& grey, const cv::Mat& view);
 
-/// Whether the brighter side is the network: the side with the larger fraction of its area in one
-/// piece. A network is connected; the tissue between its vessels is not.
-bool bright_is_network(const TwoGreys& greys, const cv::Mat& view);
+/// The odds that the brighter of two levels is the network, above 0; 1 if both may be. A network
+/// is connected and narrow; what it separates is in pieces and wide. `bright` is the brighter
+/// level, an 8-bit mask within `view`.
+double odds_of_bright_network(const cv::Mat& bright, const cv::Mat& view);
 
-/// Segments vessels as the dark or the bright side of two greys and removes specks.
-FoundVessels region_vessels(const TwoGreys& greys, const cv::Mat& view, bool bright,
+/// Segments vessels in a picture of levels, 0 to 1 (`level_picture`), and removes specks.
+FoundVessels region_vessels(const cv::Mat& levels, const cv::Mat& view, bool bright,
                             const VesselParams& params);
 
 }  // namespace microswarm::vision

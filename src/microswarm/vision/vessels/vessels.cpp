@@ -2,19 +2,24 @@
 #include "microswarm/vision/vessels/vessels.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/text.hpp"
 #include "microswarm/vision/image/mask_ops.hpp"
 #include "microswarm/vision/image/mat.hpp"
 #include "microswarm/vision/vessels/field_of_view.hpp"
 #include "microswarm/vision/vessels/line_vessels.hpp"
 #include "microswarm/vision/vessels/region_vessels.hpp"
+#include "microswarm/vision/vessels/two_levels.hpp"
 
 namespace microswarm::vision {
 namespace {
 
-constexpr double clearly_two = 0.9;  // separability above which two greys are segmented as regions
+constexpr double clearly_two = 0.9;   // share explained above which a picture is of two levels
+constexpr double close_share = 0.05;  // on either side of it, the choice is close
+constexpr double close_odds = 1.25;   // of polarities
 
 void require_picture(const formats::Image& image) {
   if (image.width < 1 || image.height < 1) throw InputError("picture to segment: no pixels");
@@ -32,20 +37,57 @@ cv::Mat green_channel(const formats::Image& image) {
   return green;
 }
 
-FoundVessels found_in(const cv::Mat& grey, const cv::Mat& view, const VesselParams& params,
-                      VesselMethod& method, const Stop& stop) {
-  const TwoGreys greys = two_greys(grey, view);
-  method = params.method;
-  if (method == VesselMethod::automatic)
-    method = greys.separability > clearly_two ? VesselMethod::regions : VesselMethod::lines;
-  if (method == VesselMethod::lines)
-    return line_vessels(grey, view, params.polarity == Polarity::bright, params, stop);
-  const bool bright = params.polarity == Polarity::automatic ? bright_is_network(greys, view)
+/// Whether vessels are bright: as set, or by the odds, which are noted.
+bool is_bright(const VesselParams& params, VesselSegmentation& result, double odds_of_bright) {
+  const bool bright = params.polarity == Polarity::automatic ? odds_of_bright > 1
                                                              : params.polarity == Polarity::bright;
-  return region_vessels(greys, view, bright, params);
+  if (params.polarity == Polarity::automatic)
+    result.polarity_odds = std::max(odds_of_bright, 1 / odds_of_bright);
+  result.polarity = bright ? Polarity::bright : Polarity::dark;
+  return bright;
+}
+
+/// Finds vessels; notes method and polarity in `result`.
+FoundVessels found_in(const cv::Mat& grey, const cv::Mat& view, const VesselParams& params,
+                      VesselSegmentation& result, const Stop& stop) {
+  TwoLevels levels;
+  if (params.method != VesselMethod::lines) levels = fit_two_levels(grey, view, stop);
+  result.method = params.method;
+  if (params.method == VesselMethod::automatic) {
+    result.two_level_share = levels.explained;
+    result.method = levels.explained > clearly_two ? VesselMethod::regions : VesselMethod::lines;
+  }
+  const bool known = params.polarity != Polarity::automatic;
+  if (result.method == VesselMethod::lines) {
+    const bool bright = is_bright(params, result, known ? 1 : odds_of_bright_lines(grey, view));
+    return line_vessels(grey, view, bright, params, stop);
+  }
+  const cv::Mat picture = level_picture(grey, levels, stop);
+  const cv::Mat brighter = (picture > 0.5) & view;
+  const bool bright = is_bright(params, result, known ? 1 : odds_of_bright_network(brighter, view));
+  if (levels.contrast <= 0) return {.vessels = cv::Mat::zeros(view.size(), CV_8U)};
+  return region_vessels(picture, view, bright, params);
 }
 
 }  // namespace
+
+std::string describe_choice(const VesselSegmentation& found) {
+  const bool lines = found.method == VesselMethod::lines;
+  const bool dark = found.polarity == Polarity::dark;
+  std::string text = std::string(lines ? "lines" : "regions") + ", " + (dark ? "dark" : "bright");
+  const auto doubt = [&](const std::string& why, const char* other) {
+    text += "; " + why + ": compare --set " + other;
+  };
+  if (found.two_level_share && std::abs(*found.two_level_share - clearly_two) < close_share)
+    doubt("two greys explain " + number_text(std::round(100 * *found.two_level_share)) +
+              " % of the picture (regions above " + number_text(100 * clearly_two) + " %)",
+          lines ? "method=regions" : "method=lines");
+  if (found.polarity_odds && *found.polarity_odds < close_odds)
+    doubt("the polarity is close (" + number_text(std::round(100 * *found.polarity_odds) / 100) +
+              " to 1)",
+          dark ? "polarity=bright" : "polarity=dark");
+  return text;
+}
 
 VesselSegmentation segment_vessels(const formats::Image& image, const VesselParams& params,
                                    const Stop& stop) {
@@ -53,7 +95,7 @@ VesselSegmentation segment_vessels(const formats::Image& image, const VesselPara
   VesselSegmentation result;
   result.field_of_view = field_of_view(image);
   const cv::Mat view = to_mat(result.field_of_view);
-  FoundVessels found = found_in(green_channel(image), view, params, result.method, stop);
+  FoundVessels found = found_in(green_channel(image), view, params, result, stop);
   result.wide_width_px = found.wide_width_px;
   result.scale = found.scale;
   result.bridges = found.bridges;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -14,9 +16,9 @@ namespace microswarm::vision {
 
 /// Method of separating vessels from tissue.
 enum class VesselMethod {
-  automatic,  ///< regions if the picture has two clearly different greys, else lines
-  lines,      ///< dark lines of a few widths on uneven background: a fundus photograph
-  regions,    ///< one threshold: a stained or filled network
+  automatic,  ///< regions if two greys under uneven light explain the picture, else lines
+  lines,      ///< lines of a few widths on uneven background: a fundus photograph
+  regions,    ///< two greys under uneven light: channels of a chip, a stained network
 };
 constexpr auto enum_names(VesselMethod) {
   return std::array<std::pair<VesselMethod, std::string_view>, 3>{
@@ -27,7 +29,7 @@ constexpr auto enum_names(VesselMethod) {
 
 /// Tone of vessels relative to their surroundings.
 enum class Polarity {
-  automatic,  ///< lines are dark; of two greys, the better connected one
+  automatic,  ///< the tone whose lines stand out; of two greys, the connected and narrow one
   dark,
   bright,
 };
@@ -59,7 +61,7 @@ struct VesselParams {
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.method, plain("method", "Method: lines on an uneven background, or regions."));
+    visit(self.method, plain("method", "Lines on an uneven background, or regions of two greys."));
     visit(self.polarity, plain("polarity", "Vessels are dark or bright, or automatic."));
     visit(self.wide_width, px("wide_width", 0, 1000, "Width of the widest vessels; 0: measured."));
     visit(self.threshold,
@@ -80,9 +82,14 @@ struct VesselParams {
 
 /// Result of `segment_vessels`.
 struct VesselSegmentation {
-  formats::Mask vessels;        ///< 1 = vessel
-  formats::Mask field_of_view;  ///< 1 = inside the optical field of view
-  VesselMethod method = VesselMethod::lines;
+  formats::Mask vessels;                      ///< 1 = vessel
+  formats::Mask field_of_view;                ///< 1 = inside the optical field of view
+  VesselMethod method = VesselMethod::lines;  ///< that was taken
+  Polarity polarity = Polarity::dark;         ///< that was taken
+  /// Share of the picture's variance that two greys explain; without it if the method was set.
+  std::optional<double> two_level_share;
+  /// Evidence for the polarity over that for the other one, at least 1; without it if it was set.
+  std::optional<double> polarity_odds;
   double wide_width_px = 0;  ///< measured, or as set
   double scale = 1;          ///< working pixels per picture pixel
   int bridges = 0;           ///< number of closed gaps
@@ -91,12 +98,17 @@ struct VesselSegmentation {
   double view_share = 0;  ///< vessel area as a fraction of the field of view
 };
 
+/// Method and polarity in a line: "lines, dark". What was chosen by itself and nearly
+/// otherwise is said.
+std::string describe_choice(const VesselSegmentation& found);
+
 /// Segments vessels in a fundus or microscope picture (green channel of colour pictures). The
-/// method is deterministic and untrained: absorbance, line detectors over widths, hysteresis
-/// threshold, walls fitted to the local contrast, gaps bridged, largest piece kept. It works at the
-/// resolution at which wide vessels have the detectors' design width, so the same settings apply to
-/// pictures of any size. `stop` ends it without vessels. Throws InputError if the picture has no
-/// pixels or neither 1 nor 3 channels.
+/// methods are deterministic and untrained. Regions: two levels under uneven light are fitted,
+/// noise is removed by total variation, walls are where the picture crosses `wall_level` between
+/// the levels. Lines: absorbance, line detectors over widths, hysteresis threshold, walls fitted to
+/// the local contrast, gaps bridged; at the resolution at which wide vessels have the detectors'
+/// design width, so the same settings apply to pictures of any size. `stop` ends it without
+/// vessels. Throws InputError if the picture has no pixels or neither 1 nor 3 channels.
 VesselSegmentation segment_vessels(const formats::Image& image, const VesselParams& params = {},
                                    const Stop& stop = {});
 
