@@ -4,6 +4,7 @@
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/vision/tracking/video_tracks.hpp"
+#include "microswarm/vision/vessels/channel_graph.hpp"
 #include "microswarm/vision/vessels/vessel_map.hpp"
 #include "named_map.hpp"
 #include "pictures.hpp"
@@ -50,6 +51,51 @@ py::dict segment(const py::object& photo, double um_per_px, double smooth, const
   out["bridges"] = found.bridges;
   out["wide_width_um"] = found.wide_width_px * um_per_px;
   return out;
+}
+
+/// A column of a table: `value` of each item.
+template <class T, class Items, class Value>
+py::array_t<T> column(const Items& items, Value&& value) {
+  py::array_t<T> out(static_cast<py::ssize_t>(items.size()));
+  T* next = out.mutable_data();
+  for (const auto& item : items) *next++ = static_cast<T>(value(item));
+  return out;
+}
+
+py::tuple channel_graph(const NamedMap& map, double cell) {
+  using Branch = vision::ChannelBranch;
+  using Node = vision::ChannelNode;
+  const vision::ChannelGraph graph =
+      interruptible([&](const Stop& stop) { return vision::channel_graph(map.map(), cell, stop); });
+  const auto& nodes = graph.nodes;
+  py::dict branches;
+  const auto whole = [&](const char* name, auto&& value) {
+    branches[name] = column<std::int64_t>(graph.branches, value);
+  };
+  const auto real = [&](const char* name, auto&& value) {
+    branches[name] = column<double>(graph.branches, value);
+  };
+  whole("branch", [i = 0](const Branch&) mutable { return ++i; });
+  whole("network", [](const Branch& b) { return b.network; });
+  whole("type", [](const Branch& b) { return static_cast<int>(b.type); });
+  whole("node_a", [](const Branch& b) { return b.a + 1; });
+  whole("node_b", [](const Branch& b) { return b.b + 1; });
+  real("length_um", [](const Branch& b) { return b.length; });
+  real("straight_um",
+       [&](const Branch& b) { return distance(nodes[b.a].position, nodes[b.b].position); });
+  real("mean_width_um", [](const Branch& b) { return b.mean_width; });
+  real("min_width_um", [](const Branch& b) { return b.min_width; });
+  real("max_width_um", [](const Branch& b) { return b.max_width; });
+  real("narrowest_x_um", [](const Branch& b) { return b.narrowest.x; });
+  real("narrowest_y_um", [](const Branch& b) { return b.narrowest.y; });
+  py::dict ends;
+  ends["node"] = column<std::int64_t>(nodes, [i = 0](const Node&) mutable { return ++i; });
+  ends["network"] = column<std::int64_t>(nodes, [](const Node& n) { return n.network; });
+  ends["degree"] = column<std::int64_t>(nodes, [](const Node& n) { return n.degree; });
+  ends["x_um"] = column<double>(nodes, [](const Node& n) { return n.position.x; });
+  ends["y_um"] = column<double>(nodes, [](const Node& n) { return n.position.y; });
+  ends["width_um"] = column<double>(nodes, [](const Node& n) { return n.width; });
+  return py::make_tuple(branches, ends);
 }
 
 vision::TrackSettings track_settings(const Given& given) {
@@ -176,6 +222,7 @@ std::vector<std::string> track_keys() {
 
 void add_vision(py::module_& module) {
   module.def("segment", segment);
+  module.def("channel_graph", channel_graph);
   module.def("track_file", track_file);
   module.def("track_keys", track_keys);
   module.def("check_image_size",

@@ -231,5 +231,25 @@ TEST_F(Maps, Segment) {
           naming("--set min_widt_px", {"min_widt_px", "min_width_px"}));
 }
 
+TEST_F(Maps, Graph) {
+  write("chip.pgm", pgm(300, 200, [](int x, int y) {
+          return std::abs(y - 100) < 10 || (x > 140 && x < 156 && y > 100 && y < 180) ? 255 : 0;
+        }));
+  const Json found = Json::parse(
+      good({"map", "graph", "chip.pgm", "--um-per-px", "2", "--out", "out/chip", "--json"}));
+  EXPECT_EQ(found.at("branches"), 3);
+  EXPECT_EQ(found.at("nodes"), 4);
+  EXPECT_EQ(found.at("networks"), 1);
+  const std::string branches = read("out/chip-branches.csv");
+  EXPECT_EQ(std::count(branches.begin(), branches.end(), '\n'), 4) << branches;
+  EXPECT_NE(branches.find("junction-end"), std::string::npos) << branches;
+  EXPECT_TRUE(
+      read("out/chip-nodes.csv").starts_with("node,network,type,degree,x_um,y_um,width_um"));
+  write("wall.pgm", pgm(30, 20, [](int, int) { return 0; }));
+  refused({"map", "graph", "wall.pgm", "--um-per-px", "2"}, naming("wall.pgm", {"blocked"}));
+  refused({"map", "graph", "chip.pgm", "--um-per-px", "2", "--cell", "0.001"},
+          naming("map in cells of 0.001 µm", {"400000", "16384"}));
+}
+
 }  // namespace
 }  // namespace microswarm::test

@@ -308,6 +308,17 @@ def test_method_and_polarity_are_named():
     assert ms.segment(picture, 5, method="regions", polarity="dark").two_level_share is None
 
 
+def test_channels_are_measured():
+    wall = np.zeros((100, 300), bool)
+    wall[:35] = wall[65:] = True
+    branches, nodes = ms.channel_graph(ms.Map.from_image(~wall, 2), cell_um=2)
+    assert len(branches) == 1 and list(nodes["degree"]) == [1, 1] and branches["type"][0] == 0
+    assert branches["mean_width_um"][0] == pytest.approx(60, abs=1)
+    assert branches["length_um"][0] == pytest.approx(540, abs=12)
+    with pytest.raises(ms.InputError, match="map is"):
+        ms.channel_graph("map.png")
+
+
 @pytest.mark.parametrize(
     "image, values, words",
     [

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -8,9 +10,12 @@
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/fields/overloaded.hpp"
+#include "microswarm/core/text/file.hpp"
+#include "microswarm/formats/map_file.hpp"
 #include "microswarm/formats/write_map.hpp"
 #include "microswarm/vision/image/overlay.hpp"
 #include "microswarm/vision/vessels/agreement.hpp"
+#include "microswarm/vision/vessels/channel_graph.hpp"
 #include "microswarm/vision/vessels/vessel_map.hpp"
 #include "microswarm/world/connectivity/passage.hpp"
 #include "rig/camera/still.hpp"
@@ -105,6 +110,54 @@ int check(const MapOptions& o, double resolution) {
 int convert(const MapOptions& o, const std::string& out, const std::optional<double>& cell) {
   formats::write_map(out, *load(o).map, cell ? *cell : o.map.um_per_px.value_or(0));
   print("wrote {}\n", out);
+  return ok;
+}
+
+struct GraphOptions {
+  std::string out = "graph";
+  double cell = 0;
+};
+
+/// Writes the skeleton of the map's channels as tables of branches and nodes.
+int graph(const MapOptions& o, const GraphOptions& how, const Context& context) {
+  const formats::LoadedMap loaded = load(o);
+  const vision::ChannelGraph found = vision::channel_graph(*loaded.map, how.cell, context.stop);
+  if (context.stop()) {
+    note("interrupted: nothing was written\n");
+    return not_reached;
+  }
+  if (found.nodes.empty()) throw InputError(o.map + ": all of the map is blocked");
+  const std::filesystem::path out = how.out;
+  if (!out.parent_path().empty()) make_folder(out.parent_path().string());
+  const std::string branches = out.string() + "-branches.csv";
+  const std::string nodes = out.string() + "-nodes.csv";
+  write_file_atomically(branches, vision::branch_table(found));
+  write_file_atomically(nodes, vision::node_table(found));
+  double length = 0;
+  double area = 0;
+  for (const vision::ChannelBranch& branch : found.branches) {
+    length += branch.length;
+    area += branch.length * branch.mean_width;
+  }
+  const int networks = std::ranges::max(found.nodes, {}, &vision::ChannelNode::network).network;
+  const Json mean_width = length > 0 ? Json(area / length) : Json(nullptr);
+  if (o.json) {
+    print("{}\n", Json{{"branches", found.branches.size()},
+                       {"nodes", found.nodes.size()},
+                       {"networks", networks},
+                       {"length_um", length},
+                       {"mean_width_um", mean_width},
+                       {"cell_um", found.cell},
+                       {"branch_table", branches},
+                       {"node_table", nodes}}
+                      .dump(2));
+    return ok;
+  }
+  print("{} branches of {:.0f} µm in all", found.branches.size(), length);
+  if (length > 0) print(", {:.1f} µm wide on average", area / length);
+  print(", {} nodes, {} networks; cells of {:.3g} µm: channels below {:.3g} µm may be cut\n",
+        found.nodes.size(), networks, found.cell, 3 * found.cell);
+  print("wrote {} and {}\n", branches, nodes);
   return ok;
 }
 
@@ -238,6 +291,20 @@ void add_map(Command app, Action& action) {
   add_json(check_cmd, o->json);
   check_cmd.callback(
       [=, &action] { action = [=](const Context&) { return check(*o, *resolution); }; });
+
+  auto how = std::make_shared<GraphOptions>();
+  Command graph_cmd =
+      map.add_command("graph", "Measure channels: branches of the skeleton, widths, nodes, as CSV",
+                      "map graph scenarios/maps/retina.geojson --out retina");
+  add_input(graph_cmd, o);
+  graph_cmd.add_option("--out", how->out, "Writes NAME-branches.csv and NAME-nodes.csv")
+      .type_name("NAME");
+  graph_cmd.add_option("--cell", how->cell, "Resolution in µm; 0: a million cells")
+      .type_name("NUMBER")
+      .check(number(0, 1e6));
+  add_json(graph_cmd, o->json);
+  graph_cmd.callback(
+      [=, &action] { action = [=](const Context& context) { return graph(*o, *how, context); }; });
 
   auto out = std::make_shared<std::string>();
   auto cell = std::make_shared<std::optional<double>>();

@@ -23,7 +23,7 @@ from .record import Record, Table, read_record
 from .runs import Session, run
 from .scenario import Scenario
 from .sweeps import sweep
-from .vision import Segmentation, segment, track
+from .vision import Segmentation, channel_graph, segment, track
 
 __all__ = [
     "Coils",
@@ -42,6 +42,7 @@ __all__ = [
     "Session",
     "Table",
     "__version__",
+    "channel_graph",
     "gather",
     "global_plan",
     "plan",

@@ -68,6 +68,22 @@ def segment(image: Any, um_per_px: float, *, smooth_px: float = 1.0, **values: A
     return Segmentation(_core.segment(source, scale, in_range("smooth_px", smooth_px, 0, 100), settings))
 
 
+def channel_graph(map: Map, cell_um: float = 0) -> tuple[np.ndarray, np.ndarray]:
+    """Skeleton of a map's channels with lengths and widths, like `microswarm map graph`.
+
+    cell_um   resolution; 0: a million cells. Channels narrower than three cells may be cut.
+
+    Returns branches and nodes as structured arrays, which pandas.DataFrame accepts. Branches: branch and its nodes
+    node_a, node_b, numbered from 1; network, the connected part; type as in skan, 0 end to end, 1 junction to end,
+    2 junction to junction, 3 closed; length_um, straight_um, mean_width_um, min_width_um, max_width_um,
+    narrowest_x_um, narrowest_y_um. Nodes: node, network, degree, x_um, y_um, width_um.
+    """
+    if not isinstance(map, Map):
+        raise refused("map", map, "a Map")
+    branches, nodes = _core.channel_graph(map._core, in_range("cell_um", cell_um, 0, 1e6))
+    return structured(branches), structured(nodes)
+
+
 def track(
     frames: Union[np.ndarray, Iterable[Any], PathLike],
     um_per_px: Optional[float] = None,
