@@ -95,8 +95,17 @@ void add_json(Command command, bool& value) {
 }
 
 formats::Image read_photo(const std::string& file) {
+  std::optional<double> given = 1;
+  return read_photo(file, given);
+}
+
+formats::Image read_photo(const std::string& file, std::optional<double>& um_per_px) {
   formats::ReadPicture picture = formats::read_picture(file);
   note_each(picture.notes);
+  if (!um_per_px && picture.um_per_px) {
+    um_per_px = picture.um_per_px;
+    note("note: {}: a pixel is {:.6g} µm, as the file tells\n", file, *um_per_px);
+  }
   return std::move(picture.image);
 }
 

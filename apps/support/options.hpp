@@ -56,6 +56,8 @@ void add_json(Command command, bool& value);
 
 /// Reads a photograph; what was assumed in it is a note. Throws InputError.
 formats::Image read_photo(const std::string& file);
+/// The same; a scale that is not given is what ImageJ or OME wrote into the file, and a note.
+formats::Image read_photo(const std::string& file, std::optional<double>& um_per_px);
 
 /// Option `--photo` with its `--um-per-px`, for commands that draw reports.
 struct PhotoOptions {

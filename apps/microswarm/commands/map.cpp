@@ -190,10 +190,11 @@ int segment(const SegmentOptions& o, const Context& context) {
   note_each(set_values(params, o.settings));
   if (!o.um_per_px && is_camera(o.photo))
     throw InputError(o.photo + ": µm per px is missing: give --um-per-px");
-  const formats::Image photo = take_picture(o.photo, find_camera(o.photo, o.rig));
-  if (!o.um_per_px) throw InputError(o.photo + ": µm per px is missing: give --um-per-px");
+  std::optional<double> um_per_px = o.um_per_px;
+  const formats::Image photo = take_picture(o.photo, find_camera(o.photo, o.rig), um_per_px);
+  if (!um_per_px) throw InputError(o.photo + ": µm per px is missing: give --um-per-px");
   const std::optional<formats::Mask> truth = read_truth(o.truth, photo);
-  const double cell = *o.um_per_px;
+  const double cell = *um_per_px;
   const auto interrupted = [&] {
     if (context.stop()) note("interrupted: nothing was written\n");
     return context.stop();

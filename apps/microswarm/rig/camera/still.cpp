@@ -46,7 +46,13 @@ vision::AnyCameraParams find_camera(const std::string& source, const std::string
 }
 
 formats::Image take_picture(const std::string& source, const vision::AnyCameraParams& camera) {
-  if (!is_camera(source)) return read_photo(source);
+  std::optional<double> given = 1;
+  return take_picture(source, camera, given);
+}
+
+formats::Image take_picture(const std::string& source, const vision::AnyCameraParams& camera,
+                            std::optional<double>& um_per_px) {
+  if (!is_camera(source)) return read_photo(source, um_per_px);
   vision::NewestFrame live = vision::live_camera(camera_for(source, camera));
   vision::LiveFrame frame;
   const double began = steady_seconds();

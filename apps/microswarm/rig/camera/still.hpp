@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,5 +28,8 @@ vision::AnyCameraParams find_camera(const std::string& source, const std::string
 /// Picture from a file, or from a camera with these settings after settling for one second. Throws
 /// InputError or HardwareError.
 formats::Image take_picture(const std::string& source, const vision::AnyCameraParams& camera);
+/// The same; a file may say its scale [µm], where none is given.
+formats::Image take_picture(const std::string& source, const vision::AnyCameraParams& camera,
+                            std::optional<double>& um_per_px);
 
 }  // namespace microswarm::cli

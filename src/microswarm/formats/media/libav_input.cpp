@@ -146,17 +146,26 @@ class LibavInput : public VideoInput {
                                 : av_guess_frame_rate(format_.get(), stream_, nullptr);
     rate = mean.den > 0 ? av_q2d(mean) : 0;
     unit_ = av_q2d(stream_->time_base);
-    tick = std::strcmp(format_->iformat->name, "avi") == 0 ? 0 : unit_;
+    is_avi_ = std::strcmp(format_->iformat->name, "avi") == 0;
+    tick = is_avi_ ? 0 : unit_;
     picture_count = told_pictures(*stream_, *format_);
     end = told_end(*format_, *stream_);
     return true;
   }
 
   bool read(cv::Mat& picture) override {
-    if (!decode()) return false;
+    if (!decode()) {
+      // AVI counts the places of pictures that were left out.
+      if (is_avi_ && last_ + 1 + decoder_->has_b_frames >= picture_count) picture_count = shown_;
+      return false;
+    }
     const std::int64_t shown_at = frame_->best_effort_timestamp;
     time.reset();
-    if (shown_at != AV_NOPTS_VALUE) time = static_cast<double>(shown_at) * unit_;
+    if (shown_at != AV_NOPTS_VALUE) {
+      last_ = std::max(last_, static_cast<double>(shown_at));
+      time = static_cast<double>(shown_at) * unit_;
+    }
+    ++shown_;
     const bool good = convert(picture);
     av_frame_unref(frame_.get());
     any_ = any_ || good;
@@ -214,7 +223,10 @@ class LibavInput : public VideoInput {
   std::unique_ptr<SwsContext, FreeScaler> scaler_;
   cv::Mat rows_;
   Turn turn_;
-  double unit_ = 0;   ///< of the times in the file [s]
+  double unit_ = 0;  ///< of the times in the file [s]
+  bool is_avi_ = false;
+  int shown_ = 0;     ///< pictures read
+  double last_ = 0;   ///< greatest time of a picture [units]
   bool any_ = false;  ///< whether a picture was decoded
 };
 

@@ -28,6 +28,7 @@ TrackResult track_video(FrameSource& frames, const std::string& source,
   result.unsettled = tracker.unsettled();
   result.events = tracker.events();
   result.notes = frames.notes();
+  result.promised = frames.count();  // which is corrected at the end of some videos
   return result;
 }
 
