@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "microswarm/config/type.hpp"
-#include "microswarm/formats/map_file.hpp"
 #include "microswarm/formats/images/image.hpp"
+#include "microswarm/formats/map_file.hpp"
 #include "microswarm/report/run_report.hpp"
 #include "support/cli.hpp"
 #include "support/command.hpp"

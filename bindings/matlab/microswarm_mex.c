@@ -311,9 +311,10 @@ static mxArray* map_open(arguments in) {
     uint8_t* rows;
     if ((!mxIsLogical(in[0]) && !mxIsUint8(in[0])) || mxIsSparse(in[0]) || mxIsComplex(in[0]) ||
         mxGetNumberOfDimensions(in[0]) != 2)
-      REFUSE("a map must be the name of a file or a matrix of class logical or uint8 (compare with a "
-             "threshold: picture >= 128), not %s%s",
-             mxIsSparse(in[0]) ? "sparse " : "", mxGetClassName(in[0]));
+      REFUSE(
+          "a map must be the name of a file or a matrix of class logical or uint8 (compare with a "
+          "threshold: picture >= 128), not %s%s",
+          mxIsSparse(in[0]) ? "sparse " : "", mxGetClassName(in[0]));
     height = mxGetM(in[0]), width = mxGetN(in[0]);
     columns = mxGetData(in[0]); /* logical has the same size */
     rows = mxCalloc(width * height + 1, 1);

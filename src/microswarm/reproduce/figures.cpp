@@ -7,8 +7,8 @@
 #include <filesystem>
 
 #include "microswarm/core/errors/error.hpp"
-#include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/choices.hpp"
+#include "microswarm/core/text/file.hpp"
 
 namespace microswarm::reproduce {
 namespace {

@@ -14,8 +14,8 @@ struct ThinCell {
 
 /// Whether a cell with these neighbours can be unset without joining or splitting anything: its
 /// 8-connectivity number (Yokoi et al. 1975) is 1.
-constexpr bool is_simple(unsigned neighbours) {
-  const auto unset = [&](int k) { return (neighbours >> (k % 8) & 1U) == 0 ? 1 : 0; };
+constexpr bool is_simple(unsigned around) {
+  const auto unset = [&](int k) { return (around >> (k % 8) & 1U) == 0 ? 1 : 0; };
   int number = 0;
   for (int k = 0; k < 8; k += 2) number += unset(k) - unset(k) * unset(k + 1) * unset(k + 2);
   return number == 1;
