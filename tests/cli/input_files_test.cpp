@@ -71,6 +71,9 @@ TEST_F(InputFiles, StandardInputAndPipesAreReadLikeTheFile) {
         "microswarm run <(cat flight.yaml) --json",
         "(sleep 0.2; cat flight.yaml) | microswarm run - --json"})
     EXPECT_EQ(hash_of(shell(line)), expected) << line;
+  // Names in it count from the working folder.
+  write("sweep.yaml", "scenario: flight.yaml\ntrials: 1\n");
+  EXPECT_EQ(shell("microswarm sweep - --out s.db < sweep.yaml").code, 0);
   const Outcome bad = shell("echo 'nmae: x' | microswarm run -");
   EXPECT_EQ(bad.code, 2);
   EXPECT_NE(bad.err.find("/dev/stdin:1:1: unknown key 'nmae', did you mean 'name'?"),

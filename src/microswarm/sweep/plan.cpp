@@ -14,6 +14,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/execution/parallel.hpp"
 #include "microswarm/core/maths/hash.hpp"
+#include "microswarm/core/text/input_folder.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/experiment/scenario/validate.hpp"
 
@@ -185,7 +186,7 @@ SweepPlan plan_sweep(Sweep sweep, const std::string& name, const SweepBase& base
 
 SweepPlan load_sweep(const std::filesystem::path& file, int jobs, const Stop& stop) {
   Sweep sweep = read_sweep(file);
-  const std::filesystem::path scenario = file.parent_path() / sweep.scenario;
+  const std::filesystem::path scenario = input_folder(file) / sweep.scenario;
   const SweepBase base{read_file(scenario, max_yaml_bytes), scenario.string(),
                        scenario.parent_path()};
   return plan_sweep(std::move(sweep), file.string(), base, jobs, stop);

@@ -8,6 +8,7 @@
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/fields/overloaded.hpp"
+#include "microswarm/core/text/input_folder.hpp"
 #include "microswarm/core/text/text.hpp"
 
 namespace microswarm::actuation {
@@ -263,7 +264,7 @@ Actuation CoilSystem::at(const Eigen::Vector3d& position) const {
 CoilSystem read_coil_system(const std::filesystem::path& path) {
   KeyLocations keys;
   const auto params = read_yaml_file<CoilSystemParams>(path, {}, keys);
-  return CoilSystem(params, keys, path.parent_path());
+  return CoilSystem(params, keys, input_folder(path));
 }
 
 }  // namespace microswarm::actuation

@@ -8,6 +8,7 @@
 #include "microswarm/config/file_kind.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/input_folder.hpp"
 #include "microswarm/experiment/scenario/validate.hpp"
 
 namespace microswarm::experiment {
@@ -63,7 +64,7 @@ Experiment open(Scenario scenario, const std::filesystem::path& base, const KeyL
 
 Experiment open_experiment(const std::filesystem::path& file, const Settings& settings,
                            std::optional<std::uint64_t> seed) {
-  return open_experiment_text(read_file(file, max_yaml_bytes), file.string(), file.parent_path(),
+  return open_experiment_text(read_file(file, max_yaml_bytes), file.string(), input_folder(file),
                               settings, seed);
 }
 

@@ -11,6 +11,7 @@
 #include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/text/file.hpp"
+#include "microswarm/core/text/input_folder.hpp"
 
 namespace microswarm::rig {
 
@@ -65,14 +66,14 @@ Rig read_rig(const std::filesystem::path& file, const Settings& settings) {
   auto params = read_yaml_text<RigParams>(text, file.string(), settings, keys, misread);
   if (!misread.empty()) refuse_other_kind(text, file.string(), "rig");
   if (!misread.empty()) throw InputError(misread);
-  actuation::CoilSystem system = actuation::read_coil_system(file.parent_path() / params.coils);
+  actuation::CoilSystem system = actuation::read_coil_system(input_folder(file) / params.coils);
   keys.require_none(validate(params, system));
   const bool limits_current =
       std::ranges::all_of(system.amplifiers(), [](const actuation::AmplifierParams& amplifier) {
         return amplifier.max_current.has_value();
       });
   system.limit_current(driver_full_scale(params));
-  return {std::move(params), std::move(system), file.parent_path(), keys, limits_current};
+  return {std::move(params), std::move(system), input_folder(file), keys, limits_current};
 }
 
 double driver_full_scale(const RigParams& rig) {
