@@ -76,7 +76,8 @@ std::string same_runs_note(const sweep::SweepTable& table) {
   return runs.note();
 }
 
-/// The columns. An interruption carries those of the finished trials as `columns`.
+/// The columns, and a note if trials are the same run. An interruption carries the columns of the
+/// finished trials as `columns`.
 py::tuple sweep_scenario(const ScenarioText& scenario, const Grid& grid, const Methods& methods,
                          int trials, std::optional<std::uint64_t> seed, int jobs,
                          const py::object& report) {
@@ -111,10 +112,8 @@ py::tuple sweep_scenario(const ScenarioText& scenario, const Grid& grid, const M
       interrupted.value().attr("columns") = to_columns(*table);
     throw;
   }
-  Notes notes = plan.notes;
-  if (std::string same = same_runs_note(*table); !same.empty()) notes.push_back(std::move(same));
-  warn(notes);
-  return to_columns(*table);
+  warn(plan.notes);
+  return py::make_tuple(to_columns(*table), same_runs_note(*table));
 }
 
 }  // namespace

@@ -86,14 +86,13 @@ TEST_F(Sweeps, TrialsThatAreOneRunAreNoted) {
     EXPECT_EQ(outcome.err, "note: " + notes[0].get<std::string>() + "\n");
     return notes[0].get<std::string>();
   };
-  const std::string by_seed = "grid: [{key: seed, values: [1, 2, 3]}]\n";
   const std::string methods =
       "methods:\n  - {name: random trees}\n  - {name: radar, set: [navigator.type=radar]}\n";
-  EXPECT_EQ(note_on(by_seed), "");
-  EXPECT_TRUE(is_one_line_naming(note_on(by_seed + "set: [navigator.type=radar]\n"), "",
+  EXPECT_EQ(note_on("trials: 3\n"), "");
+  EXPECT_TRUE(is_one_line_naming(note_on("trials: 3\nset: [navigator.type=radar]\n"), "",
                                  {"all 3 trials", "same run"}));
   EXPECT_TRUE(is_one_line_naming(note_on(methods + "trials: 2\n"), "", {"1 of 2", "same run"}));
-  EXPECT_EQ(note_on(methods), "");  // one trial each
+  EXPECT_EQ(note_on(methods + "trials: 1\n"), "");
 }
 
 TEST_F(Sweeps, ATrialIsThatOfRun) {

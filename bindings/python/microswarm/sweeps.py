@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import warnings
 from contextlib import contextmanager
 from decimal import Decimal, InvalidOperation
 from typing import Any, Iterable, Iterator, Mapping, Optional
@@ -48,7 +49,7 @@ def sweep(
         if seed is not None and "seed" in keys:
             raise InputError(f"seed is {told(seed)}, and {where} sets the seed too: leave one of them out")
     with shown(progress) as report, _kept_rows():
-        made = _core.sweep(
+        made, note = _core.sweep(
             scenario_of(scenario)._core,
             [(key_of(key), _values(key, values)) for key, values in grid.items()],
             [(text("the name of a method", str(name)), [setting(*one) for one in settings.items()]) for name, settings in groups.items()],
@@ -57,6 +58,8 @@ def sweep(
             whole("jobs", jobs, 1024),
             report,
         )
+    if note:
+        warnings.warn(note, stacklevel=2)
     return Table(*made)
 
 
