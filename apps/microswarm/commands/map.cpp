@@ -126,7 +126,7 @@ int graph(const MapOptions& o, const GraphOptions& how, const Context& context) 
     note("interrupted: nothing was written\n");
     return not_reached;
   }
-  if (found.nodes.empty()) throw InputError(o.map + ": all of the map is blocked");
+  if (found.nodes.empty()) throw InputError(o.map.file + ": all of the map is blocked");
   const std::filesystem::path out = how.out;
   if (!out.parent_path().empty()) make_folder(out.parent_path().string());
   const std::string branches = out.string() + "-branches.csv";
