@@ -88,6 +88,19 @@ TEST(Chips, BlackChannelsAreFound) {
   EXPECT_GT(compare(truth, found.vessels).dice().value_or(0), 0.97) << describe_choice(found);
 }
 
+// Light and noise alone are no two greys, however uneven the light is.
+TEST(Chips, AnEmptyPictureHasNoLevels) {
+  for (const double noise : {2.0, 10.0, 25.0}) {
+    ChipLooks looks{.contrast = 0, .noise = noise, .light = 40};
+    for (const bool quadratic : {false, true}) {
+      looks.quadratic = quadratic;
+      const VesselSegmentation found = segment_vessels(test::draw_chip(looks, 2).picture);
+      EXPECT_LT(found.two_level_share.value_or(1), 0.5) << noise;
+      EXPECT_EQ(found.method, VesselMethod::lines) << noise;
+    }
+  }
+}
+
 TEST(Chips, TheChoiceIsDescribedAndItsDoubtsAre) {
   VesselSegmentation found;
   found.method = VesselMethod::regions;

@@ -136,17 +136,6 @@ struct LevelCandidate {
   bool is_clear = false;  ///< nothing else can explain the picture
 };
 
-/// Finds the share of the variance that levels explain, of what can be no noise.
-void explain(const LevelSample& s, const cv::Mat& model, LevelCandidate& c) {
-  const cv::Mat rest = blurred(s.grey - model, structure_blur);
-  const double noise = s.noise * s.noise / (4 * std::numbers::pi * structure_blur * structure_blur);
-  const double structure = std::max(0.0, mean_in(rest.mul(rest), s.view) - noise_doubt * noise);
-  const double share = mean_in(c.set, s.view);
-  const double levels = c.contrast * c.contrast * share * (1 - share);
-  if (levels > noise) c.explained = levels / (levels + structure);
-  c.is_clear = c.explained > clear_share && levels > clear_of_noise * noise;
-}
-
 /// Mean of the values in `view` around each pixel, by a bell of this standard deviation, which is
 /// wide.
 cv::Mat widely_blurred(const cv::Mat& values, const cv::Mat& view, double spread) {
@@ -170,6 +159,24 @@ double light_spread(const LevelSample& s, const cv::Mat& set) {
   const double depth =
       cv::countNonZero(narrower) > 0 ? cv::mean(depth_in(narrower), narrower)[0] : 0;
   return std::max(spot_share * std::min(set.rows, set.cols), spot_depths * depth);
+}
+
+/// Mean square of what a model leaves, without fine noise.
+double structure_left(const LevelSample& s, const cv::Mat& model) {
+  const cv::Mat rest = blurred(s.grey - model, structure_blur);
+  return mean_in(rest.mul(rest), s.view);
+}
+
+/// Finds the share of the variance that levels explain, of what can be neither noise nor light:
+/// the same light is fitted without levels.
+void explain(const LevelSample& s, const cv::Mat& model, LevelCandidate& c) {
+  const double noise = s.noise * s.noise / (4 * std::numbers::pi * structure_blur * structure_blur);
+  cv::Mat light = fit_light(s.grey, {}, s.view, late_degree, 0).light.over(s.grey.size());
+  light += widely_blurred(s.grey - light, s.view, light_spread(s, c.set));
+  const double without = structure_left(s, light) - noise_doubt * noise;
+  const double with = structure_left(s, model) - noise_doubt * noise;
+  if (without > 0) c.explained = std::clamp(1 - with / without, 0.0, 1.0);
+  c.is_clear = c.explained > clear_share && without > clear_of_noise * noise;
 }
 
 /// Fits light and levels and assigns pixels in turn, from a first set on. Light that no polynomial

@@ -15,8 +15,9 @@ struct TwoLevels {
   cv::Mat residual;     ///< light beyond its polynomial [grey], 32-bit, of a smaller picture
   double contrast = 0;  ///< mean difference of the levels [grey]; 0 if there are not two
   double noise = 0;     ///< standard deviation of the noise of a pixel [grey]
-  /// Share of the variance that the two levels explain, after light and noise: near 1 for a chip
-  /// or a stained network, 0.6 to 0.9 for a fundus photograph. 0 if there are not two levels.
+  /// Share of the variance that the two levels explain, of what light alone and noise do not: near
+  /// 1 for a chip or a stained network, 0.5 to 0.7 for a fundus photograph, up to 0.85 for a small
+  /// part of one. 0 if there are not two levels.
   double explained = 0;
 };
 
