@@ -17,9 +17,9 @@ namespace microswarm::test {
 struct TiffTags {
   int format = SAMPLEFORMAT_UINT;
   int samples = 1;
-  int orientation = 0;      ///< 0: no tag
-  std::string description;  ///< of the first page
-  float resolution = 0;     ///< pixels a unit, of the first page
+  int orientation = 0;        ///< 0: no tag
+  std::string description{};  ///< of the first page
+  float resolution = 0;       ///< pixels a unit, of the first page
   const char* mode = "w";
 };
 
