@@ -201,6 +201,12 @@ TEST(MapFile, RectanglesOfSpreadsheets) {
   EXPECT_EQ(box("1,2,3,4\n", 1000).hi, (Vec2{4000, 6000}));
 }
 
+TEST(MapFile, TracksAreNoRectangles) {
+  for (const char* text : {"id;t_s;x_um;y_um\n1;0;10;20\n", "frame,x,y,track\n0,1,2,3\n"})
+    EXPECT_TRUE(test::is_one_line_naming(error_of([&] { parse_rectangles(text, "x.csv"); }),
+                                         "x.csv:1", {"tracks", "width"}));
+}
+
 TEST(MapFile, SettingsChooseHowAFileIsRead) {
   const Folder folder;
   Image dark{3, 1, 1, {10, 200, 10}};

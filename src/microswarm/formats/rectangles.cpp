@@ -34,6 +34,14 @@ std::vector<std::string_view> rectangle_fields(std::string_view line) {
   return fields;
 }
 
+/// Whether a header names columns of tracks, which are four too.
+bool names_tracks(const std::vector<std::string_view>& header) {
+  constexpr std::string_view of_tracks[] = {"id", "t", "t_s", "time", "time_s", "frame", "track"};
+  return std::ranges::any_of(header, [&](std::string_view column) {
+    return std::ranges::find(of_tracks, column) != std::end(of_tracks);
+  });
+}
+
 /// A number, between semicolons also with a decimal comma.
 std::optional<double> rectangle_number(std::string_view field) {
   const std::size_t comma = field.find(',');
@@ -65,7 +73,11 @@ std::vector<Polygon> parse_rectangles(std::string_view text, std::string_view na
     const std::string_view line = trimmed(*raw);
     if (line.empty() || line.front() == '#') continue;
     const std::vector<std::string_view> fields = rectangle_fields(line);
-    if (std::exchange(first, false) && !has_number(fields)) continue;
+    if (std::exchange(first, false) && !has_number(fields)) {
+      if (names_tracks(fields))
+        lines.fail("columns of tracks, not of rectangles: x,y,width,height expected");
+      continue;
+    }
     std::vector<double> numbers;
     for (const std::string_view field : fields) {
       const std::optional<double> number = rectangle_number(field);
