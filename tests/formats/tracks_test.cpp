@@ -16,14 +16,14 @@ using test::error_of;
 Tracks parsed_tracks(std::string_view text) { return parse_tracks(text, "x.csv"); }
 
 TEST(TracksCsv, SemicolonsTabsAndQuotesMeanTheSame) {
-  const Tracks plain = parsed_tracks("id,t_s,x_um,y_um\na,0,1.5,2\na,0.5,3,4\n");
+  const Tracks commas = parsed_tracks("id,t_s,x_um,y_um\na,0,1.5,2\na,0.5,3,4\n");
   const Tracks others[] = {
       parsed_tracks("\"id\";\"t_s\";\"x_um\";\"y_um\"\n\"a\";0;1,5;2\na;0,5;3;4\n"),
       parsed_tracks("id\tt_s\tx_um\ty_um\na\t0\t1.5\t2\na\t0,5\t3\t4\n")};
   for (const Tracks& other : others) {
     ASSERT_EQ(other.size(), 1U);
-    EXPECT_EQ(other.at("a").times, plain.at("a").times);
-    EXPECT_EQ(other.at("a").points, plain.at("a").points);
+    EXPECT_EQ(other.at("a").times, commas.at("a").times);
+    EXPECT_EQ(other.at("a").points, commas.at("a").points);
   }
 }
 std::string tracks_complaint(std::string_view text) {
