@@ -77,9 +77,10 @@ TEST_F(BadMaps, TooManyPixels) {
 TEST_F(BadMaps, AllBlocked) {
   write("black.pgm", pgm(60, 40, [](int, int) { return 0; }));
   const Arguments scale{"--um-per-px", "5"};
-  refused({"map", "check", "black.pgm", "--um-per-px", "5"}, naming("black.pgm", {"blocked"}));
+  const auto advice = naming("black.pgm", {"all", "wall", "map.threshold", "map.free"});
+  refused({"map", "check", "black.pgm", "--um-per-px", "5"}, advice);
   refused({"plan", "black.pgm", "--um-per-px", "5", "--start", "12,100", "--goal", "200,100"},
-          naming("black.pgm", {"start", "12 µm", "wall 1"}));
+          advice);
 }
 
 TEST_F(BadMaps, MicrometresPerPixel) {

@@ -296,8 +296,7 @@ TEST(ScenarioCheck, GoalInAWall) {
   Scenario scenario = open_room();
   std::get<formats::PolygonsMap>(scenario.map).walls = {bar(1700, 400, 200, 200).outer};
   EXPECT_TRUE(
-      test::is_one_line_naming(check_error(scenario), "s.yaml",
-                               {"goal", "100 µm", "wall 1", "0.9", "goal_tolerance_um", "45 µm"}));
+      test::is_one_line_naming(check_error(scenario), "s.yaml", {"goal", "100 µm inside wall 1"}));
 }
 
 TEST(ScenarioCheck, ListsWithoutWhichNothingCanBeChosen) {

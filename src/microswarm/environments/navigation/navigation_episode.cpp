@@ -132,12 +132,14 @@ void NavigationEpisode::reset() {
   plant_ = experiment::make_kinematic_plant(scenario, task_.world(), trial_);
   goal_ = *scenario.goal;
   const double goal_tolerance = scenario.goal_tolerance;
+  experiment::Experiment opened;
+  opened.scene.scenario = std::move(scenario);
+  opened.world = task_.world();
   session_ = std::make_unique<experiment::Session>(
-      experiment::Experiment{{std::move(scenario), {}}, task_.world(), {}},
-      experiment::SessionParts{.trial = trial_,
-                               .plant = plant_,
-                               .navigator = agent_,
-                               .keep = experiment::Keep::nothing});
+      std::move(opened), experiment::SessionParts{.trial = trial_,
+                                                  .plant = plant_,
+                                                  .navigator = agent_,
+                                                  .keep = experiment::Keep::nothing});
   ++trial_;
   status_ = Status::running;
   cut_ = false;
