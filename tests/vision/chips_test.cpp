@@ -22,7 +22,7 @@ double dice(const Chip& chip, const VesselSegmentation& found) {
   return compare(chip.truth, found.vessels).dice().value_or(0);
 }
 
-formats::Image inverted(formats::Image picture) {
+formats::Image inverse_of(formats::Image picture) {
   for (std::uint8_t& sample : picture.pixels) sample = static_cast<std::uint8_t>(255 - sample);
   return picture;
 }
@@ -67,7 +67,7 @@ TEST(Chips, TheToneOfLinesIsThatOfTheLinesThatStandOut) {
     const Chip chip = test::draw_chip(looks, seed);
     const VesselParams lines{.method = VesselMethod::lines};
     EXPECT_EQ(segment_vessels(chip.picture, lines).polarity, Polarity::dark) << seed;
-    const VesselSegmentation bright = segment_vessels(inverted(chip.picture), lines);
+    const VesselSegmentation bright = segment_vessels(inverse_of(chip.picture), lines);
     EXPECT_EQ(bright.polarity, Polarity::bright) << seed;
     EXPECT_GT(bright.polarity_odds.value_or(0), 1.2) << seed;
     EXPECT_GT(dice(chip, bright), 0.7) << seed;

@@ -212,7 +212,7 @@ TEST(SceneFinder, TheSceneOfTheDocsIsSeen) {
   const formats::Mask walls = find_walls(still);
   const SeenScene seen = find_scene(picture, params, {}, &walls);
   ASSERT_EQ(seen.swarm.sight, SwarmSight::found);
-  EXPECT_LT(distance(seen.swarm.swarm->centre_px, {120, 236}), 2);
+  EXPECT_LT(distance(seen.swarm.swarm->centre_px, Vec2{120, 236}), 2);
   ASSERT_EQ(seen.obstacles.size(), 4U);
   int discs = 0;
   for (const SeenObstacle& o : seen.obstacles) discs += o.disc.has_value();

@@ -50,7 +50,7 @@ TEST(SmoothSwarm, IsTheOnlySmoothBlobWhereNothingHasTexture) {
     params.swarm.look.tone = params.obstacles.tone = tone;
     const SeenScene scene = find_scene(tone == ParticleTone::dark ? dark : inverted(dark), params);
     ASSERT_EQ(scene.swarm.sight, SwarmSight::found);
-    EXPECT_LT(distance(scene.swarm.swarm->centre_px, {300, 200}), 0.5);
+    EXPECT_LT(distance(scene.swarm.swarm->centre_px, Vec2{300, 200}), 0.5);
     EXPECT_NEAR(scene.swarm.swarm->radius_px, 30, 1);
     EXPECT_LT(scene.swarm.swarm->texture, params.swarm.look.min_texture);
     EXPECT_TRUE(scene.obstacles.empty());
@@ -73,7 +73,7 @@ TEST(SmoothSwarm, IsNoneBesideTexture) {
     const formats::Image picture = bright ? inverted(drawn.look()) : drawn.look();
     const SeenScene scene = find_scene(picture, params);
     ASSERT_EQ(scene.swarm.sight, SwarmSight::found);
-    EXPECT_LT(distance(scene.swarm.swarm->centre_px, {450, 250}), 1.5);
+    EXPECT_LT(distance(scene.swarm.swarm->centre_px, Vec2{450, 250}), 1.5);
     EXPECT_EQ(scene.obstacles.size(), 1U);
     const auto reasons = why_not_swarm(scene, picture, params);
     EXPECT_EQ(failed(reasons, {150, 200}), SwarmCriterion::texture);
@@ -104,7 +104,7 @@ TEST(SmoothSwarm, IsKnownByItsPlaceAndSize) {
   const SwarmPrior prior{.at_px = Vec2{170, 210}, .min_radius_px = 20, .max_radius_px = 40};
   const SeenScene scene = find_scene(picture, params, prior);
   ASSERT_EQ(scene.swarm.sight, SwarmSight::found);
-  EXPECT_LT(distance(scene.swarm.swarm->centre_px, {150, 200}), 0.5);
+  EXPECT_LT(distance(scene.swarm.swarm->centre_px, Vec2{150, 200}), 0.5);
   EXPECT_EQ(scene.obstacles.size(), 2U);
 
   const SwarmPrior larger{.at_px = Vec2{170, 210}, .min_radius_px = 35};
@@ -174,7 +174,7 @@ TEST(NotSwarm, ASmoothPartCutOffFromASwarmHasItsOwnOutline) {
         if (blob.radius_px < 15) continue;
         ++cut_off;
         for (const Vec2 q : blob.outline_px)
-          EXPECT_LT(std::min(distance(q, smooth) - 22, distance(q, {320, 240}) - 30), 4);
+          EXPECT_LT(std::min(distance(q, smooth) - 22, distance(q, Vec2{320, 240}) - 30), 4);
       }
     }
   EXPECT_GT(cut_off, 6);

@@ -123,7 +123,7 @@ TEST(SwarmFinder, LightUnevenByFortyPercentAndMuchNoise) {
           with_swarm({400, 180}, 30).expose(140, 0.4, k * pi / 4, 0, noise, rng);
       const SwarmSighting seen = find_swarm(picture);
       ASSERT_EQ(seen.sight, SwarmSight::found) << noise << " " << k;
-      EXPECT_LT(distance(seen.swarm->centre_px, {400, 180}), 1);
+      EXPECT_LT(distance(seen.swarm->centre_px, Vec2{400, 180}), 1);
       EXPECT_NEAR(seen.swarm->radius_px, 30, 2);
       EXPECT_FALSE(seen.swarm->is_cut);
     }
@@ -141,7 +141,7 @@ TEST(SwarmFinder, TwoSwarmsAreSeveralAndTheOneSeenBeforeIsFollowed) {
   EXPECT_GT(both.candidates[0].radius_px, both.candidates[1].radius_px);
   const SwarmSighting one = find_swarm(picture, {}, Vec2{455, 290});
   ASSERT_EQ(one.sight, SwarmSight::found);
-  EXPECT_LT(distance(one.swarm->centre_px, {450, 300}), 1);
+  EXPECT_LT(distance(one.swarm->centre_px, Vec2{450, 300}), 1);
   const SwarmSighting gone = find_swarm(picture, {.jump = 60}, Vec2{300, 250});
   EXPECT_EQ(gone.sight, SwarmSight::far);
   const SwarmSighting wide = find_swarm(picture, {.jump = 400}, Vec2{300, 250});
@@ -176,7 +176,7 @@ TEST(SwarmFinder, AtAWallWhatTheWallDoesNotHideIsSeen) {
     const SwarmSighting seen = find_swarm(lit(frame), {}, std::nullopt, &walls);
     ASSERT_EQ(seen.sight, SwarmSight::found) << x;
     EXPECT_EQ(seen.swarm->is_cut, x > 365) << x;
-    EXPECT_LT(distance(seen.swarm->centre_px, {x, 240}), x < 365 ? 1.5 : x < 380 ? 4 : 11) << x;
+    EXPECT_LT(distance(seen.swarm->centre_px, Vec2{x, 240}), x < 365 ? 1.5 : x < 380 ? 4 : 11) << x;
   }
   EXPECT_EQ(
       find_swarm(lit(DrawnFrame(test::frame_width, test::frame_height)), {}, std::nullopt, &walls)
@@ -201,7 +201,7 @@ TEST(SwarmFinder, TinySwarmsDownToTheLeastRadius) {
     params.look.gap = 3;
     const SwarmSighting seen = find_swarm(lit(frame), params);
     ASSERT_EQ(seen.sight, SwarmSight::found) << radius;
-    EXPECT_LT(distance(seen.swarm->centre_px, {300.25, 200.5}), 0.5);
+    EXPECT_LT(distance(seen.swarm->centre_px, Vec2{300.25, 200.5}), 0.5);
     EXPECT_NEAR(seen.swarm->radius_px, radius, 2);
   }
 }
@@ -278,7 +278,7 @@ TEST(SwarmFinder, AMovedSwarmIsSeenMovedBetweenPixelsToo) {
   const Vec2 from = at(0).swarm->centre_px;
   for (int k = 1; k <= 20; ++k) {
     const Vec2 moved = at(0.1 * k).swarm->centre_px - from;
-    worst = std::max(worst, distance(moved, {0.1 * k, 0}));
+    worst = std::max(worst, distance(moved, Vec2{0.1 * k, 0}));
   }
   std::printf("a swarm moved by tenths of a pixel: worst error of the way %.3f px\n", worst);
   EXPECT_LT(worst, 0.15);
