@@ -61,8 +61,8 @@ TEST(RobotTracker, NamesDoNotDependOnTheOrderOfPlaces) {
     for (std::size_t i = 0; i < positions.size(); ++i) positions[i] += moves[i];
     for (Vec2& move : moves) move = rotated(move, rng.uniform(-0.05, 0.05));
     for (std::size_t i = 0; i < positions.size(); ++i)  // those about to leave their cell turn back
-      if (distance(positions[i],
-                   {40.0 * static_cast<double>(i % 10), 40.0 * static_cast<double>(i / 10)}) > 15)
+      if (distance(positions[i], Vec2{40.0 * static_cast<double>(i % 10),
+                                      40.0 * static_cast<double>(i / 10)}) > 15)
         moves[i] = 0.5 * moves[i];
   }
   EXPECT_EQ(tracker.births(), 60);
