@@ -30,7 +30,7 @@ std::set<std::string> quoted_words(const std::string& page, const std::string& s
 
 /// Objects whose keys are the user's or other pages'.
 bool is_described_elsewhere(const std::string& key) {
-  return std::set<std::string>{"planner",          "medians",    "parameters",
+  return std::set<std::string>{"metrics",          "planner",    "medians", "parameters",
                                "radius_um_within", "rig_timing", "status"}
       .contains(key);
 }
@@ -61,8 +61,10 @@ TEST_F(JsonOutput, EveryKeyIsOnItsPage) {
       {"sweep", {"sweep", "sweep.yaml", "--out", "s.db"}},
       {"map", {"map", "info", "retina"}},
       {"map", {"map", "check", "retina"}},
+      {"map", {"map", "graph", "retina"}},
       {"map", {"map", "segment", "samples/vessels/retina.png", "--um-per-px", "6"}},
-      {"track", {"track", video, "--rate", "20", "--set", "find.diameter_px=11", "--out", "t"}},
+      {"track",
+       {"track", video, "--rate", "20", "--set", "find.diameter_px=11", "--out", "t", "--motion"}},
       {"track", {"track", video, "--suggest"}},
       {"replay", {"replay", "out/run.h5"}},
       {"rig", {"rig", "field", "cube", "--at", "0,0,0", "--field", "90,0,0"}},
@@ -89,6 +91,17 @@ TEST_F(JsonOutput, EveryKeyIsOnItsPage) {
     for (const std::string& key : keys)
       EXPECT_TRUE(known.contains(key)) << words[0] << " " << words[1] << ": " << key;
   }
+}
+
+TEST_F(JsonOutput, MetricsAreThoseOfRecordsAndOfThePageBefore) {
+  write("flight.yaml", two_rooms());
+  const PrintedJson ran = PrintedJson::parse(run({"run", "flight.yaml", "--json"}).out);
+  std::set<std::string> keys;
+  collect_keys(ran.at("metrics"), keys);
+  std::set<std::string> known = quoted_words("record.md");
+  known.merge(quoted_words("json.md", "run"));
+  EXPECT_GT(keys.size(), 8U);
+  for (const std::string& key : keys) EXPECT_TRUE(known.contains(key)) << key;
 }
 
 TEST_F(JsonOutput, APlannersKeysAreThoseOfFiles) {
