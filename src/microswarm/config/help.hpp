@@ -11,7 +11,7 @@ namespace microswarm {
 
 /// A key of a file, for help and reference.
 struct KeyHelp {
-  std::string key;
+  std::string key{};
   std::string_view unit{};                ///< symbol; empty for none
   std::string default_text{};             ///< as in a file, "required" or "none"; of a group empty
   std::string range{};                    ///< "0..1"; empty for any

@@ -11,9 +11,9 @@ namespace microswarm {
 
 /// A key that `--set KEY=VALUE` changes.
 struct SettingKey {
-  std::string key;                      ///< full key, joined by dots
-  std::string_view doc;                 ///< its meaning
-  std::vector<std::string_view> words;  ///< its values, if they are words
+  std::string key{};                      ///< full key, joined by dots
+  std::string_view doc{};                 ///< its meaning
+  std::vector<std::string_view> words{};  ///< its values, if they are words
 };
 
 /// All keys of a type that have a value, in the order of declaration, for shells that complete

@@ -12,8 +12,8 @@ namespace microswarm {
 /// An assignment to a key: keys joined by dots, list entries by index, and a value as in a file
 /// (text needs no quotes).
 struct Setting {
-  std::string key;
-  std::string value;
+  std::string key{};
+  std::string value{};
 
   bool operator==(const Setting&) const = default;
 };
@@ -39,7 +39,7 @@ struct Settings {
   /// KEY=VALUE each.
   std::vector<std::string> texts() const;
 
-  std::vector<Setting> list;
+  std::vector<Setting> list{};
   std::string option = "--set";
 };
 

@@ -36,8 +36,8 @@ struct Type;
 
 /// One field of a record: its key and its offset in the struct.
 struct Field {
-  std::string key;  ///< name with the unit's suffix
-  FieldInfo info;
+  std::string key{};  ///< name with the unit's suffix
+  FieldInfo info{};
   const Type* type = nullptr;
   std::size_t offset = 0;  ///< [bytes]
 
@@ -50,7 +50,7 @@ struct Field {
 /// A `fields` declaration as data. Reading, writing, schema and help interpret it together with a
 /// pointer to the value, so they are compiled once for all structs.
 struct Type {
-  TypeKind kind;
+  TypeKind kind{};
   std::vector<std::string_view> words{};  ///< choice: its words; variant: its type names
   std::vector<Field> fields{};            ///< record
   std::vector<const Type*> parts{};       ///< optional and list: the content; variant: alternatives

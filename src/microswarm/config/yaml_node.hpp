@@ -11,12 +11,12 @@ namespace microswarm {
 struct YamlNode {
   enum class Kind { null, scalar, list, map };
   Kind kind = Kind::null;
-  bool quoted = false;          ///< quoted or block scalar: always text
-  bool literal = false;         ///< number, true or false of JSON: never text
-  int line = 0;                 ///< from 1
-  int column = 0;               ///< from 1
-  std::string text;             ///< scalar
-  std::vector<YamlNode> items;  ///< list: entries; map: key, value, key, value, …
+  bool quoted = false;            ///< quoted or block scalar: always text
+  bool literal = false;           ///< number, true or false of JSON: never text
+  int line = 0;                   ///< from 1
+  int column = 0;                 ///< from 1
+  std::string text{};             ///< scalar
+  std::vector<YamlNode> items{};  ///< list: entries; map: key, value, key, value, …
 
   bool is_plain() const { return kind == Kind::scalar && !quoted; }
 };

@@ -69,14 +69,14 @@ struct RadarBeam {
 /// Decision of the hierarchical radar in full: every direction and why it was kept or screened.
 struct RadarDiagnostics {
   static constexpr std::string_view type_name = "radar";
-  Vec2 centre;                ///< of the swarm, O_s [µm]
+  Vec2 centre{};              ///< of the swarm, O_s [µm]
   double radius = 0;          ///< of the swarm, r_s [µm]
-  Vec2 target;                ///< O_t [µm]
-  RadarCircles circles;       ///< with the controlled r_f of Eq 24
+  Vec2 target{};              ///< O_t [µm]
+  RadarCircles circles{};     ///< with the controlled r_f of Eq 24
   double step = 0;            ///< d_p [µm]
   double obstacle_reach = 0;  ///< kept from obstacles by a predictive swarm [µm]
   double wall_reach = 0;      ///< the same for walls and border [µm]
-  RadarWeights weights;
+  RadarWeights weights{};
   std::optional<std::uint32_t> nearest{};  ///< body in the detection circle to which Eq 9 refers
   std::optional<std::uint32_t> best{};     ///< index into beams; nothing if all are screened
   std::optional<double> straight{};        ///< θ_f of Eq 14 if it is taken: nothing detected [rad]
@@ -101,7 +101,7 @@ struct RadarDiagnostics {
 
 /// Junction of a map and the channels that lead to the goal through it.
 struct Region {
-  Vec2 junction;           ///< centroid of its junction nodes; the goal for region 0 [µm]
+  Vec2 junction{};         ///< centroid of its junction nodes; the goal for region 0 [µm]
   std::uint32_t node = 0;  ///< junction node nearest to the centroid
   std::uint32_t gate = 0;  ///< node of minimum cost, where robots leave the region
   std::uint32_t next = 0;  ///< region entered from the gate; lower than its own number
@@ -119,7 +119,7 @@ struct Region {
 
 /// Node of the tree of an aggregation.
 struct AggregationNode {
-  Vec2 position;             ///< [µm]
+  Vec2 position{};           ///< [µm]
   std::uint32_t next = 0;    ///< next node towards the goal, which is its own next
   std::uint32_t region = 0;  ///< ψ of Alg 4 [gather]
   std::uint32_t branch = 0;  ///< φ, from 0 in each region
@@ -164,7 +164,7 @@ struct AggregationDiagnostics {
 struct PredictedMoment {
   std::uint32_t body = 0;  ///< index in the frame
   double t = 0;            ///< [s]
-  Vec2 centre;             ///< [µm]
+  Vec2 centre{};           ///< [µm]
   double turn = 0;         ///< rotation since the frame [rad]
   double radius = 0;       ///< of the circle around it, with its growth [µm]
   double growth = 0;       ///< of its outline since the frame [µm]
@@ -186,7 +186,7 @@ struct PredictedMoment {
 /// Corner of the convex outline of a body.
 struct PredictedCorner {
   std::uint32_t body = 0;  ///< index in the frame
-  Vec2 offset;             ///< from the centre, before the rotation [µm]
+  Vec2 offset{};           ///< from the centre, before the rotation [µm]
   bool operator==(const PredictedCorner&) const = default;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
@@ -216,7 +216,7 @@ struct PredictiveDiagnostics {
 /// Decision of the hierarchical D-RRT* framework besides its path and its plan.
 struct HierarchicalDiagnostics {
   static constexpr std::string_view type_name = "hierarchical_drrt_star";
-  Vec2 towards;                        ///< goal, or point of the route, that targets lead to [µm]
+  Vec2 towards{};                      ///< goal, or point of the route, that targets lead to [µm]
   double path_clearance = 0;           ///< with which the path was planned [µm]
   bool in_time = false;                ///< whether the path was chosen among predicted obstacles
   std::optional<double> wait_since{};  ///< time since which it waits for an obstacle to pass [s]

@@ -16,12 +16,12 @@ namespace microswarm {
 struct NavigatorView {
   bool planned = false;  ///< whether it called a planner in this step: a planning event
   NavigatorState state = NavigatorState::hold;
-  std::optional<Vec2> local_target;  ///< current target
+  std::optional<Vec2> local_target{};  ///< current target
   /// Waypoint it would head for without obstacles: v_t of Eq 3 [radar] points there. Nothing if
   /// that is the goal.
   std::optional<Vec2> phased_goal{};
-  std::span<const Vec2> path;  ///< path being followed
-  const Plan* plan = nullptr;  ///< latest plan with its tree; null before the first
+  std::span<const Vec2> path{};  ///< path being followed
+  const Plan* plan = nullptr;    ///< latest plan with its tree; null before the first
 };
 
 /// Turns one observation into one command and keeps its own state between steps. It has no clock:

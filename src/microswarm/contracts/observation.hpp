@@ -12,14 +12,14 @@ namespace microswarm {
 
 /// The swarm as one body: pose and radius [µm].
 struct SwarmPose {
-  Pose2 pose;
+  Pose2 pose{};
   double radius = 0;
 };
 
 /// Pose and radius [µm] of a swarm at a time [s].
 struct PoseStamped {
   double t = 0;
-  Pose2 pose;
+  Pose2 pose{};
   double radius = 0;
 };
 
@@ -34,10 +34,10 @@ inline constexpr double default_frame_timeout = 0.5;
 struct Observation {
   double now = 0;   ///< current time [s]
   double seen = 0;  ///< capture time of the frame [s]
-  std::optional<SwarmPose> swarm;
-  std::span<const Vec2> robots;  ///< [µm]
-  int unseen = 0;                ///< number of robots not detected, at expected positions
-  std::shared_ptr<const Snapshot> world;
+  std::optional<SwarmPose> swarm{};
+  std::span<const Vec2> robots{};  ///< [µm]
+  int unseen = 0;                  ///< number of robots not detected, at expected positions
+  std::shared_ptr<const Snapshot> world{};
 
   /// Age of the frame [s].
   double age() const { return now - seen; }

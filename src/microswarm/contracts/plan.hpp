@@ -16,7 +16,7 @@ namespace microswarm {
 
 /// Result of a detection circle: Eq 1–3 [drrt].
 struct Detection {
-  Disc circle;
+  Disc circle{};
   double w1 = 0;   ///< density: covered fraction of the circle, Eq 1
   double w2 = 0;   ///< distribution: proximity of the obstacles to its centre, Eq 2
   double rho = 1;  ///< dynamic adjust factor, Eq 3, floored
@@ -33,7 +33,7 @@ struct Detection {
 
 /// Node of a search tree. The root is node 0 and its own parent.
 struct TreeNode {
-  Vec2 position;
+  Vec2 position{};
   double heading = 0;  ///< [rad] of the edge from its parent; the root has the start's heading
   double cost = 0;     ///< from the root, in the planner's own measure
   std::uint32_t parent = 0;
@@ -65,11 +65,11 @@ struct PlanCounts {
 /// the node nearest to the goal, or just the start if there is none.
 struct Plan {
   Status status = Status::no_path;
-  std::vector<Vec2> path;             ///< [µm]
-  std::optional<double> arc_length;   ///< [µm] of a path with arcs, which `path` draws by lines
-  std::vector<TreeNode> tree;         ///< empty for planners without one
-  std::vector<Detection> detections;  ///< one per tree node; D-RRT* only
-  PlanCounts counts;
+  std::vector<Vec2> path{};             ///< [µm]
+  std::optional<double> arc_length{};   ///< [µm] of a path with arcs, which `path` draws by lines
+  std::vector<TreeNode> tree{};         ///< empty for planners without one
+  std::vector<Detection> detections{};  ///< one per tree node; D-RRT* only
+  PlanCounts counts{};
 };
 
 /// Length of a path [µm].

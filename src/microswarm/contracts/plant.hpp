@@ -15,11 +15,12 @@ namespace microswarm {
 /// True state of a plant, if it is known: simulations and recordings know it, rigs do not.
 struct GroundTruth {
   double now = 0;  ///< [s]
-  SwarmPose swarm;
+  SwarmPose swarm{};
   double speed = 0;  ///< [µm/s]
   std::span<const PoseStamped>
-      trajectory;                ///< path of the last apply(), straight between its poses
-  std::span<const Vec2> robots;  ///< positions of the robots [µm], if the swarm consists of robots
+      trajectory{};  ///< path of the last apply(), straight between its poses
+  std::span<const Vec2>
+      robots{};  ///< positions of the robots [µm], if the swarm consists of robots
   const World* world = nullptr;
 };
 

@@ -16,9 +16,9 @@ namespace microswarm::experiment {
 
 /// Result of one trial.
 struct TrialResult {
-  bool ran = false;  ///< false if the caller stopped before it
-  std::string hash;  ///< see Record::hash()
-  RunResult result;
+  bool ran = false;    ///< false if the caller stopped before it
+  std::string hash{};  ///< see Record::hash()
+  RunResult result{};
 };
 
 /// Runs one trial to its end.
@@ -30,10 +30,10 @@ struct TrialOptions {
   int trials = 1;
   int jobs = 0;  ///< threads; 0: one per core
   /// Called after each trial, from any thread, one call at a time.
-  std::function<void(int done, int trials)> progress;
+  std::function<void(int done, int trials)> progress{};
   /// Changes the scenario of a trial before it runs: start, goal, obstacles and their motion, but
   /// not the map. Must be a pure function.
-  std::function<void(Scenario& scenario, std::uint32_t trial)> vary;
+  std::function<void(Scenario& scenario, std::uint32_t trial)> vary{};
 };
 
 /// Runs trials 0 … n−1 of a scenario in one world, each with its own random streams. The results

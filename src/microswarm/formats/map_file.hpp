@@ -28,7 +28,7 @@ MapParts read_map_parts(const MapSpec& spec, const std::filesystem::path& base =
 
 /// A map ready for planning, and the fingerprint of its parts.
 struct LoadedMap {
-  std::shared_ptr<const Map> map;
+  std::shared_ptr<const Map> map{};
   std::uint64_t input_hash = 0;
   std::vector<std::string> notes{};  ///< what was assumed or left out, one line each
 };
@@ -54,7 +54,7 @@ struct MapChoice {
 
 /// The map of a MapChoice as its settings see it.
 struct MapKey {
-  MapSpec map;
+  MapSpec map{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.map, plain("map", "How the map file is read."));

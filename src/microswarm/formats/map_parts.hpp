@@ -12,9 +12,9 @@ namespace microswarm::formats {
 
 /// Output of map readers: everything that a Map is built from.
 struct MapParts {
-  Box bounds;
-  std::vector<Polygon> walls;
-  std::vector<Disc> discs;
+  Box bounds{};
+  std::vector<Polygon> walls{};
+  std::vector<Disc> discs{};
   std::vector<std::string> notes{};  ///< what was assumed or left out, one line each
 };
 

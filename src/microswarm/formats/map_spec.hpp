@@ -24,7 +24,7 @@ constexpr auto enum_names(FreePixels) {
 /// Image whose pixels are free or walls; (0, 0) is its lower left corner.
 struct ImageMap {
   static constexpr std::string_view type_name = "image";
-  std::string file;
+  std::string file{};
   double um_per_px = 1;
   int threshold = 128;
   FreePixels free = FreePixels::bright;
@@ -43,7 +43,7 @@ struct ImageMap {
 /// Map of ROS' map_server: YAML and image. Occupied and unknown cells are walls.
 struct RosMap {
   static constexpr std::string_view type_name = "ros";
-  std::string file;
+  std::string file{};
   double um_per_m = 1e6;
   bool unknown_free = false;
   template <class Self, class V>
@@ -58,7 +58,7 @@ struct RosMap {
 /// Grid map of the MovingAI benchmarks; (0, 0) is its lower left corner.
 struct MovingAiMap {
   static constexpr std::string_view type_name = "moving_ai";
-  std::string file;
+  std::string file{};
   double um_per_cell = 1;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
@@ -70,7 +70,7 @@ struct MovingAiMap {
 /// Polygons, discs and lines with a width in GeoJSON.
 struct GeoJsonMap {
   static constexpr std::string_view type_name = "geojson";
-  std::string file;
+  std::string file{};
   std::optional<double> um_per_unit = std::nullopt;
   double line_width = 0;
   template <class Self, class V>
@@ -93,7 +93,7 @@ constexpr auto enum_names(MatrixWall) {
 /// Text of zeros and ones, the upper row first; (0, 0) is its lower left corner.
 struct MatrixMap {
   static constexpr std::string_view type_name = "matrix";
-  std::string file;
+  std::string file{};
   double um_per_cell = 1;
   std::optional<MatrixWall> wall = std::nullopt;
   template <class Self, class V>
@@ -107,7 +107,7 @@ struct MatrixMap {
 /// Drawing in SVG, as it looks in front of white: dark is a wall. Its lower left corner is (0, 0).
 struct SvgMap {
   static constexpr std::string_view type_name = "svg";
-  std::string file;
+  std::string file{};
   std::optional<double> um_per_unit = std::nullopt;
   std::optional<double> um_per_px = std::nullopt;
   int threshold = 128;
@@ -132,7 +132,7 @@ struct RectanglesMap {
   std::optional<Vec2> lo = std::nullopt;
   std::optional<Vec2> hi = std::nullopt;
   std::vector<std::vector<double>> rectangles{};
-  std::string file;
+  std::string file{};
   double um_per_unit = 1;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
@@ -160,8 +160,8 @@ struct PolygonsMap {
   static constexpr std::string_view type_name = "polygons";
   Vec2 lo{};
   Vec2 hi{};
-  std::vector<std::vector<Vec2>> walls;
-  std::vector<DiscWall> discs;
+  std::vector<std::vector<Vec2>> walls{};
+  std::vector<DiscWall> discs{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.lo, um("lo", "Lower left corner of the map."));
@@ -176,7 +176,7 @@ struct ChannelMap {
   static constexpr std::string_view type_name = "channel";
   double width = 2000;
   double height = 1000;
-  std::vector<Vec2> centre_line;
+  std::vector<Vec2> centre_line{};
   double half_width = 200;
   double end_half_width = 200;
   double end_length = 300;

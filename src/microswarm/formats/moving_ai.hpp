@@ -29,11 +29,11 @@ struct GridCell {
 
 /// Query of a .scen file: from cell to cell in octile moves without corner cutting.
 struct GridQuery {
-  std::string map;  ///< file name as written in the .scen file
-  int width = 0;    ///< size of the map [cells]
+  std::string map{};  ///< file name as written in the .scen file
+  int width = 0;      ///< size of the map [cells]
   int height = 0;
-  GridCell start;
-  GridCell goal;
+  GridCell start{};
+  GridCell goal{};
   double optimal_length = 0;  ///< [cells]; a diagonal move counts √2
 };
 

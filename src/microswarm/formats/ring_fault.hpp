@@ -20,7 +20,7 @@ struct RingFault {
   Kind kind{};
   std::size_t first = 0;
   std::size_t second = 0;
-  Vec2 at;  ///< a crossing, or a vertex of the hole
+  Vec2 at{};  ///< a crossing, or a vertex of the hole
 };
 
 /// The first fault of a polygon whose rings are oriented as `Polygon` requires. Rings that touch,

@@ -31,7 +31,7 @@ constexpr auto enum_names(RosMode) {
 
 /// YAML file of a map of ROS' map_server.
 struct RosHeader {
-  std::string image;
+  std::string image{};
   double resolution = 0;
   std::vector<double> origin{0, 0, 0};
   int negate = 0;

@@ -12,7 +12,7 @@ namespace microswarm {
 
 /// Rays that touch a circle and keep a distance from the ends of segments.
 struct Rays {
-  Vec2 centre;
+  Vec2 centre{};
   double offset = 0;  ///< of the centre to the left of a ray [µm]: the radius; negative: to the
                       ///< right; 0: they begin at the centre
   double keep = 0;    ///< the distance [µm], at most the radius if there is one

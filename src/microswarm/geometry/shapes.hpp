@@ -12,13 +12,13 @@ namespace microswarm {
 
 /// Line segment from `a` to `b`, including both ends, which may coincide.
 struct Segment {
-  Vec2 a;
-  Vec2 b;
+  Vec2 a{};
+  Vec2 b{};
 };
 
 /// Closed disc.
 struct Disc {
-  Vec2 centre;
+  Vec2 centre{};
   double radius = 0;
 };
 
@@ -45,8 +45,8 @@ struct Box {
 /// Closed polygon. The outer ring is counter-clockwise, holes are clockwise, and no ring repeats
 /// its first vertex. Rings may touch in single points (as traced pixels do) but not cross.
 struct Polygon {
-  std::vector<Vec2> outer;
-  std::vector<std::vector<Vec2>> holes;
+  std::vector<Vec2> outer{};
+  std::vector<std::vector<Vec2>> holes{};
 };
 
 /// Smallest box around the points; empty if there are none.

@@ -13,8 +13,8 @@ namespace microswarm {
 /// a polygon that meet the disc's bounding box.
 struct NearObstacle {
   bool is_disc = false;
-  Disc disc;
-  std::span<const Segment> edges;
+  Disc disc{};
+  std::span<const Segment> edges{};
   /// Winding number of the whole polygon around the origin.
   int winding = 0;
 };

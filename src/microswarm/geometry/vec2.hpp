@@ -46,7 +46,7 @@ inline bool is_finite(Vec2 a) { return std::isfinite(a.x) && std::isfinite(a.y);
 
 /// Position [µm] and heading [rad].
 struct Pose2 {
-  Vec2 position;
+  Vec2 position{};
   double heading = 0;
   friend constexpr bool operator==(const Pose2&, const Pose2&) = default;
 };

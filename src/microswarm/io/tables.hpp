@@ -15,7 +15,7 @@ namespace microswarm::io {
 template <class Pointer>
 struct ListRef {
   const Type* type;  ///< of the list
-  Pointer value;
+  Pointer value{};
 
   const Type& row_type() const { return *type->parts[0]; }
   std::size_t size() const { return type->count(value); }

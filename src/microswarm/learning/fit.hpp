@@ -15,8 +15,8 @@ namespace microswarm::learning {
 struct Examples {
   std::size_t in = 0;   ///< size of an input
   std::size_t out = 0;  ///< size of an answer
-  std::vector<double> inputs;
-  std::vector<double> answers;
+  std::vector<double> inputs{};
+  std::vector<double> answers{};
 
   std::size_t count() const { return in > 0 ? inputs.size() / in : 0; }
 };
@@ -26,7 +26,7 @@ struct FitOptions {
   int iterations = 300;
   double decay = 1e-6;  ///< weight of the sum of squared weights in the loss
   int jobs = 0;         ///< threads; 0: one per core
-  std::function<void(int done)> progress;
+  std::function<void(int done)> progress{};
 };
 
 /// Mean squared distance between answer and network output over the examples, and its gradient with

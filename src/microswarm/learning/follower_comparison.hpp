@@ -38,18 +38,18 @@ struct FollowedPath {
 
 /// Results of one follower on all tasks.
 struct FollowerOutcome {
-  std::string name;
-  std::vector<FollowedPath> paths;
+  std::string name{};
+  std::vector<FollowedPath> paths{};
 };
 
 /// Settings of `compare_followers`.
 struct ComparisonOptions {
   int tasks = 200;
-  FollowerTaskParams params;
+  FollowerTaskParams params{};
   std::uint64_t seed = 1;
-  std::shared_ptr<const navigation::FollowerModel> model;  ///< null: the built-in one
-  int jobs = 0;                                            ///< threads; 0: one per core
-  std::function<void(double share)> progress;
+  std::shared_ptr<const navigation::FollowerModel> model{};  ///< null: the built-in one
+  int jobs = 0;                                              ///< threads; 0: one per core
+  std::function<void(double share)> progress{};
 };
 
 /// Tasks from this number on are reserved for comparison and never used in training.
@@ -64,8 +64,8 @@ std::vector<FollowerOutcome> compare_followers(const ComparisonOptions& options,
 
 /// Distance of a follower from the path, tick by tick.
 struct FollowerTrace {
-  std::string name;
-  std::vector<double> off;  ///< [µm]
+  std::string name{};
+  std::vector<double> off{};  ///< [µm]
 };
 
 /// Traces of all followers on one task.
@@ -77,8 +77,8 @@ FollowerTask unseen_task(const ComparisonOptions& options, std::uint32_t number)
 /// RMS distance from the path for each lookahead, averaged over tuning tasks; used to tune the
 /// baseline.
 struct LookaheadTuning {
-  std::vector<double> lookahead;  ///< [s]
-  std::vector<double> rms_off;    ///< [µm]
+  std::vector<double> lookahead{};  ///< [s]
+  std::vector<double> rms_off{};    ///< [µm]
   /// Lookahead with the smallest distance [s].
   double best() const;
 };

@@ -58,9 +58,9 @@ struct FollowerTaskParams {
 /// A path to follow from its first to its last point, as a scenario: a swarm in an open world.
 struct FollowerTask {
   std::uint32_t number = 0;  ///< also selects the noise of its plant
-  std::vector<Vec2> path;
-  experiment::Scenario scenario;  ///< with pure pursuit as navigator
-  World world;
+  std::vector<Vec2> path{};
+  experiment::Scenario scenario{};  ///< with pure pursuit as navigator
+  World world{};
 };
 
 /// The task with this number, drawn from the stream (seed, learning, number).

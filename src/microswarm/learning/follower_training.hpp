@@ -19,7 +19,7 @@ struct FollowerTrainingParams {
   int iterations = 150;
   int last_iterations = 500;
   double decay = 1e-6;
-  FollowerTaskParams tasks;
+  FollowerTaskParams tasks{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.seed, plain("seed", "Seed of tasks, noise and initial weights."));
@@ -39,7 +39,7 @@ struct FollowerTrainingParams {
 /// data and on every tenth run, which is held out.
 struct TrainedFollower {
   bool finished = false;  ///< false if stopped; the model is then unusable
-  navigation::FollowerModel model;
+  navigation::FollowerModel model{};
   std::size_t demonstrations = 0;
   double training_error = 0;
   double held_out_error = 0;
@@ -50,7 +50,7 @@ struct TrainedFollower {
 struct TrainingOptions {
   int jobs = 0;
   /// `share` is the completed fraction of the work, in [0, 1].
-  std::function<void(double share, const std::string& what)> progress;
+  std::function<void(double share, const std::string& what)> progress{};
 };
 
 /// Trains a follower: demonstrations of the expert, a first network, then rounds in which the

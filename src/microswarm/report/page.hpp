@@ -10,10 +10,10 @@ namespace microswarm::report {
 
 /// One section of a page: a heading, text, a table with two or more columns, and pictures.
 struct PageSection {
-  std::string heading;
-  std::string text;
-  std::vector<std::vector<std::string>> table;                ///< the first row is the header
-  std::vector<std::pair<std::string, std::string>> pictures;  ///< relative file, caption
+  std::string heading{};
+  std::string text{};
+  std::vector<std::vector<std::string>> table{};                ///< the first row is the header
+  std::vector<std::pair<std::string, std::string>> pictures{};  ///< relative file, caption
 };
 
 /// Writes an HTML page. Pictures are referenced by file names relative to the page. All text is

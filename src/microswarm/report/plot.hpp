@@ -16,9 +16,9 @@ enum class PlotStyle { line, marked, points, rings, bars, box, filled, published
 /// Values of one quantity; x and y have equal length. `low` and `high`, if given, have the same
 /// length and add an interval to each value of a marked series or points.
 struct Series {
-  std::string label;
-  std::vector<double> x;
-  std::vector<double> y;
+  std::string label{};
+  std::vector<double> x{};
+  std::vector<double> y{};
   PlotStyle style = PlotStyle::line;
   std::optional<std::size_t> colour = {};  ///< that of this series; default: its own
   std::vector<double> low = {};
@@ -39,13 +39,13 @@ inline constexpr std::size_t global_rrt = 0, global_search = 2;  // [global]
 
 /// A labelled horizontal line: a mean, a limit, a value from a paper.
 struct Level {
-  std::string label;
+  std::string label{};
   double y = 0;
 };
 
 /// A labelled vertical line.
 struct Mark {
-  std::string label;
+  std::string label{};
   double x = 0;
 };
 
@@ -57,30 +57,30 @@ struct Band {
 
 /// A tick label of an axis.
 struct AxisTick {
-  std::string label;
+  std::string label{};
   double at = 0;
 };
 
 /// One diagram. Labels include their units. Series of style `box` label the x axis unless ticks are
 /// given.
 struct Plot {
-  std::string title;
-  std::string x_label;
-  std::string y_label;
-  std::vector<Series> series;
-  std::vector<Level> levels;
-  std::vector<Mark> marks;
-  std::vector<Band> bands;
-  std::string band_label;
-  std::vector<AxisTick> x_ticks;
-  std::vector<AxisTick> y_ticks;
+  std::string title{};
+  std::string x_label{};
+  std::string y_label{};
+  std::vector<Series> series{};
+  std::vector<Level> levels{};
+  std::vector<Mark> marks{};
+  std::vector<Band> bands{};
+  std::string band_label{};
+  std::vector<AxisTick> x_ticks{};
+  std::vector<AxisTick> y_ticks{};
   bool log_x = false;
   bool log_y = false;
   bool key_below = false;  ///< puts the legend below the diagram
-  std::optional<double> x_min;
-  std::optional<double> x_max;
-  std::optional<double> y_min;
-  std::optional<double> y_max;
+  std::optional<double> x_min{};
+  std::optional<double> x_max{};
+  std::optional<double> y_min{};
+  std::optional<double> y_max{};
 };
 
 /// Draws the plots side by side with gnuplot as .png, .svg or .pdf, according to the file's

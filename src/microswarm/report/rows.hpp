@@ -13,14 +13,14 @@ namespace microswarm::report {
 /// aim. A row that is not `judged` keeps its aim but has no verdict: too few trials, or the run was
 /// interrupted.
 struct ReproduceRow {
-  std::string figure;
-  std::string quantity;
-  std::string unit;
-  std::optional<double> paper;
-  std::optional<double> ours;
-  std::optional<double> aim;
+  std::string figure{};
+  std::string quantity{};
+  std::string unit{};
+  std::optional<double> paper{};
+  std::optional<double> ours{};
+  std::optional<double> aim{};
   bool at_most = true;
-  std::string note;
+  std::string note{};
   bool judged = true;
 
   bool has_verdict() const { return aim && judged; }
@@ -32,13 +32,13 @@ struct ReproduceRow {
 /// ÷ peer for rates: values above 1 mean that ours is faster. A row is ok if it is at least as good
 /// as both its peer and its aim, as far as it has them.
 struct BenchRow {
-  std::string name;
-  std::string quantity;
-  std::string unit;
+  std::string name{};
+  std::string quantity{};
+  std::string unit{};
   double ours = 0;
-  std::optional<double> peer;
-  std::string peer_name;
-  std::optional<double> aim;
+  std::optional<double> peer{};
+  std::string peer_name{};
+  std::optional<double> aim{};
   bool at_most = true;  ///< true for a time, false for a rate
 
   bool has_verdict() const { return aim || peer; }

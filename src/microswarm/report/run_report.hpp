@@ -12,7 +12,7 @@ namespace microswarm::report {
 /// Options of a report.
 struct ReportOptions {
   std::optional<formats::Image>
-      photo;             ///< background of the pictures, its lower left corner at the origin
+      photo{};           ///< background of the pictures, its lower left corner at the origin
   double um_per_px = 1;  ///< of the photo
 };
 

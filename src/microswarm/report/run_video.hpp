@@ -27,7 +27,7 @@ inline constexpr int max_video_pictures = 200'000;
 
 /// Result of `write_run_video`.
 struct RunVideo {
-  std::filesystem::path file;  ///< the video, or a folder of PNG files without a codec
+  std::filesystem::path file{};  ///< the video, or a folder of PNG files without a codec
   int pictures = 0;
   bool stopped = false;  ///< whether the caller stopped it; the video ends early
 };

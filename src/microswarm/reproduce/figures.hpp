@@ -14,7 +14,7 @@ namespace microswarm::reproduce {
 
 /// A figure of a paper and the function that computes its rows.
 struct Figure {
-  std::string_view name;
+  std::string_view name{};
   std::vector<report::ReproduceRow> (*make)(const ReproduceOptions& options, const Stop& stop);
 };
 

@@ -24,8 +24,8 @@ inline constexpr int quick_seeds = 50;
 /// Options of a reproduction: output folder of plots (empty: none), folder of the scenarios, number
 /// of seeds, and callbacks for progress and for omitted parts.
 struct ReproduceOptions {
-  std::string out;
-  std::filesystem::path scenarios;
+  std::string out{};
+  std::filesystem::path scenarios{};
   bool quick = false;
   BeginProgress progress{};
   std::function<void(const std::string& what)> note{};

@@ -11,12 +11,12 @@ namespace microswarm::scenes {
 
 /// Environment of an avoidance scenario: walls and their fixtures, start and goal.
 struct Ground {
-  formats::PolygonsMap map;
-  std::vector<Obstacle> fixtures;        ///< valves in gates, or the deforming channel
-  std::vector<std::vector<Vec2>> lanes;  ///< paths of movers between walls; empty in the open
-  double extent = 90;                    ///< maximum radius of a mover [µm]
-  double lane_room = 0;                  ///< minimum distance from a lane to the walls [µm]
-  bool enclosed = false;                 ///< nothing enters from beyond the walls
+  formats::PolygonsMap map{};
+  std::vector<Obstacle> fixtures{};        ///< valves in gates, or the deforming channel
+  std::vector<std::vector<Vec2>> lanes{};  ///< paths of movers between walls; empty in the open
+  double extent = 90;                      ///< maximum radius of a mover [µm]
+  double lane_room = 0;                    ///< minimum distance from a lane to the walls [µm]
+  bool enclosed = false;                   ///< nothing enters from beyond the walls
   Vec2 start{};
   Vec2 goal{};
 };

@@ -7,7 +7,7 @@ namespace microswarm::scenes {
 
 /// An obstacle with the properties needed to check fairness.
 struct Mover {
-  Obstacle obstacle;
+  Obstacle obstacle{};
   double extent = 0;    ///< maximum radius around its position [µm]
   bool rests = false;   ///< its position is constant
   bool passes = false;  ///< it crosses the world and leaves

@@ -10,10 +10,10 @@ namespace microswarm::scenes {
 
 /// Robots under one input, with their goals on a map.
 struct GlobalTask {
-  std::string name;
-  Map map;
-  std::vector<Vec2> starts;
-  std::vector<Vec2> goals;
+  std::string name{};
+  Map map{};
+  std::vector<Vec2> starts{};
+  std::vector<Vec2> goals{};
   double robostep = 5;
   double tolerance = 20;
 };

@@ -11,8 +11,8 @@ namespace microswarm::scenes {
 
 /// Recorded pedestrians of the UCY set (zara01), as disc obstacles for a swarm of 60 µm/s.
 struct Street {
-  formats::Tracks tracks;  ///< at 150 µm per metre
-  double recording = 0;    ///< [s]
+  formats::Tracks tracks{};  ///< at 150 µm per metre
+  double recording = 0;      ///< [s]
 };
 
 /// Path of the recording in a data folder.

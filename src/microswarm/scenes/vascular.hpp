@@ -15,10 +15,10 @@ namespace microswarm::scenes {
 /// A network of channels as an obstacle map, with a goal in a dead end. One unit of [gather] is 1
 /// µm.
 struct Vascular {
-  std::string name;
-  Box bounds;
-  std::vector<Polygon> walls;
-  Vec2 goal;
+  std::string name{};
+  Box bounds{};
+  std::vector<Polygon> walls{};
+  Vec2 goal{};
   int nodes = 4000;   ///< of the tree, as published or with the same density
   double width = 10;  ///< typical channel width [µm]
 
@@ -36,9 +36,9 @@ Vascular generated_vascular_network();
 
 /// Channels as a graph: straight channels between joints, with the widths of their two ends.
 struct ChannelGraph {
-  Box bounds;
-  std::vector<Disc> joints;  ///< the radius is half the width
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> channels;
+  Box bounds{};
+  std::vector<Disc> joints{};  ///< the radius is half the width
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> channels{};
 };
 /// The walls: everything outside the channels.
 std::vector<Polygon> graph_walls(const ChannelGraph& graph);

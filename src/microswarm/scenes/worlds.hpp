@@ -11,11 +11,11 @@ namespace microswarm::scenes {
 
 /// A world as plain shapes, for tests that must not rely on the world's own queries.
 struct RawWorld {
-  std::string name;
+  std::string name{};
   Box bounds{{0, 0}, {1000, 700}};
-  std::vector<Polygon> walls;
-  std::vector<Disc> discs;
-  std::vector<Disc> movers;
+  std::vector<Polygon> walls{};
+  std::vector<Disc> discs{};
+  std::vector<Disc> movers{};
   double field_cell = 5;  ///< coarse: fast to build, and exercises the exact queries
 
   Snapshot snapshot() const;

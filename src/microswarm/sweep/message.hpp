@@ -14,10 +14,10 @@ namespace microswarm::sweep {
 struct SweepMessage {
   enum class Kind : std::uint8_t { ready, failed, rows, stopped, done, tasks, over };
   Kind kind = Kind::over;
-  std::string text;              ///< ready: the plan's hash; failed: the reason
-  std::uint32_t want = 0;        ///< ready, rows: how many more tasks to send
-  std::vector<SweepTask> tasks;  ///< tasks
-  std::vector<SweepRow> rows;    ///< rows
+  std::string text{};              ///< ready: the plan's hash; failed: the reason
+  std::uint32_t want = 0;          ///< ready, rows: how many more tasks to send
+  std::vector<SweepTask> tasks{};  ///< tasks
+  std::vector<SweepRow> rows{};    ///< rows
 };
 
 /// Encodes a message in CBOR; doubles keep every bit.

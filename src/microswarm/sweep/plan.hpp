@@ -16,24 +16,24 @@ namespace microswarm::sweep {
 
 /// One combination of grid values and method, shared by its trials.
 struct SweepCell {
-  std::vector<std::string> values;  ///< one per grid parameter
-  std::string method;
-  std::vector<Setting> settings;  ///< all, in order of application
-  experiment::Scenario scenario;  ///< with the samples of its tracks
-  World world;                    ///< cells with the same walls share their map
-  Notes notes;                    ///< of former keys in the settings, and of the map
-  std::string input_hash;         ///< of scenario, map and tracks, as Scene::hash()
+  std::vector<std::string> values{};  ///< one per grid parameter
+  std::string method{};
+  std::vector<Setting> settings{};  ///< all, in order of application
+  experiment::Scenario scenario{};  ///< with the samples of its tracks
+  World world{};                    ///< cells with the same walls share their map
+  Notes notes{};                    ///< of former keys in the settings, and of the map
+  std::string input_hash{};         ///< of scenario, map and tracks, as Scene::hash()
 };
 
 /// A sweep with the contents of all files it names. Cells are ordered with the method varying
 /// fastest, then the last grid parameter.
 struct SweepPlan {
-  Sweep sweep;
-  std::string file;           ///< name as given
-  std::string scenario_text;  ///< of the base scenario
-  YamlNode scenario_document;
-  Notes notes;  ///< of former keys that were read, and of maps
-  std::vector<SweepCell> cells;
+  Sweep sweep{};
+  std::string file{};           ///< name as given
+  std::string scenario_text{};  ///< of the base scenario
+  YamlNode scenario_document{};
+  Notes notes{};  ///< of former keys that were read, and of maps
+  std::vector<SweepCell> cells{};
 
   /// Fingerprint of everything the results depend on.
   std::string hash() const;
@@ -42,9 +42,9 @@ struct SweepPlan {
 /// The text of a base scenario; `name` is its name in messages, and file names in it are relative
 /// to `folder`.
 struct SweepBase {
-  std::string text;
-  std::string name;
-  std::filesystem::path folder;
+  std::string text{};
+  std::string name{};
+  std::filesystem::path folder{};
 };
 
 /// Builds the cells of a checked sweep on `jobs` threads (0: one per core); `name` is the

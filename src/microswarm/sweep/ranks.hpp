@@ -11,7 +11,7 @@ namespace microswarm::sweep {
 /// A message and the rank that sent it.
 struct RankMessage {
   int from = 0;
-  std::string bytes;
+  std::string bytes{};
 };
 
 /// Interface of the MPI module; its lifetime is that of the communication.

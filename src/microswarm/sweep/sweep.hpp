@@ -21,7 +21,7 @@ struct SweepProgress {
 struct SweepOptions {
   int jobs = 0;  ///< threads of this process; 0: one a core
   /// Called after rows are added and periodically, in the caller's thread.
-  std::function<void(const SweepProgress&)> progress;
+  std::function<void(const SweepProgress&)> progress{};
 };
 
 /// Rank 0's view of the worker processes. Construct it before anything that can throw: the

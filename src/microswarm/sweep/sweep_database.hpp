@@ -10,8 +10,8 @@ namespace microswarm::sweep {
 
 /// Host and time of the start of a sweep, for reports and logs.
 struct SweepOrigin {
-  std::string host;
-  std::string begun;  ///< "2026-01-31 12:00:00", UTC
+  std::string host{};
+  std::string begun{};  ///< "2026-01-31 12:00:00", UTC
 };
 
 /// The output database of a sweep: one row per trial, layout in docs/reference/sweep.md. Only one

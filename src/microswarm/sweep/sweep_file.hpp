@@ -13,8 +13,8 @@ namespace microswarm::sweep {
 
 /// A scenario key and the values it takes, written as for `--set KEY=`.
 struct SweepParameter {
-  std::string key;
-  std::vector<std::string> values;
+  std::string key{};
+  std::vector<std::string> values{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.key, plain("key", "Key of the scenario, such as swarm.radius_um.").needed());
@@ -24,8 +24,8 @@ struct SweepParameter {
 
 /// A named group of settings; methods are compared with each other.
 struct SweepMethod {
-  std::string name;
-  std::vector<std::string> set;
+  std::string name{};
+  std::vector<std::string> set{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.name, plain("name", "Name of the method.").needed());
@@ -35,14 +35,14 @@ struct SweepMethod {
 
 /// A sweep: every combination of grid values and methods, `trials` times each.
 struct Sweep {
-  std::string name;
-  std::string description;
-  std::string scenario;
-  std::vector<std::string> set;
-  std::vector<SweepParameter> grid;
-  std::vector<SweepMethod> methods;
+  std::string name{};
+  std::string description{};
+  std::string scenario{};
+  std::vector<std::string> set{};
+  std::vector<SweepParameter> grid{};
+  std::vector<SweepMethod> methods{};
   int trials = 1;
-  std::optional<std::uint64_t> seed;
+  std::optional<std::uint64_t> seed{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.name, plain("name", "Name of the sweep."));

@@ -22,10 +22,10 @@ constexpr auto enum_names(SweepColumnKind) {
 
 /// One column of the trials table.
 struct SweepColumn {
-  std::string name;  ///< letters, digits and underscores; ends with its unit
+  std::string name{};  ///< letters, digits and underscores; ends with its unit
   SweepColumnKind kind = SweepColumnKind::real;
-  std::string unit;  ///< for display
-  std::string description;
+  std::string unit{};  ///< for display
+  std::string description{};
   /// Role of the column; wall-clock times differ from run to run.
   enum class Role { key, parameter, result, metric, wall_clock } role = Role::result;
 };
@@ -51,8 +51,8 @@ std::vector<SqlValue> result_values(const experiment::TrialResult& trial);
 
 /// A finished trial and its `result_values`.
 struct SweepRow {
-  SweepTask task;
-  std::vector<SqlValue> values;
+  SweepTask task{};
+  std::vector<SqlValue> values{};
 };
 
 /// Storage of a sweep's rows.

@@ -11,8 +11,8 @@ namespace microswarm {
 
 /// Map and moving obstacles. A value; copies share the map.
 struct World {
-  std::shared_ptr<const Map> map;
-  std::vector<Obstacle> obstacles;
+  std::shared_ptr<const Map> map{};
+  std::vector<Obstacle> obstacles{};
 
   /// Snapshot at time t [s].
   Snapshot at(double t) const;

@@ -18,10 +18,10 @@ struct AmplifierParams {
   double thermal_resistance = 1;
   double thermal_time = 300;
   double ambient = 22;
-  std::optional<double> max_current;
-  std::optional<double> max_voltage;
-  std::optional<double> max_slew;
-  std::optional<double> max_temperature;
+  std::optional<double> max_current{};
+  std::optional<double> max_voltage{};
+  std::optional<double> max_slew{};
+  std::optional<double> max_temperature{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.resistance, ohm("resistance", 1e-6, 1e6, "Resistance of the coil at 20 °C."));

@@ -35,10 +35,10 @@ struct LimitHit {
 
 /// Currents within all limits.
 struct LimitedCurrents {
-  Eigen::VectorXd currents;     ///< [A]
-  double scale = 1;             ///< scale applied to the command, in [0, 1]
-  bool keeps_direction = true;  ///< whether the currents are `scale` times the requested ones
-  std::vector<LimitHit> hits;   ///< limits that the unscaled command would exceed
+  Eigen::VectorXd currents{};    ///< [A]
+  double scale = 1;              ///< scale applied to the command, in [0, 1]
+  bool keeps_direction = true;   ///< whether the currents are `scale` times the requested ones
+  std::vector<LimitHit> hits{};  ///< limits that the unscaled command would exceed
 };
 
 /// Currents that turn: constant + cosine cos φ + sine sin φ [A], one of each per coil.
@@ -47,7 +47,7 @@ struct TurningCurrents {
   double max_frequency =
       0;             ///< highest frequency that may follow; limits apply to a turn at it [Hz]
   double phase = 0;  ///< current φ [rad]
-  Eigen::VectorXd constant, cosine, sine;
+  Eigen::VectorXd constant{}, cosine{}, sine{};
 
   /// The currents at `phase` [A].
   Eigen::VectorXd now() const;

@@ -19,16 +19,16 @@ struct FitOptions {
 
 /// An actuation matrix fitted to measurements, with its residuals.
 struct FittedMatrix {
-  MatrixCoils coils;
+  MatrixCoils coils{};
   Eigen::Vector3d rms = Eigen::Vector3d::Zero();  ///< of the residuals along x, y, z [mT]
   double total_rms = 0;                           ///< of |residual| [mT]
   double worst = 0;                               ///< largest |residual| [mT]
   std::size_t worst_row = 0;
-  std::vector<Eigen::Vector3d> residuals;  ///< measured − fitted, row by row [mT]
-  std::size_t freedom = 0;                 ///< measured numbers less fitted ones
+  std::vector<Eigen::Vector3d> residuals{};  ///< measured − fitted, row by row [mT]
+  std::size_t freedom = 0;                   ///< measured numbers less fitted ones
   /// Standard errors of the coils' fields [mT/A] and gradients [T/m/A], like `coils`; NaN without
   /// freedom.
-  Eigen::MatrixXd field_errors, gradient_errors;
+  Eigen::MatrixXd field_errors{}, gradient_errors{};
 };
 
 /// Largest standard error of a fitted field, as a share of that coil's field; empty without

@@ -16,13 +16,13 @@ namespace microswarm::actuation {
 /// The last output to the coils.
 struct CoilOutput {
   Eigen::Vector3d wanted = Eigen::Vector3d::Zero();  ///< commanded field [mT]
-  Eigen::VectorXd currents;                          ///< sent currents, one per coil [A]
+  Eigen::VectorXd currents{};                        ///< sent currents, one per coil [A]
   double scale = 1;                                  ///< scale of the command imposed by the limits
   bool reached = true;                               ///< the coils can produce the commanded field
   DriveStatus status = DriveStatus::driven;
-  double device_scale = 1;       ///< by the device's own limits, as last acknowledged
-  Eigen::VectorXd acknowledged;  ///< currents that the device last acknowledged [A]
-  Eigen::VectorXd temperatures;  ///< of the coils, by their thermal model [°C]
+  double device_scale = 1;         ///< by the device's own limits, as last acknowledged
+  Eigen::VectorXd acknowledged{};  ///< currents that the device last acknowledged [A]
+  Eigen::VectorXd temperatures{};  ///< of the coils, by their thermal model [°C]
 };
 
 /// Setpoint of the coils: a navigator's command, a constant field at the target position [mT],

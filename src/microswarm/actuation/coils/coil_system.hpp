@@ -61,7 +61,7 @@ struct CubeCoils {
 /// Arbitrary coils, listed winding by winding.
 struct LoopCoils {
   static constexpr std::string_view type_name = "loops";
-  std::vector<CoilParams> coils;
+  std::vector<CoilParams> coils{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.coils, plain("coils", "The coils one by one.").needed());
@@ -71,7 +71,7 @@ struct LoopCoils {
 /// Coils calibrated as multipoles.
 struct MpemCoils {
   static constexpr std::string_view type_name = "mpem";
-  std::string file;
+  std::string file{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.file, plain("file", "Calibration in MPEM YAML.").needed());
@@ -81,7 +81,7 @@ struct MpemCoils {
 /// Coils given by one field grid each.
 struct VfieldCoils {
   static constexpr std::string_view type_name = "vfield";
-  std::vector<std::string> files;
+  std::vector<std::string> files{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.files, plain("files", "A VField grid for each coil.").needed());
@@ -93,10 +93,10 @@ struct VfieldCoils {
 /// everywhere.
 struct MatrixCoils {
   static constexpr std::string_view type_name = "matrix";
-  std::vector<std::string> names;
-  std::vector<std::vector<double>> field;
+  std::vector<std::string> names{};
+  std::vector<std::vector<double>> field{};
   std::vector<double> offset{0, 0, 0};
-  std::vector<std::vector<double>> gradient;
+  std::vector<std::vector<double>> gradient{};
   std::vector<double> offset_gradient{0, 0, 0, 0, 0};
   std::vector<double> centre{0, 0, 0};
   template <class Self, class V>
@@ -116,9 +116,9 @@ struct MatrixCoils {
 
 /// Contents of a coil system file.
 struct CoilSystemParams {
-  std::string name;
-  std::variant<HelmholtzCoils, CubeCoils, LoopCoils, MpemCoils, VfieldCoils, MatrixCoils> coils;
-  std::vector<AmplifierParams> amplifiers;
+  std::string name{};
+  std::variant<HelmholtzCoils, CubeCoils, LoopCoils, MpemCoils, VfieldCoils, MatrixCoils> coils{};
+  std::vector<AmplifierParams> amplifiers{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.name, plain("name", "Name of the system."));
@@ -130,9 +130,9 @@ struct CoilSystemParams {
 
 /// Linear map from coil currents to field and gradient at one position.
 struct Actuation {
-  Eigen::Matrix3Xd field;                              ///< actuation matrix [mT/A], Eq 3 [global]
-  Eigen::Matrix<double, 5, Eigen::Dynamic> gradients;  ///< five_gradients of each coil [mT/µm/A]
-  FieldGradient offset;                                ///< at zero current [mT], [mT/µm]
+  Eigen::Matrix3Xd field{};                              ///< actuation matrix [mT/A], Eq 3 [global]
+  Eigen::Matrix<double, 5, Eigen::Dynamic> gradients{};  ///< five_gradients of each coil [mT/µm/A]
+  FieldGradient offset{};                                ///< at zero current [mT], [mT/µm]
 
   Eigen::Vector3d total_field(const Eigen::VectorXd& currents) const {
     return field * currents + offset.field;
@@ -144,14 +144,14 @@ struct Actuation {
 
 /// A coil made of current loops.
 struct LoopCoil {
-  std::string name;
-  std::vector<CurrentLoop> loops;
+  std::string name{};
+  std::vector<CurrentLoop> loops{};
 };
 
 /// Field of coils at a centre with its constant gradients.
 struct LinearField {
-  Eigen::Matrix3Xd field;                              ///< [mT/A]
-  Eigen::Matrix<double, 5, Eigen::Dynamic> gradients;  ///< five_gradients of each coil [mT/µm/A]
+  Eigen::Matrix3Xd field{};                              ///< [mT/A]
+  Eigen::Matrix<double, 5, Eigen::Dynamic> gradients{};  ///< five_gradients of each coil [mT/µm/A]
 };
 
 /// A system of coils: the field of each coil and the limits of its amplifier.

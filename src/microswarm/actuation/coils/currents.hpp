@@ -12,12 +12,13 @@ namespace microswarm::actuation {
 /// Minimum-norm currents for a field. If the rank is below 3 and the field cannot be produced, they
 /// produce the nearest field.
 struct CurrentsForField {
-  Eigen::VectorXd currents;  ///< [A]
-  Eigen::Vector3d field;     ///< produced field [mT]
-  int rank = 0;              ///< rank of the actuation matrix; 3: every field can be produced
-  Eigen::Matrix3Xd missing;  ///< unit vectors, one per column, along which no field can be produced
-  double short_by = 0;       ///< |field − wanted| [mT]
-  bool reached = false;      ///< the produced field is the wanted one
+  Eigen::VectorXd currents{};  ///< [A]
+  Eigen::Vector3d field{};     ///< produced field [mT]
+  int rank = 0;                ///< rank of the actuation matrix; 3: every field can be produced
+  Eigen::Matrix3Xd
+      missing{};         ///< unit vectors, one per column, along which no field can be produced
+  double short_by = 0;   ///< |field − wanted| [mT]
+  bool reached = false;  ///< the produced field is the wanted one
 };
 
 /// Solves I = Aᵀ (A Aᵀ)⁻¹ B after subtracting the field at zero current from B. This is our reading

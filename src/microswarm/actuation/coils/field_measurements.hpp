@@ -11,19 +11,19 @@ namespace microswarm::actuation {
 
 /// One measurement: the currents in the coils and the field of a probe.
 struct FieldMeasurement {
-  Eigen::VectorXd currents;  ///< [A]
-  Eigen::Vector3d position;  ///< [µm]
-  Eigen::Vector3d field;     ///< measured by the probe [mT]
-  int line = 0;              ///< line in the file
+  Eigen::VectorXd currents{};  ///< [A]
+  Eigen::Vector3d position{};  ///< [µm]
+  Eigen::Vector3d field{};     ///< measured by the probe [mT]
+  int line = 0;                ///< line in the file
   /// Commanded currents [A], which a device may have limited; empty if unknown.
   Eigen::VectorXd planned{};
 };
 
 /// Measurements of one system.
 struct FieldMeasurements {
-  std::string file;                ///< file name for error messages
-  std::vector<std::string> coils;  ///< names
-  std::vector<FieldMeasurement> rows;
+  std::string file{};                ///< file name for error messages
+  std::vector<std::string> coils{};  ///< names
+  std::vector<FieldMeasurement> rows{};
 };
 
 /// Reads a CSV file with a header. Columns: `i_NAME_a` for the current of each coil; bx_mt, by_mt,

@@ -11,13 +11,13 @@ namespace microswarm::actuation {
 
 /// One measurement that is to be made.
 struct MeasurementStep {
-  Eigen::VectorXd currents;  ///< [A]
-  Eigen::Vector3d position;  ///< of the probe [µm]
+  Eigen::VectorXd currents{};  ///< [A]
+  Eigen::Vector3d position{};  ///< of the probe [µm]
 };
 
 /// Currents to measure at each position: none, each coil alone, optionally pairs.
 struct MeasurementPlanOptions {
-  std::vector<Eigen::Vector3d> positions;  ///< of the probe [µm], at least one
+  std::vector<Eigen::Vector3d> positions{};  ///< of the probe [µm], at least one
   /// Largest current of each coil [A]; default: 80 % of the current that it can hold indefinitely,
   /// rounded down to two digits.
   std::optional<double> current{};

@@ -18,8 +18,8 @@ namespace microswarm::actuation {
 struct Multipole {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();    ///< [m]
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< unit vector
-  std::vector<double> A;                                 ///< A_n at n − 1
-  std::vector<double> B;                                 ///< B_n at n − 1
+  std::vector<double> A{};                               ///< A_n at n − 1
+  std::vector<double> B{};                               ///< B_n at n − 1
 };
 
 /// Field of one multipole for one ampere. Terms with coefficient 0 contribute nothing anywhere. At
@@ -28,16 +28,16 @@ FieldGradient multipole_field(const Multipole& source, const Eigen::Vector3d& po
 
 /// An electromagnet calibrated as a sum of multipoles.
 struct MpemCoil {
-  std::string name;
-  std::vector<Multipole> sources;
+  std::string name{};
+  std::vector<Multipole> sources{};
 };
 
 /// A calibrated system of the multipole electromagnet model (MPEM).
 struct MpemSystem {
-  std::string name;
-  std::vector<MpemCoil> coils;
-  std::vector<Multipole> offset;  ///< field at zero current: the coil "Offset" at one ampere
-  Eigen::Vector3d lo, hi;         ///< workspace [µm]
+  std::string name{};
+  std::vector<MpemCoil> coils{};
+  std::vector<Multipole> offset{};  ///< field at zero current: the coil "Offset" at one ampere
+  Eigen::Vector3d lo{}, hi{};       ///< workspace [µm]
 
   /// Whether a position [µm] is inside the calibrated workspace, border included.
   bool in_workspace(const Eigen::Vector3d& position) const;

@@ -30,10 +30,10 @@ struct UniformityGrid {
 /// Deviation of the field from that at the centre. Row-major; the plane's first axis varies
 /// fastest.
 struct UniformityMap {
-  UniformityGrid grid;
-  Eigen::Vector3d centre_field;        ///< B0 [mT]
-  std::vector<Eigen::Vector3d> field;  ///< B [mT]
-  std::vector<double> deviation;       ///< |B − B0| / |B0|
+  UniformityGrid grid{};
+  Eigen::Vector3d centre_field{};        ///< B0 [mT]
+  std::vector<Eigen::Vector3d> field{};  ///< B [mT]
+  std::vector<double> deviation{};       ///< |B − B0| / |B0|
 
   Eigen::Vector3d place(int column, int row) const;  ///< [µm]
   /// Relative deviation at a point of the grid.

@@ -33,8 +33,8 @@ struct WindingParams {
 
 /// A coil: windings that carry one common current.
 struct CoilParams {
-  std::string name;
-  std::vector<WindingParams> windings;
+  std::string name{};
+  std::vector<WindingParams> windings{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.name, plain("name", "Name of the coil.").needed());

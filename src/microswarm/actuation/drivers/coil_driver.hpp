@@ -53,7 +53,7 @@ struct Capabilities {
 /// A field [mT] for a device that computes the currents.
 struct FieldRequest {
   std::span<const double, 3> field;
-  std::span<const double> currents;  ///< that make it in the coil system's model [A]
+  std::span<const double> currents{};  ///< that make it in the coil system's model [A]
 };
 
 /// Currents that the device turns by itself: constant + cosine cos φ + sine sin φ [A], one of each
@@ -61,7 +61,7 @@ struct FieldRequest {
 struct CurrentWaveform {
   double frequency = 0;  ///< [Hz], negative backwards
   double phase = 0;      ///< of a starting waveform [rad]; a running one keeps its own
-  std::span<const double> constant, cosine, sine;
+  std::span<const double> constant{}, cosine{}, sine{};
 
   /// Peak current of a channel within a turn [A].
   double largest(std::size_t channel) const;
@@ -77,12 +77,12 @@ CoilRequest constant_request(const Capabilities& device, std::span<const double,
 
 /// State of the coils as last reported by the device.
 struct DeviceReport {
-  std::vector<double> currents;   ///< [A]; of a field, the coil system's model
-  double scale = 1;               ///< by the device's own limits, of the last acknowledged
-                                  ///< request, in [0, 1]
-  std::optional<double> phase{};  ///< of the waveform [rad]; empty if unknown
-  std::string reason{};           ///< cause of the last trouble, one printable line; empty if
-                                  ///< unknown
+  std::vector<double> currents{};  ///< [A]; of a field, the coil system's model
+  double scale = 1;                ///< by the device's own limits, of the last acknowledged
+                                   ///< request, in [0, 1]
+  std::optional<double> phase{};   ///< of the waveform [rad]; empty if unknown
+  std::string reason{};            ///< cause of the last trouble, one printable line; empty if
+                                   ///< unknown
 };
 
 /// Result of setting all currents to zero.
@@ -120,9 +120,9 @@ class CoilDriver {
 
 /// Coils that a driver is opened for.
 struct CoilSite {
-  std::filesystem::path folder;  ///< of the rig's file
-  std::filesystem::path coils;   ///< file of the coil system
-  std::size_t count = 0;         ///< number of coils
+  std::filesystem::path folder{};  ///< of the rig's file
+  std::filesystem::path coils{};   ///< file of the coil system
+  std::size_t count = 0;           ///< number of coils
 };
 
 /// Why this status ends a run, with the driver's own reason; also for no_answer.

@@ -33,7 +33,7 @@ constexpr auto enum_names(DriverInput) {
 struct LineDriverParams {
   static constexpr bool is_device = true;
   DriverInput send = DriverInput::currents;
-  std::optional<int> channels;
+  std::optional<int> channels{};
   double full_scale = 20;
   double tolerance = 0.01;
   double watchdog = 0.2;
@@ -66,7 +66,7 @@ struct LineDriverParams {
 /// A user-supplied program that drives the coils.
 struct ProgramDriverParams : LineDriverParams {
   static constexpr std::string_view type_name = "program";
-  std::vector<std::string> command;
+  std::vector<std::string> command{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.command,

@@ -21,9 +21,9 @@ enum class LineVerdict : std::uint8_t { ok, limited, off, refused, emergency };
 /// A reply of the driver.
 struct LineReply {
   LineVerdict verdict{};
-  std::uint32_t sequence = 0;  ///< of the message that it answers
-  std::vector<double> values;  ///< applied values; empty if not finite or too many
-  std::string text;            ///< reason of off, refused and emergency, one printable line
+  std::uint32_t sequence = 0;    ///< of the message that it answers
+  std::vector<double> values{};  ///< applied values; empty if not finite or too many
+  std::string text{};            ///< reason of off, refused and emergency, one printable line
 };
 
 /// The line "hello SEQUENCE VERSION SEND CHANNELS WATCHDOG_MS" with its end; `send` is a word.

@@ -57,7 +57,7 @@ struct FieldGeneratorParams {
 
 /// A field as a function of the phase φ: cosine cos φ + sine sin φ [mT].
 struct TurningField {
-  Eigen::Vector3d cosine, sine;
+  Eigen::Vector3d cosine{}, sine{};
 };
 
 /// Generates the field for a navigator's commands, at 10 Hz or any other rate. Phase, heading and

@@ -90,7 +90,7 @@ class Waveform {
 /// Waveform of a plan.
 struct RollingPlan {
   Waveform waveform;
-  std::vector<int> rolls;  ///< whole turns of each move, rounded from its length
+  std::vector<int> rolls{};  ///< whole turns of each move, rounded from its length
 };
 
 /// Converts consecutive moves to one waveform. Each move steers by the shorter rotation, then rolls

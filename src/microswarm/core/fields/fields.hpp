@@ -23,10 +23,10 @@ struct Range {
 /// files and on the command line is the name with the unit's suffix: "step" in µm has the key
 /// `step_um`.
 struct FieldInfo {
-  std::string_view name;
+  std::string_view name{};
   Unit unit = Unit::none;
   Range range{};
-  std::string_view doc;
+  std::string_view doc{};
   bool required = false;          ///< must be given: no sensible default
   std::string_view former_key{};  ///< key in earlier versions, still accepted
 
@@ -102,8 +102,8 @@ std::string key_text(const FieldInfo& info);
 /// still. One that had no effect and is gone is ignored there. A struct lists them as
 /// `static constexpr std::array<MovedKey, N> moved_keys`.
 struct MovedKey {
-  std::string_view from;  ///< "navigator.frame_timeout_s"
-  std::string_view to;    ///< "sensing.frame_timeout_s"; empty when it is gone
+  std::string_view from{};  ///< "navigator.frame_timeout_s"
+  std::string_view to{};    ///< "sensing.frame_timeout_s"; empty when it is gone
 };
 
 /// Field visitor that does nothing; used by the concept HasFields.

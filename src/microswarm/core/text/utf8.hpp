@@ -11,7 +11,7 @@ namespace microswarm {
 /// A character of UTF-8 text: its code point, nothing where the bytes are not UTF-8, and its length
 /// in bytes, then 1.
 struct Utf8Character {
-  std::optional<std::uint32_t> code;
+  std::optional<std::uint32_t> code{};
   std::size_t bytes = 1;
 };
 

@@ -18,9 +18,9 @@ namespace microswarm::environments {
 /// A maze with the rules and the goal that all its episodes share.
 struct GatheringTask {
   GatheringMaze maze;
-  GatheringRules rules;
-  std::optional<MazePlace> goal;  ///< none: a random one each episode
-  MazeCosts costs;                ///< to the goal, if it is fixed
+  GatheringRules rules{};
+  std::optional<MazePlace> goal{};  ///< none: a random one each episode
+  MazeCosts costs{};                ///< to the goal, if it is fixed
 
   /// Throws InputError if the goal is no free cell or fewer cells are free than particles are to be
   /// placed.
@@ -32,7 +32,7 @@ struct GatheringTask {
   std::size_t episode_bytes() const;
   /// Index of a cell in a picture of one channel.
   std::size_t pixel(std::uint32_t cell) const { return pixels[cell]; }
-  std::vector<std::uint32_t> pixels;
+  std::vector<std::uint32_t> pixels{};
 };
 
 /// State of a gathering, from which it continues identically: what was drawn from the random

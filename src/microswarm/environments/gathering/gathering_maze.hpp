@@ -19,7 +19,7 @@ struct MazePlace {
 /// Distances of all cells of a maze to one of them, in steps.
 struct MazeCosts {
   std::uint32_t goal = 0;
-  std::vector<std::uint32_t> of;  ///< of each cell; `unreached` for walls and other pieces
+  std::vector<std::uint32_t> of{};  ///< of each cell; `unreached` for walls and other pieces
   std::uint32_t max = 0;
   double mean = 0;  ///< over the cells from which the goal is reached, without itself
 

@@ -15,7 +15,7 @@ namespace microswarm::experiment {
 
 /// Query for gathering robots in a map under one input.
 struct GatherQuery {
-  Vec2 goal;
+  Vec2 goal{};
   int robots = 256;                       ///< number, at random starts unless `starts` is given
   std::vector<Vec2> starts{};             ///< start of each robot [µm]
   std::optional<double> channel_width{};  ///< scales all lengths [µm]; default: measured
@@ -26,7 +26,7 @@ struct GatherQuery {
 
 /// The experiment that answers a GatherQuery.
 struct GatherExperiment {
-  Experiment experiment;
+  Experiment experiment{};
   double measured_width = 0;  ///< typical width of the map's channels [µm]
   Notes notes{};              ///< one for each former key in the settings
 };

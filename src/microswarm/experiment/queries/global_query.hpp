@@ -25,9 +25,9 @@ using GlobalChoice = PlannerChoice<GlobalPlannerParams>;
 
 /// Query for global inputs that bring each robot to its own goal.
 struct GlobalQuery {
-  std::vector<Vec2> starts;  ///< [µm]
-  std::vector<Vec2> goals;   ///< [µm], in the same order
-  Settings settings{};       ///< of keys within `planner`
+  std::vector<Vec2> starts{};  ///< [µm]
+  std::vector<Vec2> goals{};   ///< [µm], in the same order
+  Settings settings{};         ///< of keys within `planner`
   std::uint64_t seed = 1;
   bool shorten = true;     ///< remove superfluous inputs
   bool keep_tree = false;  ///< grow a tree to its limits and keep it; goals may then be missing
@@ -35,8 +35,8 @@ struct GlobalQuery {
 
 /// The answer to a query.
 struct GlobalAnswer {
-  planning::GlobalPlan plan;
-  GlobalPlannerParams planner;                 ///< parameters that were used
+  planning::GlobalPlan plan{};
+  GlobalPlannerParams planner{};               ///< parameters that were used
   std::optional<planning::GlobalTree> tree{};  ///< the grown tree, if requested
   std::uint64_t nodes = 0;
   std::size_t inputs_found = 0;  ///< number before superfluous ones were removed

@@ -17,8 +17,8 @@ namespace microswarm::experiment {
 
 /// Path query in a map.
 struct PathQuery {
-  Pose2 start;
-  Vec2 goal;
+  Pose2 start{};
+  Vec2 goal{};
   /// Of keys within `planner`. Other values are fitted to the map, see fit_to_map.
   Settings settings{};
   std::uint64_t seed = 1;
@@ -29,9 +29,9 @@ const Type& path_settings();
 
 /// Answer to a query: the plan, and the planner's parameters and time.
 struct PathAnswer {
-  Plan plan;
-  planning::PlannerParams planner;  ///< parameters that were used
-  double seconds = 0;               ///< computing time of the planner [s]
+  Plan plan{};
+  planning::PlannerParams planner{};  ///< parameters that were used
+  double seconds = 0;                 ///< computing time of the planner [s]
   Notes notes{};  ///< former keys in the settings, and a path that ends beside its goal
 
   /// Why there is no path, as text, with the limit that ended the search; empty with a path.

@@ -9,7 +9,7 @@ namespace microswarm::experiment {
 /// variant.
 template <class Planners>
 struct PlannerChoice {
-  Planners planner;
+  Planners planner{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.planner, plain("planner", "Planner and its parameters."));

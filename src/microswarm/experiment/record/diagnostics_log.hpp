@@ -13,7 +13,7 @@ namespace microswarm::experiment {
 template <class Shown>
 struct DiagnosticsRow {
   double t = 0;  ///< [s]
-  Shown shown;
+  Shown shown{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.t, s("t", "Time of the tick."));
@@ -24,11 +24,11 @@ struct DiagnosticsRow {
 /// Diagnostics of a run, one row for each tick in which its navigator had some. It is not part of
 /// the record's hash.
 struct DiagnosticsLog {
-  std::vector<DiagnosticsRow<RadarDiagnostics>> radar;
+  std::vector<DiagnosticsRow<RadarDiagnostics>> radar{};
   /// Nodes and regions only where they differ from those before.
-  std::vector<DiagnosticsRow<AggregationDiagnostics>> aggregation;
-  std::vector<DiagnosticsRow<PredictiveDiagnostics>> predictive;
-  std::vector<DiagnosticsRow<HierarchicalDiagnostics>> hierarchical;
+  std::vector<DiagnosticsRow<AggregationDiagnostics>> aggregation{};
+  std::vector<DiagnosticsRow<PredictiveDiagnostics>> predictive{};
+  std::vector<DiagnosticsRow<HierarchicalDiagnostics>> hierarchical{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.radar, plain("radar", "Decisions of the hierarchical radar."));

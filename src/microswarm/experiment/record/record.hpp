@@ -16,23 +16,23 @@ namespace microswarm::experiment {
 
 /// Record of a run, sufficient to repeat, measure and draw it.
 struct Record {
-  std::string version;  ///< library version of the run
-  Scene scene;          ///< includes the world, so that a record needs no other file
+  std::string version{};  ///< library version of the run
+  Scene scene{};          ///< includes the world, so that a record needs no other file
   std::uint32_t trial = 0;
-  std::string rig;  ///< name of the rig; empty for a simulation. Runs on a rig have no replay
+  std::string rig{};  ///< name of the rig; empty for a simulation. Runs on a rig have no replay
   /// "external" if the run's navigator was not the scenario's; a replay repeats its commands.
-  std::string navigator;
-  RunResult result;
-  std::vector<Frame> frames;  ///< one per tick, and one for the end with state "end"
-  std::vector<PathChange> paths;
-  std::vector<PlanEvent> plans;
-  std::vector<RunEvent> events;
-  std::vector<Change> changes;           ///< changes during the run; the scene is the initial one
-  std::vector<RobotMoment> robots;       ///< individually tracked robots, at a subset of the frames
-  std::vector<PhasedGoal> phased_goals;  ///< of an external navigator, for a replay
-  DiagnosticsLog diagnostics;            ///< empty unless the scenario keeps them
-  RigLog rig_log;                        ///< of a run on a rig
-  std::string stated_hash;               ///< hash stated in the file; empty for a new record
+  std::string navigator{};
+  RunResult result{};
+  std::vector<Frame> frames{};  ///< one per tick, and one for the end with state "end"
+  std::vector<PathChange> paths{};
+  std::vector<PlanEvent> plans{};
+  std::vector<RunEvent> events{};
+  std::vector<Change> changes{};      ///< changes during the run; the scene is the initial one
+  std::vector<RobotMoment> robots{};  ///< individually tracked robots, at a subset of the frames
+  std::vector<PhasedGoal> phased_goals{};  ///< of an external navigator, for a replay
+  DiagnosticsLog diagnostics{};            ///< empty unless the scenario keeps them
+  RigLog rig_log{};                        ///< of a run on a rig
+  std::string stated_hash{};               ///< hash stated in the file; empty for a new record
 
   /// The tables of the record.
   template <class Self, class V>

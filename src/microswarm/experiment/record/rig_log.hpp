@@ -38,20 +38,20 @@ struct RigLatency {
 /// Part of a record that describes the rig: circumstances of the run, currents, and detections of
 /// the camera. Times are those of the record's frames [s]. It is not part of the record's hash.
 struct RigLog {
-  std::string began;                  ///< date and local time, ISO 8601
-  std::string note;                   ///< of the operator
-  std::string rig_file;               ///< all parameters of the rig as YAML, its scale included
-  std::string coils_file;             ///< text of the coil system's file, with the calibration
-  std::vector<std::string> coils;     ///< names
-  std::vector<double> driven_at;      ///< times of the outputs [s]
-  std::vector<double> answered_at;    ///< times of the driver's acknowledgements [s]
-  std::vector<double> pictured_at;    ///< arrival of the pictures that they answer [s]
-  std::vector<double> currents;       ///< acknowledged currents of all coils, output by output [A]
-  std::vector<double> seen_at;        ///< times of the pictures, one entry a body [s]
-  std::vector<std::int64_t> bodies;   ///< -1 for the swarm, otherwise an obstacle's number
-  std::vector<Vec2> positions;        ///< centres of the bodies [µm]
-  std::vector<double> radii;          ///< of circles around the bodies [µm]
-  std::optional<RigLatency> latency;  ///< of the whole run, set at its end
+  std::string began{};                 ///< date and local time, ISO 8601
+  std::string note{};                  ///< of the operator
+  std::string rig_file{};              ///< all parameters of the rig as YAML, its scale included
+  std::string coils_file{};            ///< text of the coil system's file, with the calibration
+  std::vector<std::string> coils{};    ///< names
+  std::vector<double> driven_at{};     ///< times of the outputs [s]
+  std::vector<double> answered_at{};   ///< times of the driver's acknowledgements [s]
+  std::vector<double> pictured_at{};   ///< arrival of the pictures that they answer [s]
+  std::vector<double> currents{};      ///< acknowledged currents of all coils, output by output [A]
+  std::vector<double> seen_at{};       ///< times of the pictures, one entry a body [s]
+  std::vector<std::int64_t> bodies{};  ///< -1 for the swarm, otherwise an obstacle's number
+  std::vector<Vec2> positions{};       ///< centres of the bodies [µm]
+  std::vector<double> radii{};         ///< of circles around the bodies [µm]
+  std::optional<RigLatency> latency{};  ///< of the whole run, set at its end
 
   bool empty() const { return began.empty(); }
   void see(double t, std::int64_t body, Vec2 position, double radius);

@@ -17,18 +17,18 @@ namespace microswarm::experiment {
 
 /// One tick of a run. All fields are physical and reproducible bit for bit.
 struct Frame {
-  double t = 0;                   ///< start of the tick [s]
-  Pose2 pose;                     ///< of the swarm at t; on a rig, as last observed
-  double radius = 0;              ///< of the swarm at t [µm]; 0 for robots
-  double speed = 0;               ///< of the swarm at t [µm/s]
-  double seen = 0;                ///< exposure time of the navigator's frame [s]
-  std::optional<Pose2> observed;  ///< the swarm in that frame
-  Command command;                ///< the navigator's command
+  double t = 0;                     ///< start of the tick [s]
+  Pose2 pose{};                     ///< of the swarm at t; on a rig, as last observed
+  double radius = 0;                ///< of the swarm at t [µm]; 0 for robots
+  double speed = 0;                 ///< of the swarm at t [µm/s]
+  double seen = 0;                  ///< exposure time of the navigator's frame [s]
+  std::optional<Pose2> observed{};  ///< the swarm in that frame
+  Command command{};                ///< the navigator's command
   double goal_distance = 0;   ///< remaining distance to the goal [µm]; see Metrics::goal_distance
   double wall_clearance = 0;  ///< from the centre at t to walls and border [µm]; inf for robots
   double obstacle_clearance = 0;  ///< from the centre at t to moving bodies [µm], or inf
   double avoidance_cost = 0;      ///< δ at t, Eq 4 [radar]
-  std::optional<Vec2> target;     ///< the navigator's local target
+  std::optional<Vec2> target{};   ///< the navigator's local target
   NavigatorState state = NavigatorState::hold;  ///< of the navigator
   bool planned = false;                         ///< a planning event
   template <class Self, class V>
@@ -59,7 +59,7 @@ struct Frame {
 /// A new path of the navigator, valid until the next one.
 struct PathChange {
   double t = 0;  ///< [s]
-  std::vector<Vec2> path;
+  std::vector<Vec2> path{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.t, s("t", "Time from which the navigator follows it."));
@@ -70,7 +70,7 @@ struct PathChange {
 /// A new phased goal of a navigator, valid until the next one; see NavigatorView::phased_goal.
 struct PhasedGoal {
   double t = 0;  ///< [s]
-  std::optional<Vec2> point;
+  std::optional<Vec2> point{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.t, s("t", "Time from which the navigator has it."));
@@ -81,7 +81,7 @@ struct PhasedGoal {
 /// Positions of individually tracked robots.
 struct RobotMoment {
   double t = 0;  ///< [s]
-  std::vector<Vec2> positions;
+  std::vector<Vec2> positions{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.t, s("t", "Time of the positions."));
@@ -92,7 +92,7 @@ struct RobotMoment {
 /// A planning event: the result of the local planner with its tree and detection circles.
 struct PlanEvent {
   double t = 0;  ///< [s]
-  Plan plan;
+  Plan plan{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.t, s("t", "Time of the planning."));
@@ -110,7 +110,7 @@ struct PlanEvent {
 struct Change {
   double t = 0;             ///< start of the following frame [s]
   std::uint64_t frame = 0;  ///< index of that frame, from 0
-  std::string setting;      ///< "navigator.speed_um_per_s=60"
+  std::string setting{};    ///< "navigator.speed_um_per_s=60"
 };
 
 /// Kind of a run event.

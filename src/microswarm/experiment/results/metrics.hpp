@@ -51,9 +51,9 @@ struct Metrics {
   double turning = 0;
   double goal_distance = 0;
   double hold_time = 0;
-  LeastClearance walls;
-  LeastClearance obstacles;
-  Avoidance avoidance;
+  LeastClearance walls{};
+  LeastClearance obstacles{};
+  Avoidance avoidance{};
   int planning_events = 0;
   int contacts = 0;
   int avoidable_contacts = 0;
@@ -99,8 +99,8 @@ TimeSummary summarise(std::span<const double> seconds);
 
 /// Wall-clock times of a run [s]. They differ from run to run and are not part of its hash.
 struct Timing {
-  std::vector<double> steps;     ///< of the navigator, one per frame
-  std::vector<double> planning;  ///< of steps with a planning event
+  std::vector<double> steps{};     ///< of the navigator, one per frame
+  std::vector<double> planning{};  ///< of steps with a planning event
 };
 
 }  // namespace microswarm::experiment

@@ -41,10 +41,10 @@ class ContactLog : public RunListener {
 
 /// Verdict on one contact: whether it was avoidable, and by which manoeuvre.
 struct ContactVerdict {
-  RunEvent contact;
+  RunEvent contact{};
   bool avoidable = false;
-  double decided = 0;          ///< time of the last tick at which it was avoidable [s]
-  std::string_view manoeuvre;  ///< "hold", "retreat", "hold, retreat", "retreat, hold" or empty
+  double decided = 0;            ///< time of the last tick at which it was avoidable [s]
+  std::string_view manoeuvre{};  ///< "hold", "retreat", "hold, retreat", "retreat, hold" or empty
 };
 
 /// Judges every contact of a run of KinematicPlant. A contact at t_c was avoidable if, from the

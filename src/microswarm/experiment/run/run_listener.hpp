@@ -12,9 +12,9 @@ namespace microswarm::experiment {
 /// Result of a run.
 struct RunResult {
   Status status = Status::time_limit;
-  Metrics metrics;
-  Timing timing;
-  std::string state;  ///< name of the navigator's last state
+  Metrics metrics{};
+  Timing timing{};
+  std::string state{};  ///< name of the navigator's last state
 };
 
 /// Interface for observers of a run: recorder, live view, progress bar. References are valid during

@@ -16,7 +16,7 @@ class SwarmState {
  public:
   struct Values {
     double t = 0;                     ///< [s]
-    Pose2 pose;                       ///< of the swarm, or of the robots' centre
+    Pose2 pose{};                     ///< of the swarm, or of the robots' centre
     double radius = 0;                ///< of a swarm, 0 of robots [µm]
     double speed = 0;                 ///< [µm/s]
     double goal_distance = infinity;  ///< [µm]

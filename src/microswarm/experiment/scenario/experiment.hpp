@@ -17,9 +17,9 @@ namespace microswarm::experiment {
 
 /// A validated scenario with its world, ready to run.
 struct Experiment {
-  Scene scene;
-  World world;
-  KeyLocations keys;  ///< of the scenario file
+  Scene scene{};
+  World world{};
+  KeyLocations keys{};  ///< of the scenario file
 
   const Scenario& scenario() const { return scene.scenario; }
 };

@@ -68,24 +68,24 @@ struct RecordParams {
 /// a start and a goal. Individually tracked robots have starts and either one common goal, where
 /// they gather, or one goal each. `validate` checks this.
 struct Scenario {
-  std::string name;
-  std::string description;
-  formats::MapSpec map;
-  std::vector<Obstacle> obstacles;
-  SwarmParams swarm;
-  std::optional<RobotSwarmParams> robots;
-  SensingParams sensing;
-  std::optional<Pose2> start;
-  std::optional<Vec2> goal;
+  std::string name{};
+  std::string description{};
+  formats::MapSpec map{};
+  std::vector<Obstacle> obstacles{};
+  SwarmParams swarm{};
+  std::optional<RobotSwarmParams> robots{};
+  SensingParams sensing{};
+  std::optional<Pose2> start{};
+  std::optional<Vec2> goal{};
   double goal_tolerance = 50;
-  navigation::NavigatorParams navigator;
+  navigation::NavigatorParams navigator{};
   double tick = 0.1;
   double time_limit = 300;
   double hold_limit = 60;
   double hold_at_goal = 0;
   bool stop_at_contact = true;
-  std::optional<double> detection_range;
-  RecordParams record;
+  std::optional<double> detection_range{};
+  RecordParams record{};
   std::uint64_t seed = 1;
   /// Keys of earlier versions.
   static constexpr std::array<MovedKey, 5> moved_keys{

@@ -14,8 +14,8 @@ namespace microswarm::experiment {
 
 /// A scenario and the contents of its files: everything a run depends on.
 struct Scene {
-  Scenario scenario;  ///< tracks of obstacles include their samples
-  formats::MapParts map;
+  Scenario scenario{};  ///< tracks of obstacles include their samples
+  formats::MapParts map{};
 
   /// Fingerprint of the whole scene.
   std::string hash() const;

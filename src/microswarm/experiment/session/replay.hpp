@@ -11,8 +11,8 @@ namespace microswarm::experiment {
 /// Result of a replay.
 struct ReplayResult {
   bool identical = false;
-  bool stopped = false;    ///< stopped by the caller
-  std::string difference;  ///< first difference, as text; empty if identical
+  bool stopped = false;      ///< stopped by the caller
+  std::string difference{};  ///< first difference, as text; empty if identical
 };
 
 /// Runs the stored scene again and compares it up to the record's last frame. Throws InputError for

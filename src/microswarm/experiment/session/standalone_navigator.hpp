@@ -15,15 +15,15 @@ namespace microswarm::experiment {
 
 /// Observation supplied by an external control loop.
 struct ExternalObservation {
-  double now = 0;                  ///< current time [s]
-  double seen = 0;                 ///< capture time of the picture [s], at most `now`
-  std::optional<SwarmPose> swarm;  ///< nothing if no swarm was detected, and for robots
-  std::vector<Body> obstacles;     ///< as detected in the picture
+  double now = 0;                    ///< current time [s]
+  double seen = 0;                   ///< capture time of the picture [s], at most `now`
+  std::optional<SwarmPose> swarm{};  ///< nothing if no swarm was detected, and for robots
+  std::vector<Body> obstacles{};     ///< as detected in the picture
   /// Whether `Body::obstacle` identifies obstacles over all pictures. Otherwise they are matched
   /// with those of earlier pictures by distance.
   bool are_numbered = false;
   /// Index i is the same robot in every picture [µm]; empty if they were not detected.
-  std::vector<Vec2> robots;
+  std::vector<Vec2> robots{};
   int unseen = 0;  ///< number of robots not detected, at expected positions
 };
 

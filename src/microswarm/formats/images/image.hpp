@@ -18,7 +18,7 @@ struct Image {
   int width = 0;
   int height = 0;
   int channels = 1;
-  std::vector<std::uint8_t> pixels;  ///< width · height · channels samples
+  std::vector<std::uint8_t> pixels{};  ///< width · height · channels samples
 
   std::size_t index(int column, int row) const {
     return (static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
@@ -58,11 +58,11 @@ std::vector<std::uint8_t> read_transparency(const std::filesystem::path& path);
 
 /// A picture of a camera, and what was assumed in reading it.
 struct ReadPicture {
-  Image image;
-  double black = 0;                 ///< sample of the file that became 0
-  double white = 255;               ///< sample of the file that became 255
-  std::optional<double> um_per_px;  ///< by a description of ImageJ or OME
-  std::vector<std::string> notes;   ///< "FILE: its 16-bit samples are read as …", for people
+  Image image{};
+  double black = 0;                   ///< sample of the file that became 0
+  double white = 255;                 ///< sample of the file that became 255
+  std::optional<double> um_per_px{};  ///< by a description of ImageJ or OME
+  std::vector<std::string> notes{};   ///< "FILE: its 16-bit samples are read as …", for people
 };
 
 /// Reads a camera image of any depth and scales its samples to 8 bits: those of 9 to 16 bits are

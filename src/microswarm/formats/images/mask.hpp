@@ -13,7 +13,7 @@ namespace microswarm::formats {
 struct Mask {
   int width = 0;
   int height = 0;
-  std::vector<std::uint8_t> cells;  ///< width · height
+  std::vector<std::uint8_t> cells{};  ///< width · height
 
   Mask() = default;
   Mask(int w, int h)

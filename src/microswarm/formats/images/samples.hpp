@@ -16,7 +16,7 @@ namespace microswarm::formats {
 /// blue).
 template <class Sample>
 struct Samples2d {
-  std::span<const Sample> samples;
+  std::span<const Sample> samples{};
   int width = 0;
   int height = 0;
   int channels = 1;

@@ -54,8 +54,8 @@ struct PlainSamples {
 /// Writes the samples of a picture, which `out` holds row by row.
 template <class Sample, class Reader>
 struct SamplePlacer {
-  SampleRow row;
-  Reader read;
+  SampleRow row{};
+  Reader read{};
   Sample* out;
   std::size_t width;     ///< of the picture [px]
   std::size_t channels;  ///< of the picture

@@ -24,7 +24,7 @@ struct Photograph {
   int width = 0;     ///< [px]
   int height = 0;    ///< [px]
   int channels = 1;  ///< 1 or 3
-  std::vector<std::uint8_t> samples;
+  std::vector<std::uint8_t> samples{};
 };
 
 /// A video that is open for reading.

@@ -23,8 +23,8 @@ struct SvgSize {
 
 /// Grey pixels of a drawing in front of white, row by row from the top.
 struct SvgPixels {
-  std::vector<std::uint8_t> grey;  ///< columns · rows
-  std::string error{};             ///< why it cannot be drawn; empty if it can
+  std::vector<std::uint8_t> grey{};  ///< columns · rows
+  std::string error{};               ///< why it cannot be drawn; empty if it can
 };
 
 /// Interface of the module. Reads no other files, and no network.

@@ -13,7 +13,7 @@ namespace microswarm::formats {
 
 /// An SVG as drawn in front of white.
 struct SvgPicture {
-  Image image;           ///< grey
+  Image image{};         ///< grey
   double um_per_px = 1;  ///< side of a pixel [µm]
   double width = 0;      ///< of the drawing [µm], which begins at the upper left pixel
   double height = 0;

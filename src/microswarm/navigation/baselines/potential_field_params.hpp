@@ -24,8 +24,8 @@ struct PotentialFieldParams {
   double min_force = 0.05;
   double gap = 10;
   Guide guide = Guide::route;
-  ObstacleTrackerParams tracker;
-  PotentialFieldTuning tuning;
+  ObstacleTrackerParams tracker{};
+  PotentialFieldTuning tuning{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.speed, um_per_s("speed", 1e-3, 1e5, "Commanded speed."));

@@ -23,8 +23,8 @@ struct VelocityObstacleParams {
   double gap = 10;
   double urgency = 200;
   Guide guide = Guide::route;
-  ObstacleTrackerParams tracker;
-  VelocityObstacleTuning tuning;
+  ObstacleTrackerParams tracker{};
+  VelocityObstacleTuning tuning{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.speed, um_per_s("speed", 1e-3, 1e5, "Commanded speed."));

@@ -10,11 +10,11 @@ namespace microswarm::navigation {
 
 /// Inputs of a learned follower.
 struct FollowerQuery {
-  std::span<const Vec2> path;
-  PathPosition position;     ///< position nearest to the swarm
-  Pose2 pose;                ///< pose at which the command takes effect
+  std::span<const Vec2> path{};
+  PathPosition position{};   ///< position nearest to the swarm
+  Pose2 pose{};              ///< pose at which the command takes effect
   double speed = 0;          ///< commanded [µm/s]
-  Vec2 flow;                 ///< estimated drift of the swarm [µm/s]
+  Vec2 flow{};               ///< estimated drift of the swarm [µm/s]
   double max_turn_rate = 0;  ///< [rad/s]; may be infinite
 };
 

@@ -17,10 +17,10 @@ namespace microswarm::navigation {
 /// bearing [rad] and the fraction of the commanded speed.
 struct FollowerModel {
   std::uint64_t seed = 0;
-  std::string training;  ///< training parameters, on one line
+  std::string training{};  ///< training parameters, on one line
   std::array<double, feature_count> lowest{};
   std::array<double, feature_count> highest{};
-  MultilayerPerceptron network;
+  MultilayerPerceptron network{};
 
   /// Scaled features; nothing if one is outside its range.
   std::optional<std::array<double, feature_count>> scaled(

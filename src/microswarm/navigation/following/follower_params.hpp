@@ -28,8 +28,8 @@ constexpr auto enum_names(FollowerKind) {
 struct FollowerParams {
   FollowerKind kind = FollowerKind::pure_pursuit;
   bool correct_flow = false;
-  std::string model;
-  std::shared_ptr<const FollowerModel> loaded;  ///< contents of the file `model`
+  std::string model{};
+  std::shared_ptr<const FollowerModel> loaded{};  ///< contents of the file `model`
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.kind, plain("kind", "Kind of the follower: pure_pursuit or learned."));

@@ -12,8 +12,8 @@ namespace microswarm::navigation {
 struct MultilayerPerceptron {
   static constexpr std::size_t max_width = 64;
   std::vector<std::size_t>
-      layers;  ///< number of inputs, then of each layer's outputs; at most max_width
-  std::vector<double> weights;
+      layers{};  ///< number of inputs, then of each layer's outputs; at most max_width
+  std::vector<double> weights{};
 
   /// Number of weights of a network with these layers.
   static std::size_t weight_count(std::span<const std::size_t> layers);

@@ -15,7 +15,7 @@ namespace microswarm::navigation {
 class PathFollower {
  public:
   struct Answer {
-    Command command;
+    Command command{};
     bool handed_over = false;  ///< pure pursuit, because the learned follower was not applicable
   };
 

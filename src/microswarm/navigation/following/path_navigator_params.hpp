@@ -14,10 +14,10 @@ namespace microswarm::navigation {
 /// paths drawn by hand.
 struct PathNavigatorParams {
   static constexpr std::string_view type_name = "follow_path";
-  std::vector<Vec2> path;
+  std::vector<Vec2> path{};
   double speed = 60;
   double lookahead = 20;
-  FollowerParams follower;
+  FollowerParams follower{};
   double horizon = 1;
   double gap = 10;
   template <class Self, class V>

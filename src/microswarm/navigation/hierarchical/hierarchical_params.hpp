@@ -26,7 +26,7 @@ struct LocalTargetParams {
   double border_weight = 1;     // α_2
   double goal_weight = 8;       // α_3
   double direction_weight = 2;  // α_4
-  std::optional<double> influence_range;
+  std::optional<double> influence_range{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.base_distance, um("base_distance", 1e-3, 1e6, "Farthest target (D_base)."));
@@ -63,16 +63,16 @@ struct HierarchicalParams {
   double extra_clearance = 10;
   double speed = 60;
   double lookahead = 60;
-  FollowerParams follower;
+  FollowerParams follower{};
   double horizon = 3;
   double target_horizon = 8;
   bool as_published = false;
   Guide guide = Guide::route;
   double route_cell = 20;
-  ObstacleTrackerParams tracker;
-  LocalTargetParams target;
+  ObstacleTrackerParams tracker{};
+  LocalTargetParams target{};
   planning::DrrtStarParams planner = local_planner();
-  HierarchicalTuning tuning;
+  HierarchicalTuning tuning{};
 
   /// These parameters, with our additions disabled if `as_published`.
   HierarchicalParams in_effect() const;

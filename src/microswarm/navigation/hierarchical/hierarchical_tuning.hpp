@@ -19,7 +19,7 @@ struct HierarchicalTuning {
   std::vector<double> wait_times{0, 1, 2, 4, 8};
   double wait_weight = 2;
   double contact_weight = 3;
-  ObstaclePredictorTuning prediction;
+  ObstaclePredictorTuning prediction{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.speed_shares,

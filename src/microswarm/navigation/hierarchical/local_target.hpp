@@ -11,18 +11,18 @@ namespace microswarm::navigation {
 
 /// Selected target and the circle that determined its distance.
 struct LocalTarget {
-  Vec2 position;
-  Detection detection;
+  Vec2 position{};
+  Detection detection{};
 };
 
 /// Input of Algorithm 1.
 struct LocalTargetQuery {
-  Pose2 swarm;                          ///< s_s
-  double goal_heading = 0;              ///< α_g
-  double goal_distance = 0;             ///< ‖s_s − s_g‖: maximum distance of a target
-  std::optional<Vec2> previous_target;  ///< s_gpre
-  double clearance = 0;                 ///< r_s for CollisionFree [µm]
-  double min_distance = 0;              ///< the swarm's radius, at which halving ends
+  Pose2 swarm{};                          ///< s_s
+  double goal_heading = 0;                ///< α_g
+  double goal_distance = 0;               ///< ‖s_s − s_g‖: maximum distance of a target
+  std::optional<Vec2> previous_target{};  ///< s_gpre
+  double clearance = 0;                   ///< r_s for CollisionFree [µm]
+  double min_distance = 0;                ///< the swarm's radius, at which halving ends
 };
 
 /// D_ts of the query [µm]: the base distance times ρ of the detection circle (Eq 3 [drrt]).

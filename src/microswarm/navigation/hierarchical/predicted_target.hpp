@@ -12,11 +12,11 @@ namespace microswarm::navigation {
 
 /// Input of the target selection among predicted obstacles.
 struct PredictedTargetQuery {
-  Pose2 swarm;                           ///< predicted pose when the command takes effect
+  Pose2 swarm{};                         ///< predicted pose when the command takes effect
   double delay = 0;                      ///< from the frame until then [s]
   double speed = 0;                      ///< [µm/s]
-  Vec2 goal;                             ///< free with the clearance
-  Vec2 towards;                          ///< the goal, or a point of the route to it, in sight
+  Vec2 goal{};                           ///< free with the clearance
+  Vec2 towards{};                        ///< the goal, or a point of the route to it, in sight
   double reach = 0;                      ///< farthest target [µm]
   double min_reach = 0;                  ///< minimum distance of a target other than the goal [µm]
   double angle_step = 0;                 ///< between directions [rad]
@@ -31,7 +31,7 @@ struct PredictedTargetQuery {
 
 /// Selected target, and the time [s] the swarm waits for an obstacle to pass before it goes.
 struct PredictedTarget {
-  Vec2 position;
+  Vec2 position{};
   double wait = 0;
 };
 

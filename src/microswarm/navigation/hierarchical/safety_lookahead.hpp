@@ -20,7 +20,7 @@ class SafetyLookahead {
     const Snapshot& world;  ///< as observed
     const ObstaclePredictor& obstacles;
     const Aim& aim;
-    Pose2 pose;        ///< when the command takes effect
+    Pose2 pose{};      ///< when the command takes effect
     double delay = 0;  ///< from the frame until then [s]
   };
   /// Command at a pose, which is reached after that time [s].

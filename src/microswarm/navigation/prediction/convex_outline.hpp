@@ -13,13 +13,13 @@ namespace microswarm::navigation {
 /// Convex hull of a body, optimised for distance queries. A disc has no edges.
 struct ConvexOutline {
   struct Edge {
-    Vec2 normal;                ///< outward unit normal
+    Vec2 normal{};              ///< outward unit normal
     double offset = 0;          ///< of the edge from the centre along the normal [µm]
     double begin = 0, end = 0;  ///< of the edge along perpendicular(normal) [µm]
   };
-  Vec2 centre;        ///< the disc's, or the centroid of the outline [µm]
+  Vec2 centre{};      ///< the disc's, or the centroid of the outline [µm]
   double radius = 0;  ///< of the disc, or to the farthest vertex [µm]
-  std::vector<Edge> edges;
+  std::vector<Edge> edges{};
 
   /// Exact distance [µm] of the point `from_centre` relative to the centre; negative inside.
   double distance_at(Vec2 from_centre) const;

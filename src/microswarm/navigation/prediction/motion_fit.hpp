@@ -11,14 +11,14 @@ namespace microswarm::navigation {
 /// Observed position [µm] and its time [s].
 struct Sighting {
   double t = 0;
-  Vec2 position;
+  Vec2 position{};
 };
 
 /// Estimated motion at the time of the newest sighting.
 struct MotionFit {
-  Vec2 position;              ///< [µm]
-  Vec2 velocity;              ///< [µm/s]
-  Vec2 acceleration;          ///< [µm/s²]; 0 while the sightings are straight within their noise
+  Vec2 position{};            ///< [µm]
+  Vec2 velocity{};            ///< [µm/s]
+  Vec2 acceleration{};        ///< [µm/s²]; 0 while the sightings are straight within their noise
   double noise = 0;           ///< standard deviation of a sighting's coordinate [µm]
   double velocity_error = 0;  ///< standard deviation of a coordinate of the velocity [µm/s]
   int sightings = 0;          ///< number of newest sightings used

@@ -16,9 +16,9 @@ namespace microswarm::navigation {
 
 /// Oscillation or rotation on a circle.
 struct ArcSwing {
-  Vec2 centre;
-  double radius = 0;       ///< [µm]
-  Oscillation arc_length;  ///< x: arc length from heading 0 [µm]
+  Vec2 centre{};
+  double radius = 0;         ///< [µm]
+  Oscillation arc_length{};  ///< x: arc length from heading 0 [µm]
 
   /// Heading from the centre at `t` [rad].
   double angle(double t) const { return arc_length.at(t).x / radius; }

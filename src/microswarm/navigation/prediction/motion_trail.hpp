@@ -13,8 +13,8 @@ namespace microswarm::navigation {
 /// State of a body at one time.
 struct TrailPoint {
   double t = 0;       ///< [s]
-  Vec2 position;      ///< centre [µm]
-  Vec2 velocity;      ///< [µm/s]
+  Vec2 position{};    ///< centre [µm]
+  Vec2 velocity{};    ///< [µm/s]
   double radius = 0;  ///< [µm]
   double turn = 0;    ///< rotation since first seen [rad]
 };

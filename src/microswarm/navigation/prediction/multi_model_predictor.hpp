@@ -15,7 +15,7 @@ namespace microswarm::navigation {
 
 /// Predicted state of a body, relative to its last observation.
 struct PredictedBody {
-  Vec2 centre;             ///< [µm]
+  Vec2 centre{};           ///< [µm]
   double turn = 0;         ///< rotation since then [rad]
   double growth = 0;       ///< growth of its outline since then [µm]
   double uncertainty = 0;  ///< expected position error [µm]

@@ -13,8 +13,8 @@ struct MultiModelPredictorParams {
   double error_time_constant = 2;
   double uncertainty = 0;
   double max_uncertainty = 60;
-  ObstacleTrackerParams tracker;
-  MultiModelPredictorTuning tuning;
+  ObstacleTrackerParams tracker{};
+  MultiModelPredictorTuning tuning{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.memory, s("memory", 0, 1e4, "Time for which observed motion is remembered."));

@@ -24,9 +24,9 @@ struct MultiModelPredictorTuning {
   double swing_prior = 0.20;
   double arc_prior = 0.20;
   double recurrence_prior = 0.14;
-  MotionModelsTuning models;
-  RecurrenceTuning recurrence;
-  OscillationTuning oscillation;
+  MotionModelsTuning models{};
+  RecurrenceTuning recurrence{};
+  OscillationTuning oscillation{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.max_gap, s("max_gap", 0, 1e3, "Time without a sighting after which a body is new."));

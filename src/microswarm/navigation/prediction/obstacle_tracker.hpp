@@ -17,9 +17,9 @@ namespace microswarm::navigation {
 
 /// Estimated motion of one body at the time of the newest frame.
 struct TrackedBody {
-  Vec2 centre;                ///< the disc's, or the centroid of the outline [µm]
-  Vec2 velocity;              ///< of the centre [µm/s]; 0 if seen only once
-  Vec2 acceleration;          ///< of the centre [µm/s²]; 0 while it moves straight
+  Vec2 centre{};              ///< the disc's, or the centroid of the outline [µm]
+  Vec2 velocity{};            ///< of the centre [µm/s]; 0 if seen only once
+  Vec2 acceleration{};        ///< of the centre [µm/s²]; 0 while it moves straight
   double velocity_error = 0;  ///< of a coordinate, standard deviation [µm/s]; infinite at first
   double noise = 0;           ///< standard deviation of an observed coordinate of the centre [µm]
   double radius = 0;          ///< of the disc, or to the farthest vertex [µm]

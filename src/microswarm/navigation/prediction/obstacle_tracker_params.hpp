@@ -10,7 +10,7 @@ namespace microswarm::navigation {
 struct ObstacleTrackerParams {
   int frames = 12;
   double memory = 4;
-  ObstacleTrackerTuning tuning;
+  ObstacleTrackerTuning tuning{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.frames, plain("frames", 2, 100, "Maximum number of frames for a motion estimate."));

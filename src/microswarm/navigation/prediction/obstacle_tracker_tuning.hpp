@@ -10,7 +10,7 @@ namespace microswarm::navigation {
 struct ObstacleTrackerTuning {
   int noise_windows = 4;
   double outline_spacing = 0.4;
-  MotionFitTuning fit;
+  MotionFitTuning fit{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.noise_windows,

@@ -16,9 +16,9 @@ namespace microswarm::navigation {
 /// is constant acceleration.
 struct Oscillation {
   double frequency = 0;  ///< ω [rad/s]
-  Vec2 value;            ///< [µm]
-  Vec2 rate;             ///< [µm/s]
-  Vec2 curve;            ///< [µm/s²]
+  Vec2 value{};          ///< [µm]
+  Vec2 rate{};           ///< [µm/s]
+  Vec2 curve{};          ///< [µm/s²]
 
   Vec2 at(double t) const;
 };

@@ -45,11 +45,11 @@ struct PredictiveParams {
   double horizon = 6;
   double step = 0.5;
   int directions = 48;
-  RiskParams risk;
-  MultiModelPredictorParams prediction;
+  RiskParams risk{};
+  MultiModelPredictorParams prediction{};
   Guide guide = Guide::route;
   double route_cell = 20;
-  PredictiveTuning tuning;
+  PredictiveTuning tuning{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.speed, um_per_s("speed", 1e-3, 1e5, "Commanded speed."));

@@ -18,7 +18,7 @@ struct PredictiveTuning {
   double slow_share = 0.1;
   double closing_time = 1;
   std::vector<double> speed_shares{1, 0.5, 0.25};
-  ConvexOutlineTuning outline;
+  ConvexOutlineTuning outline{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.wall_contact_cost,

@@ -31,7 +31,7 @@ class EscapeFan {
   /// The trajectories of a fan: each of its velocities replaces the second of `common`, or the
   /// first one if `first_varies`.
   struct Trajectories {
-    TwoLegTrajectory common;
+    TwoLegTrajectory common{};
     bool first_varies = false;
     TwoLegTrajectory operator[](Vec2 velocity) const {
       return first_varies ? TwoLegTrajectory{velocity, common.until, common.second}
@@ -47,9 +47,9 @@ class EscapeFan {
     const double* x;  ///< velocities [µm/s]
     const double* y;
     std::size_t count;
-    double after;      ///< time at the varying velocity [s]
-    Vec2 shift;        ///< displacement at the other velocity [µm]
-    Vec2 start, body;  ///< [µm]
+    double after;          ///< time at the varying velocity [s]
+    Vec2 shift{};          ///< displacement at the other velocity [µm]
+    Vec2 start{}, body{};  ///< [µm]
     /// Offset of the position from the body's centre [µm].
     double off_x(std::size_t k) const { return start.x + (shift.x + after * x[k]) - body.x; }
     double off_y(std::size_t k) const { return start.y + (shift.y + after * y[k]) - body.y; }

@@ -26,7 +26,7 @@ class EscapeSearch {
  public:
   /// Evaluation of the first part of a trajectory.
   struct Trace {
-    EscapeOutcome outcome;
+    EscapeOutcome outcome{};
     bool touched = false;  ///< whether it touched a body
     bool blocked = false;  ///< whether a wall ended it
     bool is_hopeless = false;
@@ -35,9 +35,9 @@ class EscapeSearch {
 
   /// The trajectories of a fan after screening.
   struct Bundle {
-    EscapeFan::Trajectories trajectories;
-    Trace prefix;                          ///< the common first part
-    std::vector<std::uint8_t> candidates;  ///< for each velocity, whether it may become the best
+    EscapeFan::Trajectories trajectories{};
+    Trace prefix{};                          ///< the common first part
+    std::vector<std::uint8_t> candidates{};  ///< for each velocity, whether it may become the best
   };
 
   EscapeSearch(ReachableObstacles& seen, const SafetyFilterTuning& tuning)

@@ -26,18 +26,18 @@ struct RadarParams {
   double angle_step = pi / 180;     // β
   double target_gain = 0.1;         // k_t ε
   double avoidance_gain = 0.9;      // k_a η
-  SafetyRadiusParams safety_radius;
+  SafetyRadiusParams safety_radius{};
   double max_turn = radians(90);
   bool retreat = true;
-  SafetyFilterParams safety_filter;
+  SafetyFilterParams safety_filter{};
   bool compensate_delay = true;
   double obstacle_speed_bound = 0;
-  std::vector<WaitZone> wait_zones;
-  std::vector<Vec2> waypoints;
+  std::vector<WaitZone> wait_zones{};
+  std::vector<Vec2> waypoints{};
   double waypoint_tolerance = 50;
   bool global_plan = false;
-  planning::FmtStarParams planner;
-  RadarTuning tuning;
+  planning::FmtStarParams planner{};
+  RadarTuning tuning{};
   bool as_published = false;
 
   /// These parameters, with our additions disabled if `as_published`.

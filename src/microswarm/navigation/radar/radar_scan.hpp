@@ -11,17 +11,17 @@ namespace microswarm::navigation {
 
 /// Input of one radar decision, besides the world. Lengths in µm.
 struct RadarLook {
-  Vec2 centre;                 ///< of the swarm, O_s
-  double radius = 0;           ///< of the swarm, r_s
-  Vec2 target;                 ///< O_t
-  RadarCircles circles;        ///< with the controlled r_f of Eq 24
-  double step = 0;             ///< d_p
-  double wall_distance = 0;    ///< d_f of walls and border, Eq 30, independent of r_f
-  double approach = 0;         ///< reduction of the distances to obstacles
-  double target_gain = 0;      ///< k_t ε
-  double avoidance_gain = 0;   ///< k_a η
-  std::optional<Vec2> course;  ///< unit vector of the last commanded direction
-  double min_cosine = -1;      ///< of the angle to it, if there is a choice
+  Vec2 centre{};                 ///< of the swarm, O_s
+  double radius = 0;             ///< of the swarm, r_s
+  Vec2 target{};                 ///< O_t
+  RadarCircles circles{};        ///< with the controlled r_f of Eq 24
+  double step = 0;               ///< d_p
+  double wall_distance = 0;      ///< d_f of walls and border, Eq 30, independent of r_f
+  double approach = 0;           ///< reduction of the distances to obstacles
+  double target_gain = 0;        ///< k_t ε
+  double avoidance_gain = 0;     ///< k_a η
+  std::optional<Vec2> course{};  ///< unit vector of the last commanded direction
+  double min_cosine = -1;        ///< of the angle to it, if there is a choice
 
   /// Distance [µm] that a predictive swarm's centre keeps from obstacles: r_s + d_f + `approach`.
   double obstacle_reach() const { return circles.safety - step + approach; }

@@ -19,16 +19,16 @@ namespace microswarm::navigation {
 
 /// Predicted state of the swarm when a command takes effect.
 struct EscapeStart {
-  Vec2 position;      ///< [µm]
+  Vec2 position{};    ///< [µm]
   double radius = 0;  ///< [µm]
   double time = 0;    ///< [s]
 };
 
 /// Two-leg trajectory: a first velocity, and a second one from `until` on [s]. Velocities [µm/s].
 struct TwoLegTrajectory {
-  Vec2 first;
+  Vec2 first{};
   double until = 0;
-  Vec2 second;
+  Vec2 second{};
   /// Displacement after `t` seconds [µm].
   Vec2 at(double t) const { return std::min(t, until) * first + std::max(0.0, t - until) * second; }
 };
@@ -43,7 +43,7 @@ struct SampleTime {
 /// first leg.
 struct SampleTimes {
   double until = 0;
-  std::vector<SampleTime> times;
+  std::vector<SampleTime> times{};
   std::size_t shared = 0;
   std::span<const SampleTime> first_leg() const { return std::span(times).first(shared); }
   std::span<const SampleTime> second_leg() const { return std::span(times).subspan(shared); }
@@ -60,7 +60,7 @@ class ReachableObstacles {
   enum class MotionError : std::uint8_t { none, bounded };
   /// A predicted body at a sample time.
   struct NearBody {
-    Vec2 centre;
+    Vec2 centre{};
     std::array<double, 2> touch{};  ///< distance of contact for each MotionError [µm]
     const ConvexOutline* outline = nullptr;
   };

@@ -19,8 +19,8 @@ struct SafetyFilterParams {
   double gap = 12;
   double gap_rate = 4;
   double wall_gap = 10;
-  ObstacleTrackerParams tracker;
-  SafetyFilterTuning tuning;
+  ObstacleTrackerParams tracker{};
+  SafetyFilterTuning tuning{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.active, plain("active", "Use the safety filter."));

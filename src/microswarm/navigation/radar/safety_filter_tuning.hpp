@@ -26,7 +26,7 @@ struct SafetyFilterTuning {
   int refinement = 2;
   int min_escapes = 4;
   double impatience = 0.25 * pi;
-  ConvexOutlineTuning outline;
+  ConvexOutlineTuning outline{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.recovery_rate,

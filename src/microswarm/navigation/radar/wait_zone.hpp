@@ -13,10 +13,10 @@ namespace microswarm::navigation {
 
 /// Position and target of a swarm that may have to wait.
 struct Waiting {
-  Vec2 position;      ///< of its centre [µm]
+  Vec2 position{};    ///< of its centre [µm]
   double radius = 0;  ///< [µm]
   double reach = 0;   ///< distance from the leaves' sweep below which it does not wait [µm]
-  Vec2 target;        ///< [µm]
+  Vec2 target{};      ///< [µm]
 };
 
 /// Whether the point is in the zone.

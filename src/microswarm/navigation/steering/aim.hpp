@@ -20,7 +20,7 @@ std::optional<Vec2> reachable_goal(const Snapshot& walls, Vec2 goal, double tole
 
 /// Target point of a swarm: the goal, or a point within its tolerance.
 struct Aim {
-  Vec2 position;                ///< [µm]
+  Vec2 position{};              ///< [µm]
   double clearance = infinity;  ///< distance to walls [µm]
   double tolerance = 0;         ///< tolerance left around it [µm]
 

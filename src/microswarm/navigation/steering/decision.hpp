@@ -8,7 +8,7 @@ namespace microswarm::navigation {
 
 /// Decision of a navigator in a step.
 struct Decision {
-  Command command;
+  Command command{};
   NavigatorState state = NavigatorState::hold;
 };
 

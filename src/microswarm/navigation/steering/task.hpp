@@ -11,7 +11,7 @@ namespace microswarm::navigation {
 
 /// Task of a navigator.
 struct Task {
-  SwarmLimits swarm;                             ///< for a single-body swarm
+  SwarmLimits swarm{};                           ///< for a single-body swarm
   std::optional<RobotSwarmParams> robots{};      ///< for individually tracked robots
   std::optional<Vec2> goal{};                    ///< nothing if the robots have individual goals
   double goal_tolerance = 0;                     ///< [µm]

@@ -18,8 +18,8 @@ std::optional<Vec2> pushed_free(const Map& map, Vec2 position, double clearance)
 
 /// A free place at the goal of a query, or why it cannot be planned: start_blocked or goal_blocked.
 struct Target {
-  std::optional<Status> fault;
-  Vec2 position;
+  std::optional<Status> fault{};
+  Vec2 position{};
   /// The plan of a query with a fault.
   Plan blocked(Vec2 start) const { return {.status = *fault, .path = {start}}; }
 };

@@ -13,8 +13,9 @@ namespace microswarm::planning {
 /// A shortest path, or the reason for its absence and a path that ends near the goal.
 struct ShortestPath {
   Status status = Status::no_path;
-  double length = 0;         ///< of straight lines and true arcs [µm]; 0 unless solved
-  std::vector<Vec2> points;  ///< [µm]; arcs are replaced by tangent lines, which keep the clearance
+  double length = 0;  ///< of straight lines and true arcs [µm]; 0 unless solved
+  std::vector<Vec2>
+      points{};  ///< [µm]; arcs are replaced by tangent lines, which keep the clearance
   std::uint64_t expanded = 0;  ///< labels expanded
   std::uint64_t lines = 0;     ///< free lines that became labels
 };

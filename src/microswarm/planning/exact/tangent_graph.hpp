@@ -25,7 +25,7 @@ class TangentGraph {
   /// A tangent of two circles, with the angles of the normals at which it leaves and arrives,
   /// measured from the start of the corner's cone [rad].
   struct Hop {
-    TangentLine line;
+    TangentLine line{};
     double leave = 0;
     double arrive = 0;        ///< if free
     double best = 0;          ///< for the query that uses it: length of a path over it [µm]

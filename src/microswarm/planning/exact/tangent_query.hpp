@@ -22,8 +22,8 @@ class TangentQuery {
   /// A closed line, with the shortest path to its end.
   struct Label {
     double length = 0;  ///< of the path to its end [µm]
-    TangentLine line;
-    Vec2 from;         ///< start of the line [µm]
+    TangentLine line{};
+    Vec2 from{};       ///< start of the line [µm]
     double leave = 0;  ///< angle of the normal at which it leaves the parent's wheel [rad]
     double arrive = 0;
     std::uint32_t wheel = none;  ///< wheel of its end; none: the goal
@@ -35,7 +35,7 @@ class TangentQuery {
   };
   /// A line from a label's wheel, and the length of the path to the line's end [µm].
   struct Leaving {
-    TangentLine line;
+    TangentLine line{};
     double leave = 0;  ///< angle of the normal at which it leaves [rad]
     double length = 0;
   };
@@ -157,12 +157,12 @@ class TangentQuery {
 
 /// Memory that an ended query hands to the next one, which then allocates little.
 struct TangentQuery::Memory {
-  TrapezoidLook from_start;
-  std::vector<CircleNow> circles_now;
-  std::vector<Arc> arcs_now;
-  std::vector<Guess> guesses;
-  std::vector<Label> labels;
-  std::vector<Open> open;
+  TrapezoidLook from_start{};
+  std::vector<CircleNow> circles_now{};
+  std::vector<Arc> arcs_now{};
+  std::vector<Guess> guesses{};
+  std::vector<Label> labels{};
+  std::vector<Open> open{};
 
   /// Approximate size [B].
   std::size_t bytes() const {

@@ -17,11 +17,11 @@ constexpr double angle_slack = 1e-9;
 /// Circle of radius `clearance` around a corner, on which a shortest path can turn, with the cone
 /// of admissible normals. Angles are measured counter-clockwise from the start of the cone [rad].
 struct TurningCircle {
-  Vec2 centre;
-  double radius = 0;  ///< [µm]; 0 for a point
-  double from = 0;    ///< direction in which the cone begins [rad]
-  double width = 0;   ///< of the cone [rad]; 2π for a disc
-  Vec2 first, last;   ///< unit vectors at its ends; unused for a disc
+  Vec2 centre{};
+  double radius = 0;     ///< [µm]; 0 for a point
+  double from = 0;       ///< direction in which the cone begins [rad]
+  double width = 0;      ///< of the cone [rad]; 2π for a disc
+  Vec2 first{}, last{};  ///< unit vectors at its ends; unused for a disc
   bool is_disc = false;
 
   /// Whether a path that touches with this normal is taut, so bends around the corner.
@@ -38,7 +38,7 @@ struct TurningCircle {
 
 /// A straight line from one circle to the next.
 struct TangentLine {
-  Vec2 along;         ///< unit vector
+  Vec2 along{};       ///< unit vector
   double length = 0;  ///< [µm]
 
   Segment from(Vec2 p) const { return {p, p + length * along}; }

@@ -14,10 +14,10 @@ namespace microswarm::planning {
 /// numbered by the cost of their gates, so `next` descends to the goal's region 0, which is its own
 /// next. The farthest region that contains a robot is the one with the highest number.
 struct MapSegmentation {
-  std::vector<Region> regions;
-  std::vector<std::uint32_t> region;          ///< ψ, one per node
-  std::vector<std::uint32_t> branch;          ///< φ, one per node, from 0 in each region
-  std::vector<std::uint32_t> junction_nodes;  ///< V_J, ascending
+  std::vector<Region> regions{};
+  std::vector<std::uint32_t> region{};          ///< ψ, one per node
+  std::vector<std::uint32_t> branch{};          ///< φ, one per node, from 0 in each region
+  std::vector<std::uint32_t> junction_nodes{};  ///< V_J, ascending
 };
 
 /// Alg 4 [gather] over routes of a tree that has nodes and was not stopped; incomplete if `stop`

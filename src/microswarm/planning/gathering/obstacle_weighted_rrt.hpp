@@ -14,25 +14,25 @@ namespace microswarm::planning {
 
 /// Routes from each node to the goal. Every step from a node to its next is collision-free.
 struct Routes {
-  std::vector<std::uint32_t> next;  ///< π: next node; the goal is its own next
-  std::vector<double> cost;         ///< d⟨q, g⟩ in the measure that was minimised
-  std::vector<double> length;       ///< [µm] along the route
+  std::vector<std::uint32_t> next{};  ///< π: next node; the goal is its own next
+  std::vector<double> cost{};         ///< d⟨q, g⟩ in the measure that was minimised
+  std::vector<double> length{};       ///< [µm] along the route
 };
 
 /// Tree from the goal over the free space, with two routes to the goal from each node: along the
 /// tree, and along the middle of the channels. Node 0 is the goal.
 struct ObstacleWeightedRrt {
-  Status status = Status::no_path;   ///< solved: the requested number of nodes
-  std::vector<Vec2> nodes;           ///< V
-  std::size_t grown = 0;             ///< number grown by Alg 1; the others complete the tree
-  std::vector<Vec2> boundary;        ///< V_obs: where extensions met a wall
-  std::vector<double> clearances;    ///< [µm] to the nearest point of V_obs
-  std::vector<double> weights;       ///< w, Eq 3; the goal's is 0
-  std::vector<std::uint8_t> medial;  ///< V*: 1 for nodes near the middle, Eq 4
+  Status status = Status::no_path;     ///< solved: the requested number of nodes
+  std::vector<Vec2> nodes{};           ///< V
+  std::size_t grown = 0;               ///< number grown by Alg 1; the others complete the tree
+  std::vector<Vec2> boundary{};        ///< V_obs: where extensions met a wall
+  std::vector<double> clearances{};    ///< [µm] to the nearest point of V_obs
+  std::vector<double> weights{};       ///< w, Eq 3; the goal's is 0
+  std::vector<std::uint8_t> medial{};  ///< V*: 1 for nodes near the middle, Eq 4
   double zeta_used = 0;  ///< ζ, raised just enough at the necks to join the components of V*
-  Routes plain;          ///< Alg 1: next is the tree's parent, cost is the length
-  Routes weighted;       ///< Alg 2
-  NodeLookup lookup;
+  Routes plain{};        ///< Alg 1: next is the tree's parent, cost is the length
+  Routes weighted{};     ///< Alg 2
+  NodeLookup lookup{};
 
   /// Node to start from at `p`: the nearest one visible from the cell of `p`. No allocation, about
   /// 10 ns. There must be nodes.

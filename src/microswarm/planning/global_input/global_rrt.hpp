@@ -13,9 +13,9 @@ namespace microswarm::planning {
 
 /// A grown tree and its answer for the goals it was grown with.
 struct GlobalRrt {
-  GoalAnswer answer;
-  GlobalTree tree;
-  PlanCounts counts;
+  GoalAnswer answer{};
+  GlobalTree tree{};
+  PlanCounts counts{};
 };
 
 /// Grows the RRT under one input for all robots (Alg 1, 2 [global]). An extension applies the one

@@ -11,9 +11,9 @@ namespace microswarm::planning {
 
 /// A plan and what it took.
 struct GlobalSearch {
-  GlobalPlan plan;
+  GlobalPlan plan{};
   /// iterations: nodes expanded; samples: nodes made; edge_checks: inputs tried
-  PlanCounts counts;
+  PlanCounts counts{};
   int rounds = 0;
 };
 

@@ -25,14 +25,14 @@ RobotStepper input_stepper(const Map& map, double robostep);
 /// node by the node's input.
 struct GlobalTree {
   std::size_t robots = 0;
-  Vec2 origin;  ///< origin of the configurations: the centre of the map
+  Vec2 origin{};  ///< origin of the configurations: the centre of the map
   double robostep = 0;
   ContactRule contact = ContactRule::slide;
-  double separation = 0;              ///< minimum distance between robots [µm]; 0: none
-  std::vector<PointF> moves;          ///< inputs by index
-  std::vector<float> configurations;  ///< [µm] x, y of robot 0, of robot 1 …, 2n per node
-  std::vector<std::uint32_t> parents;
-  std::vector<std::uint8_t> inputs;  ///< index of the move from the parent; the root's is 0
+  double separation = 0;                ///< minimum distance between robots [µm]; 0: none
+  std::vector<PointF> moves{};          ///< inputs by index
+  std::vector<float> configurations{};  ///< [µm] x, y of robot 0, of robot 1 …, 2n per node
+  std::vector<std::uint32_t> parents{};
+  std::vector<std::uint8_t> inputs{};  ///< index of the move from the parent; the root's is 0
 
   std::size_t size() const { return parents.size(); }
   std::span<const float> configuration(std::uint32_t node) const {
@@ -65,8 +65,8 @@ GoalAnswer ask(const GlobalTree& tree, std::span<const Vec2> goals, double toler
 /// Inputs that bring robots to their goals, and the configurations after each.
 struct GlobalPlan {
   Status status = Status::no_path;
-  std::vector<Vec2> inputs;                       ///< moves [µm]
-  std::vector<std::vector<Vec2>> configurations;  ///< before the first input, and after each
+  std::vector<Vec2> inputs{};                       ///< moves [µm]
+  std::vector<std::vector<Vec2>> configurations{};  ///< before the first input, and after each
   double worst = 0;  ///< maximum final distance of a robot from its goal [µm]
 };
 

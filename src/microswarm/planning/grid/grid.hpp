@@ -134,7 +134,7 @@ class Grid {
 struct OpenPlace {
   std::int64_t estimate;
   double cost;
-  Place place;
+  Place place{};
   friend bool operator<(const OpenPlace& a, const OpenPlace& b) {
     if (a.estimate != b.estimate) return a.estimate > b.estimate;
     if (a.cost != b.cost) return a.cost < b.cost;

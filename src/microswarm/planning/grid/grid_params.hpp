@@ -18,7 +18,7 @@ struct GridParams {
   double clearance = 40;
   double goal_tolerance = 50;
   double cell = 20;
-  std::optional<Vec2> origin;
+  std::optional<Vec2> origin{};
   int max_nodes = 4'000'000;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {

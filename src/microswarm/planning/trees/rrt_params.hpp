@@ -36,7 +36,7 @@ struct TreeParams {
   int max_iterations = 100'000;
   bool stop_at_first = true;
   double sample_pitch = 0;
-  Vec2 sample_origin;
+  Vec2 sample_origin{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.clearance, tree_fields::clearance);
@@ -67,7 +67,7 @@ struct RrtConnectParams {
   int max_nodes = 5000;
   int max_iterations = 100'000;
   double sample_pitch = 0;
-  Vec2 sample_origin;
+  Vec2 sample_origin{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.clearance, tree_fields::clearance);

@@ -11,8 +11,8 @@ namespace microswarm::reproduce {
 
 /// A shipped scenario of [drrt] with its world.
 struct DrrtSetting {
-  experiment::Scene scene;
-  World world;
+  experiment::Scene scene{};
+  World world{};
 };
 DrrtSetting load_drrt(const ReproduceOptions& options, const char* name);
 

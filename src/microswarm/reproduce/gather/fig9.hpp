@@ -22,7 +22,7 @@ inline constexpr std::size_t of_1024 = 9;
 /// A method in the comparison.
 struct GatherMethod {
   const char* name;
-  navigation::Aggregation aggregation;
+  navigation::Aggregation aggregation{};
   bool weighted;
   std::size_t colour;
 };
@@ -48,7 +48,7 @@ using Means = std::array<std::optional<double>, populations>;
 /// A map with the published means on it.
 struct Ground {
   const char* name;
-  scenes::Vascular scene;
+  scenes::Vascular scene{};
   double min_length;  ///< minimum path length of the robots' start positions [µm]
   std::array<Means, published_methods> published;
   int followed_regions;  ///< parameter of DCA in the published program

@@ -41,8 +41,8 @@ std::string spread_text(const std::vector<double>& values);
 
 /// A scenario of [radar], ready to run.
 struct RadarSetting {
-  experiment::Scene scene;
-  World world;
+  experiment::Scene scene{};
+  World world{};
 
   navigation::RadarParams& params() {
     return std::get<navigation::RadarParams>(scene.scenario.navigator);

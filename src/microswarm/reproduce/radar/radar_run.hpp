@@ -12,9 +12,9 @@ namespace microswarm::reproduce {
 
 /// A run of the radar with the inputs of each decision.
 struct RadarRun {
-  experiment::Record record;
+  experiment::Record record{};
   /// One per frame; the end repeats the last one. Empty where the radar did not look.
-  std::vector<std::optional<navigation::RadarLook>> looks;
+  std::vector<std::optional<navigation::RadarLook>> looks{};
 
   bool collided() const { return record.result.status == Status::collided; }
   bool crossed() const { return record.result.status == Status::solved; }

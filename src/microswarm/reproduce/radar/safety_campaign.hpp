@@ -14,16 +14,16 @@ namespace microswarm::reproduce {
 
 /// Worlds to cross, by seed. Both functions must be pure and thread-safe.
 struct Course {
-  std::string name;
+  std::string name{};
   bool walls = false;
-  std::function<experiment::Scenario(std::uint64_t seed)> scenario;
-  std::function<World(const experiment::Scenario&)> world;
+  std::function<experiment::Scenario(std::uint64_t seed)> scenario{};
+  std::function<World(const experiment::Scenario&)> world{};
 };
 
 /// A navigator and its parameters for a scenario.
 struct Contestant {
-  std::string name;
-  std::function<navigation::NavigatorParams(const experiment::Scenario&, bool walls)> params;
+  std::string name{};
+  std::function<navigation::NavigatorParams(const experiment::Scenario&, bool walls)> params{};
 };
 
 /// Every navigator that supports such a swarm, in the order of NavigatorParams. All use the swarm's
@@ -45,7 +45,7 @@ struct Crossing {
   double min_gap = 0;    ///< [µm]
   double hold_time = 0;  ///< [s]
   double step = 0;       ///< mean wall-clock time of a decision [s]
-  std::vector<experiment::ContactVerdict> contacts;
+  std::vector<experiment::ContactVerdict> contacts{};
 
   int avoidable() const;
 };

@@ -15,9 +15,9 @@ namespace microswarm::reproduce {
 
 /// One course with all its results.
 struct CourseResult {
-  Course course;
-  std::vector<Contestant> who;
-  Crossings crossings;
+  Course course{};
+  std::vector<Contestant> who{};
+  Crossings crossings{};
   std::string extent = "full";  ///< full, or quick or interrupted with fewer worlds
 };
 
@@ -31,9 +31,9 @@ struct Tally {
   int runs_avoidable = 0;  ///< runs with an avoidable contact
   int runs_arrived = 0;
   /// Median of time divided by `straight`, over arrivals; empty if there are none.
-  std::optional<double> slowness;
-  double delta = 0;               ///< mean avoidance cost
-  std::optional<double> turning;  ///< median [°]
+  std::optional<double> slowness{};
+  double delta = 0;                 ///< mean avoidance cost
+  std::optional<double> turning{};  ///< median [°]
 };
 Tally count_tally(std::span<const Crossing> crossings);
 

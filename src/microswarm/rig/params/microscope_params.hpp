@@ -7,7 +7,7 @@ namespace microswarm::rig {
 
 /// Settings of a simulated microscope camera: scale, light, noise and contrasts.
 struct MicroscopeParams {
-  std::optional<double> um_per_px;
+  std::optional<double> um_per_px{};
   int margin = 16;
   double light = 180;
   double light_gradient = 0.15;

@@ -10,7 +10,7 @@ namespace microswarm::rig {
 
 /// Settings of the image processing of a rig.
 struct PerceptionParams {
-  vision::SceneParams scene;
+  vision::SceneParams scene{};
   vision::ParticleParams robots{.min_mass = 500};
   double edge = 0;
   double heading_distance = 15;
@@ -19,7 +19,7 @@ struct PerceptionParams {
   double radius_tolerance = 0.35;
   double min_seen_robots = 0.5;
   bool moving_walls = false;
-  vision::WallParams walls;
+  vision::WallParams walls{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.scene, plain("scene", "Detection of a one-body swarm and of obstacles."));

@@ -28,7 +28,7 @@ namespace microswarm::rig {
 /// Simulated microscope that draws the scenario's world.
 struct SimulatedCamera {
   static constexpr std::string_view type_name = "simulated";
-  MicroscopeParams microscope;
+  MicroscopeParams microscope{};
   double rate = 60;
   double speed_error = 0;
   template <class Self, class V>
@@ -43,8 +43,8 @@ struct SimulatedCamera {
 /// A video played at its own rate in place of a camera, for tests.
 struct VideoCamera {
   static constexpr std::string_view type_name = "video";
-  std::string file;
-  std::optional<double> rate;
+  std::string file{};
+  std::optional<double> rate{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.rate, hz("rate", 1e-3, 1e4, "Frame rate; none: that of the file."));
@@ -61,7 +61,7 @@ struct SafetyParams {
   int max_trips = 1;
   double trip_window = 10;
   double max_pause = 0.3;
-  std::optional<double> follow_distance;
+  std::optional<double> follow_distance{};
   double min_follow_share = 0.25;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
@@ -93,16 +93,16 @@ using CoilDriverParams =
 
 /// Contents of a rig file: camera, coils, and the processing between them.
 struct RigParams {
-  std::string name;
-  std::string coils;
-  actuation::FieldGeneratorParams field;
+  std::string name{};
+  std::string coils{};
+  actuation::FieldGeneratorParams field{};
   double drive_rate = 200;
-  CoilDriverParams driver;
-  std::variant<SimulatedCamera, vision::CameraParams, vision::GenicamParams, VideoCamera> camera;
-  std::optional<vision::CameraScale> scale;
-  PerceptionParams perception;
+  CoilDriverParams driver{};
+  std::variant<SimulatedCamera, vision::CameraParams, vision::GenicamParams, VideoCamera> camera{};
+  std::optional<vision::CameraScale> scale{};
+  PerceptionParams perception{};
   bool virtual_obstacles = true;
-  SafetyParams safety;
+  SafetyParams safety{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.name, plain("name", "Name of the rig."));
@@ -123,10 +123,10 @@ struct RigParams {
 
 /// A rig file with the coil system it names.
 struct Rig {
-  RigParams params;
+  RigParams params{};
   actuation::CoilSystem system;
-  std::filesystem::path folder;  ///< of the file
-  KeyLocations keys;             ///< of the file
+  std::filesystem::path folder{};  ///< of the file
+  KeyLocations keys{};             ///< of the file
   /// Whether the coil system's file limits the current of every coil, apart from the driver's full
   /// scale.
   bool limits_current = false;

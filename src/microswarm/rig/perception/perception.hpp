@@ -20,7 +20,7 @@ namespace microswarm::rig {
 
 /// Scale and size of a camera's pictures.
 struct CameraView {
-  vision::CameraScale scale;
+  vision::CameraScale scale{};
   int width = 0;   ///< [px]
   int height = 0;  ///< [px]
 };
@@ -47,11 +47,11 @@ constexpr auto enum_names(NotFound) {
 
 /// Detections in one picture.
 struct Detections {
-  std::optional<SwarmPose> swarm;
-  std::vector<Vec2> robots;  ///< individually tracked robots; the order never changes
-  std::vector<Body> moving;  ///< obstacles with persistent numbers; leaves of a valve share one
-  std::optional<NotFound> not_found;  ///< why no swarm was found; empty before the first picture
-  std::vector<double> parts;          ///< radii of the parts after a split or before a merger [µm]
+  std::optional<SwarmPose> swarm{};
+  std::vector<Vec2> robots{};  ///< individually tracked robots; the order never changes
+  std::vector<Body> moving{};  ///< obstacles with persistent numbers; leaves of a valve share one
+  std::optional<NotFound> not_found{};  ///< why no swarm was found; empty before the first picture
+  std::vector<double> parts{};    ///< radii of the parts after a split or before a merger [µm]
   int unseen = 0;                 ///< robots without a spot, neither their own nor that of a pile
   double commanded_distance = 0;  ///< commanded distance since the last picture [µm]
   double followed_distance = 0;   ///< observed displacement along it [µm]; negative: opposite

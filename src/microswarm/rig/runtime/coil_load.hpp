@@ -12,11 +12,11 @@ namespace microswarm::rig {
 /// Load of the coils relative to their limits.
 struct CoilLoad {
   double current = 0;  ///< peak of the last second, in the coil nearest to its limit [A]
-  std::optional<double> max_current;      ///< its limit, if any [A]
-  double temperature = 0;                 ///< of the coil nearest to its limit [°C]
-  std::optional<double> max_temperature;  ///< its limit, if any [°C]
-  double scale = 1;              ///< minimum of the last second: scale by the coils' limits
-  actuation::CoilOutput output;  ///< the newest output; without currents before the first
+  std::optional<double> max_current{};      ///< its limit, if any [A]
+  double temperature = 0;                   ///< of the coil nearest to its limit [°C]
+  std::optional<double> max_temperature{};  ///< its limit, if any [°C]
+  double scale = 1;                ///< minimum of the last second: scale by the coils' limits
+  actuation::CoilOutput output{};  ///< the newest output; without currents before the first
 };
 
 /// Maximum over the last 0.5 to 1 s.

@@ -19,8 +19,8 @@ namespace microswarm::rig {
 struct CoilMoment {
   double t = 0;     ///< [s], by steady_seconds()
   double seen = 0;  ///< arrival of the picture that the command answers [s], same clock
-  Command command;
-  actuation::CoilOutput output;
+  Command command{};
+  actuation::CoilOutput output{};
   double late = 0;        ///< delay after the due time [s]
   double round_trip = 0;  ///< of the driver's exchange [s]
   double driven = 0;      ///< time at which the driver acknowledged the currents [s], same clock

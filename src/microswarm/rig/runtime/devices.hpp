@@ -10,11 +10,11 @@ namespace microswarm::rig {
 
 /// Open devices of a rig.
 struct Devices {
-  std::unique_ptr<RealtimeRigSimulator> simulator;  ///< set for a simulated camera
-  std::unique_ptr<actuation::CoilDriver> coils;
-  std::unique_ptr<vision::FrameSource> camera;
-  std::optional<double> camera_rate;  ///< [Hz]; empty if unknown
-  vision::CameraScale scale;
+  std::unique_ptr<RealtimeRigSimulator> simulator{};  ///< set for a simulated camera
+  std::unique_ptr<actuation::CoilDriver> coils{};
+  std::unique_ptr<vision::FrameSource> camera{};
+  std::optional<double> camera_rate{};  ///< [Hz]; empty if unknown
+  vision::CameraScale scale{};
 
   actuation::CoilDriver& driver() { return simulator ? simulator->coils() : *coils; }
 };

@@ -14,7 +14,7 @@ namespace microswarm::rig {
 
 /// Manual command of the coils, with the target position at the centre.
 struct ManualCommand {
-  actuation::Setpoint wanted;
+  actuation::Setpoint wanted{};
   double seconds = 5;              ///< duration, both ramps included [s]
   double ramp = 0.5;               ///< duration of the ramp at the start and at the end [s]
   std::function<bool()> enough{};  ///< asked after each output; true starts the final ramp
@@ -23,7 +23,7 @@ struct ManualCommand {
 /// One output of a manual drive.
 struct ManualMoment {
   double t = 0;  ///< time since the first [s]
-  actuation::CoilOutput output;
+  actuation::CoilOutput output{};
 };
 
 /// Result of a manual drive: `solved` after its time, `stopped`, or `fault`.

@@ -36,9 +36,10 @@ enum class MeasurementOutcome {
 /// Currents that have settled.
 struct SettledCurrents {
   const actuation::MeasurementStep& step;
-  const Eigen::VectorXd& currents;          ///< as the device reports them [A]
-  std::vector<Eigen::Index> limited;        ///< coils that the device limits
-  std::optional<Eigen::Vector3d> expected;  ///< by the rig's coil file [mT]; only in the workspace
+  const Eigen::VectorXd& currents;      ///< as the device reports them [A]
+  std::vector<Eigen::Index> limited{};  ///< coils that the device limits
+  std::optional<Eigen::Vector3d>
+      expected{};  ///< by the rig's coil file [mT]; only in the workspace
 };
 
 /// Answer of a reader of fields: readings [mT] if it is `measured`.

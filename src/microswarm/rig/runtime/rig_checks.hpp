@@ -15,9 +15,9 @@ namespace microswarm::rig {
 
 /// Result of one check of a rig.
 struct RigCheck {
-  std::string what;
+  std::string what{};
   bool good = true;
-  std::string answer;
+  std::string answer{};
   bool required = true;  ///< whether a run is refused if the check fails
 };
 

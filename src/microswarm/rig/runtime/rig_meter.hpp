@@ -13,24 +13,24 @@ namespace microswarm::rig {
 
 /// Durations and counts of a run on a rig.
 struct RigTiming {
-  Durations frame_age;          ///< of the newest frame at the start of a tick
-  Durations vision;             ///< processing of a frame
-  Durations tick;               ///< from a tick's start to its command
-  Durations camera_to_current;  ///< from a picture to the first currents that answer it
-  Durations coil_late;          ///< delay of currents after their due time
-  Durations round_trip;         ///< of the coil driver's exchanges
-  int resumed = 0;              ///< times the coils had switched off by themselves
-  int unmade = 0;               ///< fields that the coils cannot produce
-  int limited = 0;              ///< fields weakened by the coils' limits
-  double min_scale = 1;         ///< minimum scale of these
-  int scaled = 0;               ///< currents reduced by the device's own limits
-  double min_device_scale = 1;  ///< minimum scale of these
-  int missed_deadlines = 0;     ///< ticks that ended too late, see TickSchedule
-  int late_currents = 0;        ///< pictures whose currents came more than a tick later
-  int frames = 0;               ///< frames processed
-  int dropped_frames = 0;       ///< frames received but not processed
-  int unseen_frames = 0;        ///< frames processed in which robots were unseen
-  int max_unseen = 0;           ///< maximum number of unseen robots in a frame
+  Durations frame_age{};          ///< of the newest frame at the start of a tick
+  Durations vision{};             ///< processing of a frame
+  Durations tick{};               ///< from a tick's start to its command
+  Durations camera_to_current{};  ///< from a picture to the first currents that answer it
+  Durations coil_late{};          ///< delay of currents after their due time
+  Durations round_trip{};         ///< of the coil driver's exchanges
+  int resumed = 0;                ///< times the coils had switched off by themselves
+  int unmade = 0;                 ///< fields that the coils cannot produce
+  int limited = 0;                ///< fields weakened by the coils' limits
+  double min_scale = 1;           ///< minimum scale of these
+  int scaled = 0;                 ///< currents reduced by the device's own limits
+  double min_device_scale = 1;    ///< minimum scale of these
+  int missed_deadlines = 0;       ///< ticks that ended too late, see TickSchedule
+  int late_currents = 0;          ///< pictures whose currents came more than a tick later
+  int frames = 0;                 ///< frames processed
+  int dropped_frames = 0;         ///< frames received but not processed
+  int unseen_frames = 0;          ///< frames processed in which robots were unseen
+  int max_unseen = 0;             ///< maximum number of unseen robots in a frame
   std::optional<FollowDirection> direction{};  ///< of the swarm relative to its commands
 };
 

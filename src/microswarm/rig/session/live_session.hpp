@@ -40,7 +40,7 @@ struct LiveStatus {
   std::optional<NotFound> not_found{};  ///< why the swarm is not detected; empty if it is
   int robots = 0;                       ///< individually tracked robots
   int unseen = 0;                       ///< robots not detected
-  CoilLoad coils;
+  CoilLoad coils{};
   double frame_age = 0;      ///< of the newest picture [s]
   double tick_p95 = 0;       ///< 95th percentile of the ticks' durations [s]
   int missed_deadlines = 0;  ///< ticks that ended too late

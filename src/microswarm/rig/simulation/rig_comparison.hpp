@@ -16,8 +16,8 @@ namespace microswarm::rig {
 /// One trial in the kinematic simulation and through the simulated rig.
 struct ComparedTrial {
   int trial = 0;
-  experiment::RunResult kinematic;
-  experiment::RunResult rig;
+  experiment::RunResult kinematic{};
+  experiment::RunResult rig{};
 };
 
 /// Runs the trials 0 to `trials` − 1 in both simulations, on `jobs` threads (0: one per core).
@@ -41,10 +41,10 @@ RunSummary summarise(std::span<const ComparedTrial> trials,
 
 /// A row of simulation.csv.
 struct ComparisonRow {
-  std::string scenario;
-  std::string settings;
+  std::string scenario{};
+  std::string settings{};
   int trial = 0;
-  std::string plant;
+  std::string plant{};
   Status status = Status::stopped;
   double time = 0;
   int contacts = 0;

@@ -32,8 +32,8 @@ class RigSimulator {
     double now = 0;   ///< [s]
     double seen = 0;  ///< exposure time [s]
     Snapshot world;
-    std::optional<SwarmPose> swarm;
-    std::vector<Vec2> robots;
+    std::optional<SwarmPose> swarm{};
+    std::vector<Vec2> robots{};
   };
   Shot capture();
   /// Picture of a shot, valid until the next. Does not access the changing state.

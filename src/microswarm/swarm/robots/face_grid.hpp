@@ -20,8 +20,8 @@ struct PointF {
 
 /// One straight side of a wall; its normal points to the robots' side.
 struct WallFace {
-  PointF middle;
-  PointF normal;
+  PointF middle{};
+  PointF normal{};
   float half_length = 0;  ///< [µm], including the overlap with its neighbours
 };
 

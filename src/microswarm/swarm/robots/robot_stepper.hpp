@@ -12,9 +12,9 @@ namespace microswarm {
 /// Point robots, which do not block each other. Structure of arrays in single precision [µm],
 /// relative to the centre of the stepper's map.
 struct Robots {
-  Vec2 origin;
-  std::vector<float> x;
-  std::vector<float> y;
+  Vec2 origin{};
+  std::vector<float> x{};
+  std::vector<float> y{};
 
   std::size_t size() const { return x.size(); }
   /// Position of robot i in the map's coordinates.

@@ -14,8 +14,8 @@ namespace microswarm {
 /// heading noise and drift, and occasionally stick to the floor.
 struct RobotSwarmParams {
   int count = 0;
-  std::vector<Vec2> starts;
-  std::vector<Vec2> goals;
+  std::vector<Vec2> starts{};
+  std::vector<Vec2> goals{};
   ContactRule contact = ContactRule::stop;
   double max_speed = 80;
   double speed_spread = 0;

@@ -16,7 +16,7 @@ namespace microswarm {
 /// face, more than 1 if the move is free; `normal` is the face's normal.
 struct FaceContact {
   float time = 2;
-  PointF normal;
+  PointF normal{};
 
   bool met() const { return time <= 1; }
 };

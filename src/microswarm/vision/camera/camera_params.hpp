@@ -34,13 +34,13 @@ struct CameraParams {
   int width = 640;
   int height = 480;
   double rate = 30;
-  std::optional<PixelFormat> pixel_format;
-  std::optional<SensorRegion> region;
-  std::optional<double> exposure;
-  std::optional<int> gain;
-  std::optional<int> white_balance;
-  std::optional<int> focus;
-  NewestFrameParams watch;
+  std::optional<PixelFormat> pixel_format{};
+  std::optional<SensorRegion> region{};
+  std::optional<double> exposure{};
+  std::optional<int> gain{};
+  std::optional<int> white_balance{};
+  std::optional<int> focus{};
+  NewestFrameParams watch{};
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {

@@ -16,7 +16,7 @@ struct CameraScale {
   double um_per_px = 1;
   double rotation = 0;  ///< angle of the picture's x axis in the world [rad]
   bool y_up = true;     ///< the picture's up is the world's up; false for a mirrored picture
-  Vec2 origin_px;       ///< pixel of the world's origin
+  Vec2 origin_px{};     ///< pixel of the world's origin
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
@@ -48,16 +48,16 @@ inline CameraScale upright_scale(int height, double um_per_px) {
 
 /// A pixel position and its world position [µm].
 struct ScalePoint {
-  Vec2 at_px;
-  Vec2 position;
+  Vec2 at_px{};
+  Vec2 position{};
 };
 
 /// A fitted scale and the residuals of its points.
 struct FittedScale {
-  CameraScale scale;
-  std::vector<double> residuals;  ///< of each point [µm]
-  double rms = 0;                 ///< [µm]
-  double worst = 0;               ///< [µm]
+  CameraScale scale{};
+  std::vector<double> residuals{};  ///< of each point [µm]
+  double rms = 0;                   ///< [µm]
+  double worst = 0;                 ///< [µm]
 };
 
 /// Fits a similarity to two or more points by least squares. Throws InputError if all points

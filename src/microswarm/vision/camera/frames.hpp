@@ -17,9 +17,9 @@ namespace microswarm::vision {
 
 /// A picture of a video.
 struct VideoFrame {
-  int index = 0;           ///< from 0
-  double t = 0;            ///< time since the first, or as a table of times says [s]
-  formats::Image picture;  ///< grey or colour
+  int index = 0;             ///< from 0
+  double t = 0;              ///< time since the first, or as a table of times says [s]
+  formats::Image picture{};  ///< grey or colour
 };
 
 /// A sequence of pictures of one size: a video, a folder, a camera. Derive from it to add a source.

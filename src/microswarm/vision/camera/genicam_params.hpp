@@ -48,17 +48,17 @@ constexpr auto enum_names(GenicamFormat) {
 /// unchanged in the camera. It runs freely: triggers are switched off.
 struct GenicamParams {
   static constexpr std::string_view type_name = "genicam";
-  std::string device;
-  std::optional<int> width;
-  std::optional<int> height;
-  std::optional<int> x;
-  std::optional<int> y;
-  std::optional<double> rate;
-  std::optional<GenicamFormat> pixel_format;
-  std::optional<double> exposure;
-  std::optional<double> gain;
-  std::optional<int> packet_size;
-  NewestFrameParams watch;
+  std::string device{};
+  std::optional<int> width{};
+  std::optional<int> height{};
+  std::optional<int> x{};
+  std::optional<int> y{};
+  std::optional<double> rate{};
+  std::optional<GenicamFormat> pixel_format{};
+  std::optional<double> exposure{};
+  std::optional<double> gain{};
+  std::optional<int> packet_size{};
+  NewestFrameParams watch{};
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {

@@ -37,7 +37,7 @@ constexpr auto enum_names(CameraState) {
 
 /// Settings of NewestFrame.
 struct NewestFrameParams {
-  std::optional<double> silent_after;
+  std::optional<double> silent_after{};
   int frozen_after = 5;
   int black_below = 8;
 
@@ -54,7 +54,7 @@ struct NewestFrameParams {
 
 /// A frame and its time of arrival.
 struct LiveFrame {
-  VideoFrame frame;
+  VideoFrame frame{};
   double taken = 0;  ///< time of arrival in the program [s], by steady_seconds()
 };
 
@@ -64,10 +64,10 @@ using FrameListener = std::function<void(const VideoFrame& frame, double taken)>
 /// State and statistics of a camera's stream.
 struct CameraStatus {
   CameraState state = CameraState::opening;
-  int frames = 0;   ///< received so far
-  int dropped = 0;  ///< of these, replaced before they were taken
-  double age = 0;   ///< of the newest frame [s]; before the first one, time since the start
-  std::string why;  ///< reason in one line if silent, failed or ended early
+  int frames = 0;     ///< received so far
+  int dropped = 0;    ///< of these, replaced before they were taken
+  double age = 0;     ///< of the newest frame [s]; before the first one, time since the start
+  std::string why{};  ///< reason in one line if silent, failed or ended early
 };
 
 /// Fetches frames in its own thread and keeps the newest; older ones are dropped and counted.

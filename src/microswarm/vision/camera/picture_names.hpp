@@ -19,9 +19,9 @@ void sort_naturally(std::vector<std::filesystem::path>& files);
 struct NumberedNames {
   /// For each file its number's distance from the first one's, in steps; a step is the usual
   /// distance of neighbours.
-  std::vector<double> steps;
-  int gaps = 0;           ///< neighbours that are farther apart than a step
-  std::string first_gap;  ///< "f005.png and f026.png"
+  std::vector<double> steps{};
+  int gaps = 0;             ///< neighbours that are farther apart than a step
+  std::string first_gap{};  ///< "f005.png and f026.png"
 };
 
 /// Numbers of sorted files, whose names must be alike except for one number; nothing otherwise.

@@ -63,8 +63,8 @@ struct RawPicture {
   int width = 0;
   int height = 0;
   std::size_t bytes_per_line = 0;  ///< 0: rows without gaps
-  std::span<const std::byte> bytes;
-  std::string_view damage;  ///< error reported by the device; empty without one
+  std::span<const std::byte> bytes{};
+  std::string_view damage{};  ///< error reported by the device; empty without one
 };
 
 /// Converts the data into a grey (GREY, Y10, Y12, Y16, a grey JPEG) or colour `image`, reusing its

@@ -12,9 +12,9 @@ namespace microswarm::vision {
 
 /// Pages of a stack that are one after the other in time.
 struct StackPages {
-  std::vector<int> pages;     ///< from 0, ascending
-  std::vector<double> times;  ///< of each [s] as the file says; empty without
-  std::vector<std::string> notes;
+  std::vector<int> pages{};     ///< from 0, ascending
+  std::vector<double> times{};  ///< of each [s] as the file says; empty without
+  std::vector<std::string> notes{};
 };
 
 /// Chooses those of one channel and slice among `count` pages. Slices of a stack without times are

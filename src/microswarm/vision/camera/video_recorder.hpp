@@ -11,10 +11,10 @@ namespace microswarm::vision {
 
 /// Result of a recording.
 struct RecordedVideo {
-  std::filesystem::path file;
-  int frames = 0;       ///< in the file
-  int dropped = 0;      ///< frames that arrived too fast to be written
-  std::string trouble;  ///< why the video is incomplete, one line; empty if it is complete
+  std::filesystem::path file{};
+  int frames = 0;         ///< in the file
+  int dropped = 0;        ///< frames that arrived too fast to be written
+  std::string trouble{};  ///< why the video is incomplete, one line; empty if it is complete
 };
 
 /// Records pictures without loss, grey as FFV1 and colour as HuffYUV, in a Matroska or AVI file,

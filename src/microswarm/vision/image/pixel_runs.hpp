@@ -14,8 +14,8 @@ struct PixelRun {
 
 /// A connected set of pixels.
 struct RunPiece {
-  std::vector<PixelRun> runs;  ///< row by row
-  cv::Rect box;
+  std::vector<PixelRun> runs{};  ///< row by row
+  cv::Rect box{};
   int area = 0;  ///< [px]
 };
 

@@ -24,7 +24,7 @@ class GroundSurface {
     double x = 0;
     double y = 0;
     double step = 1;
-    cv::Size size;
+    cv::Size size{};
   };
   /// Float matrix of the background there.
   cv::Mat over(const Grid& grid) const;

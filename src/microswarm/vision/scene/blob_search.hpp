@@ -39,9 +39,9 @@ float min_foreground(const BlobParams& params, double spread);
 /// working pixels.
 struct BlobContext {
   int side = 1;  ///< of a working pixel
-  cv::Mat fine;
-  cv::Mat seen;
-  cv::Mat foreground;
+  cv::Mat fine{};
+  cv::Mat seen{};
+  cv::Mat foreground{};
 };
 
 /// Mean squared difference of neighbours in a picture row, over every `step`th row of the working

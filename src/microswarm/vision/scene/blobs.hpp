@@ -41,15 +41,15 @@ Issues validate(const BlobParams& params);
 /// A compact region that differs from the background. All in pixels: x right, y down, (0, 0) is the
 /// centre of the first pixel.
 struct Blob {
-  Vec2 centre_px;            ///< centroid of the area inside the outline
+  Vec2 centre_px{};          ///< centroid of the area inside the outline
   double radius_px = 0;      ///< of the disc of equal area
   double semi_major_px = 0;  ///< of the ellipse with equal second moments
   double semi_minor_px = 0;
   double angle = 0;  ///< of the major axis [rad], from x towards y: clockwise as displayed
-  std::vector<Vec2> outline_px;  ///< contour of half the contrast of the centre
-  double contrast = 0;           ///< median difference from the background [grey]
-  double texture = 0;            ///< standard deviation of the greys inside, minus the noise [grey]
-  bool is_cut = false;           ///< it extends beyond the picture or behind a wall
+  std::vector<Vec2> outline_px{};  ///< contour of half the contrast of the centre
+  double contrast = 0;             ///< median difference from the background [grey]
+  double texture = 0;   ///< standard deviation of the greys inside, minus the noise [grey]
+  bool is_cut = false;  ///< it extends beyond the picture or behind a wall
 };
 
 /// Finds regions that differ from the background, sorted by decreasing area. Uneven light is

@@ -35,9 +35,9 @@ struct SceneParams {
 
 /// A moving obstacle in a picture [px]; x right, y down, (0, 0) is the centre of the first pixel.
 struct SeenObstacle {
-  Blob blob;                  ///< its visible part
-  std::optional<Ring> disc;   ///< if round, with hidden parts, or one of several; else the hull
-  std::vector<Vec2> hull_px;  ///< convex; contains the outline to half a pixel
+  Blob blob{};                  ///< its visible part
+  std::optional<Ring> disc{};   ///< if round, with hidden parts, or one of several; else the hull
+  std::vector<Vec2> hull_px{};  ///< convex; contains the outline to half a pixel
 
   /// Shape in the world [µm], as in a Body.
   std::variant<Disc, Polygon> shape(const CameraScale& scale) const;
@@ -53,8 +53,8 @@ struct SwarmPrior {
 
 /// The swarm and the obstacles of a picture.
 struct SeenScene {
-  SwarmSighting swarm;
-  std::vector<SeenObstacle> obstacles;  ///< sorted by decreasing size
+  SwarmSighting swarm{};
+  std::vector<SeenObstacle> obstacles{};  ///< sorted by decreasing size
 };
 
 /// Whether a blob without texture can be the swarm: as `prior` says, and not cut.

@@ -40,7 +40,7 @@ constexpr auto enum_names(SwarmCriterion) {
 
 /// A blob that is not the swarm, and the first criterion that it fails.
 struct NotSwarm {
-  Blob blob;
+  Blob blob{};
   SwarmCriterion criterion = SwarmCriterion::texture;
   double value = 0;           ///< of the blob, in the criterion's unit; 0 for a tone
   double limit = 0;           ///< that it misses

@@ -14,7 +14,7 @@ namespace microswarm::vision {
 
 /// Settings of `find_swarm`.
 struct SwarmFinderParams {
-  BlobParams look;
+  BlobParams look{};
   double jump = 60;
   double rival = 0.3;
 
@@ -43,9 +43,9 @@ constexpr auto enum_names(SwarmSight) {
 /// The swarm in a picture.
 struct SwarmSighting {
   SwarmSight sight = SwarmSight::none;
-  std::optional<Blob> swarm;     ///< set if found
-  std::vector<Blob> candidates;  ///< all candidates, sorted by decreasing area
-  std::vector<Blob> others;      ///< too far, or too small beside the largest candidate
+  std::optional<Blob> swarm{};     ///< set if found
+  std::vector<Blob> candidates{};  ///< all candidates, sorted by decreasing area
+  std::vector<Blob> others{};      ///< too far, or too small beside the largest candidate
 };
 
 /// Chooses the swarm among blobs sorted by decreasing area; `before_px` as in `find_swarm`.

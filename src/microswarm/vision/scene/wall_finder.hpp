@@ -42,8 +42,8 @@ formats::Mask find_walls(const formats::Image& background, const WallParams& par
 
 /// The walls of a picture with a swarm in it.
 struct WallsBesideSwarm {
-  formats::Mask walls;          ///< 1 = wall; the picture's size
-  std::vector<Polygon> shapes;  ///< their smooth outlines [µm]
+  formats::Mask walls{};          ///< 1 = wall; the picture's size
+  std::vector<Polygon> shapes{};  ///< their smooth outlines [µm]
 };
 
 /// Segments walls that may move, independently in each picture. `fixed` (the picture's size) marks

@@ -16,7 +16,7 @@ struct MassGap {
 
 /// Classification of the features' masses into noise and robots.
 struct MassKinds {
-  std::optional<MassGap> gap;
+  std::optional<MassGap> gap{};
   bool has_noise = false;  ///< features of both tones are as frequent: some or all are noise
 };
 
@@ -29,7 +29,7 @@ MassKinds mass_kinds(std::span<const double> masses, std::span<const double> oth
 /// Density of the logarithms to base 10 of masses, per bin from `first` on.
 struct MassDensity {
   double first = 0;  ///< logarithm of the first bin's centre
-  std::vector<double> density;
+  std::vector<double> density{};
   static constexpr double step = 0.01;
 };
 MassDensity mass_density(std::span<const double> masses);

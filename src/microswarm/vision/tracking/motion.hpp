@@ -16,7 +16,7 @@ namespace microswarm::vision {
 struct DriftRow {
   int frame = 0;
   double t = 0;  ///< [s]
-  Vec2 drift;    ///< [µm]
+  Vec2 drift{};  ///< [µm]
   int robots = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
@@ -80,8 +80,8 @@ struct PowerLaw {
 /// Positions within their pixels. Only positions a pixel or more apart in a track count, since a
 /// robot at rest is always at one place of its pixel.
 struct PixelBias {
-  std::vector<double> fractions_x;  ///< of x − floor(x), of all counted positions [px]
-  std::vector<double> fractions_y;
+  std::vector<double> fractions_x{};  ///< of x − floor(x), of all counted positions [px]
+  std::vector<double> fractions_y{};
   /// Mean cosine of 2π x and 2π y, 0 for even positions, 1 where all are at the pixels' centres.
   double cling = 0;
   bool is_significant = false;

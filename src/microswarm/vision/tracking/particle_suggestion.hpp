@@ -12,12 +12,12 @@ namespace microswarm::vision {
 
 /// Settings of ParticleFinder that suit pictures, and what they were chosen by.
 struct ParticleSuggestion {
-  ParticleParams params;        ///< as given where nothing better is known
+  ParticleParams params{};      ///< as given where nothing better is known
   bool knows_diameter = false;  ///< the robots' edge was seen; else it is the given one
-  MassKinds kinds;              ///< with these parameters
+  MassKinds kinds{};            ///< with these parameters
   int pictures = 0;
-  std::vector<double> masses;        ///< of all features, also of noise
-  std::vector<double> other_masses;  ///< of those of the other tone
+  std::vector<double> masses{};        ///< of all features, also of noise
+  std::vector<double> other_masses{};  ///< of those of the other tone
 
   /// Features heavier than `mass`, on average over the pictures.
   double heavier_than(double mass) const;

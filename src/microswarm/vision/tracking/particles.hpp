@@ -70,7 +70,7 @@ struct ParticleParams {
 
 /// A particle in a picture.
 struct Particle {
-  Vec2 at_px;               ///< centre: x right, y down, (0, 0) is the centre of the first pixel
+  Vec2 at_px{};             ///< centre: x right, y down, (0, 0) is the centre of the first pixel
   double mass = 0;          ///< sum of the greys above the background
   double signal = 0;        ///< maximum grey above the background
   double radius_px = 0;     ///< of a ring, or of the uniform disc with equal gyration

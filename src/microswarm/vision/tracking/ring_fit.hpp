@@ -11,7 +11,7 @@ namespace microswarm::vision {
 
 /// A circle in a picture [px]; (0, 0) is the centre of the first pixel, y points down.
 struct Ring {
-  Vec2 centre_px;
+  Vec2 centre_px{};
   double radius_px = 0;
 };
 

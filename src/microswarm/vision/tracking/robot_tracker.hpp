@@ -21,12 +21,12 @@ struct TrackerParams {
   int memory = 3;
   int min_lifetime = 4;
   double gate = 4;
-  std::optional<double> search_range;
-  std::optional<double> measurement;
-  std::optional<double> jitter;
-  std::optional<double> speed_change;
-  std::optional<double> start_speed;
-  std::optional<double> touch;
+  std::optional<double> search_range{};
+  std::optional<double> measurement{};
+  std::optional<double> jitter{};
+  std::optional<double> speed_change{};
+  std::optional<double> start_speed{};
+  std::optional<double> touch{};
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
@@ -58,9 +58,9 @@ inline double search_range(const TrackerParams& params, double diameter) {
 
 /// A robot seen in a frame.
 struct SeenRobot {
-  int id = 0;     ///< numbered from 0 in the order of birth
-  Vec2 position;  ///< filtered [µm]
-  Vec2 velocity;  ///< filtered [µm/s]
+  int id = 0;       ///< numbered from 0 in the order of birth
+  Vec2 position{};  ///< filtered [µm]
+  Vec2 velocity{};  ///< filtered [µm/s]
 };
 
 /// Kind of a track event.
@@ -81,7 +81,7 @@ struct TrackEvent {
   int frame = 0;
   TrackChange change = TrackChange::birth;
   int id = 0;
-  std::optional<int> other;
+  std::optional<int> other{};
 };
 
 /// Tracks robots through the frames of a video. A RobotFilter predicts each robot; positions within

@@ -15,7 +15,7 @@ namespace microswarm::vision {
 struct TableRow {
   int frame = 0;
   std::optional<int> id{};  ///< of its track
-  Vec2 at_px;               ///< y down, (0, 0) is the centre of the first pixel
+  Vec2 at_px{};             ///< y down, (0, 0) is the centre of the first pixel
   double mass = 0;
 };
 

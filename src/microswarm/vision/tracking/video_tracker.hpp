@@ -15,16 +15,16 @@ namespace microswarm::vision {
 
 /// Settings of video tracking, as in a file for `microswarm track --config`.
 struct TrackSettings {
-  std::optional<double> um_per_px;  ///< required for tracking, unless the source reports it
-  std::optional<double> rate;
-  std::optional<int> depth;
-  std::optional<int> stack_channel;
-  std::optional<int> slice;
+  std::optional<double> um_per_px{};  ///< required for tracking, unless the source reports it
+  std::optional<double> rate{};
+  std::optional<int> depth{};
+  std::optional<int> stack_channel{};
+  std::optional<int> slice{};
   VideoChannel channel = VideoChannel::grey;
-  ParticleParams find;
-  TrackerParams track;
-  std::optional<PictureRegion> region;
-  formats::Mask mask;  ///< pixels in which robots are tracked; empty: all. Not in files.
+  ParticleParams find{};
+  TrackerParams track{};
+  std::optional<PictureRegion> region{};
+  formats::Mask mask{};  ///< pixels in which robots are tracked; empty: all. Not in files.
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
@@ -50,13 +50,13 @@ struct TrackRow {
   int frame = 0;
   double t = 0;  ///< [s]
   int id = 0;
-  Vec2 position;      ///< measured position [µm]
-  Vec2 velocity;      ///< filtered [µm/s]
+  Vec2 position{};    ///< measured position [µm]
+  Vec2 velocity{};    ///< filtered [µm/s]
   double radius = 0;  ///< [µm]
   double mass = 0;    ///< [grey]
   double signal = 0;  ///< [grey]
   double eccentricity = 0;
-  Vec2 at_px;  ///< measured position [px]: y down, (0, 0) is the centre of the first pixel
+  Vec2 at_px{};  ///< measured position [px]: y down, (0, 0) is the centre of the first pixel
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.frame, plain("frame", "Picture, from 0."));

@@ -13,16 +13,16 @@ namespace microswarm::vision {
 
 /// Result of tracking a video.
 struct TrackResult {
-  std::string source;
-  TrackSettings settings;
+  std::string source{};
+  TrackSettings settings{};
   double frame_time = 1;  ///< mean [s]
   int frames = 0;
-  int unsettled = 0;               ///< robots whose centres did not settle
-  std::optional<int> promised;     ///< number of frames stated by the video
-  std::vector<double> times;       ///< of each picture [s]
-  std::vector<std::string> notes;  ///< what was assumed in reading the pictures
-  std::vector<TrackRow> rows;
-  std::vector<TrackEvent> events;
+  int unsettled = 0;                 ///< robots whose centres did not settle
+  std::optional<int> promised{};     ///< number of frames stated by the video
+  std::vector<double> times{};       ///< of each picture [s]
+  std::vector<std::string> notes{};  ///< what was assumed in reading the pictures
+  std::vector<TrackRow> rows{};
+  std::vector<TrackEvent> events{};
 };
 
 /// Receives each picture and the robots seen in it.

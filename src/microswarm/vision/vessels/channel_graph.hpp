@@ -11,7 +11,7 @@ namespace microswarm::vision {
 
 /// Point at which branches of a skeleton end or meet.
 struct ChannelNode {
-  Vec2 position;     ///< [µm]
+  Vec2 position{};   ///< [µm]
   double width = 0;  ///< [µm] diameter of the largest disc around it
   int degree = 0;    ///< number of branch ends: 1 for an end, 0 for a room without branches
   int network = 0;   ///< connected part of the skeleton, from 1
@@ -28,14 +28,14 @@ struct ChannelBranch {
   BranchType type = BranchType::end_end;
   double length = 0;  ///< [µm] along the line, smoothed over a few cells
   double mean_width = 0, min_width = 0, max_width = 0;  ///< [µm]
-  Vec2 narrowest;                                       ///< [µm] where it is `min_width` wide
-  std::vector<Vec2> line;                               ///< [µm] from a to b
+  Vec2 narrowest{};                                     ///< [µm] where it is `min_width` wide
+  std::vector<Vec2> line{};                             ///< [µm] from a to b
 };
 
 /// Skeleton of a map's free space as a graph.
 struct ChannelGraph {
-  std::vector<ChannelNode> nodes;
-  std::vector<ChannelBranch> branches;
+  std::vector<ChannelNode> nodes{};
+  std::vector<ChannelBranch> branches{};
   double cell = 0;  ///< [µm] resolution
 };
 

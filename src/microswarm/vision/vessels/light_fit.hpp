@@ -17,8 +17,8 @@ struct LightPolynomial {
 
 /// Light on a ground, and what a set of pixels adds to it.
 struct LightFit {
-  LightPolynomial light;
-  LightPolynomial contrast;  ///< 0 without a set
+  LightPolynomial light{};
+  LightPolynomial contrast{};  ///< 0 without a set
 };
 
 /// Least squares of grey = light + set · contrast within `view`, on at most some 40,000 pixels.

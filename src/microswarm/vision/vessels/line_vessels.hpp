@@ -9,7 +9,7 @@ namespace microswarm::vision {
 
 /// Vessel pixels of the whole picture (8-bit, 0 and 255) and measured quantities.
 struct FoundVessels {
-  cv::Mat vessels;
+  cv::Mat vessels{};
   double wide_width_px = 0;
   double scale = 1;
   int bridges = 0;

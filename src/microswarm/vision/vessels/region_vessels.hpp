@@ -9,7 +9,7 @@ namespace microswarm::vision {
 
 /// A picture split into two greys by Otsu's threshold.
 struct TwoGreys {
-  cv::Mat bright;           ///< 8-bit mask of the brighter side, inside the view
+  cv::Mat bright{};         ///< 8-bit mask of the brighter side, inside the view
   double separability = 0;  ///< fraction of the variance explained by the two means, 0 to 1
 };
 

@@ -11,8 +11,8 @@ namespace microswarm::vision {
 /// A picture as two levels under uneven light: grey = light(x, y) + contrast(x, y) · set + noise.
 /// The light is a polynomial and what wide means of the rest add to it.
 struct TwoLevels {
-  LightFit fit;         ///< the set is the brighter level
-  cv::Mat residual;     ///< light beyond its polynomial [grey], 32-bit, of a smaller picture
+  LightFit fit{};       ///< the set is the brighter level
+  cv::Mat residual{};   ///< light beyond its polynomial [grey], 32-bit, of a smaller picture
   double contrast = 0;  ///< mean difference of the levels [grey]; 0 if there are not two
   double noise = 0;     ///< standard deviation of the noise of a pixel [grey]
   /// Share of the variance that the two levels explain, of what light alone and noise do not: near

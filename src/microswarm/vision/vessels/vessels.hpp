@@ -82,14 +82,14 @@ struct VesselParams {
 
 /// Result of `segment_vessels`.
 struct VesselSegmentation {
-  formats::Mask vessels;                      ///< 1 = vessel
-  formats::Mask field_of_view;                ///< 1 = inside the optical field of view
+  formats::Mask vessels{};                    ///< 1 = vessel
+  formats::Mask field_of_view{};              ///< 1 = inside the optical field of view
   VesselMethod method = VesselMethod::lines;  ///< that was taken
   Polarity polarity = Polarity::dark;         ///< that was taken
   /// Share of the picture's variance that two greys explain; without it if the method was set.
-  std::optional<double> two_level_share;
+  std::optional<double> two_level_share{};
   /// Evidence for the polarity over that for the other one, at least 1; without it if it was set.
-  std::optional<double> polarity_odds;
+  std::optional<double> polarity_odds{};
   double wide_width_px = 0;  ///< measured, or as set
   double scale = 1;          ///< working pixels per picture pixel
   int bridges = 0;           ///< number of closed gaps

@@ -9,7 +9,7 @@ namespace microswarm {
 
 /// Square lattice, parallel to the axes.
 struct CornerLattice {
-  Vec2 origin;       ///< one of its points [µm]
+  Vec2 origin{};     ///< one of its points [µm]
   double pitch = 0;  ///< [µm]
 };
 

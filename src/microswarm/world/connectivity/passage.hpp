@@ -13,7 +13,7 @@ inline constexpr double nodes_by_default = 100e3;
 
 /// Narrow passage between two rooms.
 struct Passage {
-  Vec2 position;
+  Vec2 position{};
   double width = 0;  ///< [µm], twice the clearance at its middle
 };
 
@@ -29,14 +29,14 @@ struct Passage {
 /// is exact.
 struct MapReport {
   int wall_pieces = 0;
-  double free_area = 0;              ///< [µm²]
-  int free_pieces = 0;               ///< connected free regions
-  std::vector<double> region_areas;  ///< [µm²], largest first
-  double widest = 0;                 ///< diameter [µm] of the largest disc that fits
-  Vec2 widest_place{};               ///< centre of that disc, to 0.001 µm of clearance
-  double narrowest_passage = 0;      ///< width [µm]; `widest` if the largest region is one room
-  std::vector<Passage> passages;     ///< narrowest first
-  double resolution = 0;             ///< [µm]
+  double free_area = 0;                ///< [µm²]
+  int free_pieces = 0;                 ///< connected free regions
+  std::vector<double> region_areas{};  ///< [µm²], largest first
+  double widest = 0;                   ///< diameter [µm] of the largest disc that fits
+  Vec2 widest_place{};                 ///< centre of that disc, to 0.001 µm of clearance
+  double narrowest_passage = 0;        ///< width [µm]; `widest` if the largest region is one room
+  std::vector<Passage> passages{};     ///< narrowest first
+  double resolution = 0;               ///< [µm]
 };
 
 /// `cell` [µm] is the resolution; 0 chooses about 100,000 nodes.
@@ -48,11 +48,11 @@ bool connected(const Map& map, Vec2 a, Vec2 b);
 
 /// Path between two points with the maximum clearance from walls and border.
 struct WidestPath {
-  bool found = false;      ///< false: no path with positive clearance at this resolution
-  double clearance = 0;    ///< [µm], exact for `path`: the maximum swarm radius that fits
-  Vec2 tightest{};         ///< point of minimum clearance
-  std::vector<Vec2> path;  ///< from a to b
-  double resolution = 0;   ///< [µm]; the optimum has at most 1.5·resolution more clearance
+  bool found = false;        ///< false: no path with positive clearance at this resolution
+  double clearance = 0;      ///< [µm], exact for `path`: the maximum swarm radius that fits
+  Vec2 tightest{};           ///< point of minimum clearance
+  std::vector<Vec2> path{};  ///< from a to b
+  double resolution = 0;     ///< [µm]; the optimum has at most 1.5·resolution more clearance
 };
 
 /// Path from a to b that maximises the minimum clearance, by Dijkstra on a grid with exactly

@@ -50,7 +50,7 @@ class ClearanceField {
 
   /// Data with which `decide` finds a position's cell, as cell_at does, and its bounds.
   struct Grid {
-    Vec2 origin;
+    Vec2 origin{};
     double per_cell, last_column, last_row;
     std::int32_t stride;
     const float* lower;

@@ -15,11 +15,11 @@ namespace microswarm {
 /// Possible bend of a shortest path: a convex corner of a wall, or a disc. A path with
 /// clearance c bends along the circle of radius `radius` + c around `centre`.
 struct Corner {
-  Vec2 centre;
+  Vec2 centre{};
   double radius = 0;  ///< of the disc [µm]; 0 for the corner of a polygon
   double from = 0;    ///< direction from the corner in which the cone of its normals begins [rad]
   double width = 0;   ///< angle of that cone, counter-clockwise [rad]; 2π for a disc
-  Vec2 first, last;   ///< unit vectors where the cone begins and ends; unused for a disc
+  Vec2 first{}, last{};  ///< unit vectors where the cone begins and ends; unused for a disc
   bool is_disc = false;
 };
 

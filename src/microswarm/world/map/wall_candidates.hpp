@@ -19,7 +19,7 @@ class WallCandidates {
   /// that is farther than the whole diagonal, also the vector to its nearest point.
   struct Bound {
     double half, nearest;
-    Vec2 towards;
+    Vec2 towards{};
     bool is_far() const { return nearest - half > half; }
   };
   /// Arrays of an edge from (x, y) along (u, v), or of a disc around (x, y), whose u and v are 0;

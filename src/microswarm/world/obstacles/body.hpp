@@ -12,7 +12,7 @@ namespace microswarm {
 /// One solid at one moment: a connected wall piece or a moving obstacle. It has no velocity, since
 /// a frame does not show one; ObstacleTracker estimates velocities.
 struct Body {
-  std::variant<Disc, Polygon> shape;
+  std::variant<Disc, Polygon> shape{};
   std::uint32_t obstacle =
       0;  ///< number of the wall piece or obstacle; both leaves of a valve share it
 };

@@ -11,10 +11,10 @@ namespace microswarm {
 
 /// Two solids that share a point, by index; disc indices follow those of the polygons.
 struct Contact {
-  std::size_t first;
-  std::size_t second;
+  std::size_t first = 0;
+  std::size_t second = 0;
   /// Whether they share more than single points. Determined for polygons only.
-  bool overlap;
+  bool overlap = false;
 };
 
 /// Contacts and overlaps of polygons and discs. Exact apart from the rounding of a disc's rim. A

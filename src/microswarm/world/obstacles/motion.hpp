@@ -92,7 +92,7 @@ constexpr auto enum_names(AtEnd) {
 /// first leg, so that no corner of a body jumps at the end of a leg.
 struct Waypoints {
   static constexpr std::string_view type_name = "waypoints";
-  std::vector<Vec2> points;
+  std::vector<Vec2> points{};
   double speed = 20;
   AtEnd at_end = AtEnd::back;
   template <class Self, class V>
@@ -106,17 +106,17 @@ struct Waypoints {
 /// Time-stamped positions, interpolated linearly. Absent before the first and after the last;
 /// heading 0.
 struct Samples {
-  std::vector<double> times;  ///< [s], ascending
-  std::vector<Vec2> points;   ///< [µm], one per time
+  std::vector<double> times{};  ///< [s], ascending
+  std::vector<Vec2> points{};   ///< [µm], one per time
 };
 
 /// One body of a recorded track file (CSV with columns id, t_s, x_um, y_um). The scenario reader
 /// fills the samples; until then the mover is absent.
 struct Track {
   static constexpr std::string_view type_name = "track";
-  std::string file;
-  std::string id;
-  std::shared_ptr<const Samples> samples;
+  std::string file{};
+  std::string id{};
+  std::shared_ptr<const Samples> samples{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.file, plain("file", "CSV with columns id, t_s, x_um, y_um.").needed());
@@ -129,7 +129,7 @@ using Motion = std::variant<Still, Straight, HarmonicLine, HarmonicArc, Waypoint
 /// Pose and velocity of a mover at one moment; `present` is false outside a track's times.
 struct Placement {
   bool present = true;
-  Pose2 pose;
+  Pose2 pose{};
   Vec2 velocity{};  ///< [µm/s]
 };
 

@@ -56,7 +56,7 @@ struct BoxShape {
 /// Polygon in the mover's frame.
 struct PolygonShape {
   static constexpr std::string_view type_name = "polygon";
-  std::vector<Vec2> vertices;
+  std::vector<Vec2> vertices{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.vertices, um("vertices", coordinates, "Outline around its position.").needed());
@@ -92,7 +92,7 @@ struct Valve {
 /// block's outline is a box. Centre line and block are given in the mover's frame.
 struct DeformingChannel {
   static constexpr std::string_view type_name = "deforming_channel";
-  std::vector<Vec2> centre_line;
+  std::vector<Vec2> centre_line{};
   double half_width = 200;
   double end_half_width = 200;
   double end_length = 300;
@@ -123,8 +123,8 @@ using Shape =
 
 /// A moving or deforming obstacle.
 struct Obstacle {
-  Shape shape;
-  Motion motion;
+  Shape shape{};
+  Motion motion{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.shape, plain("shape", "Shape.").needed());

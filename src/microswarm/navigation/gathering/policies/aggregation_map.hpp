@@ -25,10 +25,10 @@ enum class MoveRule {
 /// Map data of an aggregation: the tree with its routes to the goal, and the regions along them.
 /// Built once and shared by all robots.
 struct AggregationMap {
-  Map map;
-  planning::ObstacleWeightedRrt tree;
+  Map map{};
+  planning::ObstacleWeightedRrt tree{};
   bool obstacle_weighted;  ///< which of the tree's routes are used
-  planning::MapSegmentation segmentation;
+  planning::MapSegmentation segmentation{};
   double longest = 0;                        ///< longest path to the goal along the routes [µm]
   std::shared_ptr<const CellGraph> cells{};  ///< by the cell rule, else null
   std::vector<std::uint32_t> hops{};         ///< by the cell rule: from each cell to the goal
@@ -52,9 +52,9 @@ struct AggregationMap {
 
 /// Robots as input of an aggregation.
 struct RobotsOnMap {
-  std::vector<std::uint32_t> counts;  ///< robots at each position; empty: one each
-  std::vector<std::uint32_t> nodes;   ///< nearest node of each position
-  std::vector<double> lengths;        ///< path length to the goal from each position [µm]
+  std::vector<std::uint32_t> counts{};  ///< robots at each position; empty: one each
+  std::vector<std::uint32_t> nodes{};   ///< nearest node of each position
+  std::vector<double> lengths{};        ///< path length to the goal from each position [µm]
 
   /// Number of robots at a position.
   double count(std::size_t i) const { return counts.empty() ? 1 : static_cast<double>(counts[i]); }

@@ -64,9 +64,9 @@ struct AggregationParams {
   double discount = 0.3;
   double discount_length = 5;
   int patience = 2;
-  RolloutParams rollout;
-  planning::ObstacleWeightedRrtParams tree;
-  planning::MapSegmentationParams segmentation;
+  RolloutParams rollout{};
+  planning::ObstacleWeightedRrtParams tree{};
+  planning::MapSegmentationParams segmentation{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.method, plain("method", "Policy that chooses the moves."));

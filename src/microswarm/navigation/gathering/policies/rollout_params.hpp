@@ -23,7 +23,7 @@ struct RolloutParams {
   int layer_width = 30;
   double max_deviation = 1;
   int threads = 1;
-  RolloutTuning tuning;
+  RolloutTuning tuning{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.budget, plain("budget", 0, 1e12, "Simulated robot-steps per decision."));

@@ -14,8 +14,8 @@ namespace microswarm::navigation {
 
 /// Moves from the first layer on, and the states that they pass, one in each layer.
 struct LayerPath {
-  std::vector<std::uint32_t> states;
-  std::vector<Vec2> moves;
+  std::vector<std::uint32_t> states{};
+  std::vector<Vec2> moves{};
 };
 
 /// Mean steps of a trial.

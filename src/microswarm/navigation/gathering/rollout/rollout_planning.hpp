@@ -10,7 +10,7 @@ namespace microswarm::navigation {
 
 /// Complete plan made by one base policy.
 struct BasePlan {
-  RolloutPlan plan;
+  RolloutPlan plan{};
   Aggregation method = Aggregation::heuristic;
 };
 

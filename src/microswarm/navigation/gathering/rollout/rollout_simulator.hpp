@@ -17,8 +17,8 @@ namespace microswarm::navigation {
 /// All moves up to the end, with the merged robots before every 16th move.
 struct RolloutPlan {
   static constexpr std::size_t checkpoint_interval = 16;
-  std::vector<Vec2> moves;
-  std::vector<MergedRobots> checkpoints;
+  std::vector<Vec2> moves{};
+  std::vector<MergedRobots> checkpoints{};
 };
 
 /// Incomplete plan with the merged robots after its moves.
