@@ -101,7 +101,7 @@ report::Plot speed_plot(const std::vector<double>& speeds) {
 report::Plot pixel_plot(const vision::PixelBias& bias) {
   constexpr int bins = 10;
   report::Plot plot{.title = "positions within a pixel",
-                    .x_label = "part of the position behind the point (px)",
+                    .x_label = "fractional part of the position (px)",
                     .y_label = "share (%)",
                     .key_below = true,
                     .x_min = 0,
