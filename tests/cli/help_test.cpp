@@ -74,7 +74,7 @@ TEST_F(Help, HelpIsACommandToo) {
   EXPECT_EQ(good({"help"}), good({"--help"}));
   EXPECT_EQ(good({"help", "run"}), good({"run", "--help"}));
   EXPECT_EQ(good({"help", "rig", "see"}), good({"rig", "see", "--help"}));
-  refused({"help", "rnu"}, naming("unknown command 'rnu'", {"did you mean 'run'"}));
+  refused({"help", "rnu"}, naming("", {"unknown command 'rnu'", "did you mean 'run'"}));
 }
 
 TEST_F(Help, AValueThatIsNearlyAWordIsAnsweredWithTheWord) {

@@ -135,7 +135,7 @@ TEST_F(Maps, AGoalInAWallIsRefusedByEveryCommand) {
       "swarm: {type: ribbon, radius_um: 20}\ngoal_tolerance_um: 60\n"
       "navigator: {type: straight_stop}\n";
   write("in_wall.yaml", scenario + "goal_um: [310, 300]\n");
-  refused({"run", "in_wall.yaml"}, naming("in_wall.yaml:6", {"goal", inside}));
+  refused({"run", "in_wall.yaml"}, naming("in_wall.yaml:6:10", {"goal", inside}));
   write("near_wall.yaml", scenario + "goal_um: [290, 300]\n");
   const Outcome near = run({"run", "near_wall.yaml", "--json"});
   EXPECT_NE(near.err.find("note: goal is 10 µm from wall"), std::string::npos) << near.err;
@@ -246,7 +246,7 @@ TEST_F(Maps, Graph) {
   EXPECT_TRUE(
       read("out/chip-nodes.csv").starts_with("node,network,type,degree,x_um,y_um,width_um"));
   write("wall.pgm", pgm(30, 20, [](int, int) { return 0; }));
-  refused({"map", "graph", "wall.pgm", "--um-per-px", "2"}, naming("wall.pgm", {"blocked"}));
+  refused({"map", "graph", "wall.pgm", "--um-per-px", "2"}, naming("wall.pgm", {"wall"}));
   refused({"map", "graph", "chip.pgm", "--um-per-px", "2", "--cell", "0.001"},
           naming("map in cells of 0.001 µm", {"400000", "16384"}));
 }

@@ -88,7 +88,8 @@ TEST_F(Output, FolderThatIsAFile) {
   refused({"run", "flight.yaml", "--out", "file"}, "file" + reason);
   refused({"reproduce", "drrt/fig5a", "--out", "file/out"}, "file/out" + reason);
   refused(plan("file/path.png"), "file/path.png: cannot write: Not a directory");
-  refused({"map", "segment", "room.pgm", "--um-per-px", "5", "--out", "file/a.geojson"},
+  write("channel.pgm", pgm(60, 40, [](int x, int) { return x >= 25 && x < 35 ? 60 : 200; }));
+  refused({"map", "segment", "channel.pgm", "--um-per-px", "5", "--out", "file/a.geojson"},
           "file" + reason);
   refused({"map", "convert", "room.pgm", "--um-per-px", "5", "none/a.png"},
           "none/a.png: cannot write: No such file or directory");

@@ -45,7 +45,7 @@ expect_among() {
 
 expect_among run plan map rig schema -- ''
 expect 'replay report reproduce' re
-expect 'check convert info segment' map ''
+expect 'check convert graph info segment' map ''
 expect 'segment' map s
 expect_among --out --set --seed --json --help -- run --
 expect '--photo' run flight.yaml --ph

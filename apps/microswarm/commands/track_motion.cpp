@@ -21,7 +21,8 @@
 namespace microswarm::cli {
 namespace {
 
-constexpr int few = 5;  // robots whose mean motion is their own rather than a drift
+constexpr double least_msd = 1e-12;  // [µm²] less is rounding
+constexpr int few = 5;               // robots whose mean motion is their own rather than a drift
 
 /// Speeds from picture to picture [µm/s].
 std::vector<double> speeds_of(const std::vector<vision::TrackRow>& rows) {
@@ -62,7 +63,7 @@ report::Plot msd_plot(const std::vector<vision::MsdRow>& msd,
                     .key_below = true};
   report::Series points{.label = "measured, ± standard error", .style = report::PlotStyle::points};
   for (const vision::MsdRow& row : msd) {
-    if (row.msd <= 0) continue;
+    if (row.msd < least_msd) continue;
     const double error = row.standard_error.value_or(0);
     points.x.push_back(row.t);
     points.y.push_back(row.msd);
@@ -89,7 +90,7 @@ report::Plot speed_plot(const std::vector<double>& speeds) {
                     .key_below = true,
                     .y_min = 0};
   const double end = speeds.empty() ? 1 : 1.05 * *std::max_element(speeds.begin(), speeds.end());
-  plot.series.push_back(share_in_bins("speeds", speeds, std::max(end, 1e-12), bins));
+  plot.series.push_back(share_in_bins("speeds", speeds, std::max(end, 1e-6), bins));
   if (!speeds.empty()) {
     const double middle = median(speeds);
     plot.marks.push_back({fmt::format("median {:.3g}", middle), middle});
@@ -147,8 +148,10 @@ nlohmann::ordered_json write_motion(const vision::TrackResult& result,
   if (!picture.pixels.empty())
     formats::write_png(folder / "trajectories.png",
                        vision::draw_trajectories(picture, rows, scale));
-  report::write_plots_everywhere({msd_plot(msd, law), speed_plot(speeds), pixel_plot(bias)},
-                                 folder / "motion");
+  std::vector<report::Plot> plots{speed_plot(speeds), pixel_plot(bias)};
+  if (report::Plot plot = msd_plot(msd, law); !plot.series.front().x.empty())
+    plots.insert(plots.begin(), std::move(plot));
+  report::write_plots_everywhere(plots, folder / "motion");
   using Json = nlohmann::ordered_json;
   return {{"drift_is_removed", remove_drift},
           {"msd_exponent", law ? Json(law->exponent) : Json(nullptr)},

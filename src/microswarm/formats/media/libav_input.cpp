@@ -92,9 +92,17 @@ struct Turn {
   }
 };
 
+bool is_avi(const AVFormatContext& format) { return std::strcmp(format.iformat->name, "avi") == 0; }
+
 /// Number of pictures that are shown, by the file's header; 0 if unknown.
 double told_pictures(AVStream& stream, const AVFormatContext& format) {
   const int entries = avformat_index_get_entries_count(&stream);
+  if (is_avi(format) && entries > 0) {  // its header counts the places of pictures left out, too
+    int pictures = 0;
+    for (int i = 0; i < entries; ++i)
+      pictures += avformat_index_get_entry(&stream, i)->size > 0 ? 1 : 0;
+    return pictures;
+  }
   // In fragments of MP4 the index grows while they are read.
   if (std::strstr(format.iformat->name, "mov") == nullptr || entries != stream.nb_frames)
     return static_cast<double>(std::max<std::int64_t>(stream.nb_frames, 0));
@@ -146,26 +154,17 @@ class LibavInput : public VideoInput {
                                 : av_guess_frame_rate(format_.get(), stream_, nullptr);
     rate = mean.den > 0 ? av_q2d(mean) : 0;
     unit_ = av_q2d(stream_->time_base);
-    is_avi_ = std::strcmp(format_->iformat->name, "avi") == 0;
-    tick = is_avi_ ? 0 : unit_;
+    tick = is_avi(*format_) ? 0 : unit_;
     picture_count = told_pictures(*stream_, *format_);
     end = told_end(*format_, *stream_);
     return true;
   }
 
   bool read(cv::Mat& picture) override {
-    if (!decode()) {
-      // AVI counts the places of pictures that were left out.
-      if (is_avi_ && last_ + 1 + decoder_->has_b_frames >= picture_count) picture_count = shown_;
-      return false;
-    }
+    if (!decode()) return false;
     const std::int64_t shown_at = frame_->best_effort_timestamp;
     time.reset();
-    if (shown_at != AV_NOPTS_VALUE) {
-      last_ = std::max(last_, static_cast<double>(shown_at));
-      time = static_cast<double>(shown_at) * unit_;
-    }
-    ++shown_;
+    if (shown_at != AV_NOPTS_VALUE) time = static_cast<double>(shown_at) * unit_;
     const bool good = convert(picture);
     av_frame_unref(frame_.get());
     any_ = any_ || good;
@@ -223,10 +222,7 @@ class LibavInput : public VideoInput {
   std::unique_ptr<SwsContext, FreeScaler> scaler_;
   cv::Mat rows_;
   Turn turn_;
-  double unit_ = 0;  ///< of the times in the file [s]
-  bool is_avi_ = false;
-  int shown_ = 0;     ///< pictures read
-  double last_ = 0;   ///< greatest time of a picture [units]
+  double unit_ = 0;   ///< of the times in the file [s]
   bool any_ = false;  ///< whether a picture was decoded
 };
 

@@ -25,12 +25,20 @@ constexpr double move_from = 0.6;    // [px] a mask farther from its centroid mo
 constexpr int single_steps = 10;     // moves by a pixel, as in trackpy
 
 constexpr double cut_level = 0.15;     // of a particle's level, at the rim of a mask that cuts it
+constexpr double flat_level = 0.78;    // of its highest grey: a disc's level, not a spot's
 constexpr double edge_low = 0.25;      // of its level, which greys must exceed if it is large
 constexpr double edge_high = 0.75;     // and from which they count alike
 constexpr int max_soft_rounds = 30;    // of a mask between pixels
 constexpr double settled_move = 5e-4;  // [px] moves of its centre that end it
 constexpr double beyond = 1.6;         // of a move, since each goes only a part of the way
-constexpr double far_from_mask = 2;    // [px] from which it is at another particle
+constexpr double far_from_mask = 1;    // [px] from which it is at another particle
+
+constexpr std::size_t octants = 8;  // of the rim of a mask
+
+/// Eighth of the circle in which a pixel of the rim is.
+std::size_t octant(int dx, int dy) {
+  return (dx < 0 ? 4U : 0U) + (dy < 0 ? 2U : 0U) + (std::abs(dx) < std::abs(dy) ? 1U : 0U);
+}
 
 constexpr std::uint8_t by_itself = 1;  // marks of pixels where a mask was
 constexpr std::uint8_t by_another = 2;
@@ -273,23 +281,31 @@ bool ParticleFinder::is_inside(Vec2 at_px) const {
          at_px.y <= height_ - 1 - least;
 }
 
-// The mask at whole pixels cuts a particle that hardly fits into it on one side, and its centroid
-// stays near the mask's centre. A mask between pixels, with a soft edge, does not.
+// The mask at whole pixels cuts a flat disc that hardly fits into it on one side, and its centroid
+// stays near the mask's centre. A mask between pixels, with a soft edge, does not. A spot that
+// fades has little there, and such a mask would run after its noise and its neighbours.
 void ParticleFinder::centre(Particle& particle, Peak at) const {
   const std::uint8_t* middle = bytes_.data() + pixel_index(at);
-  std::int64_t mass = 0, squares = 0, rim = 0, rim_pixels = 0;
+  std::int64_t mass = 0, squares = 0;
+  int highest = 0;
+  std::array<std::int64_t, octants> rim{}, rim_pixels{};
   for (const MaskPixel& m : mask_) {
     const int value = middle[m.offset(width_)];
     mass += value;
     squares += static_cast<std::int64_t>(value) * value;
+    highest = std::max(highest, value);
     if (m.dx * m.dx + m.dy * m.dy <= (radius_ - 1) * (radius_ - 1)) continue;
-    rim += value;
-    ++rim_pixels;
+    const std::size_t k = octant(m.dx, m.dy);
+    rim[k] += value;
+    ++rim_pixels[k];
   }
-  // The level of a particle is the mean grey of its mass.
+  // The level of a particle is the mean grey of its mass. A neighbour is at the rim too, but only
+  // on its side.
   const double level = static_cast<double>(squares) / static_cast<double>(mass);
-  const bool is_cut =
-      static_cast<double>(rim) > cut_level * level * static_cast<double>(rim_pixels);
+  std::size_t cut = 0;
+  for (std::size_t k = 0; k < octants; ++k)
+    if (static_cast<double>(rim[k]) > cut_level * level * static_cast<double>(rim_pixels[k])) ++cut;
+  const bool is_cut = cut > octants / 2 && level > flat_level * highest;
   if (!is_cut && !is_large()) return;
   std::array<double, 256> weights{};
   for (std::size_t v = 0; v < weights.size(); ++v) {
