@@ -40,9 +40,9 @@ NOT_RUN = {
 DEVICES = ("/dev/", "genicam:")
 # Files of the reader's.
 OWN = {
-    "board.png", "build/demo/retina.jpg", "chip.geojson", "chip.png", "coils.yaml", "frame.png", "fundus.jpg", "measured.csv", "out/b/run.h5",
+    "board.png", "build/demo/retina.jpg", "chip.geojson", "chip.png", "coils.yaml", "fast.avi", "frame.png", "fundus.jpg", "measured.csv", "out/b/run.h5",
     "out/demo/run.h5", "out/retina/cross.yaml", "out/retina/vessels.geojson", "out/safety/safety-worlds/open-radar-13.yaml", "record.h5",
-    "rig.yaml", "scenario.yaml", "slide.png", "swarm.mp4", "track.yaml", "vessels.geojson", "~/Downloads/record.h5",
+    "rig.yaml", "scenario.yaml", "slide.png", "swarm.mp4", "track.yaml", "trackpy.csv", "vessels.geojson", "~/Downloads/record.h5",
 }  # fmt: skip
 FAILS = {"run scenarios/first_flight.yaml --set tick=1 --set seed=-1"}  # is shown to fail
 SHORTER = [("--trials 100", "--trials 3"), ("planner.max_nodes=300000", "planner.max_nodes=3000"), ("--width 1280", "--width 320")]

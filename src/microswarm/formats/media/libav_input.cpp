@@ -11,18 +11,23 @@ extern "C" {
 }
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <opencv2/core.hpp>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 
 namespace microswarm::formats {
 namespace {
+
+constexpr std::string_view file_protocol = "file:";  // so that no name is another protocol
 
 namespace fs = std::filesystem;
 
@@ -61,7 +66,7 @@ Format open_format(const fs::path& file) {
   AVFormatContext* opened = nullptr;
   AVDictionary* options = nullptr;
   av_dict_set(&options, "protocol_whitelist", "file", 0);
-  const std::string url = "file:" + fs::absolute(file).string();
+  const std::string url = std::string(file_protocol) + fs::absolute(file).string();
   const int code = avformat_open_input(&opened, url.c_str(), nullptr, &options);
   av_dict_free(&options);
   if (code < 0) return nullptr;
@@ -94,10 +99,23 @@ struct Turn {
 
 bool is_avi(const AVFormatContext& format) { return std::strcmp(format.iformat->name, "avi") == 0; }
 
+/// Whether a RIFF file is as long as it says. Of several chunks, each with its length, only the
+/// first is looked at.
+bool is_whole_riff(const std::string& url) {
+  std::ifstream in(url.substr(file_protocol.size()), std::ios::binary);
+  std::array<unsigned char, 8> head{};
+  in.read(reinterpret_cast<char*>(head.data()), head.size());
+  in.seekg(0, std::ios::end);
+  const std::uint64_t length =
+      head[4] | head[5] << 8U | head[6] << 16U | std::uint64_t{head[7]} << 24U;
+  return in && length > 0 && static_cast<std::uint64_t>(in.tellg()) >= head.size() + length;
+}
+
 /// Number of pictures that are shown, by the file's header; 0 if unknown.
 double told_pictures(AVStream& stream, const AVFormatContext& format) {
   const int entries = avformat_index_get_entries_count(&stream);
-  if (is_avi(format) && entries > 0) {  // its header counts the places of pictures left out, too
+  // The header of AVI counts the places of pictures left out, too; its index does not.
+  if (is_avi(format) && entries > 0 && is_whole_riff(format.url)) {
     int pictures = 0;
     for (int i = 0; i < entries; ++i)
       pictures += avformat_index_get_entry(&stream, i)->size > 0 ? 1 : 0;
