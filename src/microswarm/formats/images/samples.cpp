@@ -43,7 +43,7 @@ std::size_t scale_samples(std::span<const float> samples, const GreyScale& scale
     const auto value = static_cast<double>(samples[i]);
     beyond += value < scale.black || value > scale.white;
     const double grey = (value - scale.black) * factor;
-    out[i] = grey > 0 ? static_cast<std::uint8_t>(std::min(grey, 255.0) + 0.5) : 0;
+    out[i] = grey > 0 ? static_cast<std::uint8_t>(std::lround(std::min(grey, 255.0))) : 0;
   }
   return beyond;
 }

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/csv.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/lines.hpp"
 #include "microswarm/core/text/text.hpp"
@@ -20,29 +20,10 @@ constexpr double max_seconds = 1e12;  // seconds since 1970 are fewer
 constexpr std::string_view times_column = "t_s";
 constexpr std::string_view recorded_header = "frame,camera_frame,t_s";
 
-std::string_view unquoted(std::string_view field) {
-  field = trimmed(field);
-  if (field.size() >= 2 && field.front() == '"' && field.back() == '"')
-    field = field.substr(1, field.size() - 2);
-  return field;
-}
-
-/// Fields of a line; the separator is the first of semicolon, tab and comma that stands in it.
-std::vector<std::string_view> fields_of(std::string_view line) {
-  char separator = ',';
-  for (const char c : {';', '\t'})
-    if (line.find(c) != std::string_view::npos) {
-      separator = c;
-      break;
-    }
-  std::vector<std::string_view> fields = split(line, separator);
-  for (std::string_view& field : fields) field = unquoted(field);
-  return fields;
-}
-
-bool has_a_number(const std::vector<std::string_view>& fields) {
-  return std::ranges::any_of(fields,
-                             [](std::string_view f) { return parse_number(f).has_value(); });
+bool has_a_number(const std::vector<std::string_view>& fields, char separator) {
+  return std::ranges::any_of(fields, [&](std::string_view field) {
+    return parse_number(csv_number(field, separator)).has_value();
+  });
 }
 
 /// Index of the column of times in a header.
@@ -61,12 +42,14 @@ std::vector<double> parse_frame_times(std::string_view text, std::string_view na
   Lines lines(text, name);
   std::vector<double> times;
   std::optional<std::size_t> column;
-  bool first = true;
+  std::optional<char> separator;
   while (const std::optional<std::string_view> raw = lines.next()) {
     const std::string_view line = trimmed(*raw);
     if (line.empty() || line.front() == '#') continue;
-    const std::vector<std::string_view> fields = fields_of(line);
-    if (std::exchange(first, false) && !has_a_number(fields)) {
+    const bool is_first = !separator;
+    if (is_first) separator = csv_separator(line);
+    const std::vector<std::string_view> fields = csv_cells(line, *separator);
+    if (is_first && !has_a_number(fields, *separator)) {
       column = times_place(lines, fields);
       continue;
     }
@@ -77,7 +60,7 @@ std::vector<double> parse_frame_times(std::string_view text, std::string_view na
                       fields.size()));
     if (column.value_or(0) >= fields.size()) lines.fail("no time in this line");
     const std::string_view field = fields[column.value_or(0)];
-    const std::optional<double> t = parse_number(field);
+    const std::optional<double> t = parse_number(csv_number(field, *separator));
     if (!t) lines.fail(quote(field) + " is no time in seconds");
     if (!(std::abs(*t) <= max_seconds))
       lines.fail("time " + number_text(*t) + " s, at most " + number_text(max_seconds));

@@ -86,6 +86,7 @@ void sort_naturally(std::vector<fs::path>& files) {
 std::optional<NumberedNames> numbers_in(const std::vector<fs::path>& files) {
   if (files.size() < 2) return std::nullopt;
   std::vector<std::vector<std::string>> names;
+  names.reserve(files.size());
   for (const fs::path& file : files) names.push_back(runs_of(file));
   const std::optional<std::size_t> varying = varying_run(names);
   if (!varying) return std::nullopt;

@@ -66,7 +66,7 @@ int count_greys(const cv::Mat& grey, const cv::Mat& seen, int step, Histogram& c
 }
 
 /// Interpolated within the middle grey, as if its pixels were spread uniformly over it.
-double median(const Histogram& count, int some) {
+double median_grey(const Histogram& count, int some) {
   constexpr int group = 16;  // greys that are passed at once
   int sum = 0;
   int value = 0;
@@ -81,14 +81,14 @@ double median(const Histogram& count, int some) {
 
 /// Median of the tile's seen pixels, using every other row and in large tiles every other column;
 /// empty if less than a quarter is seen.
-std::optional<double> median(const cv::Mat& grey, const cv::Mat& seen) {
+std::optional<double> median_grey(const cv::Mat& grey, const cv::Mat& seen) {
   const int step = grey.cols < 24 ? 1 : 2;
   const int all = ((grey.rows + 1) / 2) * ((grey.cols + step - 1) / step);
   Histogram count{};
   const int some =
       seen.empty() ? count_greys(grey, step, count) : count_greys(grey, seen, step, count);
   if (4 * some < all || some == 0) return std::nullopt;
-  return median(count, some);
+  return median_grey(count, some);
 }
 
 std::vector<Tile> list_tiles(const cv::Mat& grey, const cv::Mat& seen, double half) {
@@ -98,7 +98,7 @@ std::vector<Tile> list_tiles(const cv::Mat& grey, const cv::Mat& seen, double ha
   for (int y = 0; y < grey.rows; y += side)
     for (int x = 0; x < grey.cols; x += side) {
       const cv::Rect box = cv::Rect(x, y, side, side) & all;
-      const auto value = median(grey(box), seen.empty() ? seen : seen(box));
+      const auto value = median_grey(grey(box), seen.empty() ? seen : seen(box));
       if (!value) continue;
       const double cx = box.x + 0.5 * (box.width - 1);
       const double cy = box.y + 0.5 * (box.height - 1);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/csv.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/lines.hpp"
 #include "microswarm/core/text/text.hpp"
@@ -40,18 +41,6 @@ constexpr std::array<TableForm, 2> table_forms{
     {{{"frame", "x", "y", "particle", "mass"}},
      {{"FRAME", "POSITION_X", "POSITION_Y", "TRACK_ID", ""}, true}}};
 
-std::string_view unquoted(std::string_view word) {
-  if (word.size() >= 2 && word.front() == '"' && word.back() == '"')
-    return word.substr(1, word.size() - 2);
-  return word;
-}
-
-std::vector<std::string_view> fields_of(std::string_view line) {
-  std::vector<std::string_view> fields = split(line, ',');
-  for (std::string_view& field : fields) field = unquoted(field);
-  return fields;
-}
-
 /// Positions of the columns in a table.
 struct TableHeader {
   TableForm form;
@@ -60,7 +49,7 @@ struct TableHeader {
 };
 
 TableHeader find_header(const Lines& lines, std::string_view line) {
-  const std::vector<std::string_view> names = fields_of(line);
+  const std::vector<std::string_view> names = csv_cells(line, ',');
   for (const TableForm& form : table_forms) {
     TableHeader header{.form = form, .at = {}, .count = names.size()};
     for (std::size_t c = 0; c < columns; ++c) {
@@ -122,7 +111,7 @@ std::vector<TableRow> parse_track_table(std::string_view text, std::string_view 
       per_px = header->form.is_trackmate ? um_per_px : 1;
       continue;
     }
-    const std::vector<std::string_view> fields = fields_of(*line);
+    const std::vector<std::string_view> fields = csv_cells(*line, ',');
     if (fields.size() != header->count)
       lines.fail(std::to_string(fields.size()) + " fields, the header has " +
                  std::to_string(header->count));
