@@ -46,12 +46,14 @@ struct TableHeader {
   TableForm form;
   std::array<std::optional<std::size_t>, columns> at;
   std::size_t count = 0;
+  char separator = ',';
 };
 
 TableHeader find_header(const Lines& lines, std::string_view line) {
-  const std::vector<std::string_view> names = csv_cells(line, ',');
+  const char separator = csv_separator(line);
+  const std::vector<std::string_view> names = csv_cells(line, separator);
   for (const TableForm& form : table_forms) {
-    TableHeader header{.form = form, .at = {}, .count = names.size()};
+    TableHeader header{.form = form, .at = {}, .count = names.size(), .separator = separator};
     for (std::size_t c = 0; c < columns; ++c) {
       const auto found = std::find(names.begin(), names.end(), form.names[c]);
       if (found == names.end() || form.names[c].empty()) continue;
@@ -61,10 +63,7 @@ TableHeader find_header(const Lines& lines, std::string_view line) {
     }
     if (header.at[frame_column] && header.at[x_column] && header.at[y_column]) return header;
   }
-  const bool is_semicolon = split(line, ';').size() > 2;
-  lines.fail(std::string("columns frame, x, y (trackpy) or FRAME, POSITION_X, POSITION_Y "
-                         "(TrackMate) expected") +
-             (is_semicolon ? ": the separator is ';', must be ','" : ""));
+  lines.fail("columns frame, x, y (trackpy) or FRAME, POSITION_X, POSITION_Y (TrackMate) expected");
 }
 
 double table_number(const Lines& lines, std::string_view word, std::string_view what, double least,
@@ -111,11 +110,13 @@ std::vector<TableRow> parse_track_table(std::string_view text, std::string_view 
       per_px = header->form.is_trackmate ? um_per_px : 1;
       continue;
     }
-    const std::vector<std::string_view> fields = csv_cells(*line, ',');
+    const std::vector<std::string_view> fields = csv_cells(*line, header->separator);
     if (fields.size() != header->count)
       lines.fail(std::to_string(fields.size()) + " fields, the header has " +
                  std::to_string(header->count));
-    const auto field = [&](TableColumn c) { return fields[*header->at[c]]; };
+    const auto field = [&](TableColumn c) {
+      return csv_number(fields[*header->at[c]], header->separator);
+    };
     const auto column_name = [&](TableColumn c) { return header->form.names[c]; };
     if (header->form.is_trackmate && rows.empty() && !parse_number(field(x_column))) {
       if (field(x_column).find("pixel") != std::string_view::npos) per_px = 1;
