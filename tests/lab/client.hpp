@@ -13,6 +13,7 @@
 #include <cstring>
 #include <list>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -37,15 +38,14 @@ inline constexpr auto patience = 60s;
 
 /// Starts an operation and waits until it is done; its error.
 template <class Start>
-beast::error_code finished(asio::io_context& io, Start&& start,
-                           std::chrono::milliseconds longest = patience) {
-  std::optional<beast::error_code> done;
-  start([&](beast::error_code error, auto&&...) { done = error; });
+beast::error_code finished(asio::io_context& io, Start&& start) {
+  const auto done = std::make_shared<std::optional<beast::error_code>>();
+  start([done](beast::error_code error, auto&&...) { *done = error; });
   io.restart();
-  const auto latest = std::chrono::steady_clock::now() + longest;
-  while (!done && io.run_one_until(latest) > 0) {
+  const auto latest = std::chrono::steady_clock::now() + patience;
+  while (!*done && io.run_one_until(latest) > 0) {
   }
-  return done.value_or(asio::error::timed_out);
+  return done->value_or(asio::error::timed_out);
 }
 
 /// A lab with a folder of scenarios: flight.yaml, which takes a second or two to compute.
@@ -158,10 +158,11 @@ class TestPage {
     return asked_;
   }
   /// The next message; null when the stream has ended.
-  Json next(std::chrono::milliseconds longest = patience) {
+  Json next() {
     beast::flat_buffer buffer;
-    const auto error = finished(
-        io_, [&](auto done) { stream_.async_read(buffer, std::move(done)); }, longest);
+    const auto error =
+        finished(io_, [&](auto done) { stream_.async_read(buffer, std::move(done)); });
+    if (error == asio::error::timed_out) give_up();
     if (error) return nullptr;
     Json message = Json::from_cbor(beast::buffers_to_string(buffer.data()));
     latest[message["type"].get<std::string>()] = message;
@@ -194,6 +195,13 @@ class TestPage {
   std::map<std::string, Json> latest;  ///< by type
 
  private:
+  /// Closes the stream and lets the pending read end, so that each further call fails at once.
+  void give_up() {
+    beast::get_lowest_layer(stream_).close();
+    io_.restart();
+    io_.run_for(1s);
+  }
+
   asio::io_context io_;
   beast::websocket::stream<beast::tcp_stream> stream_;
   beast::error_code refused_;

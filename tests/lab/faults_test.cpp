@@ -61,8 +61,9 @@ TEST(LabFaults, ASlowPageLosesFramesAndNothingElse) {
                                                           {standing, "standing 2"},
                                                           {answer, "answer 2"}})
     outbox.add(message(kind, bytes));
-  EXPECT_EQ(outbox.size(), 6u + 8 + 10 + 8 + 6 + 8);
-  for (const char* bytes : {"rows 1", "frame 2!", "standing 2", "answer 1", "rows 2", "answer 2"})
+  EXPECT_EQ(outbox.size(), 6u + 8 + 10 + 8 + 6 + 10 + 8);
+  for (const char* bytes :
+       {"rows 1", "frame 2!", "standing 1", "answer 1", "rows 2", "standing 2", "answer 2"})
     EXPECT_EQ(outbox.take()->bytes, bytes);
   EXPECT_EQ(outbox.take(), nullptr);
   EXPECT_EQ(outbox.size(), 0u);
@@ -71,6 +72,23 @@ TEST(LabFaults, ASlowPageLosesFramesAndNothingElse) {
   outbox.add(message(hello, "hello"));
   EXPECT_EQ(outbox.take()->bytes, "answer");
   EXPECT_EQ(outbox.take()->bytes, "hello");
+  EXPECT_EQ(outbox.size(), 0u);
+}
+
+TEST(LabFaults, AStandingFollowsTheRowsThatItCounts) {
+  using enum Message::Kind;
+  Outbox outbox;
+  std::size_t queued = 0;
+  for (const char* number : {"1", "2", "3", "4"}) {
+    outbox.add(message(other, std::string("rows ") + number));
+    outbox.add(message(standing, std::string("standing ") + number));
+    if (number[0] == '3') outbox.add(message(answer, "answer"));
+    queued = outbox.size();
+  }
+  EXPECT_EQ(queued, 4u * 6 + 3 * 10 + 6);
+  for (const char* bytes : {"rows 1", "standing 1", "rows 2", "rows 3", "standing 3", "answer",
+                            "rows 4", "standing 4"})
+    EXPECT_EQ(outbox.take()->bytes, bytes);
   EXPECT_EQ(outbox.size(), 0u);
 }
 

@@ -8,8 +8,10 @@
 
 namespace microswarm::lab {
 
-/// Queue of messages to a page. A newer frame or standing replaces one that is still queued, so
-/// that a slow page loses frames but no other message; a hello makes earlier frames obsolete.
+/// Queue of messages to a page. A newer frame, picture or rig message replaces one that is still
+/// queued, so that a slow page loses frames but no other message; a hello makes earlier frames
+/// obsolete. A standing is queued after the rows and answers that it counts, and supersedes the one
+/// before it.
 class Outbox {
  public:
   void add(const MessagePtr& message);
@@ -19,6 +21,8 @@ class Outbox {
   std::size_t size() const { return size_; }
 
  private:
+  void drop_standing();
+
   std::deque<MessagePtr> waiting_;
   std::size_t size_ = 0;
 };
