@@ -18,6 +18,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -26,29 +27,57 @@
 
 namespace microswarm::test {
 
-/// Plays the coils' device at a pseudo-terminal: arms, sets, stops. Its answers pass through
-/// `answer`, which may change them; false keeps them back.
-class FakeDevice {
+/// A pseudo-terminal and what speaks at its other end.
+class Pty {
  public:
-  explicit FakeDevice(std::function<bool(actuation::CoilReply&)> answer = {})
-      : answer_(std::move(answer)) {
+  Pty() {
     termios raw{};
     cfmakeraw(&raw);
     std::array<char, 128> name{};
     if (openpty(&line_, &other_, name.data(), &raw, nullptr) != 0) ADD_FAILURE() << "no pty";
     port_ = name.data();
-    thread_ = std::thread([this] { run(); });
   }
+  ~Pty() { close_line(); }
+  Pty(const Pty&) = delete;
+  Pty& operator=(const Pty&) = delete;
+
+  const std::string& port() const { return port_; }
+  int line() const { return line_; }
+  void say(std::string_view text) const {
+    EXPECT_EQ(write(line_, text.data(), text.size()), static_cast<ssize_t>(text.size()));
+  }
+  /// Waits until something is said at the port.
+  void await_input() const {
+    pollfd ready{line_, POLLIN, 0};
+    EXPECT_EQ(poll(&ready, 1, 60'000), 1);
+  }
+  /// Whoever has the port open finds that it has ended.
+  void close_line() {
+    if (line_ < 0) return;
+    close(line_);
+    close(other_);
+    line_ = other_ = -1;
+  }
+
+ private:
+  int line_ = -1, other_ = -1;
+  std::string port_;
+};
+
+/// Plays the coils' device at a pseudo-terminal: arms, sets, stops. Its answers pass through
+/// `answer`, which may change them; false keeps them back.
+class FakeDevice {
+ public:
+  explicit FakeDevice(std::function<bool(actuation::CoilReply&)> answer = {})
+      : answer_(std::move(answer)), thread_([this] { run(); }) {}
   ~FakeDevice() {
     ended_ = true;
     thread_.join();
-    close(line_);
-    close(other_);
   }
   FakeDevice(const FakeDevice&) = delete;
   FakeDevice& operator=(const FakeDevice&) = delete;
 
-  const std::string& port() const { return port_; }
+  const std::string& port() const { return pty_.port(); }
   /// From now on it lets at most so much through, of all channels by the same factor [per mille].
   void limit(std::size_t channel, int most) {
     const std::lock_guard lock(mutex_);
@@ -68,10 +97,10 @@ class FakeDevice {
   void run() {
     std::vector<std::uint8_t> frame;
     while (!ended_) {
-      pollfd ready{line_, POLLIN, 0};
+      pollfd ready{pty_.line(), POLLIN, 0};
       if (poll(&ready, 1, 5) <= 0) continue;
       std::array<std::uint8_t, 256> bytes{};
-      const auto n = read(line_, bytes.data(), bytes.size());
+      const auto n = read(pty_.line(), bytes.data(), bytes.size());
       for (std::size_t k = 0; n > 0 && k < static_cast<std::size_t>(n); ++k) {
         if (bytes[k] != 0) {
           frame.push_back(bytes[k]);
@@ -134,7 +163,7 @@ class FakeDevice {
       reply.result = actuation::CoilResult::not_armed;
     if (answer_ && !answer_(reply)) return;
     const auto bytes = actuation::encode(reply);
-    EXPECT_EQ(write(line_, bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
+    EXPECT_EQ(write(pty_.line(), bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
   }
 
   int limited_scale() {
@@ -164,8 +193,7 @@ class FakeDevice {
   }
 
   std::function<bool(actuation::CoilReply&)> answer_;
-  int line_ = -1, other_ = -1;
-  std::string port_;
+  Pty pty_;
   std::atomic<bool> ended_ = false;
   std::mutex mutex_;
   std::map<actuation::CoilMessage, double> first_;

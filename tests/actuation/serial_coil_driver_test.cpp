@@ -7,6 +7,8 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <stop_token>
+#include <string>
 #include <thread>
 
 #include "microswarm/core/errors/error.hpp"
@@ -38,6 +40,43 @@ TEST(SerialCoilDriverPty, ARefusedArmIsNoSilence) {
   });
   SerialCoilDriver driver(params_of(device));
   EXPECT_EQ(driver.drive(some_amperes), DriveStatus::not_armed);
+}
+
+/// Message of a driver that finds no firmware at the port.
+std::string refusal(const std::string& port, double timeout) {
+  SerialCoilParams p;
+  p.port = port;
+  p.boot_time = 0;
+  p.connect_timeout = timeout;
+  try {
+    const SerialCoilDriver driver(p);
+  } catch (const HardwareError& e) {
+    return e.what();
+  }
+  return "connected";
+}
+
+TEST(SerialCoilDriverPty, WhatSaysSomethingElseIsQuoted) {
+  test::Pty other;
+  std::jthread talks([&](const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      other.say("Grbl 1.1f ['$' for help]\r\n");
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+  });
+  const std::string why = refusal(other.port(), 0.5);
+  EXPECT_TRUE(why.starts_with(other.port() + ": no answer within 0.5 s; it said '")) << why;
+  EXPECT_NE(why.find("for help"), std::string::npos) << why;
+  EXPECT_TRUE(why.ends_with("', which is no answer")) << why;
+}
+
+TEST(SerialCoilDriverPty, APortThatVanishesIsSaidAtOnce) {
+  test::Pty other;
+  std::jthread vanishes([&] {
+    other.await_input();
+    other.close_line();
+  });
+  EXPECT_EQ(refusal(other.port(), 30), other.port() + ": the port has vanished");
 }
 
 TEST(SerialCoilDriverPty, ATripIsToldAlsoWhenTheCurrentsAreScaled) {

@@ -4,16 +4,23 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "microswarm/core/errors/error.hpp"
 
 namespace microswarm::vision {
 namespace {
 
-std::string refusal(const std::string& text) {
+std::vector<TableRow> rows_of(const std::string& text, const std::string& name,
+                              std::optional<double> um_per_px) {
+  return parse_track_table(text, name, um_per_px).rows;
+}
+
+std::string refusal(const std::string& text, std::optional<double> um_per_px = 0.5) {
   try {
-    parse_track_table(text, "t.csv", 0.5);
+    parse_track_table(text, "t.csv", um_per_px);
   } catch (const InputError& e) {
     return e.what();
   }
@@ -21,9 +28,9 @@ std::string refusal(const std::string& text) {
 }
 
 TEST(TrackTable, TrackpyHasPixels) {
-  const auto rows = parse_track_table(
-      ",\"y\",x,mass,frame,particle\n7,2,1.5,300,1,0\n8,2,2.5,290,0.0,0\n\n9,9,9,1,1,3\n", "t.csv",
-      0.5);
+  const auto rows =
+      rows_of(",\"y\",x,mass,frame,particle\n7,2,1.5,300,1,0\n8,2,2.5,290,0.0,0\n\n9,9,9,1,1,3\n",
+              "t.csv", 0.5);
   ASSERT_EQ(rows.size(), 3U);
   EXPECT_EQ(rows[0].frame, 0);
   EXPECT_EQ(rows[0].at_px, (Vec2{2.5, 2}));
@@ -36,20 +43,108 @@ TEST(TrackTable, TrackMateHasUnits) {
       "LABEL,TRACK_ID,POSITION_X,POSITION_Y,FRAME\nLabel,Track ID,X,Y,Frame\n,,X,Y,Frame\n";
   const std::string rows = "ID1,0,3.5,4,0\nID2,0,4.5,4,1\nID3,,4.5,9,1\n";
   for (const std::string unit : {",,(micron),(micron),\n", ",,(pixel),(pixel),\n"}) {
-    const auto table = parse_track_table(head + unit + rows, "t.csv", 0.5);
+    const auto table = rows_of(head + unit + rows, "t.csv", 0.5);
     ASSERT_EQ(table.size(), 2U);  // the third is in no track
     EXPECT_EQ(table[0].at_px.x, unit.find("pixel") != std::string::npos ? 3.5 : 7);
   }
-  EXPECT_EQ(
-      parse_track_table("LABEL,TRACK_ID,POSITION_X,POSITION_Y,FRAME\n" + rows, "t.csv", 0.5).size(),
-      2U);
+  EXPECT_EQ(rows_of("LABEL,TRACK_ID,POSITION_X,POSITION_Y,FRAME\n" + rows, "t.csv", 0.5).size(),
+            2U);
 }
 
 TEST(TrackTable, SemicolonsQuotesAndDecimalCommasAreRead) {
-  const auto read = parse_track_table("\"frame\";\"x\";\"y\"\n\"0\";1,5;\"2,25\"\n", "t.csv", 1);
+  const auto read = rows_of("\"frame\";\"x\";\"y\"\n\"0\";1,5;\"2,25\"\n", "t.csv", 1);
   ASSERT_EQ(read.size(), 1U);
   EXPECT_EQ(read[0].at_px, (Vec2{1.5, 2.25}));
-  EXPECT_EQ(parse_track_table("frame\tx\ty\n3\t1\t2\n", "t.csv", 1)[0].frame, 3);
+  EXPECT_EQ(rows_of("frame\tx\ty\n3\t1\t2\n", "t.csv", 1)[0].frame, 3);
+}
+
+/// Two tracks, of which the filters keep one, a visible spot in no track and a hidden one.
+std::string saved_xml(const std::string& unit, const std::string& image) {
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<TrackMate version=\"7.11.1\">\n"
+         "<Model spatialunits=\"" +
+         unit + R"(" timeunits="ms">
+<AllSpots nspots="6">
+<SpotsInFrame frame="1">
+<Spot ID="11" POSITION_X="3.5" POSITION_Y="4" FRAME="1" VISIBILITY="1" />
+<Spot ID="13" POSITION_X="9" POSITION_Y="9" FRAME="1" VISIBILITY="1" />
+</SpotsInFrame>
+<SpotsInFrame frame="0">
+<Spot ID="10" POSITION_X="3" POSITION_Y="4" FRAME="0" VISIBILITY="1" />
+<Spot ID="12" POSITION_X="9" POSITION_Y="8" FRAME="0" VISIBILITY="1" />
+<Spot ID="14" POSITION_X="1" POSITION_Y="1" FRAME="0" VISIBILITY="1" />
+<Spot ID="15" POSITION_X="2" POSITION_Y="1" FRAME="0" VISIBILITY="0" />
+</SpotsInFrame>
+</AllSpots>
+<AllTracks>
+<Track name="Track_0" TRACK_ID="7"><Edge SPOT_SOURCE_ID="10" SPOT_TARGET_ID="11" /></Track>
+<Track name="Track_1" TRACK_ID="8"><Edge SPOT_SOURCE_ID="12" SPOT_TARGET_ID="13" /></Track>
+</AllTracks>
+<FilteredTracks><TrackID TRACK_ID="7" /></FilteredTracks>
+</Model>
+<Settings>)" +
+         image + "</Settings>\n</TrackMate>\n";
+}
+
+TEST(TrackMateXml, WhatIsSavedHasScaleTimesAndHeight) {
+  const std::string image =
+      R"(<ImageData width="64" height="48" pixelwidth="0.5" pixelheight="0.5" timeinterval="50" />)";
+  const TrackTable table = parse_track_table(saved_xml("micron", image), "t.xml", std::nullopt);
+  ASSERT_EQ(table.rows.size(), 2U);
+  EXPECT_EQ(table.rows[0].at_px, (Vec2{6, 8}));
+  EXPECT_EQ(table.rows[1].at_px, (Vec2{7, 8}));
+  EXPECT_EQ(table.rows[0].id, 7);
+  EXPECT_EQ(table.untracked, 3U);
+  EXPECT_EQ(table.um_per_px, 0.5);
+  EXPECT_NEAR(table.interval.value(), 0.05, 1e-12);
+  const TrackResult tracks =
+      tracks_of_table(table, "t.xml", {.um_per_px = table.um_per_px, .rate = 1 / *table.interval});
+  EXPECT_NEAR(tracks.rows[0].position.y, (48 - 8 - 0.5) * 0.5, 1e-9);
+  EXPECT_NEAR(tracks.rows[1].velocity.x, 0.5 / 0.05, 1e-9);
+}
+
+TEST(TrackMateXml, PixelsStayPixels) {
+  const std::string image =
+      R"(<ImageData width="64" height="0" pixelwidth="1" pixelheight="1" timeinterval="1" />)";
+  const TrackTable table = parse_track_table(saved_xml("pixel", image), "t.xml", std::nullopt);
+  EXPECT_EQ(table.rows[1].at_px, (Vec2{3.5, 4}));
+  EXPECT_FALSE(table.um_per_px);
+  EXPECT_FALSE(table.height);
+}
+
+TEST(TrackMateXml, ExportedTracksAreRead) {
+  const std::string text =
+      "\xEF\xBB\xBF<?xml version=\"1.0\"?>\n<Tracks nTracks=\"2\" spaceUnits=\"\u00B5m\" "
+      "frameInterval=\"2.0\" timeUnits=\"sec\">\n<particle nSpots=\"2\">"
+      "<detection t=\"0\" x=\"3\" y=\"4\" z=\"0\" /><detection t=\"2\" x=\"5\" y=\"4\" z=\"0\" />"
+      "</particle>\n<particle><detection t=\"2\" x=\"1\" y=\"1\" z=\"0\" /></particle></Tracks>";
+  const TrackTable table = parse_track_table(text, "t.xml", 0.5);
+  ASSERT_EQ(table.rows.size(), 3U);
+  EXPECT_EQ(table.rows[1].at_px, (Vec2{10, 8}));
+  EXPECT_EQ(table.rows[1].frame, 2);
+  EXPECT_EQ(table.rows[2].id, 1);
+  EXPECT_EQ(table.interval, 2);
+  EXPECT_EQ(refusal(text, std::nullopt),
+            "t.csv:2: positions are in \u00B5m: \u00B5m per px is missing");
+}
+
+TEST(TrackMateXml, BadOnesAreRefusedWithTheirPlace) {
+  const std::string good = saved_xml("pixel", "");
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    text.replace(text.find(from), from.size(), to);
+    return refusal(text);
+  };
+  EXPECT_TRUE(refusal("<TrackMate>\n<Model>").starts_with("t.csv:2: XML: "));
+  EXPECT_EQ(refusal("\n<svg/>"), "t.csv:2: element 'svg', TrackMate or Tracks expected");
+  EXPECT_EQ(refusal("<TrackMate/>"), "t.csv: no positions");
+  EXPECT_EQ(with("POSITION_X=\"3.5\"", ""), "t.csv:6: POSITION_X is missing");
+  EXPECT_EQ(with("POSITION_X=\"3.5\"", "POSITION_X=\"NaN\""),
+            "t.csv:6: POSITION_X 'NaN' is no number");
+  EXPECT_EQ(with("frame=\"1\"", "frame=\"-1\""), "t.csv:5: frame is -1, must be 0 to 1e7");
+  EXPECT_EQ(with("SPOT_TARGET_ID=\"11\"", "SPOT_TARGET_ID=\"99\""),
+            "t.csv:16: 1 spots of tracks are not in AllSpots");
+  EXPECT_EQ(with("<FilteredTracks><TrackID TRACK_ID=\"7\" />", "<FilteredTracks>"),
+            "t.csv: no positions in tracks");
 }
 
 TEST(TrackTable, BadOnesAreRefusedWithTheirPlace) {

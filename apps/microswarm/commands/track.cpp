@@ -147,22 +147,42 @@ vision::TrackResult track_pictures(const TrackOptions& o, const std::string& vid
   return result;
 }
 
-bool is_table(const std::string& file) { return std::filesystem::path(file).extension() == ".csv"; }
+bool is_table(const std::string& file) {
+  const std::filesystem::path extension = std::filesystem::path(file).extension();
+  return extension == ".csv" || extension == ".xml";
+}
+
+/// Takes the scale and the rate of a table where none is given.
+void take_units(vision::TrackSettings& settings, const vision::TrackTable& table,
+                const std::string& file) {
+  if (!settings.um_per_px && table.um_per_px) {
+    settings.um_per_px = table.um_per_px;
+    note("note: {}: a pixel is {:.6g} µm, as the file tells\n", file, *table.um_per_px);
+  }
+  if (!settings.um_per_px) fail_without_scale(file);
+  if (settings.rate) return;
+  if (table.interval) {
+    settings.rate = 1 / *table.interval;
+    note("note: {}: {:.6g} s from frame to frame, as the file tells\n", file, *table.interval);
+  } else {
+    note("note: {} has no times, one picture a second is assumed: give --rate\n", file);
+  }
+}
 
 /// Tracks of a table of another program; `first` is a white picture of their size.
-vision::TrackResult take_table(const std::string& file, const vision::TrackSettings& settings,
+vision::TrackResult take_table(const std::string& file, vision::TrackSettings settings,
                                formats::Image& first) {
   constexpr double max_side = 10000;  // [px]
   if (settings.region || !settings.mask.cells.empty())
     throw InputError(file + ": is a table, --region and --mask need pictures");
-  if (!settings.um_per_px) fail_without_scale(file);
-  const auto table = vision::read_track_table(file, *settings.um_per_px);
-  if (!settings.rate)
-    note("note: {} has no times, one picture a second is assumed: give --rate\n", file);
-  if (!table.front().id)
+  const vision::TrackTable table = vision::read_track_table(file, settings.um_per_px);
+  take_units(settings, table, file);
+  if (!table.rows.front().id)
     note("note: {} has no tracks: its positions are linked with the settings of `track`\n", file);
+  if (table.untracked > 0)
+    note("note: {}: {} positions in no track are left out\n", file, table.untracked);
   Vec2 corner{1, 1};
-  for (const vision::TableRow& row : table)
+  for (const vision::TableRow& row : table.rows)
     corner = {std::max(corner.x, row.at_px.x + 10), std::max(corner.y, row.at_px.y + 10)};
   if (corner.x <= max_side && corner.y <= max_side) {
     first = {static_cast<int>(corner.x), static_cast<int>(corner.y), 1, {}};
@@ -278,7 +298,7 @@ void add_track(Command app, Action& action) {
   cmd.add_option(
          "video", o->videos,
          "Video file, folder of pictures (PNG, JPEG, BMP, PGM, PPM) or TIFF; or a table of trackpy "
-         "or TrackMate (CSV). Of several, each gets a folder in --out")
+         "(CSV) or TrackMate (CSV, XML). Of several, each gets a folder in --out")
       .required()
       .type_name("VIDEO")
       .input();

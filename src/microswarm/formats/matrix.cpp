@@ -60,20 +60,6 @@ std::optional<std::vector<std::uint8_t>> row_cells(std::string_view row, std::st
 
 }  // namespace
 
-bool is_matrix(std::string_view text) {
-  Lines lines(text, "");
-  std::size_t width = 0;
-  std::string_view bad;
-  while (const std::optional<std::string_view> line = lines.next()) {
-    const std::string_view row = trimmed(*line);
-    if (is_comment(row)) continue;
-    const auto cells = row_cells(row, bad);
-    if (!cells || cells->size() < 2 || (width > 0 && cells->size() != width)) return false;
-    width = cells->size();
-  }
-  return width > 0;
-}
-
 Mask parse_matrix(std::string_view text, std::string_view name) {
   Lines lines(text, name);
   std::vector<std::uint8_t> all;
@@ -96,6 +82,14 @@ Mask parse_matrix(std::string_view text, std::string_view name) {
   Mask ones(static_cast<int>(width), static_cast<int>(all.size() / width));
   ones.cells = std::move(all);
   return ones;
+}
+
+bool is_matrix(std::string_view text) {
+  try {
+    return parse_matrix(text, "").width >= 2;
+  } catch (const InputError&) {
+    return false;
+  }
 }
 
 Mask read_matrix(const std::filesystem::path& path) {

@@ -48,7 +48,8 @@ bool ByteStream::put(std::span<const std::uint8_t> bytes, double timeout, const 
     if (left <= 0 || gives_up()) return false;
     if (!ready(out_, POLLOUT, std::min(left, stream_slice))) continue;
     const ssize_t n = write_without_signal(out_, bytes);
-    if (n < 0 && errno != EAGAIN && errno != EINTR) return false;
+    if (n < 0 && errno != EAGAIN && errno != EINTR) ended_ = true;
+    if (ended_) return false;
     if (n > 0) bytes = bytes.subspan(static_cast<std::size_t>(n));
   }
   return true;

@@ -19,6 +19,8 @@
 #include "microswarm/core/execution/stop.hpp"
 #include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/text/lines.hpp"
+#include "microswarm/core/text/text.hpp"
 
 namespace microswarm::actuation {
 namespace {
@@ -29,7 +31,8 @@ using Clock = std::chrono::steady_clock;
 constexpr unsigned baud = 115200;
 constexpr double left_over = 0.03;  // [s] after opening; a reset takes longer
 constexpr std::chrono::seconds max_stop{2};
-constexpr int max_failures = 3;  // exchanges in a row
+constexpr int max_failures = 3;        // exchanges in a row
+constexpr std::size_t max_heard = 60;  // bytes quoted
 // A bootloader that received a byte listens for 5 s more.
 constexpr double silence_per_boot_time = 3;
 
@@ -88,13 +91,16 @@ SerialCoilDriver::SerialCoilDriver(const SerialCoilParams& params)
   (*port_)->put(end, params_.reply_timeout, {});
   const auto began = Clock::now();
   std::optional<CoilReply> reply;
-  while (!reply && seconds_since(began) < params_.connect_timeout) {
+  while (!reply && !(*port_)->ended() && seconds_since(began) < params_.connect_timeout) {
     failures_ = 0;  // it may not be a stock Mega
     reply = exchange(CoilMessage::hello);
   }
+  if (!reply && (*port_)->ended())
+    throw HardwareError(fmt::format("{}: {}", params_.port, report_.reason));
   if (!reply)
-    throw HardwareError(
-        fmt::format("{}: no answer within {} s", params_.port, params_.connect_timeout));
+    throw HardwareError(fmt::format("{}: no answer within {} s{}{}", params_.port,
+                                    params_.connect_timeout, report_.reason.empty() ? "" : "; ",
+                                    report_.reason));
   if (reply->version != coil_link_version || reply->result != CoilResult::ok)
     throw HardwareError(fmt::format(
         "{0}: its firmware speaks version {1} of the protocol, this program {2}; renew it: make -C "
@@ -207,6 +213,7 @@ std::vector<std::uint8_t> SerialCoilDriver::to_bytes(CoilMessage message,
 std::optional<CoilReply> SerialCoilDriver::exchange(CoilMessage message, const CoilAim& aim) {
   if (message != CoilMessage::stop && keeps_silent()) return std::nullopt;
   ++sequence_;
+  heard_.clear();
   const Stop gives_up = message == CoilMessage::stop ? Stop(max_stop) : Stop(&interrupted_);
   for (int k = 0; k < params_.attempts && !gives_up(); ++k) {
     const auto began = Clock::now();
@@ -214,6 +221,7 @@ std::optional<CoilReply> SerialCoilDriver::exchange(CoilMessage message, const C
     if (auto reply = answer_to(message, params_.reply_timeout, gives_up)) {
       round_trip_ = seconds_since(began);
       failures_ = 0;
+      report_.reason.clear();
       clock_ = reply->clock;
       clock_at_ = steady_seconds();
       if (message == CoilMessage::waveform) report_.phase = 2 * pi * reply->phase / 65536;
@@ -222,9 +230,17 @@ std::optional<CoilReply> SerialCoilDriver::exchange(CoilMessage message, const C
       return reply;
     }
   }
+  report_.reason = silence();
   if (++failures_ >= max_failures)
     silent_until_ = steady_seconds() + silence_per_boot_time * params_.boot_time;
   return std::nullopt;
+}
+
+/// What came in place of an answer.
+std::string SerialCoilDriver::silence() const {
+  if ((*port_)->ended()) return "the port has vanished";
+  if (heard_.empty()) return {};
+  return fmt::format("it said '{}', which is no answer", one_line(trimmed(heard_), max_heard));
 }
 
 bool SerialCoilDriver::keeps_silent() {
@@ -253,8 +269,11 @@ std::optional<CoilReply> SerialCoilDriver::answer_to(CoilMessage message, double
     const double left = timeout - seconds_since(began);
     if (left <= 0 || gives_up()) return std::nullopt;
     const auto byte = (*port_)->get(std::min(left, stream_slice));
+    if (!byte && (*port_)->ended()) return std::nullopt;
     if (!byte) continue;
+    if (heard_.size() <= max_heard) heard_ += static_cast<char>(*byte);
     auto reply = reader_.take(*byte);
+    if (reply) heard_.clear();
     if (reply && reply->to == message && reply->sequence == sequence_) return reply;
   }
 }

@@ -88,6 +88,7 @@ class SerialCoilDriver final : public CoilDriver {
   std::optional<CoilReply> answer_to(CoilMessage message, double timeout, const Stop& gives_up);
   bool hears_start(double timeout);
   bool keeps_silent();
+  std::string silence() const;
   DriveStatus arm();
 
   SerialCoilParams params_;
@@ -99,6 +100,7 @@ class SerialCoilDriver final : public CoilDriver {
   double clock_at_ = 0;  // arrival of that reply [s], by steady_seconds()
   int begin_phase_ = 0;  // of the next waveform [turns / 65536]
   DeviceReport report_;
+  std::string heard_;  // start of what came since the last message and is no reply
   double round_trip_ = 0;
   std::atomic<bool> interrupted_ = false;
   int failures_ = 0;         // consecutive exchanges without an answer

@@ -2,62 +2,18 @@
 #include "microswarm/formats/images/tiff_description.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <pugixml.hpp>
-#include <utility>
 
 #include "microswarm/core/text/lines.hpp"
 #include "microswarm/core/text/text.hpp"
+#include "microswarm/core/text/unit_names.hpp"
 
 namespace microswarm::formats {
 namespace {
 
 constexpr int max_images = 1'000'000;
-
-/// A unit's name and its size.
-using Unit = std::pair<std::string_view, double>;
-constexpr std::array<Unit, 19> lengths_um{{{"µm", 1},
-                                           {"μm", 1},
-                                           {"um", 1},
-                                           {"micron", 1},
-                                           {"microns", 1},
-                                           {"\\u00B5m", 1},
-                                           {"\\u03BCm", 1},
-                                           {"micrometer", 1},
-                                           {"micrometre", 1},
-                                           {"micrometers", 1},
-                                           {"nm", 1e-3},
-                                           {"Å", 1e-4},
-                                           {"pm", 1e-6},
-                                           {"nanometer", 1e-3},
-                                           {"mm", 1e3},
-                                           {"millimeter", 1e3},
-                                           {"cm", 1e4},
-                                           {"m", 1e6},
-                                           {"\xB5m", 1}}};
-constexpr std::array<Unit, 14> times_s{{{"s", 1},
-                                        {"sec", 1},
-                                        {"second", 1},
-                                        {"seconds", 1},
-                                        {"ms", 1e-3},
-                                        {"msec", 1e-3},
-                                        {"millisecond", 1e-3},
-                                        {"µs", 1e-6},
-                                        {"μs", 1e-6},
-                                        {"us", 1e-6},
-                                        {"min", 60},
-                                        {"minute", 60},
-                                        {"h", 3600},
-                                        {"hour", 3600}}};
-
-template <std::size_t N>
-std::optional<double> size_of_unit(const std::array<Unit, N>& units, std::string_view name) {
-  const auto found = std::ranges::find(units, name, &Unit::first);
-  if (found == units.end()) return std::nullopt;
-  return found->second;
-}
 
 std::optional<double> positive(std::string_view text, double unit) {
   const std::optional<double> value = parse_number(trimmed(text));
@@ -96,21 +52,22 @@ TiffDescription of_imagej(std::string_view text, double x_resolution, double y_r
   d.times =
       frames.empty() ? static_cast<int>(std::max(1.0, d.images / in_a_time)) : count_in(frames);
   const std::string_view y_unit = value_of(text, "yunit");
-  const auto length = size_of_unit(lengths_um, value_of(text, "unit"));
-  const auto y_length = y_unit.empty() ? length : size_of_unit(lengths_um, y_unit);
+  const auto length = length_unit_um(value_of(text, "unit"));
+  const auto y_length = y_unit.empty() ? length : length_unit_um(y_unit);
   if (length && x_resolution > 0) d.um_per_px = *length / x_resolution;
   if (y_length && y_resolution > 0) d.um_per_px_y = *y_length / y_resolution;
   const std::string_view time_unit = value_of(text, "tunit");
-  const auto seconds = time_unit.empty() ? std::optional(1.0) : size_of_unit(times_s, time_unit);
+  const auto seconds = time_unit.empty() ? std::optional(1.0) : time_unit_s(time_unit);
   if (seconds) d.interval = positive(value_of(text, "finterval"), *seconds);
   return d;
 }
 
 /// A quantity of an element: its attribute times the unit that NAMEUnit names.
 std::optional<double> quantity(const pugi::xml_node& node, const std::string& name,
-                               const auto& units, std::string_view usual_unit) {
+                               std::optional<double> (*unit_size)(std::string_view),
+                               std::string_view usual_unit) {
   const std::string_view unit = node.attribute((name + "Unit").c_str()).as_string();
-  const auto size = size_of_unit(units, unit.empty() ? usual_unit : unit);
+  const auto size = unit_size(unit.empty() ? usual_unit : unit);
   const std::string_view text = node.attribute(name.c_str()).as_string();
   if (!size || text.empty()) return std::nullopt;
   const auto value = parse_number(text);
@@ -132,7 +89,7 @@ std::vector<std::optional<double>> plane_times(const pugi::xml_node& pixels,
       page += at * stride;
       stride *= size;
     }
-    times[static_cast<std::size_t>(page)] = quantity(plane, "DeltaT", times_s, "s");
+    times[static_cast<std::size_t>(page)] = quantity(plane, "DeltaT", time_unit_s, "s");
     any = any || times[static_cast<std::size_t>(page)];
   }
   if (!any) times.clear();
@@ -158,9 +115,9 @@ TiffDescription of_ome(std::string_view text) {
       std::ranges::all_of(d.order, [&](char axis) { return order.find(axis) != order.npos; }))
     d.order = order.substr(2);
   const auto above_0 = [](std::optional<double> v) { return v && *v > 0 ? v : std::nullopt; };
-  d.um_per_px = above_0(quantity(pixels, "PhysicalSizeX", lengths_um, "µm"));
-  d.um_per_px_y = above_0(quantity(pixels, "PhysicalSizeY", lengths_um, "µm"));
-  d.interval = above_0(quantity(pixels, "TimeIncrement", times_s, "s"));
+  d.um_per_px = above_0(quantity(pixels, "PhysicalSizeX", length_unit_um, "µm"));
+  d.um_per_px_y = above_0(quantity(pixels, "PhysicalSizeY", length_unit_um, "µm"));
+  d.interval = above_0(quantity(pixels, "TimeIncrement", time_unit_s, "s"));
   d.page_times = plane_times(pixels, d);
   return d;
 }

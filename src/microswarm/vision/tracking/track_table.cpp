@@ -14,14 +14,13 @@
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/lines.hpp"
 #include "microswarm/core/text/text.hpp"
+#include "microswarm/vision/tracking/table_field.hpp"
+#include "microswarm/vision/tracking/trackmate_xml.hpp"
 
 namespace microswarm::vision {
 namespace {
 
 constexpr std::uint64_t max_table_bytes = 512ULL << 20;
-constexpr double max_frame = 1e7;
-constexpr double max_table_id = 1e6;
-constexpr double max_position = 1e7;
 
 enum TableColumn : std::size_t {
   frame_column,
@@ -66,23 +65,6 @@ TableHeader find_header(const Lines& lines, std::string_view line) {
   lines.fail("columns frame, x, y (trackpy) or FRAME, POSITION_X, POSITION_Y (TrackMate) expected");
 }
 
-double table_number(const Lines& lines, std::string_view word, std::string_view what, double least,
-                    double most) {
-  const std::optional<double> value = parse_number(word);
-  if (!value) lines.fail(std::string(what) + " " + quote(word) + " is no number");
-  if (!(*value >= least && *value <= most))
-    lines.fail(std::string(what) + " is " + number_text(*value) + ", must be " +
-               number_text(least) + " to " + number_text(most));
-  return *value;
-}
-
-int table_whole(const Lines& lines, std::string_view word, std::string_view what, double most) {
-  const double value = table_number(lines, word, what, 0, most);
-  if (value != std::floor(value))
-    lines.fail(std::string(what) + " is " + number_text(value) + ", must be a whole number");
-  return static_cast<int>(value);
-}
-
 void sort_and_check(std::vector<TableRow>& rows, std::string_view name) {
   std::stable_sort(rows.begin(), rows.end(),
                    [](const TableRow& a, const TableRow& b) { return a.frame < b.frame; });
@@ -95,58 +77,98 @@ void sort_and_check(std::vector<TableRow>& rows, std::string_view name) {
   }
 }
 
-}  // namespace
+/// Rows of a table in CSV.
+class CsvTable {
+ public:
+  CsvTable(std::string_view text, std::string_view name, std::optional<double> um_per_px)
+      : lines_(text, name), um_per_px_(um_per_px) {}
 
-std::vector<TableRow> parse_track_table(std::string_view text, std::string_view name,
-                                        double um_per_px) {
-  Lines lines(text, name);
-  std::optional<TableHeader> header;
-  std::vector<TableRow> rows;
-  double per_px = 1;
-  while (const std::optional<std::string_view> line = lines.next()) {
-    if (trimmed(*line).empty()) continue;
-    if (!header) {
-      header = find_header(lines, *line);
-      per_px = header->form.is_trackmate ? um_per_px : 1;
-      continue;
+  TrackTable read() {
+    TrackTable table;
+    while (const std::optional<std::string_view> line = lines_.next()) {
+      if (trimmed(*line).empty()) continue;
+      if (header_)
+        take(*line, table);
+      else
+        header_ = find_header(lines_, *line);
     }
-    const std::vector<std::string_view> fields = csv_cells(*line, header->separator);
-    if (fields.size() != header->count)
-      lines.fail(std::to_string(fields.size()) + " fields, the header has " +
-                 std::to_string(header->count));
-    const auto field = [&](TableColumn c) {
-      return csv_number(fields[*header->at[c]], header->separator);
-    };
-    const auto column_name = [&](TableColumn c) { return header->form.names[c]; };
-    if (header->form.is_trackmate && rows.empty() && !parse_number(field(x_column))) {
-      if (field(x_column).find("pixel") != std::string_view::npos) per_px = 1;
-      continue;  // further lines of the header
+    return table;
+  }
+
+ private:
+  void take(std::string_view line, TrackTable& table) {
+    cells_ = csv_cells(line, header_->separator);
+    if (cells_.size() != header_->count)
+      lines_.fail(std::to_string(cells_.size()) + " fields, the header has " +
+                  std::to_string(header_->count));
+    if (header_->form.is_trackmate && table.rows.empty() && !parse_number(field(x_column))) {
+      is_px_ = is_px_ || field(x_column).find("pixel") != std::string::npos;
+      return;  // further lines of the header
     }
+    const auto fail = [this](const std::string& why) { lines_.fail(why); };
     TableRow row{.frame =
-                     table_whole(lines, field(frame_column), column_name(frame_column), max_frame)};
+                     field_whole(field(frame_column), name(frame_column), max_table_frame, fail)};
     const auto place = [&](TableColumn c) {
-      return table_number(lines, field(c), column_name(c), -max_position, max_position) / per_px;
+      return field_number(field(c), name(c), -max_table_position, max_table_position, fail) /
+             per_px();
     };
     row.at_px = {place(x_column), place(y_column)};
-    if (header->at[id_column] && !field(id_column).empty() && field(id_column) != "None")
-      row.id = table_whole(lines, field(id_column), column_name(id_column), max_table_id);
-    else if (header->at[id_column])
-      continue;  // a feature that is in no track
-    if (header->at[mass_column])
-      row.mass = table_number(lines, field(mass_column), column_name(mass_column), -1e12, 1e12);
-    rows.push_back(row);
+    const bool has_id =
+        header_->at[id_column] && !field(id_column).empty() && field(id_column) != "None";
+    if (has_id) row.id = field_whole(field(id_column), name(id_column), max_table_id, fail);
+    if (header_->at[mass_column])
+      row.mass = field_number(field(mass_column), name(mass_column), -1e12, 1e12, fail);
+    if (header_->at[id_column] && !has_id)
+      ++table.untracked;
+    else
+      table.rows.push_back(row);
   }
-  if (rows.empty()) throw InputError(std::string(name) + ": no positions");
-  sort_and_check(rows, name);
-  return rows;
+
+  std::string field(TableColumn c) const {
+    return csv_number(cells_[*header_->at[c]], header_->separator);
+  }
+  std::string_view name(TableColumn c) const { return header_->form.names[c]; }
+  /// Size of a pixel in the unit of the positions.
+  double per_px() const {
+    if (!header_->form.is_trackmate || is_px_) return 1;
+    if (!um_per_px_) lines_.fail("positions are in µm: µm per px is missing");
+    return *um_per_px_;
+  }
+
+  Lines lines_;
+  std::optional<double> um_per_px_;
+  std::optional<TableHeader> header_;
+  std::vector<std::string_view> cells_;
+  bool is_px_ = false;
+};
+
+bool is_xml(std::string_view text) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  return first != text.npos && text[first] == '<';
 }
 
-std::vector<TableRow> read_track_table(const std::filesystem::path& path, double um_per_px) {
+}  // namespace
+
+TrackTable parse_track_table(std::string_view text, std::string_view name,
+                             std::optional<double> um_per_px) {
+  TrackTable table = is_xml(text) ? parse_trackmate_xml(text, name, um_per_px)
+                                  : CsvTable(text, name, um_per_px).read();
+  if (table.rows.empty())
+    throw InputError(std::string(name) + ": no positions" +
+                     (table.untracked > 0 ? " in tracks" : ""));
+  sort_and_check(table.rows, name);
+  return table;
+}
+
+TrackTable read_track_table(const std::filesystem::path& path, std::optional<double> um_per_px) {
   return parse_track_table(read_file(path, max_table_bytes), path.string(), um_per_px);
 }
 
-TrackResult tracks_of_table(const std::vector<TableRow>& table, const std::string& source,
+TrackResult tracks_of_table(const TrackTable& table, const std::string& source,
                             const TrackSettings& settings) {
+  const std::vector<TableRow>& rows = table.rows;
   const double scale = settings.um_per_px.value_or(1);
   TrackResult result{.source = source,
                      .settings = settings,
@@ -154,30 +176,30 @@ TrackResult tracks_of_table(const std::vector<TableRow>& table, const std::strin
                      .promised = {},
                      .rows = {},
                      .events = {}};
-  if (table.empty()) return result;
+  if (rows.empty()) return result;
   RobotTracker tracker(settings.track, settings.find.diameter * scale, result.frame_time);
   double lowest = 0;
-  for (const TableRow& row : table) lowest = std::max(lowest, row.at_px.y);
-  const int height = static_cast<int>(std::ceil(lowest)) + 1;
+  for (const TableRow& row : rows) lowest = std::max(lowest, row.at_px.y);
+  const int height = table.height.value_or(static_cast<int>(std::ceil(lowest)) + 1);
   std::map<int, TrackRow> last;
   std::vector<Vec2> places;
   std::size_t i = 0;
-  for (int frame = 0; i < table.size(); ++frame) {
+  for (int frame = 0; i < rows.size(); ++frame) {
     const std::size_t first = i;
     places.clear();
-    for (; i < table.size() && table[i].frame == frame; ++i)
-      places.push_back(place_in_world(table[i].at_px, height, scale));
-    const bool is_linked = first < i && table[first].id.has_value();
+    for (; i < rows.size() && rows[i].frame == frame; ++i)
+      places.push_back(place_in_world(rows[i].at_px, height, scale));
+    const bool is_linked = first < i && rows[first].id.has_value();
     const std::vector<SeenRobot>* seen = is_linked ? nullptr : &tracker.step(frame, places);
     for (std::size_t k = first; k < i; ++k) {
       const std::size_t n = k - first;
       TrackRow row{.frame = frame,
                    .t = frame * result.frame_time,
-                   .id = seen ? (*seen)[n].id : *table[k].id,
+                   .id = seen ? (*seen)[n].id : *rows[k].id,
                    .position = places[n],
                    .velocity = seen ? (*seen)[n].velocity : Vec2{},
-                   .mass = table[k].mass,
-                   .at_px = table[k].at_px};
+                   .mass = rows[k].mass,
+                   .at_px = rows[k].at_px};
       if (const auto before = last.find(row.id); !seen && before != last.end())
         row.velocity = (row.position - before->second.position) / (row.t - before->second.t);
       if (!seen) last[row.id] = row;
@@ -186,7 +208,7 @@ TrackResult tracks_of_table(const std::vector<TableRow>& table, const std::strin
   }
   tracker.finish();
   result.events = tracker.events();
-  result.frames = table.back().frame + 1;
+  result.frames = rows.back().frame + 1;
   return result;
 }
 

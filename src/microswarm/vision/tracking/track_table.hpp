@@ -19,22 +19,32 @@ struct TableRow {
   double mass = 0;
 };
 
-/// Reads the table of another program: CSV with a header, in any order of columns.
+/// Features or tracks of another program.
+struct TrackTable {
+  std::vector<TableRow> rows{};       ///< sorted by frame; all of them have an id or none
+  std::optional<double> um_per_px{};  ///< that the file tells
+  std::optional<double> interval{};   ///< time between frames that the file tells [s]
+  std::optional<int> height{};        ///< of the pictures, that the file tells [px]
+  std::size_t untracked = 0;          ///< features in no track, left out where others are in one
+};
+
+/// Reads the table of another program: XML of TrackMate (parse_trackmate_xml) or CSV with a header,
+/// in any order of columns.
 /// - trackpy: frame, x, y [px]; particle if it is linked; mass.
 /// - TrackMate's export of spots: FRAME, POSITION_X, POSITION_Y, TRACK_ID. The second and third
 ///   header line may repeat the names, a fourth gives units in parentheses: positions are in px
 ///   if it says (pixel), else in µm, of which a pixel has `um_per_px`.
 /// - tracks.csv of `microswarm track`.
-/// Blank lines are skipped. Columns may be quoted. Rows come sorted by frame; all of them have an
-/// id or none. Throws InputError "NAME:LINE: WHY", also if a track has two positions in a frame.
-std::vector<TableRow> parse_track_table(std::string_view text, std::string_view name,
-                                        double um_per_px);
-std::vector<TableRow> read_track_table(const std::filesystem::path& path, double um_per_px);
+/// Blank lines are skipped. Columns may be quoted. Throws InputError "NAME:LINE: WHY", also if a
+/// track has two positions in a frame, or if µm need a scale that is not given.
+TrackTable parse_track_table(std::string_view text, std::string_view name,
+                             std::optional<double> um_per_px);
+TrackTable read_track_table(const std::filesystem::path& path, std::optional<double> um_per_px);
 
 /// Tracks of a table. Rows without ids are linked by RobotTracker with `settings`. The world's
-/// lower border is that of the lowest position's pixel. Throws InputError for inconsistent
-/// settings.
-TrackResult tracks_of_table(const std::vector<TableRow>& table, const std::string& source,
+/// lower border is that of the table's pictures, or of the lowest position's pixel. Throws
+/// InputError for inconsistent settings.
+TrackResult tracks_of_table(const TrackTable& table, const std::string& source,
                             const TrackSettings& settings);
 
 }  // namespace microswarm::vision

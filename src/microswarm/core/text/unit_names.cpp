@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/core/text/unit_names.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace microswarm {
+namespace {
+
+/// A unit's name and its size.
+using Unit = std::pair<std::string_view, double>;
+constexpr std::array<Unit, 19> lengths_um{{{"µm", 1},
+                                           {"μm", 1},
+                                           {"um", 1},
+                                           {"micron", 1},
+                                           {"microns", 1},
+                                           {"\\u00B5m", 1},
+                                           {"\\u03BCm", 1},
+                                           {"micrometer", 1},
+                                           {"micrometre", 1},
+                                           {"micrometers", 1},
+                                           {"nm", 1e-3},
+                                           {"Å", 1e-4},
+                                           {"pm", 1e-6},
+                                           {"nanometer", 1e-3},
+                                           {"mm", 1e3},
+                                           {"millimeter", 1e3},
+                                           {"cm", 1e4},
+                                           {"m", 1e6},
+                                           {"\xB5m", 1}}};
+constexpr std::array<Unit, 14> times_s{{{"s", 1},
+                                        {"sec", 1},
+                                        {"second", 1},
+                                        {"seconds", 1},
+                                        {"ms", 1e-3},
+                                        {"msec", 1e-3},
+                                        {"millisecond", 1e-3},
+                                        {"µs", 1e-6},
+                                        {"μs", 1e-6},
+                                        {"us", 1e-6},
+                                        {"min", 60},
+                                        {"minute", 60},
+                                        {"h", 3600},
+                                        {"hour", 3600}}};
+
+template <std::size_t N>
+std::optional<double> size_of_unit(const std::array<Unit, N>& units, std::string_view name) {
+  const auto found = std::ranges::find(units, name, &Unit::first);
+  if (found == units.end()) return std::nullopt;
+  return found->second;
+}
+
+}  // namespace
+
+std::optional<double> length_unit_um(std::string_view name) {
+  return size_of_unit(lengths_um, name);
+}
+
+std::optional<double> time_unit_s(std::string_view name) { return size_of_unit(times_s, name); }
+
+}  // namespace microswarm
