@@ -236,7 +236,7 @@ std::optional<CoilReply> SerialCoilDriver::exchange(CoilMessage message, const C
   return std::nullopt;
 }
 
-/// What came in place of an answer.
+/// Text of what came in place of an answer; empty if nothing came.
 std::string SerialCoilDriver::silence() const {
   if ((*port_)->ended()) return "the port has vanished";
   if (heard_.empty()) return {};

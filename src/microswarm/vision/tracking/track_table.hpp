@@ -22,9 +22,9 @@ struct TableRow {
 /// Features or tracks of another program.
 struct TrackTable {
   std::vector<TableRow> rows{};       ///< sorted by frame; all of them have an id or none
-  std::optional<double> um_per_px{};  ///< that the file tells
-  std::optional<double> interval{};   ///< time between frames that the file tells [s]
-  std::optional<int> height{};        ///< of the pictures, that the file tells [px]
+  std::optional<double> um_per_px{};  ///< as the file says
+  std::optional<double> interval{};   ///< time between frames, as the file says [s]
+  std::optional<int> height{};        ///< of the pictures, as the file says [px]
   std::size_t untracked = 0;          ///< features in no track, left out where others are in one
 };
 

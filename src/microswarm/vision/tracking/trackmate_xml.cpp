@@ -17,7 +17,7 @@ namespace {
 constexpr double max_spot_id = 2147483647;
 constexpr double max_picture_height = 1e6;
 
-/// A document whose faults are told with their lines.
+/// A document whose faults are reported with their lines.
 class XmlSource {
  public:
   XmlSource(std::string_view text, std::string_view name) : text_(text), name_(name) {
