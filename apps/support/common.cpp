@@ -48,8 +48,9 @@ void flush_output() {
 void keep_input(const std::string& out, const std::string& in) {
   namespace fs = std::filesystem;
   std::error_code none;
-  if (out.empty() || in.empty()) return;
-  if (fs::equivalent(out, in, none) || fs::weakly_canonical(out) == fs::weakly_canonical(in))
+  if (out.empty() || in.empty() || in == "/dev/stdin") return;
+  if (fs::equivalent(out, in, none) ||
+      fs::weakly_canonical(out, none) == fs::weakly_canonical(in, none))
     throw InputError(out + ": is the input, which would be lost");
 }
 

@@ -161,6 +161,11 @@ TEST(Read, TruthInTheSpellingsOfYaml) {
         << none;
 }
 
+TEST(Read, EscapesGiveTextInUtf8) {
+  EXPECT_EQ(read(R"(name: "a\_b\N\xe9\u00b5")").name, "a\u00A0b\u0085\u00E9\u00B5");
+  EXPECT_NE(complaint(R"(goal_um: [0, "\_"])").find("\u00A0"), std::string::npos);
+}
+
 TEST(Read, ATabThatIndentsIsNamed) {
   for (const char* text : {"start:\n\tx_um: 1\n", "start:\n  y_um: 1\n  \tx_um: 1\n"}) {
     const std::string said = message_of([&] { read_yaml_text<Scene>(text, "s.yaml"); });

@@ -11,6 +11,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/maths/rng.hpp"
 #include "microswarm/vision/tracking/search_area.hpp"
+#include "microswarm/vision/tracking/video_tracks.hpp"
 
 namespace microswarm::vision {
 namespace {
@@ -92,6 +93,38 @@ TEST(Motion, ConstantVelocityHasTheExponentTwo) {
     EXPECT_EQ(m.frames, 50);
     EXPECT_NEAR(*m.speed, 2.5 * pixel_um / frame_time, 1e-9);
     EXPECT_NEAR(*m.straight, 1, 1e-9);
+  }
+}
+
+TEST(Motion, UnevenPicturesDoNotMixLags) {
+  constexpr double speed = 30;
+  std::vector<TrackRow> rows;
+  double t = 0;
+  for (int k = 0; k < 200; ++k) {
+    rows.push_back({.frame = k, .t = t, .id = 0, .position = {speed * t, 0}});
+    t += k < 120 ? 0.04 : 0.25;
+  }
+  const auto msd = mean_squared_displacements(rows);
+  ASSERT_GT(msd.size(), 100U);
+  for (const MsdRow& row : msd) {
+    EXPECT_NEAR(row.t, 0.04 * row.lag, 0.021);
+    EXPECT_NEAR(row.msd / std::pow(speed * row.t, 2), 1, 0.02) << row.lag;
+  }
+}
+
+TEST(Motion, VelocitiesAreBetweenThePicturesAround) {
+  std::vector<TrackRow> rows;
+  for (const double t : {0.0, 0.1, 0.4, 0.5})
+    for (int id = 0; id < 2; ++id)
+      rows.push_back({.frame = static_cast<int>(10 * t),
+                      .t = t,
+                      .id = id,
+                      .position = {(id ? -7 : 7) * t, 3 * t}});
+  rows.push_back({.frame = 5, .t = 0.5, .id = 9, .position = {4, 4}, .velocity = {1, 1}});
+  take_velocities(rows);
+  for (const TrackRow& row : rows) {
+    EXPECT_NEAR(row.velocity.x, row.id == 9 ? 0 : row.id ? -7 : 7, 1e-9);
+    EXPECT_NEAR(row.velocity.y, row.id == 9 ? 0 : 3, 1e-9);
   }
 }
 

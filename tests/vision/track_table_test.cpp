@@ -85,6 +85,53 @@ std::string saved_xml(const std::string& unit, const std::string& image) {
          image + "</Settings>\n</TrackMate>\n";
 }
 
+TEST(TrackTable, UnitsOfLengthAreHonoured) {
+  const std::string head = "FRAME,POSITION_X,POSITION_Y,TRACK_ID,POSITION_T\nFrame,X,Y,ID,T\n";
+  const auto with = [&](const std::string& length, const std::string& time) {
+    return head + ",(" + length + "),(" + length + "),,(" + time + ")\n0,2,4,0,0\n1,3,4,0,5\n";
+  };
+  EXPECT_EQ(rows_of(with("mm", "sec"), "t.csv", 500)[0].at_px, (Vec2{4, 8}));
+  EXPECT_EQ(rows_of(with("nm", "sec"), "t.csv", 0.001)[0].at_px, (Vec2{2, 4}));
+  EXPECT_EQ(rows_of(with("pixel", "min"), "t.csv", std::nullopt)[1].t, 300);
+  EXPECT_EQ(rows_of(with("pixel", "frame"), "t.csv", 1)[1].t, std::nullopt);
+  EXPECT_EQ(refusal(with("parsec", "sec")), "t.csv:3: unit 'parsec' is not known");
+  EXPECT_EQ(refusal(with("um", "moon")), "t.csv:3: unit 'moon' is not known");
+  EXPECT_EQ(refusal(with("um", "sec"), std::nullopt),
+            "t.csv:4: positions are in units of length: \u00B5m per px is missing");
+}
+
+TEST(TrackTable, TimesAreThoseOfTheTable) {
+  const std::string text =
+      "frame,x,y,particle,t_s\n0,0,9,0,10\n1,2,9,0,10.5\n3,8,9,0,13.5\n4,9,9,0,14\n";
+  const auto table = parse_track_table(text, "t.csv", 1);
+  const TrackResult own = tracks_of_table(table, "t.csv", {.um_per_px = 1});
+  EXPECT_EQ(own.times, (std::vector<double>{10, 10.5, 12, 13.5, 14}));
+  EXPECT_NEAR(own.rows[0].velocity.x, 4, 1e-9);
+  EXPECT_NEAR(own.rows[1].velocity.x, 8 / 3.5, 1e-9);  // between frames 0 and 3
+  EXPECT_NEAR(own.frame_time, 1, 1e-9);
+  EXPECT_EQ(tracks_of_table(table, "t.csv", {.um_per_px = 1, .rate = 2}).times.back(), 2);
+  const auto refused = [&](const std::string& rows) {
+    try {
+      tracks_of_table(parse_track_table("frame,x,y,particle,t_s\n" + rows, "t.csv", 1), "t.csv",
+                      {.um_per_px = 1});
+    } catch (const InputError& e) {
+      return std::string(e.what());
+    }
+    return std::string("taken");
+  };
+  EXPECT_EQ(refused("0,0,0,0,1\n1,0,0,0,1\n"),
+            "t.csv: frame 1 is at 1 s, not after the frame before");
+  EXPECT_EQ(refused("0,0,0,0,1\n0,9,0,1,2\n"), "t.csv: frame 0 has two times, 1 and 2 s");
+  EXPECT_EQ(refused("0,0,0,0,1\n1,9,0,1,\n"), "t.csv: some positions have no time");
+}
+
+TEST(TrackTable, FilesOfTheseNamesAreTables) {
+  for (const char* name : {"a.csv", "b.CSV", "c.tsv", "d.txt", "e.XML", "/dev/stdin"})
+    EXPECT_TRUE(is_track_table(name)) << name;
+  for (const char* name : {"a.mp4", "b.tif", "folder", "a.csv.avi"})
+    EXPECT_FALSE(is_track_table(name)) << name;
+}
+
 TEST(TrackMateXml, WhatIsSavedHasScaleTimesAndHeight) {
   const std::string image =
       R"(<ImageData width="64" height="48" pixelwidth="0.5" pixelheight="0.5" timeinterval="50" />)";
@@ -125,6 +172,7 @@ TEST(TrackMateXml, ExportedTracksAreRead) {
   EXPECT_EQ(table.interval, 2);
   EXPECT_EQ(refusal(text, std::nullopt),
             "t.csv:2: positions are in \u00B5m: \u00B5m per px is missing");
+  EXPECT_EQ(refusal("<Tracks spaceUnits=\"parsec\"/>"), "t.csv:1: unit 'parsec' is not known");
 }
 
 TEST(TrackMateXml, BadOnesAreRefusedWithTheirPlace) {
@@ -155,8 +203,9 @@ TEST(TrackTable, BadOnesAreRefusedWithTheirPlace) {
   EXPECT_TRUE(refusal("frame,x,y\n0.5,1,2\n").starts_with("t.csv:2: frame is 0.5"));
   EXPECT_TRUE(refusal("frame,x,y\n-1,1,2\n").starts_with("t.csv:2: frame is -1"));
   EXPECT_TRUE(refusal("frame,x,x,y\n").starts_with("t.csv:1: column 'x' stands twice"));
-  EXPECT_EQ(refusal("frame,x,y,particle\n0,1,2,5\n0,3,4,5\n"),
-            "t.csv: track 5 has two positions in frame 0");
+  EXPECT_EQ(
+      refusal("frame,x,y,particle\n0,1,2,5\n0,3,4,5\n"),
+      "t.csv: track 5 has two positions in frame 0, tracks that divide or merge are not taken");
 }
 
 TEST(TrackTable, TracksAreTakenAndFeaturesAreLinked) {

@@ -105,6 +105,9 @@ vision::TrackResult follow(vision::FrameSource& source, const std::string& name,
 /// Notes on stderr what makes tracks doubtful.
 void note_doubts(const vision::TrackResult& result) {
   const vision::TrackSummary s = summarise(result.rows, result.frames);
+  if (s.features == 0)
+    note("note: no robot is found in {} pictures: see `microswarm track {} --suggest`\n",
+         result.frames, result.source);
   if (vision::looks_like_noise(s))
     note(
         "note: {} of {} tracks are a frame long: robots that move more than the search range of "
@@ -147,11 +150,6 @@ vision::TrackResult track_pictures(const TrackOptions& o, const std::string& vid
   return result;
 }
 
-bool is_table(const std::string& file) {
-  const std::filesystem::path extension = std::filesystem::path(file).extension();
-  return extension == ".csv" || extension == ".xml";
-}
-
 /// Takes the scale and the rate of a table where none is given.
 void take_units(vision::TrackSettings& settings, const vision::TrackTable& table,
                 const std::string& file) {
@@ -161,12 +159,12 @@ void take_units(vision::TrackSettings& settings, const vision::TrackTable& table
   }
   if (!settings.um_per_px) fail_without_scale(file);
   if (settings.rate) return;
-  if (table.interval) {
-    settings.rate = 1 / *table.interval;
+  if (table.rows.front().t)
+    note("note: {}: the times are those in the table\n", file);
+  else if (table.interval)
     note("note: {}: {:.6g} s from frame to frame, as the file tells\n", file, *table.interval);
-  } else {
+  else
     note("note: {} has no times, one picture a second is assumed: give --rate\n", file);
-  }
 }
 
 /// Tracks of a table of another program; `first` is a white picture of their size.
@@ -202,8 +200,9 @@ Tracked track_one(const TrackOptions& o, const std::string& video,
   std::optional<vision::VideoFileWriter> overlay;
   const OutFolder hold(folder.string());
   vision::TrackResult result =
-      is_table(video) ? take_table(video, settings, first)
-                      : track_pictures(o, video, settings, overlay, folder, first, stop);
+      vision::is_track_table(video)
+          ? take_table(video, settings, first)
+          : track_pictures(o, video, settings, overlay, folder, first, stop);
   note_doubts(result);
   write_tracks(result, folder);
   nlohmann::ordered_json json = tracks_json(result);
@@ -280,7 +279,7 @@ int track(const TrackOptions& o, const Context& context) {
   if (o.out.empty()) throw InputError("track: --out is missing");
   if (o.remove_drift && !o.motion) throw InputError("track: --remove-drift needs --motion");
   const bool are_several = o.videos.size() > 1;
-  if (!o.times.empty() && (are_several || is_table(o.videos.front())))
+  if (!o.times.empty() && (are_several || vision::is_track_table(o.videos.front())))
     throw InputError("track: --times is for one video");
   if (are_several) return track_all(o, settings, context.stop);
   const Tracked one = track_one(o, o.videos.front(), o.out, settings, context.stop);
@@ -311,7 +310,8 @@ void add_track(Command app, Action& action) {
       .type_name("NUMBER")
       .check(number(1e-6, 1e6));
   cmd.add_option("--times", o->times, "Times of the pictures: seconds, one a line, or column t_s")
-      .type_name("FILE");
+      .type_name("FILE")
+      .input();
   cmd.add_option("--config", o->config, "Settings file (YAML); other options override it")
       .type_name("FILE");
   cmd.add_option("--region", o->region, "Rectangle of the pictures to track in, in px")

@@ -19,6 +19,21 @@
 namespace microswarm {
 namespace {
 
+/// yaml-cpp writes the escapes "\_" and "\N" as one byte of Latin-1 each: the text in UTF-8.
+std::string with_whole_characters(const std::string& value) {
+  std::string text;
+  for (std::string_view rest = value; !rest.empty();) {
+    const Utf8Character next = first_character(rest);
+    const auto byte = static_cast<unsigned char>(rest.front());
+    if (next.code)
+      text += rest.substr(0, next.bytes);
+    else
+      text += {static_cast<char>(0xc0 | byte >> 6), static_cast<char>(0x80 | (byte & 0x3f))};
+    rest.remove_prefix(next.bytes);
+  }
+  return text;
+}
+
 constexpr std::size_t max_depth = 64;
 constexpr std::size_t max_values = 2'000'000;
 
@@ -49,7 +64,7 @@ class TreeBuilder : public YAML::EventHandler {
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                 const std::string& value) override {
     YamlNode& node = add(YamlNode::Kind::scalar, mark, tag, anchor);
-    node.text = value;
+    node.text = with_whole_characters(value);
     node.quoted = tag == "!";
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,

@@ -9,6 +9,7 @@
 
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/maths.hpp"
+#include "microswarm/core/maths/statistics.hpp"
 
 namespace microswarm::vision {
 namespace {
@@ -30,16 +31,28 @@ struct LagSums {
   std::vector<int> count;
 };
 
-LagSums lag_sums(const std::vector<const TrackRow*>& track, int most) {
+/// Median time between pictures in which robots are seen [s]; 0 for a single one.
+double usual_interval(std::span<const TrackRow> rows) {
+  std::vector<double> intervals;
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    if (rows[i].frame > rows[i - 1].frame)
+      intervals.push_back((rows[i].t - rows[i - 1].t) / (rows[i].frame - rows[i - 1].frame));
+  return intervals.empty() ? 0 : median(intervals);
+}
+
+LagSums lag_sums(const std::vector<const TrackRow*>& track, int most, double interval) {
   const auto lags = static_cast<std::size_t>(most) + 1;
   LagSums sums{std::vector<double>(lags), std::vector<double>(lags), std::vector<int>(lags)};
   for (std::size_t i = 0; i < track.size(); ++i)
     for (std::size_t k = i + 1; k < track.size(); ++k) {
-      const int lag = track[k]->frame - track[i]->frame;
-      if (lag > most) break;
+      const double elapsed = track[k]->t - track[i]->t;
+      const double lag_of_time = std::round(elapsed / interval);
+      if (lag_of_time > most) break;
+      const int lag = static_cast<int>(lag_of_time);
+      if (lag == 0) continue;
       sums.squares[static_cast<std::size_t>(lag)] +=
           squared_norm(track[k]->position - track[i]->position);
-      sums.times[static_cast<std::size_t>(lag)] += track[k]->t - track[i]->t;
+      sums.times[static_cast<std::size_t>(lag)] += elapsed;
       ++sums.count[static_cast<std::size_t>(lag)];
     }
   return sums;
@@ -82,14 +95,16 @@ void subtract_drift(std::vector<TrackRow>& rows, std::span<const DriftRow> drift
 
 std::vector<MsdRow> mean_squared_displacements(std::span<const TrackRow> rows) {
   const TracksById tracks = by_id(rows);
-  int longest = 0;
+  const double interval = usual_interval(rows);
+  double longest = 0;
   for (const auto& [id, track] : tracks)
-    longest = std::max(longest, track.back()->frame - track.front()->frame);
-  if (longest == 0) return {};
-  const int most = std::clamp(longest / 4, 1, max_lag);
+    longest = std::max(longest, track.back()->t - track.front()->t);
+  if (!(interval > 0) || longest <= 0) return {};
+  const double lags = std::floor(longest / interval * (1 + 1e-9)) / 4;
+  const int most = static_cast<int>(std::clamp<double>(lags, 1, max_lag));
   std::vector<LagSums> sums;
   sums.reserve(tracks.size());
-  for (const auto& [id, track] : tracks) sums.push_back(lag_sums(track, most));
+  for (const auto& [id, track] : tracks) sums.push_back(lag_sums(track, most, interval));
   std::vector<MsdRow> msd;
   for (int lag = 1; lag <= most; ++lag) {
     const auto at = static_cast<std::size_t>(lag);

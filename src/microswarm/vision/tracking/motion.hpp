@@ -38,8 +38,8 @@ struct MsdRow {
   int displacements = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.lag, plain("lag", "Pictures between both positions."));
-    visit(self.t, s("lag", "Time between both positions."));
+    visit(self.lag, plain("lag", "Time between both positions in median intervals."));
+    visit(self.t, s("lag", "Mean time between both positions."));
     visit(self.msd, plain("msd_um2", "Mean squared displacement in µm²."));
     visit(self.standard_error, plain("standard_error_um2", "Of the mean, from track to track."));
     visit(self.tracks, plain("tracks", "Tracks with such displacements."));
@@ -91,9 +91,10 @@ struct PixelBias {
 std::vector<DriftRow> drift_of(std::span<const TrackRow> rows);
 /// Subtracts the drift from positions, also those in px. Frames without drift keep the last one.
 void subtract_drift(std::vector<TrackRow>& rows, std::span<const DriftRow> drift, double um_per_px);
-/// Lags up to a quarter of the longest track, from 1 to 1000; their times are means. The standard
-/// error is that of the mean over tracks, weighted by their displacements; empty for a single
-/// track.
+/// Lags are multiples of the median time between pictures, up to a quarter of the longest track, 1
+/// to 1000 of them. Two positions count at the lag nearest to the time between them; `t` is the
+/// mean of these times. The standard error is that of the mean over tracks, weighted by their
+/// displacements; empty for a single track.
 std::vector<MsdRow> mean_squared_displacements(std::span<const TrackRow> rows);
 /// By the first ten lags or the first third of them, whichever is less; empty for fewer than two.
 std::optional<PowerLaw> fit_power_law(std::span<const MsdRow> rows);

@@ -15,6 +15,11 @@ constexpr double max_table_frame = 1e7;
 constexpr double max_table_id = 1e6;
 constexpr double max_table_position = 1e7;  // [px or µm]
 
+/// Whether a unit of positions is the pixel.
+inline bool is_pixel_unit(std::string_view unit) {
+  return unit == "pixel" || unit == "pixels" || unit == "px";
+}
+
 /// Number `text` of a field `name` in [least, most]; `fail(WHY)` throws if it is none.
 template <class Fail>
 double field_number(std::string_view text, std::string_view name, double least, double most,

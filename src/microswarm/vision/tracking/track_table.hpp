@@ -17,6 +17,7 @@ struct TableRow {
   std::optional<int> id{};  ///< of its track
   Vec2 at_px{};             ///< y down, (0, 0) is the centre of the first pixel
   double mass = 0;
+  std::optional<double> t{};  ///< time of its frame that the table gives [s]
 };
 
 /// Features or tracks of another program.
@@ -30,20 +31,26 @@ struct TrackTable {
 
 /// Reads the table of another program: XML of TrackMate (parse_trackmate_xml) or CSV with a header,
 /// in any order of columns.
-/// - trackpy: frame, x, y [px]; particle if it is linked; mass.
-/// - TrackMate's export of spots: FRAME, POSITION_X, POSITION_Y, TRACK_ID. The second and third
-///   header line may repeat the names, a fourth gives units in parentheses: positions are in px
-///   if it says (pixel), else in µm, of which a pixel has `um_per_px`.
+/// - trackpy: frame, x, y [px]; particle if it is linked; mass; t_s.
+/// - TrackMate's export of spots: FRAME, POSITION_X, POSITION_Y, TRACK_ID, POSITION_T. The second
+///   and third header line may repeat the names, a fourth gives units in parentheses. Without it
+///   positions are in µm, of which a pixel has `um_per_px`, and times in s.
 /// - tracks.csv of `microswarm track`.
 /// Blank lines are skipped. Columns may be quoted. Throws InputError "NAME:LINE: WHY", also if a
-/// track has two positions in a frame, or if µm need a scale that is not given.
+/// track has two positions in a frame, if a unit is
+/// not known, or if µm need a scale that is not given.
 TrackTable parse_track_table(std::string_view text, std::string_view name,
                              std::optional<double> um_per_px);
 TrackTable read_track_table(const std::filesystem::path& path, std::optional<double> um_per_px);
 
-/// Tracks of a table. Rows without ids are linked by RobotTracker with `settings`. The world's
-/// lower border is that of the table's pictures, or of the lowest position's pixel. Throws
-/// InputError for inconsistent settings.
+/// Whether files of this name are tables: .csv, .tsv, .txt or .xml, or the standard input.
+bool is_track_table(const std::filesystem::path& path);
+
+/// Tracks of a table. Rows without ids are linked by RobotTracker with `settings`. Times are those
+/// of the settings' rate, else of the table's rows, else by its interval, else a second a frame;
+/// frames without a position lie evenly between those with one. The world's lower border is that of
+/// the table's pictures, or of the lowest position's pixel. Throws InputError for inconsistent
+/// settings.
 TrackResult tracks_of_table(const TrackTable& table, const std::string& source,
                             const TrackSettings& settings);
 

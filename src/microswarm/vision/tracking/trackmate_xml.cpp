@@ -138,12 +138,14 @@ TrackTable exported_table(const XmlSource& xml, const pugi::xml_node& root,
                           std::optional<double> um_per_px) {
   TrackTable table;
   double per_px = 1;
-  if (const auto unit = length_unit_um(root.attribute("spaceUnits").value())) {
+  const std::string_view unit = root.attribute("spaceUnits").as_string("pixel");
+  if (const auto size = length_unit_um(unit)) {
     if (!um_per_px)
-      xml.fail(root.offset_debug(), "positions are in " +
-                                        std::string(root.attribute("spaceUnits").value()) +
-                                        ": µm per px is missing");
-    per_px = *um_per_px / *unit;
+      xml.fail(root.offset_debug(),
+               "positions are in " + std::string(unit) + ": µm per px is missing");
+    per_px = *um_per_px / *size;
+  } else if (!is_pixel_unit(unit)) {
+    xml.fail(root.offset_debug(), "unit " + quote(unit) + " is not known");
   }
   table.interval = to_interval(root.attribute("frameInterval"), root.attribute("timeUnits"));
   int id = 0;

@@ -51,7 +51,7 @@ struct TrackRow {
   double t = 0;  ///< [s]
   int id = 0;
   Vec2 position{};    ///< measured position [µm]
-  Vec2 velocity{};    ///< filtered [µm/s]
+  Vec2 velocity{};    ///< of a TrackResult as by `take_velocities`, else filtered [µm/s]
   double radius = 0;  ///< [µm]
   double mass = 0;    ///< [grey]
   double signal = 0;  ///< [grey]
@@ -64,8 +64,8 @@ struct TrackRow {
     visit(self.t, s("t", "Time since the first picture, or as given."));
     visit(self.position.x, um("x", "Centre, to the right from the picture's left."));
     visit(self.position.y, um("y", "Centre, up from the picture's lower border."));
-    visit(self.velocity.x, um_per_s("vx", "Velocity by the filter, to the right."));
-    visit(self.velocity.y, um_per_s("vy", "Velocity by the filter, upwards."));
+    visit(self.velocity.x, um_per_s("vx", "Velocity between the pictures around, to the right."));
+    visit(self.velocity.y, um_per_s("vy", "Velocity between the pictures around, upwards."));
     visit(self.radius, um("radius", "Radius of the ring, or of the even disc alike."));
     visit(self.mass, plain("mass", "Sum of greys above the background."));
     visit(self.signal, plain("signal", "Highest grey above the background."));

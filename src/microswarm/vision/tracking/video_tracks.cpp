@@ -1,7 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/vision/tracking/video_tracks.hpp"
 
+#include <map>
+
 namespace microswarm::vision {
+
+void take_velocities(std::vector<TrackRow>& rows) {
+  std::map<int, std::vector<TrackRow*>> tracks;
+  for (TrackRow& row : rows) tracks[row.id].push_back(&row);
+  for (const auto& [id, track] : tracks)
+    for (std::size_t k = 0; k < track.size(); ++k) {
+      const TrackRow& before = *track[k > 0 ? k - 1 : 0];
+      const TrackRow& after = *track[k + 1 < track.size() ? k + 1 : k];
+      const double elapsed = after.t - before.t;
+      track[k]->velocity = elapsed > 0 ? (after.position - before.position) / elapsed : Vec2{};
+    }
+}
 
 TrackResult track_video(FrameSource& frames, const std::string& source,
                         const TrackSettings& settings, const OnTracked& on_tracked,
@@ -25,6 +39,7 @@ TrackResult track_video(FrameSource& frames, const std::string& source,
     if (on_tracked) on_tracked(frame, rows);
   }
   tracker.finish();
+  take_velocities(result.rows);
   result.unsettled = tracker.unsettled();
   result.events = tracker.events();
   result.notes = frames.notes();

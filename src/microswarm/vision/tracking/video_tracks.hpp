@@ -25,6 +25,11 @@ struct TrackResult {
   std::vector<TrackEvent> events{};
 };
 
+/// Sets each velocity from the robot's positions in the picture before and the one after (central
+/// difference), at the ends of a track from one of them; 0 for a track of one picture. `rows` are
+/// sorted by frame.
+void take_velocities(std::vector<TrackRow>& rows);
+
 /// Receives each picture and the robots seen in it.
 using OnTracked = std::function<void(const VideoFrame&, const std::vector<TrackRow>&)>;
 
