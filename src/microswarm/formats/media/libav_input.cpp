@@ -99,6 +99,8 @@ struct Turn {
 
 bool is_avi(const AVFormatContext& format) { return std::strcmp(format.iformat->name, "avi") == 0; }
 
+bool is_gif(const AVFormatContext& format) { return std::strcmp(format.iformat->name, "gif") == 0; }
+
 /// Whether a RIFF file is as long as it says. Of several chunks, each with its length, only the
 /// first is looked at.
 bool is_whole_riff(const std::string& url) {
@@ -172,7 +174,7 @@ class LibavInput : public VideoInput {
                                 : av_guess_frame_rate(format_.get(), stream_, nullptr);
     rate = mean.den > 0 ? av_q2d(mean) : 0;
     unit_ = av_q2d(stream_->time_base);
-    tick = is_avi(*format_) ? 0 : unit_;
+    tick = is_avi(*format_) || is_gif(*format_) ? 0 : unit_;
     picture_count = told_pictures(*stream_, *format_);
     end = told_end(*format_, *stream_);
     return true;

@@ -39,7 +39,9 @@ class VideoInput {
   double rate = 0;           ///< mean frame rate [Hz]; 0 if unknown
   double picture_count = 0;  ///< pictures shown, by the file's header; 0 if unknown
   double end = 0;            ///< duration of the pictures by the header [s]; 0 if unknown
-  double tick = 0;           ///< to which times are rounded [s]; 0 in AVI, which numbers pictures
+  /// To which times are rounded [s]; 0 in AVI, which numbers pictures, and GIF, whose delays are
+  /// exact.
+  double tick = 0;
   /// When the last picture read is shown [s], by the file.
   std::optional<double> time;
 };

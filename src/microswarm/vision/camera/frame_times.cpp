@@ -87,7 +87,9 @@ double ContainerClock::next(std::optional<double> in_file) {
     const double told = *in_file - *zero_;
     const double nearest = std::round(told * rate_) / rate_;
     const double rounding = std::min(1.01 * tick_, 0.25 / rate_) + 1e-9;
-    t = std::abs(nearest - told) <= rounding && nearest > last_ ? nearest : told;
+    is_even_ = is_even_ && std::abs(nearest - told) <= rounding &&
+               (count_ == 0 || std::abs(nearest - last_ - 1 / rate_) < 0.5 / rate_);
+    t = is_even_ ? nearest : told;
   }
   if (count_ > 0 && !(t > last_)) in_file.reset(), t = even;
   missing_ += !in_file;

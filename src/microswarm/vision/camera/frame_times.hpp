@@ -20,9 +20,10 @@ std::vector<double> read_frame_times(const std::filesystem::path& file);
 bool is_recorded_table(std::string_view text);
 
 /// Times of a video's pictures [s] since its first, from those in its file, which are rounded to
-/// whole ticks: a time within a tick of a multiple of 1/rate becomes that multiple, so that an even
-/// video stays even. A picture without a time, or with one that is not after the picture before, is
-/// placed 1/rate after that.
+/// whole ticks: as long as every picture is within a tick of its place in an even row of the mean
+/// rate, it takes that place, so that an even video stays even. From the first that is not, times
+/// are those in the file. A picture without a time, or with one that is not after the picture
+/// before, is placed 1/rate after that.
 class ContainerClock {
  public:
   /// `rate` is the mean rate [1/s], above 0; `tick` the unit of the times [s].
@@ -43,6 +44,7 @@ class ContainerClock {
   double last_ = 0;
   int count_ = 0;
   int missing_ = 0;
+  bool is_even_ = true;  ///< so far
   double shortest_ = 0;
   double longest_ = 0;
 };
