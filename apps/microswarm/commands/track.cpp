@@ -144,7 +144,7 @@ vision::TrackResult track_pictures(const TrackOptions& o, const std::string& vid
   note_each(result.notes);
   if (const std::string why = source->why_ended(); !why.empty())
     note("note: the tracks end at picture {}: {}\n", result.frames, why);
-  else if (!stop.requested() && result.frames + 1 < result.promised.value_or(0))
+  else if (!stop.requested() && result.frames < result.promised.value_or(0))
     note("note: {} should have {} pictures, only {} could be read\n", video, *result.promised,
          result.frames);
   return result;
