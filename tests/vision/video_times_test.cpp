@@ -2,6 +2,7 @@
 // Times of pictures: those in a video's container, in tables, in TIFFs and in names.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "microswarm/core/text/file.hpp"
@@ -110,6 +111,33 @@ TEST(VideoTimes, OfAnEvenVideoAreExactWhateverTheContainersTick) {
     const Seen faster = see(folder / c.name, {.rate = 100});
     EXPECT_EQ(faster.times[10], 0.1);
   }
+}
+
+TEST(VideoTimes, OfAGifAreItsDelaysAndNoOthersAreMovedToAGrid) {
+  const test::Folder folder;
+  std::vector<double> at{0};
+  for (int k = 1; k < 20; ++k) at.push_back(at.back() + (k <= 10 ? 0.04 : 0.25));
+  for (const Container& c : {Container{"v.gif", {"gif", AV_PIX_FMT_GRAY8, {1, 100}}},
+                             Container{"v.mkv", {"ffv1", AV_PIX_FMT_GRAY8, {1, 1000}}}}) {
+    if (!test::write_clip(folder / c.name, c.form, at)) continue;
+    const Seen seen = see(folder / c.name);
+    ASSERT_EQ(seen.times.size(), at.size());
+    for (std::size_t k = 0; k < at.size(); ++k) EXPECT_NEAR(seen.times[k], at[k], 1e-9) << k;
+  }
+}
+
+TEST(VideoTimes, AnAnimatedPngIsAVideo) {
+  const test::Folder folder;
+  fs::create_directory(folder / "d");
+  const std::vector<double> at{0, 0.04, 0.08, 0.33, 0.58};
+  if (!test::write_clip(folder / "a.apng", {"apng", AV_PIX_FMT_GRAY8, {1, 100}}, at))
+    GTEST_SKIP() << "without apng";
+  fs::copy_file(folder / "a.apng", folder / "a.png");
+  const Seen seen = see(folder / "a.png");
+  ASSERT_EQ(seen.times.size(), at.size());
+  for (std::size_t k = 0; k < at.size(); ++k) EXPECT_NEAR(seen.times[k], at[k], 0.011) << k;
+  for (const char* name : {"d/1.png", "d/2.png"}) fs::copy_file(folder / "a.apng", folder / name);
+  EXPECT_NE(test::error_of([&] { see(folder / "d"); }).find("several pictures"), std::string::npos);
 }
 
 TEST(VideoTimes, PicturesThatAnEditListHidesAreNeitherShownNorCounted) {
@@ -250,6 +278,65 @@ TEST(Names, AreOrderedByAllTheirNumbers) {
   EXPECT_EQ(see(folder / "").greys, (std::vector<int>{0, 1}));
 }
 
+/// Names of files in the order in which they are read.
+std::vector<std::string> ordered(const std::vector<std::string>& names) {
+  std::vector<fs::path> files(names.rbegin(), names.rend());
+  sort_naturally(files);
+  std::vector<std::string> sorted;
+  for (const fs::path& file : files) sorted.push_back(file.string());
+  return sorted;
+}
+
+TEST(Names, MayHaveSignsDecimalsAndCapitals) {
+  for (const std::vector<std::string>& names :
+       {std::vector<std::string>{"f-10.png", "f-2.png", "f-1.png", "f0.png", "f3.png", "f11.png"},
+        {"f-1.png", "f-2.png", "f-10.png"},  // a hyphen
+        {"-2.png", "-1.png", "0.png"},
+        {"t0.2.png", "t0.25.png", "t0.3.png", "t1.png", "t1.05.png"},
+        {"run1.9.png", "run1.10.png", "run1.11.png"},  // counters
+        {"v1.2.9.png", "v1.2.30.png"},
+        {"f00.png", "F01.png", "f02.png", "F03.png"}})
+    EXPECT_EQ(ordered(names), names) << names[0];
+  const std::vector<fs::path> tenths{"t0.1.png", "t0.2.png", "t0.25.png", "t0.3.png", "t0.35.png"};
+  const auto found = numbers_in(tenths);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->steps, (std::vector<double>{0, 2, 3, 4, 5}));
+}
+
+TEST(Names, OfSeveralChannelsGiveTheOneThatIsChosen) {
+  for (const std::vector<std::string>& names :
+       {std::vector<std::string>{"f0_ch0.png", "f0_ch1.png", "f1_ch0.png", "f1_ch1.png"},
+        {"c1_t1.png", "c2_t1.png", "c1_t2.png", "c2_t2.png"},
+        {"x_w1GFP_t1.png", "x_w2RFP_t1.png", "x_w1GFP_t2.png", "x_w2RFP_t2.png"},
+        {"t1Channel1.png", "t1Channel2.png", "t2Channel1.png", "t2Channel2.png"}}) {
+    const test::Folder folder;
+    write_pictures(folder, names);
+    EXPECT_NE(test::error_of([&] { see(folder / ""); }).find("2 channels"), std::string::npos)
+        << names[0];
+    EXPECT_EQ(see(folder / "", {.stack_channel = 2}).greys, (std::vector<int>{1, 3})) << names[0];
+  }
+  const test::Folder folder;
+  write_pictures(folder, {"c0.png", "c1.png", "c2.png"});  // a counter
+  EXPECT_EQ(see(folder / "").notes, std::vector<std::string>{});
+  const test::Folder words;
+  write_pictures(words, {"f0_dark.png", "f0_light.png", "f1_dark.png", "f1_light.png"});
+  const Seen seen = see(words / "");
+  ASSERT_EQ(seen.notes.size(), 1U);
+  EXPECT_NE(seen.notes[0].find("f0_dark.png and f0_light.png"), std::string::npos);
+}
+
+TEST(Names, OfAPictureInTwoFormatsAreReadOnce) {
+  const test::Folder folder;
+  write_pictures(folder, {"f0.png", "f1.png", "f2.png"});
+  for (const char* name : {"f0.pgm", "f1.pgm"})
+    folder.with(name, "P5 2 1 255\n" + std::string(2, '\x63'));
+  const Seen seen = see(folder / "");
+  EXPECT_EQ(seen.greys, (std::vector<int>{0, 1, 2}));
+  ASSERT_EQ(seen.notes.size(), 1U);
+  EXPECT_NE(seen.notes[0].find("2 of 5 pictures"), std::string::npos);
+  EXPECT_NE(seen.notes[0].find("f0.png and f0.pgm"), std::string::npos);
+}
+
 TEST(Names, OrderIsStrictAndTotal) {
   const std::vector<std::string> names{"a1", "a01", "a", "1", "01", "", "a1b", "a1b2", "b", "10a"};
   std::vector<fs::path> files(names.begin(), names.end());
@@ -355,6 +442,119 @@ TEST(Stacks, OfOmeHaveTheTimesOfTheirPlanes) {
   EXPECT_EQ(seen.greys, (std::vector<int>{3, 4, 5}));
   EXPECT_EQ(seen.times, (std::vector<double>{0, 7, 16}));
   EXPECT_EQ(open_frames(folder / "s.tif", FrameOptions{.stack_channel = 1})->um_per_px(), 0.5);
+}
+
+/// A stack whose page k has the grey k, with any description.
+fs::path described(const test::Folder& folder, const std::string& name, int pages,
+                   const std::string& description) {
+  std::vector<std::vector<std::uint8_t>> all;
+  for (int k = 0; k < pages; ++k) all.emplace_back(4, static_cast<std::uint8_t>(k));
+  test::write_tiff<std::uint8_t>(folder / name, 2, all, {.description = description});
+  return folder / name;
+}
+
+/// OME of one image with these TiffData.
+std::string ome(int channels, int times, const std::string& data, const std::string& prefix = "") {
+  const std::string p = prefix.empty() ? "" : prefix + ":";
+  return "<" + p + "OME xmlns" + (prefix.empty() ? "" : ":" + prefix) +
+         "=\"http://www.openmicroscopy.org/Schemas/OME/2016-06\"><" + p + "Image><" + p +
+         "Pixels DimensionOrder=\"XYCZT\" SizeC=\"" + std::to_string(channels) +
+         "\" SizeZ=\"1\" SizeT=\"" + std::to_string(times) + "\" TimeIncrement=\"0.5\">" + data +
+         "</" + p + "Pixels></" + p + "Image></" + p + "OME>";
+}
+
+std::string tiff_data(int c, int t, int page, const std::string& file = "") {
+  return "<TiffData FirstC=\"" + std::to_string(c) + "\" FirstT=\"" + std::to_string(t) +
+         "\" IFD=\"" + std::to_string(page) + "\" PlaneCount=\"1\">" +
+         (file.empty() ? "" : "<UUID FileName=\"" + file + "\">urn:uuid:" + file + "</UUID>") +
+         "</TiffData>";
+}
+
+bool any_names(const std::vector<std::string>& notes, std::string_view what) {
+  return std::ranges::any_of(notes, [&](const auto& n) { return n.find(what) != n.npos; });
+}
+
+TEST(Stacks, OfOmeAreInTheOrderOfTheirTiffData) {
+  const test::Folder folder;
+  std::string back, half;
+  for (int t = 0; t < 5; ++t) back += tiff_data(0, t, 4 - t);
+  const Seen seen = see(described(folder, "b.ome.tif", 5, ome(1, 5, back)));
+  EXPECT_EQ(seen.greys, (std::vector<int>{4, 3, 2, 1, 0}));
+  EXPECT_EQ(seen.times, (std::vector<double>{0, 0.5, 1, 1.5, 2}));
+  // Some order that is neither up nor down, and a run.
+  const std::string mixed = tiff_data(0, 0, 2) + tiff_data(0, 1, 0) + tiff_data(0, 2, 1) +
+                            "<TiffData FirstT=\"3\" IFD=\"3\" PlaneCount=\"2\"/>";
+  EXPECT_EQ(see(described(folder, "m.ome.tif", 5, ome(1, 5, mixed))).greys,
+            (std::vector<int>{2, 0, 1, 3, 4}));
+  EXPECT_EQ(see(described(folder, "a.ome.tif", 5, ome(1, 5, "<TiffData/>"))).greys,
+            (std::vector<int>{0, 1, 2, 3, 4}));
+  // What contradicts itself is not followed, and told.
+  const Seen odd =
+      see(described(folder, "o.ome.tif", 2, ome(1, 2, tiff_data(0, 0, 1) + tiff_data(0, 1, 1))));
+  EXPECT_EQ(odd.greys, (std::vector<int>{0, 1}));
+  EXPECT_TRUE(any_names(odd.notes, "two TiffData name the same picture"));
+}
+
+TEST(Stacks, OfOmeInSeveralFilesGiveThePicturesOfThisOne) {
+  const test::Folder folder;
+  std::string data, later;
+  for (int t = 0; t < 4; ++t)
+    for (int c = 0; c < 2; ++c) data += tiff_data(c, t, t, c == 0 ? "c0.ome.tif" : "c1.ome.tif");
+  const auto file = described(folder, "c1.ome.tif", 4, ome(2, 4, data));
+  for (const FrameOptions& options : {FrameOptions{}, FrameOptions{.stack_channel = 2}}) {
+    const Seen seen = see(file, options);
+    EXPECT_EQ(seen.greys, (std::vector<int>{0, 1, 2, 3}));
+    EXPECT_EQ(seen.times, (std::vector<double>{0, 0.5, 1, 1.5}));
+    EXPECT_EQ(seen.why_ended, "");
+    EXPECT_TRUE(any_names(seen.notes, "c0.ome.tif"));
+  }
+  EXPECT_TRUE(any_names(see(file).notes, "of 2 channels only number 2"));
+  EXPECT_NE(test::error_of([&] { see(file, {.stack_channel = 1}); }).find("c0.ome.tif"),
+            std::string::npos);
+  // Every second time is elsewhere.
+  for (int t = 0; t < 4; ++t)
+    later += tiff_data(0, t, t / 2, t % 2 == 0 ? "even.ome.tif" : "odd.ome.tif");
+  const Seen even = see(described(folder, "even.ome.tif", 2, ome(1, 4, later)));
+  EXPECT_EQ(even.times, (std::vector<double>{0, 1}));
+  EXPECT_TRUE(any_names(even.notes, "gaps in time"));
+}
+
+TEST(Stacks, OfOmeMayHaveAPrefixOrAnotherFileForItsDescription) {
+  const test::Folder folder;
+  const Seen seen = see(described(folder, "p.ome.tif", 2, ome(1, 2, "", "ome")));
+  EXPECT_EQ(seen.times, (std::vector<double>{0, 0.5}));
+  const Seen binary = see(described(folder, "x.ome.tif", 2,
+                                    "<OME><BinaryOnly MetadataFile=\"all.companion.ome\"/></OME>"));
+  EXPECT_EQ(binary.greys, (std::vector<int>{0, 1}));
+  EXPECT_TRUE(any_names(binary.notes, "all.companion.ome"));
+  const std::string one = ome(1, 2, ""), more = one.substr(0, one.size() - 6);
+  const std::string image =
+      one.substr(one.find("<Image>"), one.rfind("</OME>") - one.find("<Image>"));
+  const Seen series = see(described(folder, "s.ome.tif", 4, more + image + "</OME>"));
+  EXPECT_EQ(series.greys, (std::vector<int>{0, 1}));
+  EXPECT_TRUE(any_names(series.notes, "2 images"));
+}
+
+TEST(Stacks, OfTifffileAndScifioHaveChannelsToo) {
+  const test::Folder folder;
+  for (const std::string text :
+       {R"({"shape": [3, 2, 2, 2], "axes": "TCYX"})",
+        "SCIFIO=0.42\naxes=X,Y,Channel,Time\nlengths=2,2,2,3\nscales=1,1,1,0.5\n"
+        "units=um,um,null,sec\n",
+        "SCIFIO=0.42\nimages=6\nchannels=2\nframes=3\nfinterval=0.5\n"}) {
+    const auto file = described(folder, "a.tif", 6, text);
+    EXPECT_NE(test::error_of([&] { see(file); }).find("2 channels"), std::string::npos) << text;
+    const Seen seen = see(file, {.stack_channel = 2});
+    EXPECT_EQ(seen.greys, (std::vector<int>{1, 3, 5})) << text;
+    EXPECT_EQ(seen.times[1], text[0] == '{' ? 1 : 0.5) << text;
+  }
+  const auto slow = described(folder, "b.tif", 6, R"({"shape": [2, 3, 2, 2], "axes": "CTYX"})");
+  EXPECT_EQ(see(slow, {.stack_channel = 2}).greys, (std::vector<int>{3, 4, 5}));
+  const Seen plain = see(described(folder, "c.tif", 3, R"({"shape": [3, 2, 2]})"));
+  EXPECT_EQ(plain.greys, (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(plain.notes, std::vector<std::string>{});
+  EXPECT_TRUE(any_names(see(described(folder, "d.tif", 6, R"({"shape": [3, 2, 2, 2]})")).notes,
+                        "without their names"));
 }
 
 TEST(Stacks, ThatAreCutEndWithAReason) {

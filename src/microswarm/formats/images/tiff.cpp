@@ -306,16 +306,17 @@ struct TiffPages::File {
     return size > 0 && row.begin > 0 ? std::optional(row) : std::nullopt;
   }
 
-  TiffDescription description() const {
+  TiffDescription description(const std::string& name) const {
     const char* text = nullptr;
     if (TIFFGetField(tiff, TIFFTAG_IMAGEDESCRIPTION, &text) != 1 || !text) return {};
     float x = 0, y = 0;
     TIFFGetField(tiff, TIFFTAG_XRESOLUTION, &x);
     TIFFGetField(tiff, TIFFTAG_YRESOLUTION, &y);
-    return parse_tiff_description(text, x, y);
+    return parse_tiff_description(text, x, y, name);
   }
 
   int page_in_row = 0;
+  std::vector<toff_t> places;  ///< of the directories read so far [B]
 };
 
 bool is_tiff(std::span<const std::byte> bytes) {
@@ -349,7 +350,7 @@ TiffPages::~TiffPages() = default;
 void TiffPages::count_pages() {
   TIFF* const tiff = file_->tiff;
   if (!tiff) throw InputError(name_ + ": is no TIFF that can be read");
-  description_ = file_->description();
+  description_ = file_->description(name_);
   file_->errors = 0;
   count_ = static_cast<int>(std::min<std::uint64_t>(TIFFNumberOfDirectories(tiff), max_pages));
   if (count_ == 0) throw InputError(name_ + ": holds no picture");
@@ -357,7 +358,7 @@ void TiffPages::count_pages() {
     why_fewer_ = fmt::format(
         "{}: the list of its pictures breaks off after {}: it is cut or damaged", name_, count_);
   const int told = description_.images;
-  if (told > 1 && count_ == 1 && why_fewer_.empty() && description_.software == "ImageJ") {
+  if (told > 1 && count_ == 1 && why_fewer_.empty() && description_.one_directory) {
     file_->in_row = file_->find_row();
     if (const auto& row = file_->in_row) {
       const std::uint64_t size = file_->file_size();
@@ -370,18 +371,30 @@ void TiffPages::count_pages() {
                              description_.software, told, count_);
 }
 
-/// Goes to the page `next_`.
-void TiffPages::step() {
-  if (file_->in_row)
-    file_->page_in_row = next_;
-  else if (next_ > 0 && !TIFFReadDirectory(file_->tiff))
-    throw InputError(
-        fmt::format("{}: picture {} is damaged, or the file ends early", name_, next_));
-}
+void TiffPages::go_to(int page) { next_ = page; }
 
-void TiffPages::skip() {
-  step();
-  ++next_;
+/// Goes to the page `next_`. Directories form a list: those behind the farthest so far are read one
+/// after the other, those before it are found again by their places.
+void TiffPages::step() {
+  File& f = *file_;
+  if (f.in_row) {
+    f.page_in_row = next_;
+    return;
+  }
+  TIFF* const tiff = f.tiff;
+  const auto fail = [&](std::size_t page) {
+    throw InputError(fmt::format("{}: picture {} is damaged, or the file ends early", name_, page));
+  };
+  if (f.places.empty()) f.places.push_back(TIFFCurrentDirOffset(tiff));
+  const auto page = static_cast<std::size_t>(next_);
+  const std::size_t known = std::min(page, f.places.size() - 1);
+  if (TIFFCurrentDirOffset(tiff) != f.places[known] &&
+      TIFFSetSubDirectory(tiff, f.places[known]) != 1)
+    fail(known);
+  while (f.places.size() <= page) {
+    if (!TIFFReadDirectory(tiff)) fail(f.places.size());
+    f.places.push_back(TIFFCurrentDirOffset(tiff));
+  }
 }
 
 DecodedImage TiffPages::next() {

@@ -16,7 +16,7 @@ namespace microswarm::formats {
 /// Whether the bytes begin as a TIFF or a BigTIFF does.
 bool is_tiff(std::span<const std::byte> bytes);
 
-/// Pages of a TIFF or BigTIFF, read one after the other in linear time. Strips and tiles, in every
+/// Pages of a TIFF or BigTIFF. Strips and tiles, in every
 /// compression of libtiff; samples of 1 to 16 bits, signed ones, and whole or floating ones of 32
 /// and 64 bits. Pages are turned by their orientation. The size of a page is checked before
 /// decoding. A file in the layout that ImageJ gives those above 4 GB, one directory and the pages
@@ -34,14 +34,15 @@ class TiffPages {
   int count() const { return count_; }
   /// Why there are fewer pages than the file says, "FILE: WHY"; empty if there are not.
   const std::string& why_fewer() const { return why_fewer_; }
-  /// Description that ImageJ or OME wrote.
+  /// Description that ImageJ, SCIFIO, tifffile or OME wrote.
   const TiffDescription& description() const { return description_; }
 
   /// Pixels of the next page: one channel (grey) or three (red, green, blue) without
-  /// transparency. `next` and `skip` may be called at most `count()` times together.
+  /// transparency. May be called while it is one of `count()`.
   DecodedImage next();
-  /// Passes over the next page.
-  void skip();
+  /// Makes this page the next one, 0 to `count()` - 1; in linear time for any ascending or
+  /// descending order.
+  void go_to(int page);
 
  private:
   struct File;

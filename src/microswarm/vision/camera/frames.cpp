@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <fstream>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <utility>
@@ -156,6 +158,25 @@ bool is_tiff(const fs::path& file) {
   return extension == ".tif" || extension == ".tiff";
 }
 
+/// Whether a PNG holds several pictures: a chunk acTL before those of pixels.
+bool is_animated_png(const fs::path& file) {
+  constexpr int most_chunks = 1000;
+  if (lower_extension(file) != ".png") return false;
+  std::ifstream in(file, std::ios::binary);
+  std::array<unsigned char, 8> head{};
+  in.seekg(head.size());  // behind the signature
+  for (int k = 0; k < most_chunks && in.read(reinterpret_cast<char*>(head.data()), head.size());
+       ++k) {
+    const std::string_view type(reinterpret_cast<const char*>(&head[4]), 4);
+    if (type == "acTL") return true;
+    if (type == "IDAT" || type == "IEND") return false;
+    const std::uint32_t length =
+        static_cast<std::uint32_t>(head[0]) << 24U | head[1] << 16U | head[2] << 8U | head[3];
+    in.seekg(std::streamoff{length} + 4, std::ios::cur);
+  }
+  return false;
+}
+
 /// Reads the only picture of a TIFF; in a folder a file holds one picture.
 formats::DecodedImage read_only_page(const fs::path& file) {
   formats::TiffPages pages(file);
@@ -168,7 +189,11 @@ formats::DecodedImage read_only_page(const fs::path& file) {
 class Pictures : public Source {
  public:
   Pictures(const fs::path& name, std::vector<fs::path> files, const FrameOptions& options)
-      : Source(name, options), files_(std::move(files)), numbers_(numbers_in(files_)) {
+      : Source(name, options), files_(std::move(files)) {
+    for (const std::string& text :
+         choose_pictures(files_, options.stack_channel, options.slice, name.string()))
+      note(text);
+    numbers_ = numbers_in(files_);
     if (numbers_ && numbers_->gaps > 0 && options.times.empty())
       note(
           fmt::format("numbers in the names have {} gap{}, first between {}: taken as gaps in time",
@@ -179,6 +204,8 @@ class Pictures : public Source {
     if (at >= files_.size()) return false;
     if (is_tiff(files_[at]))
       take(read_only_page(files_[at]), frame.picture);
+    else if (files_.size() > 1 && is_animated_png(files_[at]))
+      fail(files_[at], "holds several pictures: name the file, not its folder");
     else
       take(formats::read_stored(files_[at]), frame.picture);
     std::optional<double> t;
@@ -199,7 +226,6 @@ std::vector<fs::path> pictures_in(const fs::path& folder) {
     if (formats::has_image_extension(entry.path()) && entry.path().filename().string()[0] != '.')
       files.push_back(entry.path());
   if (files.empty()) fail(folder, "no pictures in this folder (PNG, JPEG, BMP, TIFF, PGM or PPM)");
-  sort_naturally(files);
   return files;
 }
 
@@ -245,10 +271,11 @@ class TiffStack : public Source {
       end(pages_.why_fewer());
       return false;
     }
-    for (; passed_ < chosen_.pages[at]; ++passed_) pages_.skip();
+    pages_.go_to(chosen_.pages[at]);
     take(pages_.next(), frame.picture);
-    ++passed_;
-    number(frame, name());
+    std::optional<double> t;
+    if (chosen_.has_gaps) t = chosen_.steps[at] / rate().value_or(1);
+    number(frame, name(), t);
     return true;
   }
   std::optional<int> count() const override { return static_cast<int>(chosen_.pages.size()); }
@@ -258,7 +285,6 @@ class TiffStack : public Source {
  private:
   formats::TiffPages pages_;
   StackPages chosen_;
-  int passed_ = 0;  ///< pages
 };
 
 class VideoFile : public Source {
@@ -339,6 +365,7 @@ std::unique_ptr<Source> open_source(const fs::path& source, const FrameOptions& 
   if (!fs::is_regular_file(status)) fail(source, "is neither a file nor a folder");
   if (fs::file_size(source) == 0) fail(source, "is empty");
   if (is_tiff(source)) return std::make_unique<TiffStack>(source, options);
+  if (is_animated_png(source)) return std::make_unique<VideoFile>(source, options);
   if (formats::has_image_extension(source))
     return std::make_unique<Pictures>(source, std::vector<fs::path>{source}, options);
   return std::make_unique<VideoFile>(source, options);

@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/vision/camera/picture_names.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
+#include <map>
+#include <set>
+
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/file.hpp"
 
 namespace microswarm::vision {
 namespace {
@@ -43,18 +50,240 @@ std::optional<std::int64_t> to_number(std::string_view digits) {
   return value;
 }
 
-/// The only run in which names of as many runs differ, which must be a number.
-std::optional<std::size_t> varying_run(const std::vector<std::vector<std::string>>& names) {
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+std::string lower(std::string_view text) {
+  std::string all(text);
+  for (char& c : all) c = lower(c);
+  return all;
+}
+
+/// A number of a name and the text before it; the last one of a name may be without digits.
+struct NamePart {
+  std::string text;  ///< in small letters
+  std::string digits, fraction;
+  bool is_negative = false;
+
+  /// Value in units of the last of `places` places; nothing if it is too large.
+  std::optional<std::int64_t> value(std::size_t places) const {
+    std::string all = digits + fraction;
+    all.append(places - std::min(places, fraction.size()), '0');
+    const auto number = to_number(all);
+    return number && is_negative ? -*number : number;
+  }
+  bool operator==(const NamePart&) const = default;
+};
+using NameParts = std::vector<NamePart>;
+
+/// Whether a point between two numbers, which is none of several in a row, stands behind number i.
+bool has_point(const std::vector<std::string>& runs, std::size_t i) {
+  return i + 2 < runs.size() && runs[i + 1] == "." && runs[i - 1] != "." &&
+         (i + 3 >= runs.size() || runs[i + 3] != ".");
+}
+
+/// Points are decimal if the digits behind them are not equally many and no longer ones end in 0,
+/// as programs print numbers. Counters have 1.10; equally many are in order either way.
+bool are_decimal(const std::vector<std::vector<std::string>>& names) {
+  std::set<std::size_t> lengths;
+  for (const auto& runs : names)
+    for (std::size_t i = 1; i < runs.size(); i += 2) {
+      if (!has_point(runs, i)) continue;
+      const std::string& fraction = runs[i + 2];
+      if (fraction.size() > 1 && fraction.back() == '0') return false;
+      lengths.insert(fraction.size());
+    }
+  return lengths.size() > 1;
+}
+
+/// A '-' is a sign where names differ in nothing else before a number.
+void take_signs(std::vector<NameParts>& names) {
+  const auto same_size = [&](const NameParts& n) { return n.size() == names.front().size(); };
+  if (names.empty() || !std::ranges::all_of(names, same_size)) return;
+  for (std::size_t i = 0; i < names.front().size(); ++i) {
+    std::set<std::string> texts;
+    for (const NameParts& name : names) texts.insert(name[i].text);
+    if (texts.size() != 2 || *texts.rbegin() != *texts.begin() + "-") continue;
+    for (NameParts& name : names) {
+      if (name[i].text == *texts.begin() || name[i].digits.empty()) continue;
+      name[i].text.pop_back();
+      name[i].is_negative = true;
+    }
+  }
+}
+
+/// Parts of the names of files that belong together.
+std::vector<NameParts> parts_of(const std::vector<fs::path>& files) {
+  std::vector<std::vector<std::string>> names;
+  names.reserve(files.size());
+  for (const fs::path& file : files) names.push_back(runs_of(file));
+  const bool decimal = are_decimal(names);
+  std::vector<NameParts> all;
+  all.reserve(files.size());
+  for (const auto& runs : names) {
+    NameParts parts;
+    for (std::size_t i = 0; i < runs.size(); i += 2) {
+      NamePart part{.text = lower(runs[i]), .digits = {}, .fraction = {}};
+      if (i + 1 < runs.size()) part.digits = runs[i + 1];
+      if (decimal && has_point(runs, i + 1)) {
+        part.fraction = runs[i + 3];
+        i += 2;
+      }
+      parts.push_back(part);
+    }
+    all.push_back(parts);
+  }
+  take_signs(all);
+  return all;
+}
+
+/// Below, above or at 0 as a is before, after or like b.
+int compare(const NamePart& a, const NamePart& b) {
+  if (a.text != b.text) return a.text < b.text ? -1 : 1;
+  if (a.digits.empty() || b.digits.empty())
+    return static_cast<int>(!a.digits.empty()) - static_cast<int>(!b.digits.empty());
+  if (a.is_negative != b.is_negative) return a.is_negative ? -1 : 1;
+  const int sign = a.is_negative ? -1 : 1;
+  const std::string_view m = without_zeros(a.digits), n = without_zeros(b.digits);
+  if (m.size() != n.size()) return m.size() < n.size() ? -sign : sign;
+  if (m != n) return m < n ? -sign : sign;
+  if (a.fraction != b.fraction) return a.fraction < b.fraction ? -sign : sign;
+  return 0;
+}
+
+/// The only part in whose number names of as many parts differ.
+std::optional<std::size_t> varying_part(const std::vector<NameParts>& names) {
   std::optional<std::size_t> varying;
-  for (const auto& name : names) {
+  for (const NameParts& name : names) {
     if (name.size() != names.front().size()) return std::nullopt;
     for (std::size_t i = 0; i < name.size(); ++i) {
       if (name[i] == names.front()[i]) continue;
-      if (i % 2 == 0 || varying.value_or(i) != i) return std::nullopt;
+      if (name[i].text != names.front()[i].text || varying.value_or(i) != i) return std::nullopt;
       varying = i;
     }
   }
   return varying;
+}
+
+bool is_letter(char c) { return c >= 'a' && c <= 'z'; }
+
+/// The word before a number: letters at the end of its text.
+std::string_view word_before(const NamePart& part) {
+  std::size_t begin = part.text.size();
+  while (begin > 0 && is_letter(part.text[begin - 1])) --begin;
+  return std::string_view(part.text).substr(begin);
+}
+
+/// A name without number i and what is called after it, such as GFP in w2GFP.
+std::string without_number(const NameParts& name, std::size_t i) {
+  std::string rest;
+  for (std::size_t k = 0; k < name.size(); ++k) {
+    std::string_view text = name[k].text;
+    while (k == i + 1 && !text.empty() && is_letter(text.front())) text.remove_prefix(1);
+    rest += std::string(text) + '/';
+    if (k != i) rest += (name[k].is_negative ? "-" : "") + name[k].digits + '.' + name[k].fraction;
+  }
+  return rest;
+}
+
+/// An axis in names: there are pictures of all its values at each of several other numbers.
+struct NamedAxis {
+  std::size_t part = 0;
+  std::vector<std::string> labels;           ///< ascending
+  std::vector<std::string> label_of_file{};  ///< of each
+};
+
+std::optional<NamedAxis> axis_in(const std::vector<NameParts>& names,
+                                 const std::set<std::string_view>& words) {
+  for (std::size_t i = 0; i < names.front().size(); ++i) {
+    std::map<std::string, std::set<std::string>> at;  // labels at the other numbers
+    std::set<std::pair<std::size_t, std::string>> labels;
+    NamedAxis axis{.part = i, .labels = {}};
+    for (const NameParts& name : names) {
+      if (name.size() != names.front().size() || name[i].digits.empty() ||
+          !words.contains(word_before(name[i])))
+        break;
+      const std::string digits(without_zeros(name[i].digits));
+      labels.emplace(digits.size(), digits);
+      at[without_number(name, i)].insert(digits);
+      axis.label_of_file.push_back(digits);
+    }
+    if (axis.label_of_file.size() != names.size() || labels.size() < 2 || at.size() < 2) continue;
+    if (!std::ranges::all_of(at, [&](const auto& k) { return k.second.size() == labels.size(); }))
+      continue;
+    for (const auto& [length, digits] : labels) axis.labels.push_back(digits);
+    return axis;
+  }
+  return std::nullopt;
+}
+
+/// Keeps the files of one place of an axis that their names tell.
+void choose_along(std::vector<fs::path>& files, const std::set<std::string_view>& words,
+                  std::string_view what, std::string_view key, std::optional<int> given,
+                  const std::string& folder) {
+  const std::vector<NameParts> names = parts_of(files);
+  const std::optional<NamedAxis> axis = axis_in(names, words);
+  const int size = axis ? static_cast<int>(axis->labels.size()) : 1;
+  if (given && (*given < 1 || *given > size))
+    throw InputError(fmt::format("{}: {} is {}, the names tell {} {}{}", folder, key, *given, size,
+                                 what, size == 1 ? "" : "s"));
+  if (!axis) return;
+  if (!given)
+    throw InputError(fmt::format(
+        "{}: names such as {} tell {} {}s of {} pictures in all: choose one with {}, 1 to {}",
+        folder, files.front().filename().string(), size, what, files.size(), key, size));
+  const std::string& label = axis->labels[static_cast<std::size_t>(*given - 1)];
+  std::vector<fs::path> kept;
+  for (std::size_t k = 0; k < files.size(); ++k)
+    if (axis->label_of_file[k] == label) kept.push_back(files[k]);
+  files = kept;
+}
+
+/// Place of a kind of file among those that hold the same picture: without loss first.
+int rank_of(const fs::path& file) {
+  const std::string extension = lower_extension(file);
+  if (extension == ".tif" || extension == ".tiff") return 0;
+  if (extension == ".png") return 1;
+  return extension == ".jpg" || extension == ".jpeg" ? 3 : 2;
+}
+
+/// Keeps one of the files that have a name in common.
+void drop_twins(std::vector<fs::path>& files, std::vector<std::string>& notes) {
+  std::map<std::string, fs::path> best;
+  for (const fs::path& file : files) {
+    const auto [at, is_new] = best.try_emplace(file.stem().string(), file);
+    if (!is_new && std::pair(rank_of(file), file) < std::pair(rank_of(at->second), at->second))
+      at->second = file;
+  }
+  if (best.size() == files.size()) return;
+  const auto twin = std::ranges::find_if(
+      files, [&](const fs::path& file) { return best.at(file.stem().string()) != file; });
+  notes.push_back(
+      fmt::format("{} of {} pictures have the name of another: of {} and {} the first is "
+                  "read, and so on",
+                  files.size() - best.size(), files.size(),
+                  best.at(twin->stem().string()).filename().string(), twin->filename().string()));
+  std::erase_if(files, [&](const fs::path& file) { return best.at(file.stem().string()) != file; });
+}
+
+/// Tells of names that differ in words at the same numbers, as colours do.
+void note_words(const std::vector<fs::path>& files, std::vector<std::string>& notes) {
+  const std::vector<NameParts> names = parts_of(files);
+  std::map<std::string, std::vector<std::size_t>> at;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    std::string numbers;
+    for (const NamePart& part : names[k])
+      numbers += (part.is_negative ? "-" : "") + part.digits + '.' + part.fraction + '/';
+    at[numbers].push_back(k);
+  }
+  const std::size_t each = at.begin()->second.size();
+  if (at.size() < 2 || each < 2) return;
+  if (!std::ranges::all_of(at, [&](const auto& k) { return k.second.size() == each; })) return;
+  const auto& first = at.begin()->second;
+  notes.push_back(
+      fmt::format("names such as {} and {} have the same numbers: all are taken as times, in the "
+                  "order of their "
+                  "names; if they are channels, put each into a folder of its own",
+                  files[first[0]].filename().string(), files[first[1]].filename().string()));
 }
 
 }  // namespace
@@ -66,8 +295,8 @@ bool naturally_before(std::string_view a, std::string_view b) {
       const std::string_view m = without_zeros(p), n = without_zeros(q);
       if (m.size() != n.size()) return m.size() < n.size();
       if (m != n) return m < n;
-    } else if (p != q) {
-      return p < q;
+    } else if (lower(p) != lower(q)) {
+      return lower(p) < lower(q);
     }
     a.remove_prefix(p.size());
     b.remove_prefix(q.size());
@@ -76,23 +305,46 @@ bool naturally_before(std::string_view a, std::string_view b) {
 }
 
 void sort_naturally(std::vector<fs::path>& files) {
-  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
-    const std::string p = a.stem().string(), q = b.stem().string();
-    if (naturally_before(p, q)) return true;
-    return !naturally_before(q, p) && a < b;
+  const std::vector<NameParts> names = parts_of(files);
+  std::vector<std::size_t> order(files.size());
+  for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    const NameParts &p = names[a], &q = names[b];
+    for (std::size_t i = 0; i < std::min(p.size(), q.size()); ++i)
+      if (const int c = compare(p[i], q[i]); c != 0) return c < 0;
+    if (p.size() != q.size()) return p.size() < q.size();
+    return files[a] < files[b];
   });
+  std::vector<fs::path> sorted;
+  sorted.reserve(files.size());
+  for (const std::size_t k : order) sorted.push_back(files[k]);
+  files = std::move(sorted);
+}
+
+std::vector<std::string> choose_pictures(std::vector<fs::path>& files,
+                                         std::optional<int> stack_channel, std::optional<int> slice,
+                                         const std::string& folder) {
+  std::vector<std::string> notes;
+  if (files.empty()) return notes;
+  sort_naturally(files);
+  drop_twins(files, notes);
+  choose_along(files, {"c", "ch", "chan", "channel", "w"}, "channel", "stack_channel",
+               stack_channel, folder);
+  choose_along(files, {"z", "slice"}, "slice", "slice", slice, folder);
+  note_words(files, notes);
+  return notes;
 }
 
 std::optional<NumberedNames> numbers_in(const std::vector<fs::path>& files) {
   if (files.size() < 2) return std::nullopt;
-  std::vector<std::vector<std::string>> names;
-  names.reserve(files.size());
-  for (const fs::path& file : files) names.push_back(runs_of(file));
-  const std::optional<std::size_t> varying = varying_run(names);
+  const std::vector<NameParts> names = parts_of(files);
+  const std::optional<std::size_t> varying = varying_part(names);
   if (!varying) return std::nullopt;
+  std::size_t places = 0;
+  for (const NameParts& name : names) places = std::max(places, name[*varying].fraction.size());
   std::vector<std::int64_t> numbers, apart;
-  for (const auto& name : names) {
-    const std::optional<std::int64_t> number = to_number(name[*varying]);
+  for (const NameParts& name : names) {
+    const std::optional<std::int64_t> number = name[*varying].value(places);
     if (!number) return std::nullopt;
     if (!numbers.empty()) apart.push_back(*number - numbers.back());
     if (!apart.empty() && apart.back() <= 0) return std::nullopt;

@@ -9,11 +9,21 @@
 
 namespace microswarm::vision {
 
-/// Natural order of names: runs of digits are compared as numbers, the rest letter by letter.
+/// Natural order of names: runs of digits are compared as numbers, the rest letter by letter,
+/// small and capital ones alike.
 bool naturally_before(std::string_view a, std::string_view b);
 
-/// Sorts files by the natural order of their names without extensions.
+/// Sorts files by the natural order of their names without extensions. A '-' before a number is a
+/// sign where other names lack it and differ in nothing else; a point between numbers is decimal
+/// where the digits behind it are not equally many.
 void sort_naturally(std::vector<std::filesystem::path>& files);
+
+/// Keeps, in natural order, the files of one series: one kind where several share a name, and one
+/// channel (`_ch0`, `_c0`, `_w1`) and slice (`_z3`) where names tell several at the same other
+/// numbers. Returns notes. Throws InputError "FOLDER: WHY" if there are several and none is chosen.
+std::vector<std::string> choose_pictures(std::vector<std::filesystem::path>& files,
+                                         std::optional<int> stack_channel, std::optional<int> slice,
+                                         const std::string& folder);
 
 /// Numbers in the names of a series.
 struct NumberedNames {
