@@ -8,14 +8,14 @@
 
 namespace microswarm::formats {
 
-/// Most pictures that a description may tell.
+/// Most pictures that a description may report.
 inline constexpr int max_tiff_images = 1'000'000;
 
 /// Description of a stack by ImageJ, SCIFIO, tifffile or OME, on the first page of a TIFF. A plane
 /// is a picture of one channel, slice and time; planes are numbered by `order`.
 struct TiffDescription {
   std::string_view software{};  ///< "ImageJ", "OME", ...; empty without such a description
-  int images = 1;               ///< pages that the file should hold, as far as is told
+  int images = 1;               ///< pages that the file should hold, as far as is given
   int channels = 1;
   int slices = 1;
   int times = 1;

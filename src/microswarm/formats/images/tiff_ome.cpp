@@ -105,7 +105,7 @@ struct PlaneRun {
   std::string_view uuid, file;  ///< where it lies; empty: here
 };
 
-/// Runs of planes of an image. What cannot be read is told in `fault`.
+/// Runs of planes of an image. What cannot be read is reported in `fault`.
 std::vector<PlaneRun> plane_runs(const pugi::xml_node& pixels, const TiffDescription& d,
                                  std::string& fault) {
   std::vector<PlaneRun> runs;

@@ -216,7 +216,7 @@ std::optional<NamedAxis> axis_in(const std::vector<NameParts>& names,
   return std::nullopt;
 }
 
-/// Keeps the files of one place of an axis that their names tell.
+/// Keeps the files of one place of an axis that their names hold.
 void choose_along(std::vector<fs::path>& files, const std::set<std::string_view>& words,
                   std::string_view what, std::string_view key, std::optional<int> given,
                   const std::string& folder) {
@@ -265,7 +265,7 @@ void drop_twins(std::vector<fs::path>& files, std::vector<std::string>& notes) {
   std::erase_if(files, [&](const fs::path& file) { return best.at(file.stem().string()) != file; });
 }
 
-/// Tells of names that differ in words at the same numbers, as colours do.
+/// Notes names that differ in words at the same numbers, as colours do.
 void note_words(const std::vector<fs::path>& files, std::vector<std::string>& notes) {
   const std::vector<NameParts> names = parts_of(files);
   std::map<std::string, std::vector<std::size_t>> at;

@@ -19,7 +19,7 @@ bool naturally_before(std::string_view a, std::string_view b);
 void sort_naturally(std::vector<std::filesystem::path>& files);
 
 /// Keeps, in natural order, the files of one series: one kind where several share a name, and one
-/// channel (`_ch0`, `_c0`, `_w1`) and slice (`_z3`) where names tell several at the same other
+/// channel (`_ch0`, `_c0`, `_w1`) and slice (`_z3`) where names have several at the same other
 /// numbers. Returns notes. Throws InputError "FOLDER: WHY" if there are several and none is chosen.
 std::vector<std::string> choose_pictures(std::vector<std::filesystem::path>& files,
                                          std::optional<int> stack_channel, std::optional<int> slice,
