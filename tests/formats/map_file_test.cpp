@@ -201,6 +201,15 @@ TEST(MapFile, RectanglesOfSpreadsheets) {
   EXPECT_EQ(box("1,2,3,4\n", 1000).hi, (Vec2{4000, 6000}));
 }
 
+TEST(MapFile, OtherColumnsAreNoRectangles) {
+  for (const char* header : {"width,height,x,y", "x1,y1,x2,y2", "left,top,right,bottom",
+                             "x_mm,y_mm,width_mm,height_mm", "y,x,width,height"})
+    EXPECT_TRUE(test::is_one_line_naming(
+        error_of([&] { parse_rectangles(std::string(header) + "\n1,2,3,4\n", "x.csv"); }),
+        "x.csv:1", {"x,y,width,height"}))
+        << header;
+}
+
 TEST(MapFile, TracksAreNoRectangles) {
   for (const char* text : {"id;t_s;x_um;y_um\n1;0;10;20\n", "frame,x,y,track\n0,1,2,3\n"})
     EXPECT_TRUE(test::is_one_line_naming(error_of([&] { parse_rectangles(text, "x.csv"); }),
@@ -303,27 +312,6 @@ TEST(MapFile, SvgIsWhatItLooksLike) {
                                (folder / "b.svg").string(), {"SVG"}));
 }
 
-/// Ink that no pixel takes as a wall is told, with the pixels that keep it.
-TEST(MapFile, SvgTellsInkThatIsLost) {
-  const Folder folder;
-  const auto notes = [&](const std::string& drawn, std::optional<double> um_per_px) {
-    folder.with("a.svg",
-                R"(<svg xmlns="http://www.w3.org/2000/svg" width="2mm" height="1mm" )"
-                R"(viewBox="0 0 2000 1000"><rect x="40" y="40" width="300" height="300"/>)" +
-                    drawn + "</svg>");
-    return load_map(choose_map_spec(folder / "a.svg", {.um_per_px = um_per_px})).notes;
-  };
-  const std::string thin = R"(<path d="M1000 0 V1000" stroke="#000" stroke-width="2"/>)";
-  ASSERT_EQ(notes(thin, 10.0).size(), 1u);
-  EXPECT_NE(notes(thin, 10.0)[0].find("thinner than a pixel of 10 µm"), std::string::npos);
-  EXPECT_TRUE(notes(thin, 1.0).empty());
-  EXPECT_TRUE(notes("", 10.0).empty());
-  const std::string slanted = R"(<path d="M900 0 L1000 1000" stroke="#000" stroke-width="3"/>)";
-  EXPECT_EQ(notes(slanted, 10.0).size(), 1u);
-  const std::string pale = R"(<rect x="600" y="200" width="300" height="300" fill="#ff8"/>)";
-  EXPECT_EQ(notes(pale, 10.0).size(), 1u);
-}
-
 TEST(MapFile, PolygonsAndDiscs) {
   PolygonsMap spec;
   spec.hi = {100, 50};
@@ -383,7 +371,7 @@ TEST(MapFileErrors, OneLineEach) {
       test::is_one_line_naming(error_of([] { parse_rectangles("0,0,1,1\n0 0 1 x\n", "x.csv"); }),
                                "x.csv:2", {"x", "number"}));
   EXPECT_TRUE(test::is_one_line_naming(error_of([] { parse_rectangles("a,b\n", "x.csv"); }),
-                                       "x.csv", {"rectangles", "x,y,width,height"}));
+                                       "x.csv:1", {"rectangles", "x,y,width,height"}));
 }
 
 TEST(GuessMapSpec, ByExtension) {

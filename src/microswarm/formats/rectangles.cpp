@@ -2,6 +2,7 @@
 #include "microswarm/formats/rectangles.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "microswarm/core/errors/error.hpp"
@@ -42,6 +43,21 @@ bool names_tracks(const std::vector<std::string_view>& header) {
   });
 }
 
+/// Refuses a header whose columns are not x, y, width and height in this order, without units.
+void check_columns(const Lines& lines, const std::vector<std::string_view>& header) {
+  constexpr std::array<std::array<std::string_view, 4>, 4> names{
+      {{"x", "left", "x_um", "X"},
+       {"y", "bottom", "y_um", "Y"},
+       {"width", "w", "width_um", "W"},
+       {"height", "h", "height_um", "H"}}};
+  for (std::size_t i = 0; i < std::min(header.size(), names.size()); ++i)
+    if (std::ranges::find(names[i], header[i]) == names[i].end())
+      lines.fail("column " + quote(header[i]) + " where " + std::string(names[i][0]) +
+                 " stands in rectangles: x,y,width,height expected in this order, the lower left "
+                 "corner first; "
+                 "other units by um_per_unit (--um-per-unit)");
+}
+
 /// A number, between semicolons also with a decimal comma.
 std::optional<double> rectangle_number(std::string_view field) {
   const std::size_t comma = field.find(',');
@@ -76,6 +92,7 @@ std::vector<Polygon> parse_rectangles(std::string_view text, std::string_view na
     if (std::exchange(first, false) && !has_number(fields)) {
       if (names_tracks(fields))
         lines.fail("columns of tracks, not of rectangles: x,y,width,height expected");
+      check_columns(lines, fields);
       continue;
     }
     std::vector<double> numbers;
