@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -70,36 +69,6 @@ void note_no_walls(MapParts& parts, int level, FreePixels free, const std::strin
                                     free == FreePixels::bright ? "below" : "at least", level));
 }
 
-/// Notes ink of a drawing that is free though no wall is beside it: lines thinner than a pixel, and
-/// pale fills.
-void note_lost_ink(MapParts& parts, const SvgPicture& drawn, const Mask& walls, FreePixels free,
-                   const std::string& name) {
-  const int blank = free == FreePixels::bright ? 255 : 0;
-  std::int64_t lost = 0;
-  double ink = 0;
-  Vec2 first;
-  for (int row = 0; row < walls.height; ++row)
-    for (int column = 0; column < walls.width; ++column) {
-      const int grey = drawn.image.pixels[drawn.image.index(column, row)];
-      if (grey == blank) continue;
-      bool beside_wall = false;
-      for (int r = std::max(0, row - 1); r <= std::min(walls.height - 1, row + 1); ++r)
-        for (int c = std::max(0, column - 1); c <= std::min(walls.width - 1, column + 1); ++c)
-          beside_wall = beside_wall || walls.at(c, r);
-      if (beside_wall) continue;
-      if (lost++ == 0)
-        first = drawn.um_per_px * Vec2{column + 0.5, -row - 0.5} + Vec2{0, drawn.height};
-      ink += std::abs(blank - grey) / 255.0;
-    }
-  if (lost == 0) return;
-  parts.notes.push_back(fmt::format(
-      "{}: {} pixels with some ink are free, the first at ({:.6g}, {:.6g}) µm: lines thinner than "
-      "a pixel of {:.4g} µm, or pale fills; um_per_px (--um-per-px) of about {:.2g} keeps such "
-      "lines, map.threshold such fills",
-      name, lost, first.x, first.y, drawn.um_per_px,
-      0.9 * drawn.um_per_px * ink / static_cast<double>(lost)));
-}
-
 MapParts read(const ImageMap& spec, const fs::path& base, Issues&) {
   const fs::path file = base / spec.file;
   const Image image = read_image(file);
@@ -119,7 +88,9 @@ MapParts read(const SvgMap& spec, const fs::path& base, Issues&) {
       to_parts(walls, drawn.um_per_px, {0, drawn.height - drawn.um_per_px * walls.height});
   parts.bounds = {{0, 0}, {drawn.width, drawn.height}};
   parts.notes = drawn.notes;
-  note_lost_ink(parts, drawn, walls, spec.free, file.string());
+  const std::uint8_t blank = spec.free == FreePixels::bright ? 255 : 0;
+  if (std::string lost = lost_ink_note(drawn, walls, blank, file.string()); !lost.empty())
+    parts.notes.push_back(std::move(lost));
   note_no_walls(parts, spec.threshold, spec.free, file.string());
   simplify(parts.walls, spec.simplify);
   return parts;

@@ -64,6 +64,33 @@ SvgPicture draw_svg(std::string_view text, std::string_view name, std::optional<
   return picture;
 }
 
+std::string lost_ink_note(const SvgPicture& drawn, const Mask& walls, std::uint8_t blank,
+                          const std::string& name) {
+  std::int64_t lost = 0;
+  double ink = 0;
+  Vec2 first;
+  for (int row = 0; row < walls.height; ++row)
+    for (int column = 0; column < walls.width; ++column) {
+      const int grey = drawn.image.pixels[drawn.image.index(column, row)];
+      if (grey == blank) continue;
+      bool beside_wall = false;
+      for (int r = std::max(0, row - 1); r <= std::min(walls.height - 1, row + 1); ++r)
+        for (int c = std::max(0, column - 1); c <= std::min(walls.width - 1, column + 1); ++c)
+          beside_wall = beside_wall || walls.at(c, r);
+      if (beside_wall) continue;
+      if (lost++ == 0)
+        first = drawn.um_per_px * Vec2{column + 0.5, -row - 0.5} + Vec2{0, drawn.height};
+      ink += std::abs(blank - grey) / 255.0;
+    }
+  if (lost == 0) return {};
+  return fmt::format(
+      "{}: {} pixels with some ink are free, the first at ({:.6g}, {:.6g}) µm: lines thinner than "
+      "a pixel of {:.4g} µm, or pale fills; um_per_px (--um-per-px) of about {:.2g} keeps such "
+      "lines, map.threshold such fills",
+      name, lost, first.x, first.y, drawn.um_per_px,
+      0.9 * drawn.um_per_px * ink / static_cast<double>(lost));
+}
+
 SvgPicture draw_svg_file(const std::filesystem::path& path, std::optional<double> um_per_unit,
                          std::optional<double> um_per_px) {
   return draw_svg(read_file(path, max_svg_bytes), path.string(), um_per_unit, um_per_px);
