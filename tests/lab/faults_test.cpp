@@ -86,8 +86,8 @@ TEST(LabFaults, AStandingFollowsTheRowsThatItCounts) {
     queued = outbox.size();
   }
   EXPECT_EQ(queued, 4u * 6 + 3 * 10 + 6);
-  for (const char* bytes : {"rows 1", "standing 1", "rows 2", "rows 3", "standing 3", "answer",
-                            "rows 4", "standing 4"})
+  for (const char* bytes :
+       {"rows 1", "standing 1", "rows 2", "rows 3", "standing 3", "answer", "rows 4", "standing 4"})
     EXPECT_EQ(outbox.take()->bytes, bytes);
   EXPECT_EQ(outbox.size(), 0u);
 }

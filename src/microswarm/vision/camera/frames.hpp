@@ -53,7 +53,8 @@ struct FrameOptions {
 };
 
 /// Opens a video file, a folder of pictures (PNG, JPEG, BMP, TIFF, PGM, PPM; in the natural order
-/// of their names) a TIFF of many pictures or an animated PNG. Times are, in this order: those of the table `times`
+/// of their names) a TIFF of many pictures or an animated PNG. Times are, in this order: those of
+/// the table `times`
 /// (`parse_frame_times`); `rate`; those that VideoRecorder wrote into a table beside the video;
 /// those in the video's container, or in a TIFF of ImageJ or OME; one picture a second. Where names
 /// in a folder differ by one number, its gaps are gaps in time. Samples of more than 8 bits are
