@@ -10,7 +10,7 @@ namespace {
 
 /// A unit's name and its size.
 using Unit = std::pair<std::string_view, double>;
-constexpr std::array<Unit, 27> lengths_um{
+constexpr std::array<Unit, 25> lengths_um{
     {{"µm", 1},           {"μm", 1},           {"um", 1},
      {"micron", 1},       {"microns", 1},      {"\\u00B5m", 1},
      {"\\u03BCm", 1},     {"micrometer", 1},   {"micrometre", 1},
@@ -18,8 +18,8 @@ constexpr std::array<Unit, 27> lengths_um{
      {"pm", 1e-6},        {"nanometer", 1e-3}, {"mm", 1e3},
      {"millimeter", 1e3}, {"millimetre", 1e3}, {"millimeters", 1e3},
      {"micrometres", 1},  {"nanometre", 1e-3}, {"nanometers", 1e-3},
-     {"centimeter", 1e4}, {"inch", 25400},     {"inches", 25400},
-     {"cm", 1e4},         {"m", 1e6},          {"\xB5m", 1}}};
+     {"centimeter", 1e4}, {"cm", 1e4},         {"m", 1e6},
+     {"\xB5m", 1}}};
 constexpr std::array<Unit, 22> times_s{{{"s", 1},
                                         {"sec", 1},
                                         {"second", 1},
