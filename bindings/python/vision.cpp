@@ -167,6 +167,7 @@ class ArrayTracker {
   }
   py::dict finish() {
     tracker_.finish();
+    vision::take_velocities(result_.rows);
     result_.events = tracker_.events();
     result_.unsettled = tracker_.unsettled();
     return to_tracks(result_);

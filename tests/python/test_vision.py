@@ -100,8 +100,8 @@ def test_tracks_are_where_the_robots_are(video):
     assert np.allclose(tracks["y_um"], (60 - 0.5 - tracks["y"]) * 0.5)
     assert np.array_equal(tracks["t_s"], tracks["frame"] / 4)
     last = tracks[(tracks["particle"] == tracks["particle"][0]) & (tracks["frame"] == 11)]
-    assert last["vx_um_per_s"][0] == pytest.approx(4, rel=0.3)  # the filter is not settled yet
-    assert last["vy_um_per_s"][0] == pytest.approx(-1, rel=0.3)
+    assert last["vx_um_per_s"][0] == pytest.approx(4, rel=0.05)
+    assert last["vy_um_per_s"][0] == pytest.approx(-1, rel=0.05)
 
 
 def test_fast_robots_need_a_range():
