@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables of trackpy and TrackMate, CSV and XML: what is read is sorted by frame, and all rows have ids or none.
+// Tables of trackpy and TrackMate, CSV and XML: what is read is sorted by frame, and all rows have
+// ids or none.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
