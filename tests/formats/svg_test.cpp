@@ -14,7 +14,7 @@ namespace {
 
 using test::Folder;
 
-/// Ink that no pixel takes as a wall is told, with the pixels that keep it.
+/// Note on ink that no pixel takes as a wall, with the size of pixels that keeps it.
 TEST(Svg, TellsInkThatIsLost) {
   const Folder folder;
   const auto notes = [&](const std::string& drawn, std::optional<double> um_per_px) {

@@ -53,14 +53,13 @@ struct FrameOptions {
 };
 
 /// Opens a video file, a folder of pictures (PNG, JPEG, BMP, TIFF, PGM, PPM; in the natural order
-/// of their names) a TIFF of many pictures or an animated PNG. Times are, in this order: those of
-/// the table `times`
-/// (`parse_frame_times`); `rate`; those that VideoRecorder wrote into a table beside the video;
-/// those in the video's container, or in a TIFF of ImageJ or OME; one picture a second. Where names
-/// in a folder differ by one number, its gaps are gaps in time. Samples of more than 8 bits are
-/// scaled as `scale_of` says for the first picture, or as numbers of `depth` bits. Throws
-/// InputError "SOURCE: WHY" if there is no readable picture, and for a stack of several channels,
-/// or of several slices at several times, of which none is chosen.
+/// of their names), a TIFF of many pictures or an animated PNG. Times are, in this order: those of
+/// the table `times` (`parse_frame_times`); `rate`; those that VideoRecorder wrote into a table
+/// beside the video; those in the video's container, or in a TIFF of ImageJ or OME; one picture a
+/// second. Where names in a folder differ by one number, its gaps are gaps in time. Samples of more
+/// than 8 bits are scaled as `scale_of` says for the first picture, or as numbers of `depth` bits.
+/// Throws InputError "SOURCE: WHY" if there is no readable picture, and for a stack of several
+/// channels, or of several slices at several times, of which none is chosen.
 std::unique_ptr<FrameSource> open_frames(const std::filesystem::path& source,
                                          const FrameOptions& options);
 std::unique_ptr<FrameSource> open_frames(const std::filesystem::path& source,
