@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -17,6 +18,7 @@
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/execution/descriptor.hpp"
+#include "microswarm/core/text/text.hpp"
 #include "support/cli.hpp"
 
 namespace microswarm::cli {
@@ -102,6 +104,39 @@ std::optional<fs::path> shipped(const std::string& name, const std::string& kind
   return std::nullopt;
 }
 
+/// Names of the files in a folder, as `name` would name them; none if it cannot be read.
+std::vector<std::string> file_names(const fs::path& folder, bool with_extension) {
+  std::vector<std::string> names;
+  std::error_code error;
+  fs::directory_iterator entry(folder, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error))
+    if (fs::is_regular_file(entry->path(), error))
+      names.push_back(with_extension ? entry->path().filename() : entry->path().stem());
+  std::ranges::sort(names);
+  return names;
+}
+
+/// The file beside it, or the shipped one, whose name is nearest to one that is not there; empty if
+/// none is near.
+std::string near_file(const std::string& name, const std::string& kind) {
+  const fs::path path(name);
+  const auto nearest = [&](const std::vector<std::string>& names) {
+    const std::vector<std::string_view> views(names.begin(), names.end());
+    return std::string(nearest_word(path.filename().string(), views));
+  };
+  const fs::path beside = path.parent_path();
+  if (const std::string near = nearest(file_names(beside.empty() ? "." : beside, true));
+      !near.empty())
+    return (beside / near).string();
+  std::error_code error;
+  const fs::path scenarios = scenario_folder(error);
+  if (error || !beside.empty()) return {};
+  for (const fs::path& folder : {scenarios / kind, scenarios})
+    if (const std::string near = nearest(file_names(folder, path.has_extension())); !near.empty())
+      return near;
+  return {};
+}
+
 }  // namespace
 
 std::string find_input(const std::string& name, const std::string& kind) {
@@ -113,7 +148,12 @@ std::string find_input(const std::string& name, const std::string& kind) {
   std::error_code error;
   if (fs::exists(file, error)) return file;
   const std::optional<fs::path> found = shipped(file, kind);
-  if (!found) return file;
+  if (!found) {
+    if (const std::string near = near_file(file, kind); !near.empty())
+      throw InputError(fmt::format("{}: cannot read: No such file or directory, did you mean '{}'?",
+                                   file, near));
+    return file;
+  }
   note("note: {}: is not here, the shipped {} is used\n", file, found->string());
   return found->string();
 }

@@ -124,7 +124,7 @@ TEST(FormerKeys, AreUnknownBesideThePresentKeyAndInOtherAlternatives) {
 
 TEST(FormerKeys, AMistakeInTheOtherPartStays) {
   EXPECT_EQ(read("body: {type: round, timeout_s: 4}\nsensing: 5\n").mistakes,
-            "house.yaml:1:21: unknown key 'timeout_s', allowed: gap_um\n"
+            "house.yaml:1:21: unknown key 'timeout_s', allowed: type, gap_um\n"
             "house.yaml:2:10: sensing must be a mapping of keys, not '5'\n");
 }
 

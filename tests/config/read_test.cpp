@@ -96,7 +96,7 @@ TEST(Read, UnknownKeys) {
       {"planner: {\"\": red}", "s.yaml:1:11: unknown key '', allowed: step_um, max_nodes, walls"},
       {"planner: {type: x}", "s.yaml:1:11: unknown key 'type', allowed: step_um, max_nodes, walls"},
       {"tip:\n  type: fan\n  radius_um: 3",
-       "s.yaml:3:3: unknown key 'radius_um', allowed: opening_deg, turning_deg_per_s"},
+       "s.yaml:3:3: unknown key 'radius_um', allowed: type, opening_deg, turning_deg_per_s"},
       {"start: {heading_rad: 1}",
        "s.yaml:1:9: unknown key 'heading_rad', did you mean 'heading_deg'?"}};
   for (const auto& [text, message] : cases) EXPECT_EQ(complaint(text), message);

@@ -96,7 +96,7 @@ TEST(Set, ComplaintsNameTheKeyAndLeaveTheValue) {
        "--set planner.walls: walls is 'slid', did you mean 'slide'? Allowed: slide, stop"},
       {"tip.type=fna",
        "--set tip.type: type of tip is 'fna', did you mean 'fan'? Allowed: disc, fan, nothing"},
-      {"tip.opening_deg=3", "--set tip.opening_deg: unknown key 'opening_deg', allowed: radius_um"},
+      {"tip.opening_deg=3", "--set tip.opening_deg: unknown key 'opening_deg', allowed: type, radius_um"},
       {"tip=fan", "--set tip: tip must be a mapping with the key 'type', not 'fan'"},
       {"seed.low=3", "--set seed.low: seed has no parts, so no 'low'"},
       {"obstacles.0.shape.radius_um=3",

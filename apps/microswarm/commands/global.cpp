@@ -216,10 +216,10 @@ void add_global(Command app, Action& action) {
       "  microswarm global samples/veins.csv --tree tree.h5 --goals \"180,60;180,50\"");
   add_map_input(cmd, o->map);
   cmd.add_option("--robots", o->robots, "Start positions of the robots in µm; y points up")
-      .type_name("X,Y;X,Y…")
+      .type_name("X,Y;X,Y;...")
       .check(place_list());
   cmd.add_option("--goals", o->goals, "Goal positions of the robots, in the same order")
-      .type_name("X,Y;X,Y…")
+      .type_name("X,Y;X,Y;...")
       .check(place_list());
   cmd.add_option("--tree", o->tree, "Query this tree, grown earlier on the same map")
       .type_name("FILE")

@@ -160,7 +160,7 @@ void add_field(Command rig, Action& action) {
       .default_text("centre of the system")
       .check(triple("X,Y,Z", max_place));
   const Option currents =
-      cmd.add_option("--currents", o->currents, "Current of each coil in A").type_name("A,A,…");
+      cmd.add_option("--currents", o->currents, "Current of each coil in A").type_name("A,A,...");
   cmd.add_option("--field", o->field, "Wanted field in mT")
       .type_name("BX,BY,BZ")
       .check(triple("BX,BY,BZ", max_field))

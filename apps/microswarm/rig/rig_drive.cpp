@@ -180,7 +180,7 @@ void add_rig_drive(Command rig, Action& action) {
   Command cmd = rig.add_command("drive", "Drive the coils by hand: currents, a field, or each coil",
                                 "rig drive scenarios/rigs/vortex.yaml --field 2,0,0 --seconds 5");
   cmd.add_option("rig", o->rig, "Rig file (YAML)").required().type_name("FILE").input("rigs");
-  cmd.add_option("--currents", o->currents, "Current of each coil in A").type_name("A,A,…");
+  cmd.add_option("--currents", o->currents, "Current of each coil in A").type_name("A,A,...");
   cmd.add_option("--field", o->field, "Constant field at the centre in mT")
       .type_name("BX,BY,BZ")
       .check(triple("BX,BY,BZ", max_field));

@@ -112,7 +112,7 @@ void add_rig_map(Command rig, Action& action) {
       .default_text("centre of the system")
       .check(triple("X,Y,Z", max_place));
   const Option currents =
-      cmd.add_option("--currents", o->currents, "Current of each coil in A").type_name("A,A,…");
+      cmd.add_option("--currents", o->currents, "Current of each coil in A").type_name("A,A,...");
   cmd.add_option("--field", o->field, "Field at the centre in mT")
       .type_name("BX,BY,BZ")
       .check(triple("BX,BY,BZ", max_field))

@@ -76,23 +76,23 @@ bool spells_no_finite_number(std::string_view text) {
   return lower == "nan" || lower == "inf" || lower == "infinity";
 }
 
-/// Field whose key was probably meant, or null.
-const Field* nearest_field(const Type& record, std::string_view key) {
+/// The key that was probably meant, or nothing.
+std::string_view nearest_key(const Type& record, std::string_view key, bool has_type_key) {
   std::vector<std::string_view> keys;
   for (const Field& field : record.fields) keys.push_back(field.key);
-  if (const std::string_view near = nearest_word(key, keys); !near.empty())
-    return record.field(near);
+  if (has_type_key) keys.push_back("type");
+  if (const std::string_view near = nearest_word(key, keys); !near.empty()) return near;
   keys.clear();
   for (const Field& field : record.fields)
     if (!field.info.former_key.empty()) keys.push_back(field.info.former_key);
   if (const std::string_view near = nearest_word(key, keys); !near.empty())
-    return record.former_field(near);
+    return record.former_field(near)->key;
   for (const Field& field : record.fields) {  // the right name without its unit or with another one
     const bool starts = key.starts_with(field.info.name);
     if (starts && (key.size() == field.info.name.size() || key[field.info.name.size()] == '_'))
-      return &field;
+      return field.key;
   }
-  return nullptr;
+  return {};
 }
 
 }  // namespace
@@ -128,17 +128,21 @@ void ValueReader::fail_kind(const Type& type, std::string_view label, const Yaml
        shown_value(node), expected(type));
 }
 
-void ValueReader::fail_unknown_key(const Type& record, const YamlNode& key,
-                                   std::string value) const {
+void ValueReader::fail_unknown_key(const Type& record, const YamlNode& key, std::string value,
+                                   bool has_type_key) const {
   std::vector<std::string_view> keys;
+  if (has_type_key) keys.push_back("type");
   for (const Field& field : record.fields) keys.push_back(field.key);
   const std::string allowed = fmt::format("{}", fmt::join(keys, ", "));
   std::string what = fmt::format("unknown key {}, allowed: {}", quote(key.text), allowed);
   if (const Field* former = record.former_field(key.text))
     what = fmt::format("{} is the former name of '{}', which is given too", quote(key.text),
                        former->key);
-  else if (const Field* near = nearest_field(record, key.text))
-    what = fmt::format("unknown key {}, did you mean '{}'?", quote(key.text), near->key);
+  else if (exact_number(key.text))
+    what = fmt::format("unknown key {}: decimals are written with a point, like 0.5; allowed: {}",
+                       quote(key.text), allowed);
+  else if (const std::string_view near = nearest_key(record, key.text, has_type_key); !near.empty())
+    what = fmt::format("unknown key {}, did you mean '{}'?", quote(key.text), near);
   fail(key, std::move(what), std::move(value), allowed);
 }
 
@@ -201,7 +205,7 @@ void ValueReader::read_record(const Type& type, std::string_view label, void* va
     if (has_type_key && key.text == "type") continue;
     attempt(key.text, [&] {
       const Field* field = type.field(key.text);
-      if (!field) fail_unknown_key(type, key, shown_value(node.items[i + 1]));
+      if (!field) fail_unknown_key(type, key, shown_value(node.items[i + 1]), has_type_key);
       given.push_back(field);
       read(*field->type, field->info, field->key, field->in(value), node.items[i + 1]);
     });

@@ -35,7 +35,7 @@ class ValueReader {
                          std::string limit = {}) const;
   /// `value` is what the unknown key is given.
   [[noreturn]] void fail_unknown_key(const Type& record, const YamlNode& key,
-                                     std::string value) const;
+                                     std::string value, bool has_type_key) const;
 
  private:
   void read_number(const FieldInfo& info, std::string_view label, double& value,

@@ -54,10 +54,11 @@ struct Walk {
     key += word;
   }
 
-  void enter_key(std::string_view word) {
+  void enter_key(std::string_view word, bool has_type_key) {
     const Field* field = type->field(word);
     if (!field) field = type->former_field(word);
-    if (!field) reader.fail_unknown_key(*type, word_node(word), one_line(setting.value));
+    if (!field)
+      reader.fail_unknown_key(*type, word_node(word), one_line(setting.value), has_type_key);
     type = field->type;
     info = field->info;
     label = field->key;
@@ -73,10 +74,10 @@ struct Walk {
         const std::size_t chosen = type->count(value);
         value = type->part(value, 0);
         type = type->parts[chosen];
-        return enter_key(word);
+        return enter_key(word, true);
       }
       case TypeKind::record:
-        return enter_key(word);
+        return enter_key(word, false);
       case TypeKind::list:
         return enter_entry(word);
       default:
