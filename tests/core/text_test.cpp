@@ -111,7 +111,8 @@ TEST(Text, TablesOfOtherLanguagesAreRead) {
   EXPECT_EQ(csv_separator("a"), ',');
   EXPECT_EQ(csv_separator("a;b,c"), ',');
   EXPECT_EQ(csv_cells(R"("a"; "b c" ;;"")", ';'), (Cells{"a", "b c", "", ""}));
-  EXPECT_EQ(csv_cells(R"(",")", ','), (Cells{"\"", "\""}));  // no separator within quotes
+  EXPECT_EQ(csv_cells(R"("a, b",c, "d ""e, f""" ,"g)", ','),
+            (Cells{"a, b", "c", R"(d ""e, f"")", "\"g"}));
   EXPECT_EQ(csv_number("0,5", ';'), "0.5");
   EXPECT_EQ(csv_number("0,5", '\t'), "0.5");
   EXPECT_EQ(csv_number("1,000,000", ';'), "1,000,000");

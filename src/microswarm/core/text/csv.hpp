@@ -11,7 +11,8 @@ namespace microswarm {
 /// comma, as tables that spreadsheets write in other languages.
 char csv_separator(std::string_view header);
 
-/// Cells of a row between separators, without blanks and double quotes around them.
+/// Cells of a row between separators, without blanks and double quotes around them. A separator
+/// within quotes is text; a quote within quotes, which is doubled in the row, stays doubled.
 std::vector<std::string_view> csv_cells(std::string_view row, char separator);
 
 /// Text of a number in a table: where cells are separated by ';' or tabs, "0,5" is 0.5.
