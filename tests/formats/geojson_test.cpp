@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,6 +12,8 @@
 #include "microswarm/core/maths/rng.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/formats/json_place.hpp"
+#include "microswarm/formats/thick_line.hpp"
+#include "microswarm/world/map/map.hpp"
 #include "tests/files.hpp"
 #include "tests/messages.hpp"
 
@@ -334,6 +337,22 @@ TEST(JsonPlace, TextAndLine) {
   EXPECT_EQ(line_number(json, seven), 5);
   EXPECT_EQ(line_number(json, beyond), 5);
   EXPECT_EQ(line_number(json, root.member("none")), 1);
+}
+
+/// A traced line of thousands of points has the sides that it is drawn with, and few walls.
+TEST(ThickLine, PointsThatSayNothingAreLeftOut) {
+  std::vector<Vec2> arc;
+  for (int i = 0; i <= 20'000; ++i) {
+    const double angle = i * 1e-4;
+    arc.push_back({100 * std::cos(angle), 100 * std::sin(angle)});
+  }
+  MapParts parts;
+  add_thick_line(parts, arc, 10);
+  EXPECT_LT(parts.walls.size(), 500u);
+  const Map map({{-200, -200}, {200, 200}}, parts.walls, parts.discs);
+  for (double angle = 0; angle < 2; angle += 0.0137)
+    for (const double r : {90.0, 110.0})
+      EXPECT_NEAR(map.clearance({r * std::cos(angle), r * std::sin(angle)}), 5, 0.01);
 }
 
 }  // namespace

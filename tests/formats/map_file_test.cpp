@@ -11,6 +11,7 @@
 #include "microswarm/formats/rectangles.hpp"
 #include "tests/files.hpp"
 #include "tests/formats/png.hpp"
+#include "tests/formats/tiff_writer.hpp"
 #include "tests/messages.hpp"
 
 namespace microswarm::formats {
@@ -153,69 +154,6 @@ TEST(MapFile, RectanglesFromListAndFile) {
   EXPECT_EQ(read_map_parts(spec, folder / "").bounds.lo, (Vec2{-5, -5}));
 }
 
-/// Matrices of 0 and 1 are told from rectangles by their content, also with four columns.
-TEST(MapFile, MatrixOfZerosAndOnes) {
-  const Folder folder;
-  const auto read = [&](const char* name, std::string_view text, MapChoice choice = {}) {
-    choice.um_per_px = 10;
-    return read_map_parts(choose_map_spec(folder.with(name, text), choice));
-  };
-  for (const char* text : {"1 1 1 1\n1 0 1 1\n", "1,1,1,1\n1,0,1,1", "# a\n\n1;1;1;1;\n1;0;1;1;\n",
-                           "1\t1\t1\t1\r\n1\t0\t1\t1\r\n", "1111\n1011\n",
-                           "1.0 1.0 1.0 1.0\n1.000e+00 0.000e+00 1.000e+00 1.000e+00\n"}) {
-    const MapParts parts = read("m.txt", text);
-    EXPECT_EQ(parts.bounds.hi, (Vec2{40, 20})) << text;
-    ASSERT_EQ(parts.walls.size(), 1u) << text;
-    EXPECT_EQ(bounding_box(parts.walls[0]).lo, (Vec2{10, 0})) << text;
-    EXPECT_EQ(area(parts.walls[0]), 100) << text;
-    ASSERT_EQ(parts.notes.size(), 1u);
-    EXPECT_NE(parts.notes[0].find("map.wall=one"), std::string::npos) << parts.notes[0];
-  }
-  const MapParts ones = read("m.csv", "1 1 1\n1 0 1\n", {.settings = {"map.wall=one"}});
-  EXPECT_EQ(area(ones.walls[0]), 500);
-  EXPECT_TRUE(ones.notes.empty());
-  EXPECT_TRUE(read("m.csv", "1 0\n", {.settings = {"map.wall=zero"}}).notes.empty());
-  const auto box = folder.with("m.txt", "0 0 1 1\n");
-  EXPECT_TRUE(test::is_one_line_naming(error_of([&] { guess_map_spec(box); }), box.string(),
-                                       {"matrix", "missing", "--um-per-px"}));
-  EXPECT_EQ(
-      area(read_map_parts(choose_map_spec(box, {.settings = {"map.type=rectangles"}})).walls[0]),
-      1);
-  EXPECT_TRUE(std::holds_alternative<RectanglesMap>(
-      guess_map_spec(folder.with("r.csv", "0,0,1,1\n0,0,2,1\n"))));
-  const auto ragged = folder.with("m.txt", "1 0\n1 0 1\n");
-  const MatrixMap spec{.file = ragged.string()};
-  EXPECT_TRUE(test::is_one_line_naming(error_of([&] { read_map_parts(spec); }),
-                                       ragged.string() + ":2", {"3", "2"}));
-  folder.with("m.txt", "1 0\n1 2\n");
-  EXPECT_TRUE(test::is_one_line_naming(error_of([&] { read_map_parts(spec); }),
-                                       ragged.string() + ":2", {"2", "0", "1"}));
-}
-
-TEST(MapFile, RectanglesOfSpreadsheets) {
-  const auto box = [](std::string_view text, double unit = 1) {
-    return bounding_box(parse_rectangles(text, "x.csv", unit).at(0));
-  };
-  EXPECT_EQ(box("\"x\";\"y\";\"w\";\"h\"\n1,5;2;3;4\n").lo, (Vec2{1.5, 2}));
-  EXPECT_EQ(box("\"x\",\"y\",\"w\",\"h\"\n\"1\",\"2\",\"3\",\"4\"\n").hi, (Vec2{4, 6}));
-  EXPECT_EQ(box("1,2,3,4\n", 1000).hi, (Vec2{4000, 6000}));
-}
-
-TEST(MapFile, OtherColumnsAreNoRectangles) {
-  for (const char* header : {"width,height,x,y", "x1,y1,x2,y2", "left,top,right,bottom",
-                             "x_mm,y_mm,width_mm,height_mm", "y,x,width,height"})
-    EXPECT_TRUE(test::is_one_line_naming(
-        error_of([&] { parse_rectangles(std::string(header) + "\n1,2,3,4\n", "x.csv"); }),
-        "x.csv:1", {"x,y,width,height"}))
-        << header;
-}
-
-TEST(MapFile, TracksAreNoRectangles) {
-  for (const char* text : {"id;t_s;x_um;y_um\n1;0;10;20\n", "frame,x,y,track\n0,1,2,3\n"})
-    EXPECT_TRUE(test::is_one_line_naming(error_of([&] { parse_rectangles(text, "x.csv"); }),
-                                         "x.csv:1", {"tracks", "width"}));
-}
-
 TEST(MapFile, SettingsChooseHowAFileIsRead) {
   const Folder folder;
   Image dark{3, 1, 1, {10, 200, 10}};
@@ -261,7 +199,7 @@ TEST(MapFile, AUnitScalesFilesInPlaneCoordinates) {
       (folder / "a.geojson").string(), {"--um-per-unit", "--um-per-px"}));
 }
 
-/// A picture that is all wall says what to change: samples of 12 bits in 16 are 15 of 255 at most.
+/// A picture that is all wall says what to change.
 TEST(MapFile, PictureThatIsAllWallIsRefusedWithAdvice) {
   const Folder folder;
   folder.with("a.pgm", encode_pnm(Image{3, 1, 1, {0, 15, 9}}));
@@ -272,10 +210,49 @@ TEST(MapFile, PictureThatIsAllWallIsRefusedWithAdvice) {
   };
   EXPECT_TRUE(test::is_one_line_naming(complaint(FreePixels::bright, 128),
                                        (folder / "a.pgm").string(),
-                                       {"15", "128", "map.threshold to 8", "map.free", "12"}));
+                                       {"15", "128", "map.threshold to 8", "map.free"}));
   folder.with("a.pgm", encode_pnm(Image{3, 1, 1, {40, 15, 19}}));
   EXPECT_TRUE(test::is_one_line_naming(complaint(FreePixels::dark, 12), (folder / "a.pgm").string(),
                                        {"15", "12", "map.free"}));
+}
+
+/// What is read of a deep, a real or a stacked picture is told, and its grey is that of a
+/// photograph.
+TEST(MapFile, TellsWhatItTakesOfAPicture) {
+  const Folder folder;
+  const auto read = [&] { return load_map(guess_map_spec(folder / "a.tif", 1.0)); };
+  using Notes = std::vector<std::string>;
+  const std::string name = (folder / "a.tif").string();
+  test::write_tiff<std::uint16_t>(folder / "a.tif", 3, {{4095, 100, 4000}});
+  LoadedMap loaded = read();
+  EXPECT_TRUE(loaded.map->is_free(Vec2{0.5, 0.5}, 0.1));
+  EXPECT_FALSE(loaded.map->is_free(Vec2{1.5, 0.5}, 0.1));
+  EXPECT_EQ(loaded.notes,
+            (Notes{name + ": its 16-bit samples are read as numbers of 12 bits: 4095 is white"}));
+  test::write_tiff<float>(folder / "a.tif", 3, {{0.25F, 1.0F, 0.5F}, {1, 1, 1}},
+                          {.format = SAMPLEFORMAT_IEEEFP});
+  loaded = read();
+  EXPECT_FALSE(loaded.map->is_free(Vec2{0.5, 0.5}, 0.1));
+  EXPECT_TRUE(loaded.map->is_free(Vec2{1.5, 0.5}, 0.1));
+  ASSERT_EQ(loaded.notes.size(), 2u);
+  EXPECT_EQ(loaded.notes[0], name + ": holds 2 pictures, the first is taken");
+  EXPECT_NE(loaded.notes[1].find("0.25 is black, 1 is white"), std::string::npos)
+      << loaded.notes[1];
+}
+
+TEST(MapFile, AScaleIsGivenOnce) {
+  const Folder folder;
+  folder.with("a.geojson", "{}");
+  folder.with("a.pgm", encode_pnm(Image{3, 1, 1, {0, 255, 9}}));
+  const auto complaint = [&](const char* file, MapChoice choice) {
+    return error_of([&] { choose_map_spec(folder / file, choice); });
+  };
+  EXPECT_TRUE(test::is_one_line_naming(
+      complaint("a.geojson", {.um_per_unit = 5, .settings = {"map.um_per_unit=3"}}),
+      (folder / "a.geojson").string(), {"--um-per-unit", "map.um_per_unit"}));
+  EXPECT_TRUE(test::is_one_line_naming(
+      complaint("a.pgm", {.um_per_px = 5, .settings = {"map.um_per_px=5"}}),
+      (folder / "a.pgm").string(), {"--um-per-px", "map.um_per_px"}));
 }
 
 /// Units in mm, a transform, a circle, a stroke and a curve, in front of white.

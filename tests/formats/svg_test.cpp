@@ -1,38 +1,91 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/formats/svg/svg.hpp"
+#include "microswarm/formats/svg_walls.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <initializer_list>
 #include <optional>
 #include <string>
 
 #include "microswarm/formats/map_file.hpp"
+#include "microswarm/geometry/shapes.hpp"
 #include "tests/files.hpp"
 
 namespace microswarm::formats {
 namespace {
 
-using test::Folder;
+/// Walls of a 2 × 1 mm drawing with a square at its lower left, and what is noted.
+LoadedMap load_drawing(const std::string& drawn, std::optional<double> um_per_px,
+                       std::initializer_list<std::string> settings = {}) {
+  const test::Folder folder;
+  folder.with("a.svg", R"(<svg xmlns="http://www.w3.org/2000/svg" width="2mm" height="1mm" )"
+                       R"(viewBox="0 0 2000 1000"><rect x="40" y="40" width="300" height="300"/>)" +
+                           drawn + "</svg>");
+  return load_map(
+      choose_map_spec(folder / "a.svg", {.um_per_px = um_per_px, .settings = settings}));
+}
 
-/// Note on ink that no pixel takes as a wall, with the size of pixels that keeps it.
-TEST(Svg, TellsInkThatIsLost) {
-  const Folder folder;
-  const auto notes = [&](const std::string& drawn, std::optional<double> um_per_px) {
-    folder.with("a.svg",
-                R"(<svg xmlns="http://www.w3.org/2000/svg" width="2mm" height="1mm" )"
-                R"(viewBox="0 0 2000 1000"><rect x="40" y="40" width="300" height="300"/>)" +
-                    drawn + "</svg>");
-    return load_map(choose_map_spec(folder / "a.svg", {.um_per_px = um_per_px})).notes;
-  };
-  const std::string thin = R"(<path d="M1000 0 V1000" stroke="#000" stroke-width="2"/>)";
-  ASSERT_EQ(notes(thin, 10.0).size(), 1u);
-  EXPECT_NE(notes(thin, 10.0)[0].find("thinner than a pixel of 10 µm"), std::string::npos);
-  EXPECT_TRUE(notes(thin, 1.0).empty());
-  EXPECT_TRUE(notes("", 10.0).empty());
-  const std::string slanted = R"(<path d="M900 0 L1000 1000" stroke="#000" stroke-width="3"/>)";
-  EXPECT_EQ(notes(slanted, 10.0).size(), 1u);
-  const std::string pale = R"(<rect x="600" y="200" width="300" height="300" fill="#ff8"/>)";
-  EXPECT_EQ(notes(pale, 10.0).size(), 1u);
+std::string line_drawing(double width, const char* path = "M1000 0 V1000",
+                         const char* colour = "#000") {
+  return fmt::format(R"(<path d="{}" stroke="{}" stroke-width="{}"/>)", path, colour, width);
+}
+
+/// Straight, slanted and crossing lines bar the way.
+TEST(Svg, LinesThinnerThanAPixelAreWalls) {
+  for (const double width : {9.0, 5.0, 2.0})
+    for (const char* path :
+         {"M1000 0 V1000", "M900 0 L1000 1000", "M1000 0 V1000 M900 0 L1100 1000"}) {
+      const LoadedMap loaded = load_drawing(line_drawing(width, path), 10.0);
+      for (double y = 100; y < 1000; y += 50)
+        EXPECT_FALSE(loaded.map->is_free(Segment{{700, y}, {1300, y}}, 0)) << width << path << y;
+      EXPECT_TRUE(loaded.map->is_free(Segment{{1300, 300}, {1300, 700}}, 150)) << width << path;
+    }
+  const LoadedMap half = load_drawing(line_drawing(5), 10.0);
+  ASSERT_EQ(half.notes.size(), 1u);
+  EXPECT_NE(half.notes[0].find("drawn with pixels of 5 µm"), std::string::npos) << half.notes[0];
+}
+
+TEST(Svg, WideLinesNeedNoFinerPixels) {
+  EXPECT_TRUE(load_drawing(line_drawing(30), 10.0).notes.empty());
+  EXPECT_TRUE(load_drawing("", 10.0).notes.empty());
+}
+
+/// Fills and lines that are paler than the threshold stay free, at the pixels that were asked for.
+TEST(Svg, PaleInkIsFree) {
+  const std::string fill = R"(<rect x="600" y="200" width="300" height="300" fill="#ff8"/>)";
+  for (const std::string& pale : {fill, line_drawing(10, "M1000 0 V1000", "#ccc"),
+                                  line_drawing(25, "M900 0 L1000 1000", "#ccc")}) {
+    const LoadedMap loaded = load_drawing(pale, 10.0);
+    EXPECT_TRUE(loaded.map->is_free(Segment{{700, 300}, {1300, 300}}, 0));
+    ASSERT_EQ(loaded.notes.size(), 1u) << pale;
+    EXPECT_NE(loaded.notes[0].find("a pixel of 10 µm, or pale fills"), std::string::npos)
+        << loaded.notes[0];
+  }
+}
+
+/// Where two channels meet within a pixel, the antialiased seam is no wall.
+TEST(Svg, SeamsOfChannelsAreFree) {
+  const LoadedMap loaded = load_drawing(R"(<rect x="100" y="403" width="904" height="200"/>)"
+                                        R"(<rect x="1004" y="403" width="900" height="200"/>)",
+                                        10.0, {"map.free=dark"});
+  EXPECT_TRUE(loaded.map->is_free(Segment{{200, 500}, {1800, 500}}, 50));
+}
+
+/// Some that are too thin for a sixteenth of a pixel.
+TEST(Svg, TellsLinesThatAreLost) {
+  const LoadedMap hair = load_drawing(line_drawing(0.6), 10.0);
+  ASSERT_EQ(hair.notes.size(), 1u);
+  EXPECT_NE(hair.notes[0].find("thinner than a pixel of 10 µm"), std::string::npos)
+      << hair.notes[0];
+}
+
+TEST(Svg, TellsPicturesOfOtherFiles) {
+  const std::string link = R"(<image xlink:href="photo.png" width="10" height="10"/>)";
+  const std::string xlink = R"(<g xmlns:xlink="http://www.w3.org/1999/xlink">)" + link + "</g>";
+  const LoadedMap loaded = load_drawing(xlink, 10.0);
+  ASSERT_EQ(loaded.notes.size(), 1u);
+  EXPECT_NE(loaded.notes[0].find("1 of its pictures"), std::string::npos) << loaded.notes[0];
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <utility>
 
@@ -20,10 +21,11 @@
 #include "microswarm/formats/map_extension.hpp"
 #include "microswarm/formats/matrix.hpp"
 #include "microswarm/formats/moving_ai.hpp"
+#include "microswarm/formats/picture_walls.hpp"
 #include "microswarm/formats/rectangles.hpp"
 #include "microswarm/formats/ring_fault.hpp"
 #include "microswarm/formats/ros.hpp"
-#include "microswarm/formats/svg/svg.hpp"
+#include "microswarm/formats/svg_walls.hpp"
 #include "microswarm/formats/turn_map.hpp"
 #include "microswarm/world/obstacles/channel.hpp"
 #include "microswarm/world/obstacles/obstacle.hpp"
@@ -37,61 +39,28 @@ MapParts to_parts(const Mask& blocked, double cell, Vec2 lo = {}) {
   return {cell_bounds(blocked, cell, lo), mask_walls(blocked, cell, lo), {}};
 }
 
-/// Walls of a picture. Throws InputError, with advice, if all of it is wall.
-Mask picture_walls(const Image& image, int level, FreePixels free, const std::string& name) {
-  Mask walls = threshold(image, level, free == FreePixels::bright);
-  if (std::ranges::find(walls.cells, 0) != walls.cells.end()) return walls;
-  // The brightest grey, or the darkest one.
-  const auto has_free = [&](int t) {
-    const Mask set = threshold(image, t, free == FreePixels::dark);
-    return std::ranges::find(set.cells, 1) != set.cells.end();
-  };
-  int below = 0, above = 256;  // the limit between thresholds that leave something free and others
-  while (above - below > 1) {
-    const int middle = (below + above) / 2;
-    (has_free(middle) == (free == FreePixels::bright) ? below : above) = middle;
-  }
-  const int extreme = below;
-  throw InputError(
-      free == FreePixels::bright
-          ? fmt::format("{}: all of the picture is wall: its brightest grey is {} of 255, below "
-                        "map.threshold {}. Samples of 12 bits in a file of 16 are that dark: set "
-                        "map.threshold to {}, or map.free to dark where dark is free",
-                        name, extreme, level, std::max(1, (extreme + 1) / 2))
-          : fmt::format("{}: all of the picture is wall: its darkest grey is {} of 255, not below "
-                        "map.threshold {}, and map.free is dark: set map.threshold higher",
-                        name, extreme, level));
-}
-
-void note_no_walls(MapParts& parts, int level, FreePixels free, const std::string& name) {
-  if (!parts.walls.empty()) return;
-  parts.notes.push_back(fmt::format("{}: no walls: no grey is {} map.threshold {}", name,
-                                    free == FreePixels::bright ? "below" : "at least", level));
-}
-
 MapParts read(const ImageMap& spec, const fs::path& base, Issues&) {
   const fs::path file = base / spec.file;
-  const Image image = read_image(file);
-  MapParts parts =
-      to_parts(picture_walls(image, spec.threshold, spec.free, file.string()), spec.um_per_px);
-  note_no_walls(parts, spec.threshold, spec.free, file.string());
+  ReadPicture picture = read_picture(file);
+  MapParts parts = to_parts(picture_walls(picture.image, spec.threshold, spec.free, file.string()),
+                            spec.um_per_px);
+  parts.notes = std::move(picture.notes);
+  if (parts.walls.empty())
+    parts.notes.push_back(no_walls_note(spec.threshold, spec.free, file.string()));
   simplify(parts.walls, spec.simplify);
   return parts;
 }
 
 MapParts read(const SvgMap& spec, const fs::path& base, Issues&) {
   const fs::path file = base / spec.file;
-  const SvgPicture drawn = draw_svg_file(file, spec.um_per_unit, spec.um_per_px);
-  const Mask walls = picture_walls(drawn.image, spec.threshold, spec.free, file.string());
+  SvgWalls drawn = draw_svg_walls(spec, file);
   // The lowest pixels may reach below the drawing.
-  MapParts parts =
-      to_parts(walls, drawn.um_per_px, {0, drawn.height - drawn.um_per_px * walls.height});
-  parts.bounds = {{0, 0}, {drawn.width, drawn.height}};
-  parts.notes = drawn.notes;
-  const std::uint8_t blank = spec.free == FreePixels::bright ? 255 : 0;
-  if (std::string lost = lost_ink_note(drawn, walls, blank, file.string()); !lost.empty())
-    parts.notes.push_back(std::move(lost));
-  note_no_walls(parts, spec.threshold, spec.free, file.string());
+  MapParts parts = to_parts(drawn.walls, drawn.um_per_px,
+                            {0, drawn.size.y - drawn.um_per_px * drawn.walls.height});
+  parts.bounds = {{0, 0}, drawn.size};
+  parts.notes = std::move(drawn.notes);
+  if (parts.walls.empty())
+    parts.notes.push_back(no_walls_note(spec.threshold, spec.free, file.string()));
   simplify(parts.walls, spec.simplify);
   return parts;
 }
@@ -262,6 +231,14 @@ void set_scale(MapSpec& spec, const MapChoice& choice, Fail&& fail) {
     return std::ranges::any_of(choice.settings.list,
                                [&](const Setting& s) { return s.key == key; });
   };
+  const auto need_one = [&](const auto& option, const std::string& name,
+                            std::initializer_list<std::string_view> keys) {
+    for (const std::string_view key : keys)
+      if (option && is_set(key))
+        fail("its scale is given twice: by " + name + " and by " + std::string(key));
+  };
+  need_one(px, choice.um_per_px_option, {"map.um_per_px", "map.um_per_cell", "map.um_per_m"});
+  need_one(unit, choice.um_per_unit_option, {"map.um_per_unit", "map.um_per_m"});
   const auto need_no_unit = [&] {
     if (unit)
       fail("has no unit: leave out " + choice.um_per_unit_option + ", give " +

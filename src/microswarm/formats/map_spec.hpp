@@ -119,7 +119,7 @@ struct SvgMap {
     visit(self.um_per_unit, plain("um_per_unit", 1e-9, 1e9,
                                   "µm for a unit of the drawing; none: as its size in mm says."));
     visit(self.um_per_px, plain("um_per_px", 1e-6, 1e6,
-                                "Side of a pixel it is drawn with, in µm; none: 2000 a side."));
+                                "Largest pixel it is drawn with, in µm; none: 2000 a side."));
     visit(self.threshold, plain("threshold", 0, 255, "Grey value from which a pixel is bright."));
     visit(self.free, plain("free", "Free pixels: bright or dark."));
     visit(self.simplify, um("simplify", 0, 1e6, "Tolerance of the outlines; 0: exact."));

@@ -28,14 +28,11 @@ bool is_digits(std::string_view word) {
   return word.size() > 1 && word.find_first_not_of("01") == std::string_view::npos;
 }
 
-/// The fields of a row, between any of the separators.
+/// The fields of a row, between any of the separators, one of which may end it.
 std::vector<std::string_view> matrix_fields(std::string_view row) {
-  for (const char separator : {',', ';'}) {
-    if (row.find(separator) == std::string_view::npos) continue;
-    auto fields = split(row, separator);
-    if (fields.back().empty()) fields.pop_back();  // a separator ends the row
-    return fields;
-  }
+  if (row.ends_with(',') || row.ends_with(';')) row = trimmed(row.substr(0, row.size() - 1));
+  for (const char separator : {',', ';'})
+    if (row.find(separator) != std::string_view::npos) return split(row, separator);
   return words(row);
 }
 
@@ -85,11 +82,19 @@ Mask parse_matrix(std::string_view text, std::string_view name) {
 }
 
 bool is_matrix(std::string_view text) {
-  try {
-    return parse_matrix(text, "").width >= 2;
-  } catch (const InputError&) {
-    return false;
+  Lines lines(text, "");
+  std::size_t rows = 0, good = 0, width = 0;
+  std::string_view bad;
+  while (const std::optional<std::string_view> line = lines.next()) {
+    const std::string_view row = trimmed(*line);
+    if (is_comment(row)) continue;
+    const auto cells = row_cells(row, bad);
+    ++rows;
+    good += cells.has_value();
+    if (cells) width = std::max(width, cells->size());
   }
+  constexpr std::size_t of_rectangle = 4;
+  return width >= 2 && (good == rows || (width != of_rectangle && 2 * good > rows));
 }
 
 Mask read_matrix(const std::filesystem::path& path) {

@@ -8,8 +8,8 @@
 
 namespace microswarm::formats {
 
-/// Whether the text consists of rows of the numbers 0 and 1, at least two in a row, all of one
-/// length: a matrix, even if its rows are four long as those of rectangles.
+/// Whether the text is meant as a matrix: more than half of its rows consist of the numbers 0 and
+/// 1, at least two in a row. Where they are four long, as those of rectangles, all rows must be.
 bool is_matrix(std::string_view text);
 
 /// Reads a matrix of 0 and 1, the upper row first: between blanks, tabs, commas or semicolons

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/csv.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/lines.hpp"
 #include "microswarm/core/text/text.hpp"
@@ -20,19 +21,11 @@ bool has_number(const std::vector<std::string_view>& fields) {
                      [](std::string_view f) { return parse_number(f).has_value(); });
 }
 
-/// The fields of a line, without double quotes around them.
+/// The fields of a line between ';' or commas, without double quotes around them, else words.
 std::vector<std::string_view> rectangle_fields(std::string_view line) {
-  std::vector<std::string_view> fields;
-  if (line.find(';') != std::string_view::npos)
-    fields = split(line, ';');
-  else if (line.find(',') != std::string_view::npos)
-    fields = split(line, ',');
-  else
-    fields = words(line);
-  for (std::string_view& field : fields)
-    if (field.size() >= 2 && field.front() == '"' && field.back() == '"')
-      field = trimmed(field.substr(1, field.size() - 2));
-  return fields;
+  for (const char separator : {';', ','})
+    if (line.find(separator) != std::string_view::npos) return csv_cells(line, separator);
+  return words(line);
 }
 
 /// Whether a header names columns of tracks, which are four too.
@@ -43,19 +36,39 @@ bool names_tracks(const std::vector<std::string_view>& header) {
   });
 }
 
-/// Refuses a header whose columns are not x, y, width and height in this order, without units.
-void check_columns(const Lines& lines, const std::vector<std::string_view>& header) {
-  constexpr std::array<std::array<std::string_view, 4>, 4> names{
-      {{"x", "left", "x_um", "X"},
-       {"y", "bottom", "y_um", "Y"},
-       {"width", "w", "width_um", "W"},
-       {"height", "h", "height_um", "H"}}};
-  for (std::size_t i = 0; i < std::min(header.size(), names.size()); ++i)
-    if (std::ranges::find(names[i], header[i]) == names[i].end())
-      lines.fail("column " + quote(header[i]) + " where " + std::string(names[i][0]) +
-                 " stands in rectangles: x,y,width,height expected in this order, the lower left "
-                 "corner first; "
-                 "other units by um_per_unit (--um-per-unit)");
+/// Places of x, y, width and height among the columns of a rectangles' table.
+using RectangleColumns = std::array<std::size_t, 4>;
+
+/// The columns by their names, in any order. Refuses others, and a unit other than µm.
+RectangleColumns find_columns(const Lines& lines, const std::vector<std::string_view>& header) {
+  constexpr std::array<std::array<std::string_view, 3>, 4> names{{{"x", "left", "x_um"},
+                                                                  {"y", "bottom", "y_um"},
+                                                                  {"width", "w", "width_um"},
+                                                                  {"height", "h", "height_um"}}};
+  constexpr std::size_t missing = ~std::size_t{0};
+  RectangleColumns found{missing, missing, missing, missing};
+  constexpr std::string_view expected =
+      "rectangles have x,y,width,height, (x, y) being the lower left corner; other units by "
+      "um_per_unit (--um-per-unit)";
+  for (std::size_t column = 0; column < header.size(); ++column) {
+    std::string name(header[column]);
+    std::ranges::transform(name, name.begin(), [](char c) {
+      return c == 'X' || c == 'Y' || c == 'W' || c == 'H' ? static_cast<char>(c - 'A' + 'a') : c;
+    });
+    const auto is_named = [&](const auto& of_one) {
+      return std::ranges::find(of_one, name) != of_one.end();
+    };
+    const auto quantity = std::ranges::find_if(names, is_named);
+    if (quantity == names.end())
+      lines.fail("column " + quote(header[column]) + ": " + std::string(expected));
+    std::size_t& place = found[static_cast<std::size_t>(quantity - names.begin())];
+    if (place != missing) lines.fail("two columns of " + std::string(quantity->front()));
+    place = column;
+  }
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (found[i] == missing)
+      lines.fail("no column of " + std::string(names[i].front()) + ": " + std::string(expected));
+  return found;
 }
 
 /// A number, between semicolons also with a decimal comma.
@@ -84,6 +97,7 @@ std::vector<Polygon> parse_rectangles(std::string_view text, std::string_view na
                                       double um_per_unit) {
   Lines lines(text, name);
   std::vector<Polygon> rectangles;
+  RectangleColumns columns{0, 1, 2, 3};
   bool first = true;
   while (const std::optional<std::string_view> raw = lines.next()) {
     const std::string_view line = trimmed(*raw);
@@ -92,7 +106,7 @@ std::vector<Polygon> parse_rectangles(std::string_view text, std::string_view na
     if (std::exchange(first, false) && !has_number(fields)) {
       if (names_tracks(fields))
         lines.fail("columns of tracks, not of rectangles: x,y,width,height expected");
-      check_columns(lines, fields);
+      columns = find_columns(lines, fields);
       continue;
     }
     std::vector<double> numbers;
@@ -100,6 +114,10 @@ std::vector<Polygon> parse_rectangles(std::string_view text, std::string_view na
       const std::optional<double> number = rectangle_number(field);
       if (!number) lines.fail(quote(field) + " is no number");
       numbers.push_back(um_per_unit * *number);
+    }
+    if (numbers.size() == columns.size()) {
+      const std::vector<double> in_file = numbers;
+      for (std::size_t i = 0; i < columns.size(); ++i) numbers[i] = in_file[columns[i]];
     }
     rectangles.push_back(
         rectangle(numbers, std::string(name) + ":" + std::to_string(lines.number())));

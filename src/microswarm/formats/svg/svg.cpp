@@ -9,14 +9,12 @@
 #include <utility>
 
 #include "microswarm/core/errors/error.hpp"
-#include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/formats/svg/renderer.hpp"
 
 namespace microswarm::formats {
 namespace {
 
-constexpr std::uint64_t max_svg_bytes = 64ULL << 20;
 constexpr double default_side = 2000;  // [px]
 
 /// Width and height [µm].
@@ -27,6 +25,20 @@ std::pair<double, double> size_um(const SvgSize& size, std::optional<double> um_
   throw InputError(name +
                    ": its size is not in mm, cm, in, pt or pc: give um_per_unit (--um-per-unit), "
                    "the µm for a unit of the drawing");
+}
+
+/// Number of `image` elements that name another file, which is not read.
+int linked_pictures(std::string_view text) {
+  int linked = 0;
+  for (const std::string_view element : {"<image", "<svg:image"})
+    for (std::size_t at = text.find(element); at != std::string_view::npos;
+         at = text.find(element, at + 1)) {
+      const std::string_view tag = text.substr(at, text.find('>', at) - at);
+      const std::size_t href = tag.find("href");
+      if (href != std::string_view::npos && tag.find("data:", href) == std::string_view::npos)
+        ++linked;
+    }
+  return linked;
 }
 
 }  // namespace
@@ -56,44 +68,15 @@ SvgPicture draw_svg(std::string_view text, std::string_view name, std::optional<
                                   picture.height / picture.um_per_px, columns, rows);
   if (!drawn.error.empty()) throw InputError(file + ": cannot draw it: " + one_line(drawn.error));
   picture.image = {columns, rows, 1, std::move(drawn.grey)};
+  if (const int linked = linked_pictures(text); linked > 0)
+    picture.notes.push_back(fmt::format(
+        "{}: {} of its pictures are in other files, which are not read: embed them", name, linked));
   if (!um_per_px)
     picture.notes.push_back(fmt::format(
         "{}: {:.4g} × {:.4g} µm, drawn with pixels of {:.4g} µm: give um_per_px (--um-per-px) for "
         "finer ones",
         name, picture.width, picture.height, picture.um_per_px));
   return picture;
-}
-
-std::string lost_ink_note(const SvgPicture& drawn, const Mask& walls, std::uint8_t blank,
-                          const std::string& name) {
-  std::int64_t lost = 0;
-  double ink = 0;
-  Vec2 first;
-  for (int row = 0; row < walls.height; ++row)
-    for (int column = 0; column < walls.width; ++column) {
-      const int grey = drawn.image.pixels[drawn.image.index(column, row)];
-      if (grey == blank) continue;
-      bool beside_wall = false;
-      for (int r = std::max(0, row - 1); r <= std::min(walls.height - 1, row + 1); ++r)
-        for (int c = std::max(0, column - 1); c <= std::min(walls.width - 1, column + 1); ++c)
-          beside_wall = beside_wall || walls.at(c, r);
-      if (beside_wall) continue;
-      if (lost++ == 0)
-        first = drawn.um_per_px * Vec2{column + 0.5, -row - 0.5} + Vec2{0, drawn.height};
-      ink += std::abs(blank - grey) / 255.0;
-    }
-  if (lost == 0) return {};
-  return fmt::format(
-      "{}: {} pixels with some ink are free, the first at ({:.6g}, {:.6g}) µm: lines thinner than "
-      "a pixel of {:.4g} µm, or pale fills; um_per_px (--um-per-px) of about {:.2g} keeps such "
-      "lines, map.threshold such fills",
-      name, lost, first.x, first.y, drawn.um_per_px,
-      0.9 * drawn.um_per_px * ink / static_cast<double>(lost));
-}
-
-SvgPicture draw_svg_file(const std::filesystem::path& path, std::optional<double> um_per_unit,
-                         std::optional<double> um_per_px) {
-  return draw_svg(read_file(path, max_svg_bytes), path.string(), um_per_unit, um_per_px);
 }
 
 }  // namespace microswarm::formats

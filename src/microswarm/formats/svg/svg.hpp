@@ -2,14 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "microswarm/formats/images/image.hpp"
-#include "microswarm/formats/images/mask.hpp"
 
 namespace microswarm::formats {
 
@@ -28,13 +26,5 @@ struct SvgPicture {
 /// Throws InputError "NAME: WHY", also for more pixels than an image may have.
 SvgPicture draw_svg(std::string_view text, std::string_view name, std::optional<double> um_per_unit,
                     std::optional<double> um_per_px);
-SvgPicture draw_svg_file(const std::filesystem::path& path, std::optional<double> um_per_unit,
-                         std::optional<double> um_per_px);
-
-/// Note on ink, pixels of another grey than `blank`, that is free though no wall is beside it:
-/// lines thinner than a pixel, and pale fills; empty if there is none. `walls` are those of the
-/// image.
-std::string lost_ink_note(const SvgPicture& drawn, const Mask& walls, std::uint8_t blank,
-                          const std::string& name);
 
 }  // namespace microswarm::formats
