@@ -80,6 +80,7 @@ Issues validate_body(const Scenario& scenario, const World& world) {
   if (!issues.empty()) return issues;
   issues = validate_path(*world.map, scenario.start->position, *target, radius);
   if (issues.empty()) issues = validate_margin(scenario, world);
+  if (issues.empty()) issues = validate_radar_passages(scenario, world);
   return issues;
 }
 
