@@ -373,6 +373,40 @@ TEST(ScenarioCheck, APassageDecidesToATenThousandth) {
   }
 }
 
+/// A room with a block, turned, across the way to the goal, and a start at its left face.
+Scenario start_beside_block(double gap, double angle) {
+  Scenario s = open_room();
+  const Vec2 corner{900, 250}, u = unit_vector(angle), v = perpendicular(u);
+  std::get<formats::PolygonsMap>(s.map).walls = {
+      {corner, corner + 60 * u, corner + 60 * u + 500 * v, corner + 500 * v}};
+  s.start->position = corner - gap * u + 220 * v;
+  return s;
+}
+
+TEST(ScenarioCheck, AStartBesideAFaceIsAllowedAtEveryDistance) {
+  for (const double angle : {0.0, 0.1, radians(30)})
+    for (int gap = 41; gap <= 101; gap += angle == 0 && gap < 60 ? 1 : 10) {
+      Scenario s = start_beside_block(gap, angle);
+      EXPECT_EQ(check_error(s), "") << angle << ' ' << gap;
+      s.navigator = navigation::PredictiveParams{};
+      EXPECT_EQ(check_error(s), "") << angle << ' ' << gap;
+    }
+}
+
+TEST(ScenarioCheck, ASwarmThatTouchesAFaceMayStart) {
+  for (const double angle : {0.0, 0.1, radians(30)}) {
+    Scenario s = start_beside_block(40, angle);
+    while (!world_of(s).map->is_free(s.start->position, 40))
+      s.start->position -= 1e-13 * unit_vector(angle);
+    EXPECT_EQ(check_error(s), "") << angle;
+    s.navigator = navigation::PredictiveParams{};
+    EXPECT_EQ(check_error(s), "") << angle;
+    std::swap(s.start->position, *s.goal);
+    s.goal_tolerance = 1e-3;
+    EXPECT_EQ(check_error(s), "") << angle;
+  }
+}
+
 TEST(ScenarioCheck, MarginWiderThanEveryPassage) {
   Scenario scenario = open_room();
   std::get<formats::PolygonsMap>(scenario.map).walls = {bar(1000, 0, 20, 500).outer,

@@ -88,6 +88,57 @@ TEST(RadarCheck, LegsThroughAWall) {
   EXPECT_EQ(refusal(s), "");
 }
 
+/// A room that a lane of this width and 400 µm length connects with the goal's.
+Scenario lane(double width) {
+  Scenario s = open_room();
+  std::get<formats::PolygonsMap>(s.map).walls = {
+      {{800, 0}, {1200, 0}, {1200, 500 - width / 2}, {800, 500 - width / 2}},
+      {{800, 500 + width / 2}, {1200, 500 + width / 2}, {1200, 1000}, {800, 1000}}};
+  s.swarm = VortexParams{.radius = 40, .moving_radius = 40, .max_speed = 80};
+  s.navigator = navigation::RadarParams{.speed = 80};
+  return s;
+}
+
+TEST(RadarCheck, LanesThatItCannotEnterAreNamed) {
+  EXPECT_TRUE(
+      test::is_one_line_naming(refusal(lane(120)), "s.yaml",
+                               {"navigator.safety_distance_um", "25", "65 µm", "60 µm", "500"}));
+  Scenario s = lane(120);
+  radar(s).safety_distance = 19;  // 59 of 60 µm
+  EXPECT_EQ(refusal(s), "");
+  for (const auto seed : {1u, 2u}) EXPECT_EQ(record_of(s, seed).result.status, Status::solved);
+}
+
+TEST(RadarCheck, NoLaneIsRefusedThatItPasses) {
+  int passed = 0, refused = 0;
+  for (const double thickness : {2.0, 20.0, 26.0, 400.0})
+    for (int width = 118; width <= 134; width += 2) {
+      Scenario s = lane(width);
+      for (auto& wall : std::get<formats::PolygonsMap>(s.map).walls)
+        for (Vec2& p : wall)
+          if (p.x == 1200) p.x = 800 + thickness;
+      radar(s).retreat = false;
+      const bool is_refused = !refusal(s).empty();
+      const bool arrives = record_of(s).result.status == Status::solved;
+      EXPECT_FALSE(is_refused && arrives) << width << ' ' << thickness;
+      passed += arrives;
+      refused += is_refused;
+    }
+  EXPECT_GT(passed, 4);
+  EXPECT_GT(refused, 4);
+}
+
+TEST(RadarCheck, StartsAndGoalsNearerToAWallAreAllowed) {
+  Scenario s = open_room();
+  s.navigator = navigation::RadarParams{};
+  s.start->position = {200, 45};
+  EXPECT_EQ(refusal(s), "");
+  s = open_room();
+  s.navigator = navigation::RadarParams{};
+  s.goal = Vec2{1800, 45};
+  EXPECT_EQ(refusal(s), "");
+}
+
 TEST(RadarCheck, WaitAreas) {
   Scenario s = radar_room();
   navigation::WaitZone area{.centre = {1000, 700}, .width = 300, .height = 300, .min_gap = 200};

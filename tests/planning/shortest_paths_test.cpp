@@ -10,6 +10,7 @@
 #include "microswarm/contracts/plan.hpp"
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/geometry/uniform_in.hpp"
+#include "microswarm/planning/exact/shortest_path_tree.hpp"
 #include "random_worlds.hpp"
 
 namespace microswarm::planning {
@@ -135,6 +136,54 @@ TEST(ShortestPaths, WhatWasKeptChangesNoBit) {
     }
   }
   EXPECT_GT(solved, 200);
+}
+
+/// A block whose lower left corner is at `corner`, turned by `angle`, in a room of 2 mm.
+Map tilted_block(Vec2 corner, double angle, Vec2 size) {
+  const Vec2 u = unit_vector(angle), v = perpendicular(u);
+  return Map(
+      {{0, 0}, {2000, 2000}},
+      {{{corner, corner + size.x * u, corner + size.x * u + size.y * v, corner + size.y * v}, {}}});
+}
+
+/// Places at the distance from the left face of the block, up to its ends and beyond the bend.
+std::vector<Vec2> places_beside(const Map& map, Vec2 corner, double angle, double height,
+                                double clearance) {
+  std::vector<Vec2> places;
+  const Vec2 u = unit_vector(angle), v = perpendicular(u);
+  for (const double along : {0.0, 1e-9, 1e-6, 1e-3, 0.02, 0.5, 30.0, 300.0, 599.0, 600.0}) {
+    Vec2 place = corner + std::min(along, height) * v - clearance * u;
+    while (!map.is_free(place, clearance)) place -= 1e-14 * norm(place) * u;
+    places.push_back(place);
+  }
+  return places;
+}
+
+TEST(ShortestPaths, FromAndToPlacesAtTheClearanceBesideAFace) {
+  for (const double angle : {0.0, 0.1, radians(30), radians(45), radians(-20)})
+    for (const double clearance : {0.3, 41.0, 50.0, 55.0}) {
+      const Vec2 corner{900, 700};
+      const Vec2 other =
+          corner + 500 * unit_vector(angle) + 300 * perpendicular(unit_vector(angle));
+      const Map map = tilted_block(corner, angle, {200, 600});
+      ShortestPaths paths(map, clearance);
+      ShortestPathTree tree(map, other, clearance);
+      for (const Vec2 place : places_beside(map, corner, angle, 600, clearance)) {
+        SCOPED_TRACE(testing::Message() << angle << ' ' << clearance << ' ' << place.y);
+        const Vec2 away = place - 1e-3 * unit_vector(angle);
+        const ShortestPath path = paths.find(place, other);
+        EXPECT_EQ(path.status, Status::solved);
+        EXPECT_NEAR(path.length, paths.find(away, other).length, 2e-3);
+        const ShortestPath back = paths.find(other, place);
+        EXPECT_EQ(back.status, Status::solved);
+        EXPECT_NEAR(back.length, path.length, 1e-6);
+        EXPECT_NEAR(tree.length_from(place), path.length, 1e-6);
+        EXPECT_NEAR(ShortestPathTree(map, place, clearance).length_from(other), path.length, 1e-6);
+        for (std::size_t i = 1; i < path.points.size(); ++i)
+          EXPECT_TRUE(
+              map.is_free(Segment{path.points[i - 1], path.points[i]}, clearance * (1 - 1e-9)));
+      }
+    }
 }
 
 /// The circle of radius `radius` around a corner.

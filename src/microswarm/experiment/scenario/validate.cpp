@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
+#include "microswarm/experiment/scenario/passages.hpp"
 #include "microswarm/experiment/scenario/validate_radar.hpp"
 #include "microswarm/experiment/scenario/validate_robots.hpp"
 #include "microswarm/navigation/steering/aim.hpp"
-#include "microswarm/planning/exact/shortest_paths.hpp"
 #include "microswarm/world/connectivity/passage.hpp"
 
 namespace microswarm::experiment {
@@ -32,11 +32,6 @@ std::string goal_text(const std::string& why, const Scenario& scenario) {
                      navigation::aim_share, navigation::aim_share * scenario.goal_tolerance);
 }
 
-/// Whether a path with the clearance exists; false is a proof.
-bool leads_to(const Map& map, Vec2 start, Vec2 goal, double clearance) {
-  return planning::ShortestPaths(map, clearance).find(start, goal).status == Status::solved;
-}
-
 // The navigator may require more clearance than the swarm needs.
 Issues validate_margin(const Scenario& scenario, const World& world) {
   Issues issues;
@@ -53,15 +48,11 @@ Issues validate_margin(const Scenario& scenario, const World& world) {
   // A start closer to a wall is allowed: the navigator leads away from it.
   const double needed = std::min(margin, world.map->clearance(scenario.start->position));
   if (leads_to(*world.map, scenario.start->position, *target, needed)) return issues;
-  const WidestPath path = widest_path(*world.map, scenario.start->position, *target, margin);
-  const std::string left = path.found
-                               ? fmt::format(": about {:.3g} µm are left at ({:.4g}, {:.4g}) µm",
-                                             path.clearance, path.tightest.x, path.tightest.y)
-                               : "";
-  issues.add("navigator.clearance_um",
-             fmt::format("navigator.clearance_um is {:.4g}, wider than the passages to the goal "
-                         "allow{}",
-                         margin, left));
+  issues.add(
+      "navigator.clearance_um",
+      fmt::format("navigator.clearance_um is {:.4g}, wider than the passages to the goal "
+                  "allow{}",
+                  margin, tightest_text(*world.map, scenario.start->position, *target, margin)));
   return issues;
 }
 
@@ -89,6 +80,7 @@ Issues validate_body(const Scenario& scenario, const World& world) {
   if (!issues.empty()) return issues;
   issues = validate_path(*world.map, scenario.start->position, *target, radius);
   if (issues.empty()) issues = validate_margin(scenario, world);
+  if (issues.empty()) issues = validate_radar_passages(scenario, world);
   return issues;
 }
 

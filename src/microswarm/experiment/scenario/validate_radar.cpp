@@ -3,7 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "microswarm/experiment/scenario/passages.hpp"
 #include "microswarm/navigation/radar/wait_zone.hpp"
+#include "microswarm/navigation/steering/aim.hpp"
 #include "microswarm/world/map/map.hpp"
 #include "microswarm/world/world.hpp"
 
@@ -40,6 +45,34 @@ Issues validate_legs(const std::vector<Stage>& stages, const Map& map) {
   return issues;
 }
 
+/// Passages that the radar cannot enter, since it takes no direction in which its predictive swarm
+/// comes nearer to a wall than d_f. Between two posts that step alone may lead through: then at
+/// its middle, half of d_p from both ends, the way is at least `needed` wide.
+Issues validate_passages(const Scenario& scenario, const navigation::RadarParams& radar,
+                         const World& world) {
+  const SwarmLimits swarm = swarm_limits(scenario.swarm);
+  const Snapshot walls(world.map);
+  const Map& map = *world.map;
+  const Vec2 start = scenario.start->position;
+  const double radius = swarm.radius - swarm.radius_variation;
+  const double reach = radius + radar.safety_distance;
+  const navigation::Aim aim =
+      navigation::aim_at(walls, *scenario.goal, scenario.goal_tolerance, swarm.radius,
+                         swarm.radius + radar.safety_distance);
+  const double half = std::min(reach, 0.5 * radar.prediction_distance);
+  // Nearer to a wall it leaves the start, and enters the goal.
+  const double needed =
+      std::min({std::sqrt(reach * reach - half * half), map.clearance(start), aim.clearance});
+  Issues issues;
+  if (needed <= swarm.radius || leads_to(map, start, aim.position, needed)) return issues;
+  issues.add(
+      "navigator.safety_distance_um",
+      fmt::format("navigator.safety_distance_um is {:.4g}: the radar keeps {:.4g} µm from "
+                  "walls, wider than the passages to the goal allow{}",
+                  radar.safety_distance, reach, tightest_text(map, start, aim.position, reach)));
+  return issues;
+}
+
 /// Why the valve in the zone never lets the swarm pass; empty if it does.
 std::string never_opens(const navigation::WaitZone& area, const Valve& valve) {
   const bool opens = valve.max_gap >= valve.span ||    // then the valve is absent
@@ -73,6 +106,11 @@ Issues validate_area(const navigation::WaitZone& area, const Scenario& scenario,
 }
 
 }  // namespace
+
+Issues validate_radar_passages(const Scenario& scenario, const World& world) {
+  const auto* radar = std::get_if<navigation::RadarParams>(&scenario.navigator);
+  return radar ? validate_passages(scenario, *radar, world) : Issues();
+}
 
 Issues validate_radar(const Scenario& scenario, const World& world) {
   Issues issues;

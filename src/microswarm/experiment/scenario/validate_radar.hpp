@@ -12,4 +12,8 @@ namespace microswarm::experiment {
 /// requires a gap that its valve never reaches. A moving valve counts as being in every zone.
 Issues validate_radar(const Scenario& scenario, const World& world);
 
+/// The part of `validate` for the passages on the radar's way: an issue if all of them are narrower
+/// than the distance that it keeps from walls. Start and goal must be free for the swarm.
+Issues validate_radar_passages(const Scenario& scenario, const World& world);
+
 }  // namespace microswarm::experiment

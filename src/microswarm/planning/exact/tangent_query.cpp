@@ -247,8 +247,9 @@ bool TangentQuery::take(const Open& open, Label& label) {
   if (guess.to != none) {
     label.arrive = graph_->angle_at(guess.to, guess.line);
     if (!arrive(label)) return false;
+    return is_free(label.line.from(label.from));
   }
-  return is_free(label.line.from(label.from));
+  return is_free({label.from, goal_});
 }
 
 /// Finds the arc at which a label arrives; false if it is not free.

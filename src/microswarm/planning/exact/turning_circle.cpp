@@ -16,6 +16,19 @@ double positive(double angle) {
   return angle;
 }
 
+/// Angle [rad] by which the tangent of a circle from a point may miss the cone of its corner. Along
+/// the corner's face the circle reaches further than the clearance, by less than the margin, and a
+/// point with the clearance is nearer to the face: its tangent rises from there.
+double cone_slack(const TurningCircle& circle, const TurningCircle& point, double length,
+                  double margin) {
+  constexpr double most = 0.01;
+  if (point.radius > 0) return angle_slack;
+  // The angle φ of length · φ + radius · φ² / 2 = margin.
+  const double angle =
+      2 * margin / (length + std::sqrt(length * length + 2 * circle.radius * margin));
+  return angle_slack + std::min(most, angle);
+}
+
 /// Cuts a circle where its distance to a wall, a body or the border equals the clearance.
 class ArcCutter {
  public:
@@ -99,15 +112,18 @@ class ArcCutter {
 
 }  // namespace
 
-bool TurningCircle::is_taut(Vec2 normal) const {
+bool TurningCircle::is_taut(Vec2 normal, double slack) const {
   return is_disc || radius == 0 ||
-         (cross(first, normal) >= -angle_slack && cross(normal, last) >= -angle_slack &&
+         (cross(first, normal) >= -slack && cross(normal, last) >= -slack &&
           dot(first + last, normal) > 0);
 }
 
 double TurningCircle::angle_at(Vec2 normal) const {
   if (is_disc) return positive(heading_along(normal));
-  return std::clamp(maths::atan2(cross(first, normal), dot(first, normal)), 0.0, width);
+  double angle = maths::atan2(cross(first, normal), dot(first, normal));
+  if (angle < 0.5 * width - pi) angle += 2 * pi;
+  const double within = std::clamp(angle, 0.0, width);
+  return std::abs(angle - within) <= 2 * angle_slack ? within : angle;
 }
 
 double TurningCircle::angle_around(double sense, double leaves, double arrives) const {
@@ -135,7 +151,9 @@ std::optional<TangentLine> tangent(const TurningCircle& a, double sense_a, const
   const Vec2 e = d / apart;
   line.along = cosine * e - sine * perpendicular(e);
   const Vec2 left = perpendicular(line.along);
-  if (!a.is_taut(-sense_a * left) || !b.is_taut(-sense_b * left)) return std::nullopt;
+  if (!a.is_taut(-sense_a * left, cone_slack(a, b, line.length, margin)) ||
+      !b.is_taut(-sense_b * left, cone_slack(b, a, line.length, margin)))
+    return std::nullopt;
   return line;
 }
 
@@ -153,6 +171,7 @@ void add_free_arcs(const TurningCircle& circle, const Map& map, const BodySet* m
 }
 
 int arc_at(const TurningCircle& circle, double angle, std::span<const Arc> arcs) {
+  if (!circle.is_disc) angle = std::clamp(angle, 0.0, circle.width);
   for (std::size_t i = 0; i < arcs.size(); ++i) {
     if (angle >= arcs[i].from - angle_slack && angle <= arcs[i].to + angle_slack)
       return static_cast<int>(i);

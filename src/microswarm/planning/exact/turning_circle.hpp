@@ -24,8 +24,10 @@ struct TurningCircle {
   Vec2 first{}, last{};  ///< unit vectors at its ends; unused for a disc
   bool is_disc = false;
 
-  /// Whether a path that touches with this normal is taut, so bends around the corner.
-  bool is_taut(Vec2 normal) const;
+  /// Whether a path that touches with this normal is taut, so bends around the corner; the normal
+  /// may miss the cone by `slack` [rad].
+  bool is_taut(Vec2 normal, double slack = angle_slack) const;
+  /// Angle of a normal [rad]; that of a taut one may be outside the cone by its slack.
   double angle_at(Vec2 normal) const;
   /// Angle from one angle to another [rad], counter-clockwise (`sense` 1) or clockwise (−1);
   /// negative if the second is not ahead. On a disc every angle is ahead.
@@ -45,7 +47,8 @@ struct TangentLine {
 };
 
 /// Tangent of two circles turned in these senses; nothing unless it is taut at both. Circles that
-/// overlap by less than `margin` [µm] count as touching.
+/// overlap by less than `margin` [µm] count as touching, and a point beside a face of a circle's
+/// corner may be that much nearer to it than the circle reaches.
 std::optional<TangentLine> tangent(const TurningCircle& a, double sense_a, const TurningCircle& b,
                                    double sense_b, double margin);
 
@@ -59,7 +62,7 @@ struct Arc {
 void add_free_arcs(const TurningCircle& circle, const Map& map, const BodySet* moving,
                    double clearance, double margin, std::vector<Arc>& arcs);
 
-/// Index of the arc that contains this angle; −1 if none does.
+/// Index of the arc that contains this angle, or the end of the cone beside it; −1 if none does.
 int arc_at(const TurningCircle& circle, double angle, std::span<const Arc> arcs);
 
 }  // namespace microswarm::planning
