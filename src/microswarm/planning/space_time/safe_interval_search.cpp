@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/planning/space_time/safe_interval_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "microswarm/core/maths/infinity.hpp"
+#include "microswarm/planning/space_time/grid_distances.hpp"
+
+namespace microswarm::planning {
+namespace {
+
+/// Difference of times that does not count [s].
+constexpr double time_rounding = 1e-9;
+
+/// Cost of the turn from a heading into the direction `course`: proportional to small angles, and
+/// to the chord of large ones [s].
+double cost_of_turn(const SafeIntervalSearch::Query& query, Vec2 course) {
+  const double length = norm(course);
+  if (!query.heading || length == 0) return 0;
+  const double cosine = dot(course, unit_vector(*query.heading)) / length;
+  return query.turn_cost * std::sqrt(std::max(0.0, 2 * (1 - cosine)));
+}
+
+}  // namespace
+
+void SafeIntervalSearch::reserve(const SpaceTimeGrid& grid, std::size_t states) {
+  states_.reserve(states);
+  open_.reserve(2 * states);
+  path_.reserve(grid.size());
+  first_.resize(grid.size());
+  search_.resize(grid.size());
+}
+
+Status SafeIntervalSearch::find(const SpaceTimeGrid& grid, const Query& query, const Stop& stop) {
+  begin(grid, query);
+  std::uint32_t nearest = 0;
+  float least = std::numeric_limits<float>::infinity();
+  while (!open_.empty()) {
+    const std::uint32_t number = open_.front().state;
+    std::pop_heap(open_.begin(), open_.end());
+    open_.pop_back();
+    State& state = states_[number];
+    if (state.closed) continue;
+    state.closed = true;
+    const float left = query.lengths[state.cell];
+    if (static_cast<double>(left) <= query.arrived || state.time >= grid.horizon()) {
+      finish(query, number);
+      return Status::solved;
+    }
+    if (left < least) {
+      least = left;
+      nearest = number;
+    }
+    if (++expansions_ % 64 == 0) {
+      if (const auto told = stop.status()) {
+        finish(query, nearest);
+        return *told;
+      }
+    }
+    if (expansions_ > query.max_expansions) {
+      finish(query, nearest);
+      return Status::node_limit;
+    }
+    expand(grid, query, number);
+  }
+  return Status::no_path;
+}
+
+void SafeIntervalSearch::begin(const SpaceTimeGrid& grid, const Query& query) {
+  first_.resize(grid.size());
+  search_.resize(grid.size());
+  if (++number_ == 0) {
+    std::fill(search_.begin(), search_.end(), 0);
+    number_ = 1;
+  }
+  states_.clear();
+  open_.clear();
+  path_.clear();
+  expansions_ = 0;
+  arrival_ = cost_ = infinity;
+  State start;
+  start.position = query.from;
+  start.until = query.stay_until;
+  start.closed = true;
+  states_.push_back(start);
+  for (const Cell cell : query.entries) connect(grid, query, 0, cell);
+}
+
+// A later departure from the parent counts only if it arrives earlier than over the state.
+void SafeIntervalSearch::expand(const SpaceTimeGrid& grid, const Query& query,
+                                std::uint32_t number) {
+  const Cell cell = states_[number].cell;
+  const std::uint32_t parent = states_[number].parent;
+  const int column = grid.column_of(cell);
+  const int row = grid.row_of(cell);
+  for (const GridStep& step : grid_steps()) {
+    if (!grid.holds(column + step.column, row + step.row)) continue;
+    const Cell next = grid.at(column + step.column, row + step.row);
+    if (grid.stands(next) || !std::isfinite(query.lengths[next])) continue;
+    connect(grid, query, number, next);
+    connect(grid, query, parent, next);
+  }
+}
+
+// A cell is entered half a step before the arrival at its centre.
+void SafeIntervalSearch::connect(const SpaceTimeGrid& grid, const Query& query,
+                                 std::uint32_t from_number, Cell to) {
+  const State from = states_[from_number];
+  const Vec2 there = grid.position(to);
+  const Vec2 move = there - from.position;
+  const double duration = norm(move) / query.speed;
+  const double extent = std::max(std::abs(move.x), std::abs(move.y));
+  const double half = extent > 0 ? 0.5 * duration * std::min(1.0, grid.cell() / extent) : 0;
+  const double turn_cost = from.parent == none ? cost_of_turn(query, move) : from.turn_cost;
+  const double earliest = from.time + duration;
+  for (int slot = grid.slot_at(earliest - half);;) {
+    const SpaceTimeGrid::Interval safe = grid.safe_interval(to, slot);
+    if (safe.begin == SpaceTimeGrid::forever) return;
+    const double first =
+        safe.begin > slot ? std::max(earliest, safe.begin * grid.slot() + half) : earliest;
+    if (first - duration > from.until + time_rounding) return;
+    relax(grid, query, from_number, {first, turn_cost, duration}, to, safe.end);
+    if (safe.end == SpaceTimeGrid::forever) return;
+    slot = safe.end;
+  }
+}
+
+// Improves the arrival in a safe interval of a cell, if the way there permits. An expanded state
+// is expanded again, since straight moves do not arrive in the order of expansion.
+void SafeIntervalSearch::relax(const SpaceTimeGrid& grid, const Query& query,
+                               std::uint32_t from_number, const Move& move, Cell to, int end) {
+  const std::uint32_t number = state_of(to, grid, end);
+  State& state = states_[number];
+  const State& from = states_[from_number];
+  const double useful = state.time + state.turn_cost - move.turn_cost - time_rounding;
+  const double latest = std::min(from.until + time_rounding,
+                                 std::min(state.until, useful) - time_rounding - move.duration);
+  if (move.arrival - move.duration > latest) return;
+  const double depart = grid.departure({from.position, state.position}, query.speed,
+                                       move.arrival - move.duration, latest);
+  if (depart > latest) return;
+  state.time = depart + move.duration;
+  state.turn_cost = move.turn_cost;
+  state.parent = from_number;
+  state.closed = false;
+  const double left = static_cast<double>(query.lengths[to]) / query.speed;
+  open_.push_back({state.time + state.turn_cost + left, number});
+  std::push_heap(open_.begin(), open_.end());
+}
+
+std::uint32_t SafeIntervalSearch::state_of(Cell cell, const SpaceTimeGrid& grid, int end) {
+  if (search_[cell] != number_) {
+    search_[cell] = number_;
+    first_[cell] = none;
+  }
+  for (std::uint32_t i = first_[cell]; i != none; i = states_[i].next)
+    if (states_[i].end == end) return i;
+  State state;
+  state.position = grid.position(cell);
+  state.time = infinity;
+  state.until = end == SpaceTimeGrid::forever ? infinity : end * grid.slot();
+  state.cell = cell;
+  state.next = first_[cell];
+  state.end = end;
+  first_[cell] = static_cast<std::uint32_t>(states_.size());
+  states_.push_back(state);
+  return first_[cell];
+}
+
+void SafeIntervalSearch::finish(const Query& query, std::uint32_t last) {
+  const State& end = states_[last];
+  if (last != 0) {
+    arrival_ = end.time + static_cast<double>(query.lengths[end.cell]) / query.speed;
+    cost_ = arrival_ + end.turn_cost;
+  }
+  for (std::uint32_t i = last; i != none; i = states_[i].parent)
+    path_.push_back({states_[i].position, states_[i].time});
+  std::reverse(path_.begin(), path_.end());
+}
+
+}  // namespace microswarm::planning

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "microswarm/core/execution/status.hpp"
+#include "microswarm/core/execution/stop.hpp"
+#include "microswarm/planning/space_time/space_time_grid.hpp"
+
+namespace microswarm::planning {
+
+/// Point of a path in time. The next piece is driven straight at full speed, as late as the next
+/// arrival permits; until then the swarm waits here.
+struct TimedPoint {
+  Vec2 position{};     ///< [µm]
+  double arrival = 0;  ///< [s]
+};
+
+/// Any-angle safe-interval path planning (SIPP, Phillips and Likhachev 2011; any-angle, Yakovlev
+/// and Andreychuk 2017). A state is a cell with one of its safe intervals, and its cost the
+/// earliest known arrival there. A successor is reached from the state that is expanded or straight
+/// from the parent of that state, with the earliest departure that permits it. The search ends
+/// at the goal or at the horizon of the grid, after which only standing cells count. Allocates only
+/// for larger searches than before; reserve() prevents that.
+class SafeIntervalSearch {
+ public:
+  using Cell = SpaceTimeGrid::Cell;
+
+  struct Query {
+    Vec2 from{};                       ///< [µm]
+    double stay_until = 0;             ///< time for which the swarm may wait there [s]
+    std::span<const Cell> entries{};   ///< cells to which it may move from there
+    double speed = 1;                  ///< [µm/s]
+    std::optional<double> heading{};   ///< course from which a turn costs [rad]
+    double turn_cost = 0;              ///< of the first course's turn [s/rad]
+    std::span<const float> lengths{};  ///< from each cell to the goal without moving bodies [µm]
+    double arrived = 0;                ///< length from which on the goal is reached [µm]
+    int max_expansions = std::numeric_limits<int>::max();
+  };
+
+  void reserve(const SpaceTimeGrid& grid, std::size_t states);
+  /// Searches the path of earliest arrival: `solved`; `no_path` if none leads to the goal or the
+  /// horizon; `node_limit`, `stopped` or `time_limit` with the path nearest to the goal so far.
+  Status find(const SpaceTimeGrid& grid, const Query& query, const Stop& stop = {});
+  /// Path of the last search from its start on; empty after `no_path`.
+  std::span<const TimedPoint> path() const { return path_; }
+  /// Time of arrival at the goal [s], beyond the end of the path without moving bodies.
+  double arrival() const { return arrival_; }
+  /// The same with the cost of turning [s].
+  double cost() const { return cost_; }
+  /// Number of states that the last search expanded.
+  int expansions() const { return expansions_; }
+
+ private:
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
+
+  struct State {
+    Vec2 position{};
+    double time = 0;       ///< earliest arrival [s]
+    double turn_cost = 0;  ///< [s]
+    double until = 0;      ///< end of the safe interval [s]
+    Cell cell = 0;
+    std::uint32_t parent = none;
+    std::uint32_t next = none;  ///< another safe interval of the cell
+    int end = 0;                ///< slot at which the safe interval ends
+    bool closed = false;
+  };
+  struct Open {
+    double cost;
+    std::uint32_t state;
+    friend bool operator<(const Open& a, const Open& b) {
+      return a.cost != b.cost ? a.cost > b.cost : a.state > b.state;
+    }
+  };
+
+  void begin(const SpaceTimeGrid& grid, const Query& query);
+  void expand(const SpaceTimeGrid& grid, const Query& query, std::uint32_t state);
+  /// A straight move to a cell.
+  struct Move {
+    double arrival = 0;    ///< earliest [s]
+    double turn_cost = 0;  ///< of the path [s]
+    double duration = 0;   ///< [s]
+  };
+  void relax(const SpaceTimeGrid& grid, const Query& query, std::uint32_t from, const Move& move,
+             Cell to, int end);
+  void connect(const SpaceTimeGrid& grid, const Query& query, std::uint32_t from, Cell to);
+  std::uint32_t state_of(Cell cell, const SpaceTimeGrid& grid, int end);
+  void finish(const Query& query, std::uint32_t last);
+
+  std::vector<State> states_;          ///< the start is first
+  std::vector<Open> open_;             ///< a heap
+  std::vector<std::uint32_t> first_;   ///< state of each cell that was reached
+  std::vector<std::uint32_t> search_;  ///< number of the search that reached each cell last
+  std::uint32_t number_ = 0;
+  std::vector<TimedPoint> path_;
+  double arrival_ = 0;
+  double cost_ = 0;
+  int expansions_ = 0;
+};
+
+}  // namespace microswarm::planning

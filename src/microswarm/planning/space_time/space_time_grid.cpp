@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/planning/space_time/space_time_grid.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "microswarm/core/maths/infinity.hpp"
+
+namespace microswarm::planning {
+namespace {
+
+/// Deviation from a cell's centre that does not count [cells].
+constexpr double rounding = 1e-6;
+
+int cells_along(double length, double cell) {
+  return std::max(1, static_cast<int>(std::floor(length / cell + rounding)) + 1);
+}
+
+}  // namespace
+
+SpaceTimeGrid::SpaceTimeGrid(const Box& bounds, double cell, double slot, int slots)
+    : cell_(cell),
+      slot_(slot),
+      columns_(cells_along(bounds.width(), cell)),
+      rows_(cells_along(bounds.height(), cell)),
+      slots_(slots) {
+  low_ = bounds.lo +
+         0.5 * Vec2{bounds.width() - (columns_ - 1) * cell, bounds.height() - (rows_ - 1) * cell};
+  standing_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+  occupied_.resize(static_cast<std::size_t>((slots + 63) / 64) * size());
+}
+
+int SpaceTimeGrid::slot_at(double t) const {
+  return static_cast<int>(std::min(t / slot_ + rounding, static_cast<double>(forever)));
+}
+
+SpaceTimeGrid::Cell SpaceTimeGrid::nearest(Vec2 p) const {
+  const Vec2 offset = (p - low_) / cell_;
+  const auto index = [](double at, int count) {
+    return static_cast<int>(std::lround(std::clamp(at, 0.0, static_cast<double>(count - 1))));
+  };
+  return at(index(offset.x, columns_), index(offset.y, rows_));
+}
+
+void SpaceTimeGrid::clear_standing() { std::fill(standing_.begin(), standing_.end(), 0); }
+
+void SpaceTimeGrid::clear() {
+  for (auto at = occupied_.begin(); at != occupied_.end();)
+    at = std::copy(standing_.begin(), standing_.end(), at);
+}
+
+SpaceTimeGrid::Interval SpaceTimeGrid::rows_between(double low, double high) const {
+  const double first = std::ceil((low - low_.y) / cell_);
+  const double last = std::floor((high - low_.y) / cell_);
+  return {static_cast<int>(std::clamp(first, 0.0, static_cast<double>(rows_))),
+          static_cast<int>(std::clamp(last, -1.0, static_cast<double>(rows_ - 1)))};
+}
+
+void SpaceTimeGrid::occupy_row(int row, double left, double right, int slot) {
+  const double first = std::max(0.0, std::ceil((left - low_.x) / cell_));
+  const double last =
+      std::min(static_cast<double>(columns_ - 1), std::floor((right - low_.x) / cell_));
+  if (!(first <= last)) return;
+  std::uint64_t* const words = &word(at(0, row), slot);
+  const std::uint64_t one = bit(slot);
+  const int end = static_cast<int>(last);
+  for (int i = static_cast<int>(first); i <= end; ++i) words[i] |= one;
+}
+
+void SpaceTimeGrid::occupy(Disc disc, int slot) {
+  const double r = disc.radius;
+  if (!(r >= 0)) return;
+  const Interval rows = rows_between(disc.centre.y - r, disc.centre.y + r);
+  for (int row = rows.begin; row <= rows.end; ++row) {
+    const double y = y_of(row) - disc.centre.y;
+    const double half = std::sqrt(std::max(0.0, r * r - y * y));
+    occupy_row(row, disc.centre.x - half, disc.centre.x + half, slot);
+  }
+}
+
+int SpaceTimeGrid::next_free(Cell c, int slot) const {
+  while (slot < slots_) {
+    const std::uint64_t free = ~word(c, slot) >> (slot % 64);
+    if (free != 0) return std::min(slots_, slot + std::countr_zero(free));
+    slot += 64 - slot % 64;
+  }
+  return slot;
+}
+
+int SpaceTimeGrid::next_occupied(Cell c, int slot) const {
+  while (slot < slots_) {
+    const std::uint64_t busy = word(c, slot) >> (slot % 64);
+    if (busy != 0) return std::min(forever, slot + std::countr_zero(busy));
+    slot += 64 - slot % 64;
+  }
+  return forever;
+}
+
+SpaceTimeGrid::Interval SpaceTimeGrid::safe_interval(Cell c, int slot) const {
+  if (stands(c)) return {forever, forever};
+  const int begin = next_free(c, slot);
+  return {begin, next_occupied(c, begin)};
+}
+
+// Calls use(share, cell, cell) for the two cells next to the move in each column that it crosses,
+// or in each row if that is its longer extent, until one returns false. The share of the move runs
+// from 0 to 1.
+template <class Use>
+bool SpaceTimeGrid::for_each_pair(Segment move, Use&& use) const {
+  Vec2 a = (move.a - low_) / cell_;
+  Vec2 b = (move.b - low_) / cell_;
+  const bool steep = std::abs(b.y - a.y) > std::abs(b.x - a.x);
+  if (steep) {
+    std::swap(a.x, a.y);
+    std::swap(b.x, b.y);
+  }
+  const double extent = b.x - a.x;
+  if (std::abs(extent) < rounding) return true;
+  const int direction = extent > 0 ? 1 : -1;
+  const int along = (steep ? rows_ : columns_) - 1;
+  const int across = (steep ? columns_ : rows_) - 1;
+  const double slope = (b.y - a.y) / extent;
+  const auto first = extent > 0 ? std::ceil(a.x - rounding) : std::floor(a.x + rounding);
+  const auto last = extent > 0 ? std::floor(b.x + rounding) : std::ceil(b.x - rounding);
+  const int end = static_cast<int>(last);
+  for (int i = static_cast<int>(first); direction * (end - i) >= 0; i += direction) {
+    if (i < 0 || i > along) continue;
+    const double beside = a.y + slope * (i - a.x);
+    const int low = std::clamp(static_cast<int>(std::floor(beside + rounding)), 0, across);
+    const int high = std::clamp(static_cast<int>(std::ceil(beside - rounding)), 0, across);
+    const double share = (i - a.x) / extent;
+    if (!use(share, steep ? at(low, i) : at(i, low), steep ? at(high, i) : at(i, high)))
+      return false;
+  }
+  return true;
+}
+
+bool SpaceTimeGrid::is_open(Segment move) const {
+  return for_each_pair(move,
+                       [&](double, Cell low, Cell high) { return !stands(low) && !stands(high); });
+}
+
+// After a conflict in a slot the point must leave so late that it gets there after the slot.
+double SpaceTimeGrid::departure(Segment move, double speed, double depart, double latest) const {
+  const double duration = distance(move.a, move.b) / speed;
+  const Vec2 extent = move.b - move.a;
+  const double half = 0.5 * cell_ / std::max(std::abs(extent.x), std::abs(extent.y));
+  while (depart <= latest && depart < infinity) {
+    double later = depart;
+    const bool free = for_each_pair(move, [&](double share, Cell low, Cell high) {
+      const double since = std::max(0.0, share - half) * duration;
+      const int first = slot_at(depart + since);
+      if (first >= slots_) {
+        if (stands(low) || stands(high)) later = infinity;
+        return std::isfinite(later);
+      }
+      const double until = std::min(1.0, share + half) * duration;
+      const int last = std::min(slots_ - 1, slot_at(depart + until - 4 * rounding * slot_));
+      for (int slot = last; slot >= first; --slot) {
+        if (((word(low, slot) | word(high, slot)) & bit(slot)) == 0) continue;
+        later = std::max((slot + 1) * slot_ - since, depart + slot_ * rounding);
+        return false;
+      }
+      return true;
+    });
+    if (free) return depart;
+    depart = later;
+  }
+  return infinity;
+}
+
+}  // namespace microswarm::planning
