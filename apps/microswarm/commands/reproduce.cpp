@@ -17,11 +17,14 @@ using Reproduce = std::vector<report::ReproduceRow> (*)(const std::string& figur
                                                         const reproduce::ReproduceOptions& options,
                                                         const Stop& stop);
 
-constexpr std::array<std::pair<std::string_view, Reproduce>, 4> reproduced_papers{
+constexpr std::array<std::pair<std::string_view, Reproduce>, 7> reproduced_papers{
     {{"drrt", reproduce::drrt_figures},
      {"global", reproduce::global_figures},
      {"radar", reproduce::radar_figures},
-     {"gather", reproduce::gather_figures}}};
+     {"gather", reproduce::gather_figures},
+     {"arena", reproduce::arena_figures},
+     {"dynabarn", reproduce::dynabarn_figures},
+     {"crowd", reproduce::crowd_figures}}};
 
 Reproduce find_paper(const std::string& paper) {
   std::vector<std::string_view> names;
@@ -29,8 +32,8 @@ Reproduce find_paper(const std::string& paper) {
     if (name == paper) return figures;
     names.push_back(name);
   }
-  throw InputError(
-      fmt::format("reproduce: unknown paper '{}', {}", paper, allowed_words(paper, names)));
+  throw InputError(fmt::format("reproduce: unknown paper or benchmark '{}', {}", paper,
+                               allowed_words(paper, names)));
 }
 
 int reproduce_command(const std::string& key, reproduce::ReproduceOptions options, bool json,
@@ -64,8 +67,7 @@ void add_reproduce(Command app, Action& action) {
   std::vector<std::string> papers;
   papers.reserve(std::size(reproduced_papers));
   for (const auto& [name, figures] : reproduced_papers) papers.emplace_back(name);
-  cmd.add_option("key", *key,
-                 "Paper or figure: drrt, drrt/fig3, global, global/fig7, radar, gather …")
+  cmd.add_option("key", *key, "Paper, figure or benchmark: drrt, drrt/fig3, arena, crowd …")
       .required()
       .type_name("KEY")
       .suggest(suggest_words(papers));

@@ -127,4 +127,20 @@ std::vector<report::ReproduceRow> gather_figures(const std::string& figure,
 std::vector<report::ReproduceRow> radar_figures(const std::string& figure,
                                                 const ReproduceOptions& options, const Stop& stop);
 
+/// Every navigator through the scenes of the arena (scenes/arena), beside the earliest arrival of
+/// one that knows all motions: `all`, the only figure. A method of ours; no paper has it.
+std::vector<report::ReproduceRow> arena_figures(const std::string& figure,
+                                                const ReproduceOptions& options, const Stop& stop);
+
+/// The 60 worlds of DynaBARN, read from the folder dynabarn of MICROSWARM_DATA: `all`. Without it
+/// there are no rows, and a note.
+std::vector<report::ReproduceRow> dynabarn_figures(const std::string& figure,
+                                                   const ReproduceOptions& options,
+                                                   const Stop& stop);
+
+/// 500 circle crossings among five people who avoid one another and not the robot
+/// (scenes/orca_crowd): `all`.
+std::vector<report::ReproduceRow> crowd_figures(const std::string& figure,
+                                                const ReproduceOptions& options, const Stop& stop);
+
 }  // namespace microswarm::reproduce

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/reproduce/arena/arena_runs.hpp"
+
+#include <algorithm>
+#include <mutex>
+
+#include "microswarm/core/execution/parallel.hpp"
+#include "microswarm/planning/exact/shortest_paths.hpp"
+#include "microswarm/planning/space_time/earliest_arrival.hpp"
+#include "microswarm/scenes/arena/arena.hpp"
+#include "microswarm/scenes/avoidance_worlds.hpp"
+
+namespace microswarm::reproduce {
+namespace {
+
+/// Time of the earliest arrival; nothing if there is none.
+std::optional<double> find_optimum(const experiment::Scenario& scenario, const World& world,
+                                   const Stop& stop) {
+  const SwarmLimits swarm = swarm_limits(scenario.swarm);
+  const planning::EarliestArrival found =
+      planning::earliest_arrival(world,
+                                 {.start = scenario.start->position,
+                                  .goal = *scenario.goal,
+                                  .tolerance = scenario.goal_tolerance,
+                                  .radius = swarm.radius,
+                                  .speed = swarm.max_speed,
+                                  .horizon = scenario.time_limit},
+                                 stop);
+  return found.status == Status::solved ? std::optional(found.time) : std::nullopt;
+}
+
+}  // namespace
+
+std::vector<ArenaScene> run_arena(const std::vector<DrivenNavigator>& who, std::uint64_t first,
+                                  int seeds, const std::function<void(double)>& progress,
+                                  const Stop& stop) {
+  const std::size_t kinds = scenes::arena_kinds().size();
+  std::vector<ArenaScene> out(kinds * static_cast<std::size_t>(std::max(0, seeds)));
+  std::size_t done = 0;
+  std::mutex mutex;
+  for_each_index(out.size(), 0, [&](std::size_t i) {
+    if (stop()) return;
+    ArenaScene& scene = out[i];
+    scene.kind = i % kinds;
+    scene.seed = first + i / kinds;
+    experiment::Scenario scenario = scenes::arena_scenario(scene.kind, scene.seed);
+    const World world = scenes::avoidance_world(scenario);
+    scene.optimum = find_optimum(scenario, world, stop);
+    scene.shortest = planning::ShortestPaths(*world.map, 0)
+                         .find(scenario.start->position, *scenario.goal)
+                         .length -
+                     scenario.goal_tolerance;
+    const DrivenSwarm swarm{swarm_limits(scenario.swarm).max_speed,
+                            scenes::arena_kinds()[scene.kind].clearance};
+    for (const DrivenNavigator& navigator : who) {
+      scenario.navigator = navigator.params(swarm);
+      scene.runs.push_back(drive(scenario, world, stop));
+    }
+    scene.done = !stop();
+    const std::lock_guard lock(mutex);
+    progress(static_cast<double>(++done) / static_cast<double>(out.size()));
+  });
+  return out;
+}
+
+}  // namespace microswarm::reproduce

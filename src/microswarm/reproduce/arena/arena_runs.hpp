@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "microswarm/core/execution/stop.hpp"
+#include "microswarm/reproduce/arena/driven_run.hpp"
+
+namespace microswarm::reproduce {
+
+/// A scene with the runs through it.
+struct ArenaScene {
+  std::size_t kind = 0;
+  std::uint64_t seed = 0;
+  bool done = false;
+  std::optional<double> optimum{};  ///< earliest arrival with the motions known [s]
+  double shortest = 0;              ///< way among the walls alone [µm]
+  std::vector<DrivenRun> runs{};    ///< one for each navigator
+};
+
+/// Runs every navigator through every kind of scene with `seeds` seeds from `first`, in parallel;
+/// the results, apart from wall-clock times, do not depend on the number of threads. `progress`
+/// receives the completed fraction.
+std::vector<ArenaScene> run_arena(const std::vector<DrivenNavigator>& who, std::uint64_t first,
+                                  int seeds, const std::function<void(double)>& progress,
+                                  const Stop& stop);
+
+}  // namespace microswarm::reproduce
