@@ -3,12 +3,17 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
+#include <utility>
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/hash.hpp"
+#include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/navigation/make.hpp"
+#include "microswarm/planning/exact/shortest_paths.hpp"
+#include "microswarm/scenes/worlds.hpp"
 #include "microswarm/swarm/body/swarm_body.hpp"
 #include "microswarm/swarm/body/unicycle.hpp"
 #include "tests/navigation/room.hpp"
@@ -205,6 +210,111 @@ TEST(Hierarchical, AsPublishedSwitchesOffEveryAdditionOfOurs) {
   EXPECT_FALSE(published.follower.correct_flow);
   EXPECT_FALSE(published.planner.straighten);
   EXPECT_FALSE(published.planner.arcs);
+}
+
+/// Corridors between the cells of a grid, one way from each cell to each, or more.
+struct Maze {
+  std::shared_ptr<const Map> map;
+  Pose2 start;
+  Vec2 goal;
+};
+
+Maze random_maze(Rng& rng) {
+  const int nx = 5 + static_cast<int>(rng.below(4)), ny = 4 + static_cast<int>(rng.below(2));
+  const double lane = std::array{120.0, 130.0, 160.0, 200.0, 260.0}[rng.below(5)];
+  const double wall = std::array{20.0, 40.0, 80.0}[rng.below(3)];
+  const double pitch = lane + wall;
+  const auto number = [&](int x, int y) { return static_cast<std::size_t>(y * nx + x); };
+  std::vector<bool> east(number(0, ny)), north(number(0, ny)), seen(number(0, ny));
+  std::vector<std::pair<int, int>> stack{{0, 0}};
+  seen[0] = true;
+  while (!stack.empty()) {
+    const auto [x, y] = stack.back();
+    std::vector<std::pair<int, int>> next;
+    for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+      const int u = x + dx, v = y + dy;
+      if (u >= 0 && u < nx && v >= 0 && v < ny && !seen[number(u, v)]) next.emplace_back(u, v);
+    }
+    if (next.empty()) {
+      stack.pop_back();
+      continue;
+    }
+    const auto [u, v] = next[rng.below(next.size())];
+    (u != x ? east : north)[number(std::min(x, u), std::min(y, v))] = true;
+    seen[number(u, v)] = true;
+    stack.emplace_back(u, v);
+  }
+  for (int extra = 0; extra < 3; ++extra) {
+    const auto x = static_cast<int>(rng.below(static_cast<std::uint64_t>(nx) - 1));
+    const auto y = static_cast<int>(rng.below(static_cast<std::uint64_t>(ny) - 1));
+    if (rng.below(3) == 0) (rng.below(2) == 0 ? east : north)[number(x, y)] = true;
+  }
+  std::vector<Polygon> walls;
+  for (int y = 0; y < ny; ++y)
+    for (int x = 0; x < nx; ++x) {
+      const Vec2 corner{x * pitch, y * pitch};
+      if (x + 1 < nx && !east[number(x, y)])
+        walls.push_back(
+            scenes::rectangle({corner + Vec2{lane, -wall}, corner + Vec2{pitch, pitch}}));
+      if (y + 1 < ny && !north[number(x, y)])
+        walls.push_back(
+            scenes::rectangle({corner + Vec2{-wall, lane}, corner + Vec2{pitch, pitch}}));
+    }
+  const auto cell = [&](int x, std::uint64_t y) {
+    return Vec2{x * pitch + lane / 2, static_cast<double>(y) * pitch + lane / 2};
+  };
+  const auto rows = static_cast<std::uint64_t>(ny);
+  return {std::make_shared<const Map>(Box{{0, 0}, {nx * pitch - wall, ny * pitch - wall}},
+                                      std::move(walls)),
+          {cell(0, rng.below(rows)), rng.uniform(-pi, pi)},
+          cell(nx - 1, rng.below(rows))};
+}
+
+// Lanes are 16 µm and more wider than twice the clearance.
+TEST(Hierarchical, TakesTheShortestWayThroughStillMazes) {
+  const HierarchicalParams params{.clearance = 52, .speed = 80};
+  Rng rng(7, Purpose::test);
+  for (int number = 0; number < 50; ++number) {
+    SCOPED_TRACE(number);
+    const Maze maze = random_maze(rng);
+    const SwarmLimits swarm = number % 2 == 0
+                                  ? swarm_limits(VortexParams{.radius = 40, .moving_radius = 40})
+                                  : swarm_limits(RibbonParams{.max_speed = 80});
+    const double shortest = planning::ShortestPaths(*maze.map, params.clearance)
+                                .find(maze.start.position, maze.goal)
+                                .length;
+    ASSERT_GT(shortest, 0);
+    HierarchicalNavigator n(params, body_task(swarm, maze.goal), Rng(1, Purpose::planner));
+    const Snapshot world(maze.map);
+    n.prepare(world, {});
+    Pose2 pose = maze.start;
+    double driven = 0, least = infinity;
+    for (int k = 0; k < 3000 && distance(pose.position, maze.goal) > room_tolerance; ++k) {
+      const Command c = n.step(update(world, pose.position, pose.heading, 0.1 * k), {});
+      const Pose2 next = unicycle_step(pose, c, swarm.max_turn_rate, 0.1);
+      driven += distance(pose.position, next.position);
+      least = std::min(least, maze.map->clearance(Segment{pose.position, next.position}, 100));
+      pose = next;
+    }
+    EXPECT_LE(distance(pose.position, maze.goal), room_tolerance);
+    EXPECT_LE(driven, 1.1 * shortest + 100);
+    EXPECT_GE(least, 48);
+  }
+}
+
+// What comes near is none of the route's business: it chooses in space and time.
+TEST(Hierarchical, LeavesTheRouteWhenABodyAppears) {
+  const auto map = room_with({{{{950, 0}, {1050, 0}, {1050, 700}, {950, 700}}, {}}}).shared_map();
+  HierarchicalNavigator n(HierarchicalParams{}, body_task(swarm_limits(RibbonParams{})),
+                          Rng(1, Purpose::planner));
+  const Snapshot still(map);
+  n.prepare(still, {});
+  n.step(update(still, {300, 300}, 0, 0), {});
+  EXPECT_EQ(n.view().local_target, room_goal);
+  const Snapshot crossed(map, 0.1, {{.shape = Disc{{700, 500}, 60}, .obstacle = 0}});
+  n.step(update(crossed, {300, 300}, 0, 0.1), {});
+  EXPECT_NE(n.view().local_target, room_goal);
+  n.step(update(still, {300, 300}, 0, 0.2), {});
 }
 
 /// The steps at which it plans, of some on the straight path to the goal.

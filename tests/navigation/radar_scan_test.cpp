@@ -111,6 +111,69 @@ TEST(RadarWeights, AvoidanceGrowsWithNearness) {
   EXPECT_DOUBLE_EQ(radar_weights(look, 100).avoidance, 0.5 + look.avoidance_gain / 2);
 }
 
+TEST(RadarWeights, PrintedOnesAreEquations10To12) {
+  Rng rng(6, Purpose::test);
+  int capped = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const double r_s = rng.uniform(50, 500), r_ob = rng.uniform(10, 500);
+    const double r_d = r_s + rng.uniform(1, 600);
+    const Vec2 o_s{rng.uniform(0, 5000), rng.uniform(0, 5000)};
+    const Vec2 o_t{rng.uniform(0, 5000), rng.uniform(0, 5000)};
+    const Vec2 o_ob = o_s + rng.uniform(r_s + r_ob, r_d + r_ob) * unit_vector(rng.uniform(0, 6));
+    // k_t, ε, k_a and η as in the paper.
+    const double k_t = rng.uniform(0.1, 2), epsilon = rng.uniform(0, 0.1);
+    const double k_a = rng.uniform(0.1, 2), eta = rng.uniform(0, 0.3);
+    const auto square = [](double v) { return v * v; };
+    const double to_target = distance(o_s, o_t), to_obstacle = distance(o_s, o_ob);
+    const double big_q_t = 0.5 * epsilon * square(to_target);
+    const double big_q_a = 0.5 * eta * square(1 / to_obstacle - 1 / r_d);
+    const double q_t = 1 + k_t / (0.5 * square(r_d)) * big_q_t;
+    const double q_a = 0.5 + k_a / square(1 / (r_s + r_ob) - 1 / r_d) * big_q_a;
+
+    RadarLook look = look_at(o_s, r_s, o_t);
+    look.circles.detection = r_d;
+    look.target_gain = k_t * epsilon;
+    look.avoidance_gain = k_a * eta;
+    look.printed_weights = true;
+    const Body body = disc_body(o_ob, r_ob);
+    EXPECT_NEAR(obstacle_radius(look, body), r_ob, 1e-9);
+    const RadarWeights w = radar_weights(look, distance(o_s, body), obstacle_radius(look, body));
+    ASSERT_NEAR(w.target, q_t, 1e-9 * q_t);
+    ASSERT_NEAR(w.avoidance, std::min(q_a, q_t), 1e-5 * q_t) << q_a;
+    capped += q_a > q_t;
+  }
+  EXPECT_GT(capped, 100);
+  EXPECT_LT(capped, 19'000);
+}
+
+TEST(RadarWeights, PrintedOnesAreFiniteWhereTheScaleIsZero) {
+  RadarLook look = look_at({0, 0}, 100, {500, 0});
+  look.circles.detection = 170;
+  look.printed_weights = true;
+  for (const double edge : {-120.0, -70.0, 0.0, 100.0, 170.0}) {
+    const RadarWeights w = radar_weights(look, edge, 70);
+    EXPECT_GE(w.avoidance, 0.5) << edge;
+    EXPECT_LE(w.avoidance, w.target) << edge;
+  }
+}
+
+TEST(RadarScan, PrintedWeightsDecideTheDirection) {
+  RadarLook look = look_at({600, 700}, 100, {1400, 1000});
+  look.circles.detection = 350;
+  look.circles.safety = 150;
+  look.avoidance_gain = 0.2;
+  const Snapshot world = arena({disc_body({1100, 760}, 300)});
+  const auto best = [&](bool printed) {
+    look.printed_weights = printed;
+    RadarScanner scanner(directions, {});
+    const RadarDiagnostics slow = scan(look, world, directions);
+    scanner.detect(look, world);
+    EXPECT_EQ(scanner.choose(look, world), slow.beams[slow.best.value()].heading);
+    return slow.weights.avoidance;
+  };
+  EXPECT_GT(best(true), best(false) + 0.1);
+}
+
 TEST(RadarScan, NothingDetectedGoesStraight) {
   const RadarLook look = look_at({500, 500}, 100, {1500, 800});
   const RadarDiagnostics far = scan(look, arena({disc_body({820, 500}, 150)}), directions);

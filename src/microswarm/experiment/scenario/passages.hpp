@@ -11,8 +11,8 @@ namespace microswarm::experiment {
 /// a proof. A point's own clearance may be asked for.
 bool leads_to(const Map& map, Vec2 from, Vec2 to, double clearance);
 
-/// What a path with as much clearance as possible, up to `enough` [µm], has where it is tightest:
-/// ": about 50 µm are left at (500, 500) µm". Empty without a path.
+/// Clearance of the widest path, up to `enough` [µm], and where it is tightest: ": about 50 µm are
+/// left at (500, 500) µm". Empty without a path.
 std::string tightest_text(const Map& map, Vec2 from, Vec2 to, double enough);
 
 }  // namespace microswarm::experiment

@@ -59,13 +59,22 @@ HierarchicalNavigator::HierarchicalNavigator(const HierarchicalParams& params, c
 
 void HierarchicalNavigator::prepare(const Snapshot& world, const Stop&) {
   choose_aim(world, params_.clearance, params_.clearance + params_.extra_clearance);
-  if (params_.guide == Guide::route)
-    route_ = planning::DistanceField::to_goal(world.shared_map(), aim().position, params_.clearance,
-                                              params_.route_cell);
+  wall_routes_.clear();
+  if (params_.guide != Guide::route) return;
+  route_ = planning::DistanceField::to_goal(world.shared_map(), aim().position, params_.clearance,
+                                            params_.route_cell);
+  // With room for what the follower cuts off at corners, if possible.
+  for (const double share : {1.0, 0.5, 0.25, 0.125, 0.0}) {
+    const double clearance =
+        std::min(params_.clearance + share * params_.extra_clearance, (1 - 1e-9) * aim().clearance);
+    wall_routes_.push_back(
+        {clearance, planning::Route(world.shared_map(), aim().position, clearance)});
+  }
 }
 
 void HierarchicalNavigator::update(const Observation& seen, const Stop& stop) {
   route_.stop_with(stop);
+  for (WallRoute& w : wall_routes_) w.route.stop_with(stop);
   obstacles_.update(seen);
   if (sees_swarm(seen)) follower_.update(seen, compensator());
 }
@@ -95,10 +104,11 @@ Decision HierarchicalNavigator::decide(const Moment& moment) {
   const Snapshot& seen = moment.world();
   pose_ = moment.pose;
   via_.reset();
-  if (is_used_up() || !path_holds(seen)) replan(seen, moment.stop);  // lines 4–11
+  const bool is_lost = path_is_route_ && !seen.moving().empty();
+  if (is_lost || is_used_up() || !path_holds(seen)) replan(seen, moment.stop);  // lines 4–11
   auto decision = keep_path(seen);
   if (!decision && has_path()) {
-    replan(seen, moment.stop);
+    replan(seen, moment.stop, !path_is_route_);
     decision = keep_path(seen);
   }
   if (decision) return *decision;
@@ -120,14 +130,44 @@ Decision HierarchicalNavigator::at_goal(const Moment& moment) {  // line 2
 // Follows the path, more slowly if only that is safe.
 std::optional<Decision> HierarchicalNavigator::keep_path(const Snapshot& seen) {
   if (!has_path()) return std::nullopt;
+  if (path_is_route_) return keep_route(seen);
   for (const double ease : params_.tuning.speed_shares) {
     const double speed = ease * params_.speed;
     if (!params_.as_published && !path_is_safe(seen, speed)) continue;
-    const auto next = follow(position_, pose_, speed);
-    return Decision{next.command,
-                    next.handed_over ? NavigatorState::fallback : NavigatorState::follow};
+    return follow_path(speed);
   }
   return std::nullopt;
+}
+
+// The route bends closely around corners. It is followed with a shorter look-ahead rather than more
+// slowly, and without using up all the room to the walls, which the next steps need. What faces a
+// wall turns nearly on the spot, and may come a little nearer.
+std::optional<Decision> HierarchicalNavigator::keep_route(const Snapshot& seen) {
+  constexpr double slack = 1, turning_room = 5;  // [µm]
+  constexpr double rounding = 1e-9;
+  const double here = (1 - rounding) * seen.map().clearance(pose_.position);
+  const double least = swarm().radius + slack;
+  const double kept = std::min(params_.clearance, here);
+  const double wanted = std::min(0.5 * (params_.clearance + route_clearance_), here);
+  const auto tried = [&](double ease, double from_walls) -> std::optional<Decision> {
+    for (const double share : {1.0, 0.5, 0.25, 0.125}) {
+      lookahead_share_ = share;
+      if (path_is_safe(seen, ease * params_.speed, std::max(from_walls, least)))
+        return follow_path(ease * params_.speed);
+    }
+    return std::nullopt;
+  };
+  for (const double ease : params_.tuning.speed_shares)
+    for (const double from_walls : {wanted, kept})
+      if (const auto decision = tried(ease, from_walls)) return decision;
+  for (const double ease : {0.1, 0.05})
+    if (const auto decision = tried(ease, kept - turning_room)) return decision;
+  return std::nullopt;
+}
+
+Decision HierarchicalNavigator::follow_path(double speed) {
+  const auto next = follow(position_, pose_, speed);
+  return {next.command, next.handed_over ? NavigatorState::fallback : NavigatorState::follow};
 }
 
 // A path to a local target is replaced before its end, the one to the aim at its end.
@@ -151,13 +191,16 @@ bool HierarchicalNavigator::path_holds(const Snapshot& world) const {
                        : world.is_free(rest, clearance);
 }
 
-void HierarchicalNavigator::replan(const Snapshot& seen, const Stop& stop) {
+void HierarchicalNavigator::replan(const Snapshot& seen, const Stop& stop, bool may_take_route) {
   path_.clear();
   position_ = {};
+  path_is_route_ = false;
+  lookahead_share_ = 1;
   const double here = seen.clearance(pose_.position);
   double wanted = params_.clearance + params_.extra_clearance;
   if (distance(pose_.position, aim().position) <= ahead())  // it may have less
     wanted = std::clamp(aim().clearance, params_.clearance, wanted);
+  if (may_take_route && replan_along_route(seen, here, stop)) return;
   if (here < params_.clearance) {
     target_.reset();
     return;
@@ -184,6 +227,29 @@ Vec2 HierarchicalNavigator::towards() {
 double HierarchicalNavigator::max_wait(double now) {
   if (wait_ && distance(wait_->at, pose_.position) > used_up()) wait_.reset();
   return params_.target_horizon - (wait_ ? now - wait_->since : 0);
+}
+
+// Among walls alone the shortest path to the aim is known, and nothing local is better.
+bool HierarchicalNavigator::replan_along_route(const Snapshot& seen, double here,
+                                               const Stop& stop) {
+  constexpr double rounding = 1e-9;
+  if (!seen.moving().empty()) return false;
+  for (WallRoute& w : wall_routes_) {
+    if (stop()) return false;
+    std::vector<Vec2> path = w.route.path_from(pose_.position);
+    const double clearance = std::min({params_.clearance, w.clearance, (1 - rounding) * here});
+    if (path.size() < 2 || !seen.is_free(Segment{path[0], path[1]}, clearance)) continue;
+    step_view().planned = true;
+    plan_ = Plan{.status = Status::solved, .path = path};
+    path_ = std::move(path);
+    path_clearance_ = clearance;
+    route_clearance_ = w.clearance;
+    path_in_time_ = false;
+    path_is_route_ = true;
+    target_ = aim().position;
+    return true;
+  }
+  return false;
 }
 
 bool HierarchicalNavigator::replan_in_time(const Snapshot& seen, double clearance,
@@ -284,12 +350,13 @@ PathFollower::Answer HierarchicalNavigator::follow(PathPosition& position, const
   return answer;
 }
 
-bool HierarchicalNavigator::path_is_safe(const Snapshot& seen, double speed) const {
+bool HierarchicalNavigator::path_is_safe(const Snapshot& seen, double speed,
+                                         std::optional<double> from_walls) const {
   PathPosition position = position_;
-  const auto follow_path = [&](const Pose2& pose, double) {
+  const auto steer = [&](const Pose2& pose, double) {
     return follow(position, pose, speed).command;
   };
-  return safety_.is_safe(situation(seen), std::ref(follow_path));
+  return safety_.is_safe(situation(seen), std::ref(steer), from_walls);
 }
 
 }  // namespace microswarm::navigation

@@ -16,6 +16,7 @@
 #include "microswarm/navigation/prediction/obstacle_predictor.hpp"
 #include "microswarm/navigation/steering/steering_navigator.hpp"
 #include "microswarm/planning/exact/distance_field.hpp"
+#include "microswarm/planning/exact/route.hpp"
 #include "microswarm/planning/path/planners.hpp"
 
 namespace microswarm::navigation {
@@ -42,7 +43,8 @@ class HierarchicalNavigator : public SteeringNavigator {
   std::optional<Decision> keep_path(const Snapshot& seen);
   bool has_path() const { return path_.size() >= 2; }
   bool path_holds(const Snapshot& world) const;
-  void replan(const Snapshot& seen, const Stop& stop);
+  void replan(const Snapshot& seen, const Stop& stop, bool may_take_route = true);
+  bool replan_along_route(const Snapshot& seen, double here, const Stop& stop);
   bool replan_with(const Snapshot& world, double clearance, const Stop& stop);
   bool replan_in_time(const Snapshot& seen, double clearance, const Stop& stop);
   void plan_to(const Snapshot& world, Vec2 target, double clearance, const Stop& stop);
@@ -50,9 +52,12 @@ class HierarchicalNavigator : public SteeringNavigator {
   /// Look-ahead along the route [µm]; within it a visible goal is the target.
   double ahead() const { return 1.5 * params_.target.base_distance; }
   PathFollower::Answer follow(PathPosition& position, const Pose2& pose, double speed) const;
-  bool path_is_safe(const Snapshot& seen, double speed) const;
+  bool path_is_safe(const Snapshot& seen, double speed,
+                    std::optional<double> from_walls = std::nullopt) const;
+  std::optional<Decision> keep_route(const Snapshot& seen);
+  Decision follow_path(double speed);
   double lookahead_at(double speed) const {
-    return params_.lookahead * std::max(0.5, speed / params_.speed);
+    return lookahead_share_ * params_.lookahead * std::max(0.5, speed / params_.speed);
   }
   /// Remaining path length below which the next path is planned [µm].
   double used_up() const { return std::max(params_.lookahead, 2 * swarm().radius); }
@@ -61,6 +66,11 @@ class HierarchicalNavigator : public SteeringNavigator {
   bool is_used_up();
   double max_wait(double now);
 
+  /// Shortest paths to the aim among walls.
+  struct WallRoute {
+    double clearance = 0;  ///< [µm]
+    planning::Route route;
+  };
   /// Wait for an obstacle to pass.
   struct Wait {
     double since = 0;  ///< [s]
@@ -70,6 +80,7 @@ class HierarchicalNavigator : public SteeringNavigator {
   HierarchicalParams params_;
   Rng rng_;
   planning::DistanceField route_;
+  std::vector<WallRoute> wall_routes_;  ///< by falling clearance
   std::optional<Vec2> via_;  ///< point of the route ahead of the current pose, computed on demand
   SafetyLookahead safety_;
   ObstaclePredictor obstacles_;
@@ -78,7 +89,10 @@ class HierarchicalNavigator : public SteeringNavigator {
   std::vector<Vec2> path_;
   PathPosition position_;
   double path_clearance_ = 0;
-  bool path_in_time_ = false;  ///< whether the path was chosen among predicted obstacles
+  bool path_in_time_ = false;   ///< whether the path was chosen among predicted obstacles
+  bool path_is_route_ = false;  ///< whether it is the shortest path to the aim among walls
+  double route_clearance_ = 0;  ///< of the path, if it is [µm]
+  double lookahead_share_ = 1;
   std::optional<Vec2> target_;
   std::optional<Wait> wait_;  ///< latest wait, until the swarm has left that position
   std::optional<Plan> plan_;

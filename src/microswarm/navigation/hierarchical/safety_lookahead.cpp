@@ -58,9 +58,10 @@ double SafetyLookahead::from_obstacles(const Start& start, Segment move, double 
 }
 
 // Among obstacles at rest, one distance to them answers for all moves nearby.
-bool SafetyLookahead::is_safe(const Start& start, const Steering& steer) const {
+bool SafetyLookahead::is_safe(const Start& start, const Steering& steer,
+                              std::optional<double> wanted) const {
   const Map& map = start.world.map();
-  const double from_walls = wall_floor(start, far_enough());
+  const double from_walls = wanted ? *wanted : wall_floor(start, far_enough());
   const double least = params_.clearance + slack_;
   const double enough = std::min(far_enough(), least + 1);  // 1 µm more than what is asked for
   const double end = start.delay + params_.horizon + params_.tuning.check_step;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "microswarm/contracts/command.hpp"
 #include "microswarm/navigation/hierarchical/hierarchical_params.hpp"
@@ -33,8 +34,10 @@ class SafetyLookahead {
   double period() const { return period_; }
   void set_period(double seconds) { period_ = seconds; }
 
-  /// Whether the swarm keeps the clearance when steered like this.
-  bool is_safe(const Start& start, const Steering& steer) const;
+  /// Whether the swarm keeps the clearance when steered like this; from walls `from_walls` [µm], if
+  /// given.
+  bool is_safe(const Start& start, const Steering& steer,
+               std::optional<double> from_walls = std::nullopt) const;
   /// First command of the best escape: of the hold and the manoeuvres of one leg, or two if one is
   /// not enough, the one with the largest clearance.
   Command escape(const Start& start) const;

@@ -182,6 +182,7 @@ void RadarNavigator::look_around(const Observation& seen, Vec2 target) {
                  .approach = params_.compensate_delay ? params_.obstacle_speed_bound * delay() : 0,
                  .target_gain = params_.target_gain,
                  .avoidance_gain = params_.avoidance_gain,
+                 .printed_weights = params_.printed_weights,
                  .course = course_,
                  .min_cosine = maths::cos(params_.max_turn)};
   contact_ = scanner_.detect(look, *seen.world);

@@ -26,6 +26,7 @@ struct RadarParams {
   double angle_step = pi / 180;     // β
   double target_gain = 0.1;         // k_t ε
   double avoidance_gain = 0.9;      // k_a η
+  bool printed_weights = false;
   SafetyRadiusParams safety_radius{};
   double max_turn = radians(90);
   bool retreat = true;
@@ -57,6 +58,8 @@ struct RadarParams {
           plain("target_gain", 0, 1e6, "Growth of q_t with the remaining distance (k_t epsilon)."));
     visit(self.avoidance_gain,
           plain("avoidance_gain", 0, 0.999, "Growth of q_a with proximity (k_a eta); q_a < q_t."));
+    visit(self.printed_weights,
+          plain("printed_weights", "q_a of Eq 10 as printed, by centre distances; at most q_t."));
     visit(self.safety_radius,
           plain("safety_radius", "Control of the radius of the safety circle."));
     visit(self.max_turn,

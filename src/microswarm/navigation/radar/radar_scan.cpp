@@ -79,6 +79,14 @@ void rate(RadarDiagnostics& out, const RadarLook& look, const Snapshot& world) {
   }
 }
 
+/// (1/s − 1/r_d) / (1/r_0 − 1/r_d), finite where r_0 is r_d.
+double relative_proximity(double s, double r_0, double r_d) {
+  constexpr double least = 1e-6;  // [µm]
+  const double scale = r_d - r_0;
+  const double apart = std::max(s, least);
+  return (r_d - apart) / apart * r_0 / std::copysign(std::max(std::abs(scale), least), scale);
+}
+
 /// Eq 13
 void choose(RadarDiagnostics& out) {
   for (std::uint32_t i = 0; i < out.beams.size(); ++i) {
@@ -95,11 +103,23 @@ std::optional<Vec2> rotation_centre(const Body& body) {
   return distance(centre, body) > 0 ? std::nullopt : std::optional(centre);
 }
 
-RadarWeights radar_weights(const RadarLook& look, double distance_to_edge) {
+double obstacle_radius(const RadarLook& look, const Body& body) {
+  if (!look.printed_weights) return 0;
+  return distance(look.centre, enclosing_disc(body).centre) - distance(look.centre, body);
+}
+
+RadarWeights radar_weights(const RadarLook& look, double distance_to_edge, double obstacle_radius) {
   const double r_s = look.radius;
   const double r_d = look.circles.detection;
-  const double s = std::clamp(distance_to_edge, r_s, r_d);
   const double relative = distance(look.centre, look.target) / r_d;
+  if (look.printed_weights) {  // Eq 10–12
+    const double target = 1 + look.target_gain * relative * relative;
+    const double near =
+        relative_proximity(distance_to_edge + obstacle_radius, r_s + obstacle_radius, r_d);
+    return {.target = target,
+            .avoidance = std::min(target, 0.5 + look.avoidance_gain / 2 * near * near)};
+  }
+  const double s = std::clamp(distance_to_edge, r_s, r_d);
   const double near = (1 / s - 1 / r_d) / (1 / r_s - 1 / r_d);
   return {.target = 1 + look.target_gain * relative * relative,
           .avoidance = 0.5 + look.avoidance_gain / 2 * near * near};
@@ -121,7 +141,8 @@ RadarDiagnostics scan(const RadarLook& look, const Snapshot& world, int directio
   }
   if (out.nearest) {
     const Body& body = world.moving().bodies()[*out.nearest];
-    out.weights = radar_weights(look, distance(look.centre, body) - look.approach);
+    out.weights = radar_weights(look, distance(look.centre, body) - look.approach,
+                                obstacle_radius(look, body));
   } else {
     out.weights = {radar_weights(look, look.circles.detection).target, 0};
     // Eq 14–16; no farther than the target, which may be in front of a wall.

@@ -20,6 +20,7 @@ struct RadarLook {
   double approach = 0;           ///< reduction of the distances to obstacles
   double target_gain = 0;        ///< k_t ε
   double avoidance_gain = 0;     ///< k_a η
+  bool printed_weights = false;  ///< Eq 10 and 12 with centre distances
   std::optional<Vec2> course{};  ///< unit vector of the last commanded direction
   double min_cosine = -1;        ///< of the angle to it, if there is a choice
 
@@ -34,7 +35,14 @@ struct RadarLook {
 /// again inside the circle. Measured from the obstacle's edge, between the swarm's and the
 /// detection circle, both are well-defined: q_a = 1/2 + k_a η / 2 · ((1/s − 1/r_d) / (1/r_s −
 /// 1/r_d))². Hence q_t >= 1 > q_a for k_a η < 1.
-RadarWeights radar_weights(const RadarLook& look, double distance);
+/// With `printed_weights` Eq 10 and 12 are taken literally, s from centre to centre and r_s + r_ob
+/// in place of r_s, for an obstacle whose centre is `obstacle_radius` µm behind its edge. The paper
+/// demands of k_a that q_t stays larger than q_a: q_a is at most q_t.
+RadarWeights radar_weights(const RadarLook& look, double distance, double obstacle_radius = 0);
+
+/// r_ob of Eq 10 if the weights are the printed ones, else 0: how far the centre of a body's
+/// enclosing disc is behind its edge, seen from the swarm [µm]; a disc's radius.
+double obstacle_radius(const RadarLook& look, const Body& body);
 
 /// Lower bound of the distance ‖O_pe O_t‖ in Eq 9 [µm].
 inline constexpr double min_distance = 1e-9;

@@ -150,7 +150,8 @@ std::optional<std::size_t> RadarScanner::best(const RadarLook& look, const Snaps
   RadarWeights weights{radar_weights(look, look.circles.detection).target, 0};
   measure_distance(look.target);
   if (nearest_) {
-    weights = radar_weights(look, nearest_->distance);
+    weights = radar_weights(look, nearest_->distance,
+                            obstacle_radius(look, world.moving().bodies()[nearest_->body]));
     measure_gap(world);
   } else {
     std::fill(gap_.begin(), gap_.end(), 0);

@@ -18,6 +18,13 @@ double Route::length_from(Vec2 p) {
   return begin ? distance(p, *begin) + tree_->length_from(*begin) : infinity;
 }
 
+std::vector<Vec2> Route::path_from(Vec2 p) {
+  const auto begin = entry(p);
+  std::vector<Vec2> path = begin ? tree_->path_from(*begin) : std::vector<Vec2>{};
+  if (!path.empty() && !(path.front() == p)) path.insert(path.begin(), p);
+  return path;
+}
+
 Vec2 Route::ahead(Vec2 p, double reach) {
   const auto begin = entry(p);
   if (!begin) return p;

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "microswarm/planning/exact/shortest_path_tree.hpp"
 
@@ -29,6 +30,8 @@ class Route {
 
   /// Length of the shortest path from `p` [µm], infinity without one.
   double length_from(Vec2 p);
+  /// That path, from `p` on [µm]; empty without one.
+  std::vector<Vec2> path_from(Vec2 p);
   /// Farthest point of that path, at most `reach` µm ahead, that is visible from `p` with nine
   /// tenths of the clearance, so that it moves on at a corner; `p` without a path.
   Vec2 ahead(Vec2 p, double reach);
