@@ -51,7 +51,8 @@ inline std::vector<BodyNavigator> body_navigators() {
           {"StraightStop", navigation::StraightParams{}, 0xdb787b10f3972ee0},
           {"PotentialField", navigation::PotentialFieldParams{}, 0xb25c0dc003a24249},
           {"VelocityObstacle", navigation::VelocityObstacleParams{}, 0x3cdda3d52bc4c9f6},
-          {"Predictive", navigation::PredictiveParams{}, 0xb69a8061ef8a7fc5}};
+          {"Predictive", navigation::PredictiveParams{}, 0xb69a8061ef8a7fc5},
+          {"SafeInterval", navigation::SafeIntervalParams{}, 0xde7a7e0f69c4046c}};
 }
 
 }  // namespace microswarm

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/navigation/predictive/predictive.hpp"
-#include "microswarm/core/maths/infinity.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,62 +7,13 @@
 #include <limits>
 
 #include "microswarm/core/maths/angles.hpp"
-#include "microswarm/swarm/body/unicycle.hpp"
 #include "microswarm/world/world.hpp"
-#include "tests/navigation/room.hpp"
+#include "tests/navigation/late_drive.hpp"
 
 namespace microswarm::navigation {
 namespace {
 
-constexpr SwarmLimits slow_vortex{50, 70, infinity, 0.1};
-constexpr SwarmLimits slow_ribbon{50, 70, 3, 0.1};
-
-/// A swarm that obeys late in a world that is seen late.
-struct PredictiveDrive {
-  std::vector<Polygon> walls{};
-  std::vector<Obstacle> obstacles{};
-  SwarmLimits swarm = slow_vortex;
-  Pose2 pose{{200, 500}, 0};
-  PredictiveParams params{};
-  double min_gap = infinity;  ///< from edge to edge [µm]
-  double time = 0;
-  bool arrived = false;
-  std::vector<NavigatorState> states{};
-
-  bool was(NavigatorState state) const {
-    return std::find(states.begin(), states.end(), state) != states.end();
-  }
-
-  void run(double seconds) {
-    constexpr double substep = 0.01;
-    const World world{std::make_shared<const Map>(Box{{0, 0}, {2000, 1000}}, walls), obstacles};
-    PredictiveNavigator navigator(params, body_task(swarm), Rng(1, Purpose::planner));
-    navigator.prepare(world.at(0), {});
-    std::vector<Pose2> was_there(6, pose);
-    std::vector<Command> pending(10);
-    while (time < seconds && !arrived) {
-      const double seen = std::max(0.0, time - 0.05);
-      const Snapshot now = world.at(seen);
-      const Command command = navigator.step({.now = time,
-                                              .seen = seen,
-                                              .swarm = SwarmPose{was_there.front(), swarm.radius},
-                                              .robots = {},
-                                              .world = borrowed(now)},
-                                             {});
-      states.push_back(navigator.view().state);
-      for (int k = 0; k < 10; ++k, time += substep) {
-        pending.push_back(command);
-        pose = unicycle_step(pose, pending.front(), swarm.max_turn_rate, substep);
-        pending.erase(pending.begin());
-        was_there.push_back(pose);
-        was_there.erase(was_there.begin());
-        min_gap =
-            std::min(min_gap, world.at(time + substep).clearance(pose.position) - swarm.radius);
-      }
-      arrived = distance(pose.position, room_goal) <= room_tolerance;
-    }
-  }
-};
+using PredictiveDrive = LateDrive<PredictiveNavigator>;
 
 TEST(Predictive, GoesStraightInTheOpen) {
   for (const SwarmLimits& swarm : {slow_vortex, slow_ribbon}) {

@@ -11,6 +11,7 @@
 #include "microswarm/navigation/hierarchical/hierarchical.hpp"
 #include "microswarm/navigation/predictive/predictive.hpp"
 #include "microswarm/navigation/radar/radar.hpp"
+#include "microswarm/navigation/safe_interval/safe_interval.hpp"
 
 namespace microswarm::navigation {
 namespace {
@@ -28,9 +29,10 @@ struct NavigatorKinds {
 };
 
 /// One for each kind of parameters; it does not compile without one of them.
-using AllNavigators = NavigatorKinds<HierarchicalNavigator, PlanExecutor, AggregationNavigator,
-                                     RadarNavigator, StraightNavigator, PotentialFieldNavigator,
-                                     VelocityObstacleNavigator, PredictiveNavigator, PathNavigator>;
+using AllNavigators =
+    NavigatorKinds<HierarchicalNavigator, PlanExecutor, AggregationNavigator, RadarNavigator,
+                   StraightNavigator, PotentialFieldNavigator, VelocityObstacleNavigator,
+                   PredictiveNavigator, PathNavigator, SafeIntervalNavigator>;
 
 }  // namespace
 
@@ -45,7 +47,9 @@ Issues validate(const NavigatorParams& params, const Task& task, const Map& map,
       Overloaded{
           [&](const HierarchicalParams& p) { return validate(p, is_given); },
           [&](const RadarParams& p) { return validate(p, task.swarm, map, is_given); },
-          [](const OneOf<AggregationParams, PredictiveParams> auto& p) { return validate(p); },
+          [](const OneOf<AggregationParams, PredictiveParams, SafeIntervalParams> auto& p) {
+            return validate(p);
+          },
           [](const OneOf<PlanExecutorParams, StraightParams, PotentialFieldParams,
                          VelocityObstacleParams, PathNavigatorParams> auto&) { return Issues(); }},
       params);

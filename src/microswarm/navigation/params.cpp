@@ -17,7 +17,8 @@ NavigatorParams in_effect(const NavigatorParams& params) {
                  },
                  [](const OneOf<PlanExecutorParams, AggregationParams, StraightParams,
                                 PotentialFieldParams, VelocityObstacleParams, PredictiveParams,
-                                PathNavigatorParams> auto& p) -> NavigatorParams { return p; }},
+                                PathNavigatorParams, SafeIntervalParams> auto& p)
+                     -> NavigatorParams { return p; }},
       params);
 }
 
@@ -26,17 +27,18 @@ double required_clearance(const NavigatorParams& params) {
       Overloaded{[](const HierarchicalParams& p) { return p.clearance; },
                  [](const OneOf<PlanExecutorParams, AggregationParams, RadarParams, StraightParams,
                                 PotentialFieldParams, VelocityObstacleParams, PredictiveParams,
-                                PathNavigatorParams> auto&) { return 0.0; }},
+                                PathNavigatorParams, SafeIntervalParams> auto&) { return 0.0; }},
       params);
 }
 
 double required_detection_range(const NavigatorParams& params) {
   return std::visit(
-      Overloaded{
-          [](const RadarParams& p) { return p.detection_range; },
-          [](const OneOf<HierarchicalParams, PlanExecutorParams, AggregationParams, StraightParams,
-                         PotentialFieldParams, VelocityObstacleParams, PredictiveParams,
-                         PathNavigatorParams> auto&) { return range_of_others; }},
+      Overloaded{[](const RadarParams& p) { return p.detection_range; },
+                 [](const OneOf<HierarchicalParams, PlanExecutorParams, AggregationParams,
+                                StraightParams, PotentialFieldParams, VelocityObstacleParams,
+                                PredictiveParams, PathNavigatorParams, SafeIntervalParams> auto&) {
+                   return range_of_others;
+                 }},
       params);
 }
 
@@ -44,8 +46,8 @@ FollowerParams* find_follower(NavigatorParams& params) {
   return std::visit(
       Overloaded{[](OneOf<HierarchicalParams, PathNavigatorParams> auto& p) { return &p.follower; },
                  [](OneOf<PlanExecutorParams, AggregationParams, RadarParams, StraightParams,
-                          PotentialFieldParams, VelocityObstacleParams, PredictiveParams> auto&)
-                     -> FollowerParams* { return nullptr; }},
+                          PotentialFieldParams, VelocityObstacleParams, PredictiveParams,
+                          SafeIntervalParams> auto&) -> FollowerParams* { return nullptr; }},
       params);
 }
 

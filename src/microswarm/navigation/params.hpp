@@ -12,13 +12,15 @@
 #include "microswarm/navigation/hierarchical/hierarchical_params.hpp"
 #include "microswarm/navigation/predictive/predictive_params.hpp"
 #include "microswarm/navigation/radar/radar_params.hpp"
+#include "microswarm/navigation/safe_interval/safe_interval_params.hpp"
 
 namespace microswarm::navigation {
 
 /// Any navigator, selected at run time by its `type`.
-using NavigatorParams = std::variant<HierarchicalParams, PlanExecutorParams, AggregationParams,
-                                     RadarParams, StraightParams, PotentialFieldParams,
-                                     VelocityObstacleParams, PredictiveParams, PathNavigatorParams>;
+using NavigatorParams =
+    std::variant<HierarchicalParams, PlanExecutorParams, AggregationParams, RadarParams,
+                 StraightParams, PotentialFieldParams, VelocityObstacleParams, PredictiveParams,
+                 PathNavigatorParams, SafeIntervalParams>;
 
 /// Parameters with our additions disabled where `as_published` is set; they can be read back
 /// without a contradiction.

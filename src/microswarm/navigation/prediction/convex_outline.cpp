@@ -9,6 +9,7 @@
 #include "microswarm/core/execution/each_cpu.hpp"
 #include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/maths/infinity.hpp"
+#include "microswarm/geometry/distance.hpp"
 #include "microswarm/navigation/prediction/obstacle_tracker.hpp"
 
 namespace microswarm::navigation {
@@ -67,6 +68,21 @@ double ConvexOutline::distance_at(Vec2 from_centre) const {
     outside = std::min(outside, off * off + beside * beside);
   }
   return inside <= 0 ? inside : std::sqrt(outside);
+}
+
+double ConvexOutline::distance_along(Vec2 a, Vec2 b, double near) const {
+  const double bound = std::min(norm(a), norm(b)) - 0.5 * distance(a, b) - radius;
+  if (edges.empty() || bound > near) return distance(Vec2{}, Segment{a, b}) - radius;
+  constexpr int halvings = 12;
+  double first = 0;
+  double last = 1;
+  const auto at = [&](double share) { return distance_at(a + share * (b - a)); };
+  for (int k = 0; k < halvings; ++k) {
+    const double left = first + (last - first) / 3;
+    const double right = last - (last - first) / 3;
+    (at(left) <= at(right) ? last : first) = at(left) <= at(right) ? right : left;
+  }
+  return std::min({at(0), at(1), at(0.5 * (first + last))});
 }
 
 void ConvexOutline::distances_at(std::span<const double> x, std::span<const double> y,

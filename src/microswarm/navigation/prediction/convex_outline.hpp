@@ -23,6 +23,9 @@ struct ConvexOutline {
 
   /// Exact distance [µm] of the point `from_centre` relative to the centre; negative inside.
   double distance_at(Vec2 from_centre) const;
+  /// Minimum distance [µm] of a point that moves straight from `a` to `b`, both relative to the
+  /// centre; beyond `near` it may be the enclosing disc's. The distance is convex along the way.
+  double distance_along(Vec2 a, Vec2 b, double near) const;
   /// The same for many points (`x`, `y`), bit-identical.
   void distances_at(std::span<const double> x, std::span<const double> y,
                     std::span<double> distances) const;

@@ -3,30 +3,7 @@
 
 #include <algorithm>
 
-#include "microswarm/geometry/distance.hpp"
-
 namespace microswarm::navigation {
-namespace {
-
-/// Minimum distance from the outline to a point that moves straight from a to b, both relative to
-/// the outline's centre and rotated back with it. The distance is convex along the segment.
-double distance_along(const ConvexOutline& outline, Vec2 a, Vec2 b, double near) {
-  const double bound = std::min(norm(a), norm(b)) - 0.5 * distance(a, b) - outline.radius;
-  if (outline.edges.empty() || bound > near)
-    return distance(Vec2{}, Segment{a, b}) - outline.radius;
-  constexpr int halvings = 12;
-  double first = 0;
-  double last = 1;
-  const auto at = [&](double share) { return outline.distance_at(a + share * (b - a)); };
-  for (int k = 0; k < halvings; ++k) {
-    const double left = first + (last - first) / 3;
-    const double right = last - (last - first) / 3;
-    (at(left) <= at(right) ? last : first) = at(left) <= at(right) ? right : left;
-  }
-  return std::min({at(0), at(1), at(0.5 * (first + last))});
-}
-
-}  // namespace
 
 void ObstacleHorizon::update(const Snapshot& world, const MultiModelPredictor& predictor,
                              const TimeField& field, double effect,
@@ -73,7 +50,7 @@ ObstacleHorizon::Meeting ObstacleHorizon::meeting(int piece, Segment move, doubl
     const double away = outlines_[i].radius + near + distance(p, q);
     if (squared_norm(p) > away * away) continue;
     const double gap =
-        distance_along(outlines_[i], rotated(p, -a.turn), rotated(q, -b.turn), near) - grown;
+        outlines_[i].distance_along(rotated(p, -a.turn), rotated(q, -b.turn), near) - grown;
     const auto risk =
         penetration_risk(risk_, static_cast<float>(gap), static_cast<float>(b.uncertainty));
     out.gap = std::min(out.gap, gap);

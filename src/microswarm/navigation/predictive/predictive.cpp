@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/navigation/predictive/predictive.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,20 +9,12 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/maths.hpp"
 #include "microswarm/geometry/distance.hpp"
+#include "microswarm/navigation/prediction/validate_prediction.hpp"
 
 namespace microswarm::navigation {
 namespace {
 
 constexpr double leg_rounding = 1e-9;
-
-/// An issue if the value of the first key is not less than that of the second.
-void require_less(double a, double b, std::string_view first, std::string_view second,
-                  Issues& issues) {
-  constexpr std::string_view group = "prediction.tuning";
-  if (a < b) return;
-  issues.add(fmt::format("{}.{}", group, first),
-             fmt::format("{0}.{1} must be less than {0}.{2}", group, first, second));
-}
 
 }  // namespace
 
@@ -32,17 +22,7 @@ Issues validate(const PredictiveParams& params) {
   Issues issues;
   if (params.tuning.speed_shares.empty())
     issues.add("tuning.speed_shares", "tuning.speed_shares is empty, must have a value");
-  const OscillationTuning& o = params.prediction.tuning.oscillation;
-  require_less(o.short_window, o.medium_window, "oscillation.short_window_s",
-               "oscillation.medium_window_s", issues);
-  require_less(o.medium_window, o.long_window, "oscillation.medium_window_s",
-               "oscillation.long_window_s", issues);
-  require_less(o.min_frequency, o.max_frequency, "oscillation.min_frequency_per_s",
-               "oscillation.max_frequency_per_s", issues);
-  // A recurrence must lie in the past.
-  const RecurrenceTuning& r = params.prediction.tuning.recurrence;
-  require_less(r.max_time_offset, r.min_age, "recurrence.max_time_offset_s", "recurrence.min_age_s",
-               issues);
+  issues.add(validate_prediction(params.prediction));
   return issues;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/planning/space_time/grid_distances.hpp"
@@ -37,9 +38,13 @@ Status SafeIntervalSearch::find(const SpaceTimeGrid& grid, const Query& query, c
   std::uint32_t nearest = 0;
   float least = std::numeric_limits<float>::infinity();
   while (!open_.empty()) {
-    const std::uint32_t number = open_.front().state;
+    const auto [cost, number, is_shortcut] = open_.front();
     std::pop_heap(open_.begin(), open_.end());
     open_.pop_back();
+    if (is_shortcut) {
+      test_shortcut(grid, query, number);
+      continue;
+    }
     State& state = states_[number];
     if (state.closed) continue;
     state.closed = true;
@@ -84,10 +89,9 @@ void SafeIntervalSearch::begin(const SpaceTimeGrid& grid, const Query& query) {
   start.until = query.stay_until;
   start.closed = true;
   states_.push_back(start);
-  for (const Cell cell : query.entries) connect(grid, query, 0, cell);
+  for (const Cell cell : query.entries) connect(grid, query, 0, cell, false);
 }
 
-// A later departure from the parent counts only if it arrives earlier than over the state.
 void SafeIntervalSearch::expand(const SpaceTimeGrid& grid, const Query& query,
                                 std::uint32_t number) {
   const Cell cell = states_[number].cell;
@@ -98,14 +102,14 @@ void SafeIntervalSearch::expand(const SpaceTimeGrid& grid, const Query& query,
     if (!grid.holds(column + step.column, row + step.row)) continue;
     const Cell next = grid.at(column + step.column, row + step.row);
     if (grid.stands(next) || !std::isfinite(query.lengths[next])) continue;
-    connect(grid, query, number, next);
-    connect(grid, query, parent, next);
+    connect(grid, query, number, next, false);
+    connect(grid, query, parent, next, true);
   }
 }
 
 // A cell is entered half a step before the arrival at its centre.
 void SafeIntervalSearch::connect(const SpaceTimeGrid& grid, const Query& query,
-                                 std::uint32_t from_number, Cell to) {
+                                 std::uint32_t from_number, Cell to, bool is_shortcut) {
   const State from = states_[from_number];
   const Vec2 there = grid.position(to);
   const Vec2 move = there - from.position;
@@ -120,18 +124,44 @@ void SafeIntervalSearch::connect(const SpaceTimeGrid& grid, const Query& query,
     const double first =
         safe.begin > slot ? std::max(earliest, safe.begin * grid.slot() + half) : earliest;
     if (first - duration > from.until + time_rounding) return;
-    relax(grid, query, from_number, {first, turn_cost, duration}, to, safe.end);
+    const std::uint32_t state = state_of(to, grid, safe.end);
+    if (is_shortcut)
+      note_shortcut(query, from_number, state, {first, turn_cost, duration});
+    else
+      relax(grid, query, from_number, state, {first, turn_cost, duration});
     if (safe.end == SpaceTimeGrid::forever) return;
     slot = safe.end;
   }
 }
 
+void SafeIntervalSearch::note_shortcut(const Query& query, std::uint32_t from, std::uint32_t to,
+                                       const Move& move) {
+  State& state = states_[to];
+  const double cost = move.arrival + move.turn_cost;
+  const double useful = std::min(state.time + state.turn_cost, state.shortcut_time);
+  if (state.parent == from || move.arrival >= state.until || cost >= useful - time_rounding) return;
+  state.shortcut = from;
+  state.shortcut_time = cost;
+  push(query, to, cost, true);
+}
+
+void SafeIntervalSearch::test_shortcut(const SpaceTimeGrid& grid, const Query& query,
+                                       std::uint32_t number) {
+  State& state = states_[number];
+  if (state.shortcut == none) return;
+  const State& from = states_[state.shortcut];
+  const Vec2 move = state.position - from.position;
+  const double turn_cost = from.parent == none ? cost_of_turn(query, move) : from.turn_cost;
+  const std::uint32_t parent = std::exchange(state.shortcut, none);
+  const double first = std::exchange(state.shortcut_time, infinity) - turn_cost;
+  relax(grid, query, parent, number, {first, turn_cost, norm(move) / query.speed});
+}
+
 // Improves the arrival in a safe interval of a cell, if the way there permits. An expanded state
 // is expanded again, since straight moves do not arrive in the order of expansion.
 void SafeIntervalSearch::relax(const SpaceTimeGrid& grid, const Query& query,
-                               std::uint32_t from_number, const Move& move, Cell to, int end) {
-  const std::uint32_t number = state_of(to, grid, end);
-  State& state = states_[number];
+                               std::uint32_t from_number, std::uint32_t to, const Move& move) {
+  State& state = states_[to];
   const State& from = states_[from_number];
   const double useful = state.time + state.turn_cost - move.turn_cost - time_rounding;
   const double latest = std::min(from.until + time_rounding,
@@ -144,8 +174,13 @@ void SafeIntervalSearch::relax(const SpaceTimeGrid& grid, const Query& query,
   state.turn_cost = move.turn_cost;
   state.parent = from_number;
   state.closed = false;
-  const double left = static_cast<double>(query.lengths[to]) / query.speed;
-  open_.push_back({state.time + state.turn_cost + left, number});
+  push(query, to, state.time + state.turn_cost, false);
+}
+
+void SafeIntervalSearch::push(const Query& query, std::uint32_t number, double cost,
+                              bool is_shortcut) {
+  const double left = static_cast<double>(query.lengths[states_[number].cell]) / query.speed;
+  open_.push_back({cost + left, number, is_shortcut});
   std::push_heap(open_.begin(), open_.end());
 }
 

@@ -10,6 +10,7 @@
 
 #include "microswarm/core/execution/status.hpp"
 #include "microswarm/core/execution/stop.hpp"
+#include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/planning/space_time/space_time_grid.hpp"
 
 namespace microswarm::planning {
@@ -24,9 +25,10 @@ struct TimedPoint {
 /// Any-angle safe-interval path planning (SIPP, Phillips and Likhachev 2011; any-angle, Yakovlev
 /// and Andreychuk 2017). A state is a cell with one of its safe intervals, and its cost the
 /// earliest known arrival there. A successor is reached from the state that is expanded or straight
-/// from the parent of that state, with the earliest departure that permits it. The search ends
-/// at the goal or at the horizon of the grid, after which only standing cells count. Allocates only
-/// for larger searches than before; reserve() prevents that.
+/// from the parent of that state, with the earliest departure that permits it. Straight ways from a
+/// parent are tested when they would be expanded next (as by Lazy Theta*), at most one a state. The
+/// search ends at the goal or at the horizon of the grid, after which only standing cells count.
+/// Allocates only for larger searches than before; reserve() prevents that.
 class SafeIntervalSearch {
  public:
   using Cell = SpaceTimeGrid::Cell;
@@ -66,13 +68,16 @@ class SafeIntervalSearch {
     double until = 0;      ///< end of the safe interval [s]
     Cell cell = 0;
     std::uint32_t parent = none;
-    std::uint32_t next = none;  ///< another safe interval of the cell
-    int end = 0;                ///< slot at which the safe interval ends
+    std::uint32_t shortcut = none;    ///< state from which a straight way is to be tested
+    double shortcut_time = infinity;  ///< bound of the arrival on it [s]
+    std::uint32_t next = none;        ///< another safe interval of the cell
+    int end = 0;                      ///< slot at which the safe interval ends
     bool closed = false;
   };
   struct Open {
     double cost;
     std::uint32_t state;
+    bool is_shortcut;  ///< whether a straight way is to be tested
     friend bool operator<(const Open& a, const Open& b) {
       return a.cost != b.cost ? a.cost > b.cost : a.state > b.state;
     }
@@ -86,9 +91,13 @@ class SafeIntervalSearch {
     double turn_cost = 0;  ///< of the path [s]
     double duration = 0;   ///< [s]
   };
-  void relax(const SpaceTimeGrid& grid, const Query& query, std::uint32_t from, const Move& move,
-             Cell to, int end);
-  void connect(const SpaceTimeGrid& grid, const Query& query, std::uint32_t from, Cell to);
+  void connect(const SpaceTimeGrid& grid, const Query& query, std::uint32_t from, Cell to,
+               bool is_shortcut);
+  void note_shortcut(const Query& query, std::uint32_t from, std::uint32_t to, const Move& move);
+  void relax(const SpaceTimeGrid& grid, const Query& query, std::uint32_t from, std::uint32_t to,
+             const Move& move);
+  void test_shortcut(const SpaceTimeGrid& grid, const Query& query, std::uint32_t state);
+  void push(const Query& query, std::uint32_t state, double cost, bool is_shortcut);
   std::uint32_t state_of(Cell cell, const SpaceTimeGrid& grid, int end);
   void finish(const Query& query, std::uint32_t last);
 

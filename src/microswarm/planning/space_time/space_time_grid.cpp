@@ -57,15 +57,23 @@ SpaceTimeGrid::Interval SpaceTimeGrid::rows_between(double low, double high) con
           static_cast<int>(std::clamp(last, -1.0, static_cast<double>(rows_ - 1)))};
 }
 
+SpaceTimeGrid::Interval SpaceTimeGrid::columns_between(double left, double right) const {
+  const double first = std::ceil((left - low_.x) / cell_);
+  const double last = std::floor((right - low_.x) / cell_);
+  return {static_cast<int>(std::clamp(first, 0.0, static_cast<double>(columns_))),
+          static_cast<int>(std::clamp(last, -1.0, static_cast<double>(columns_ - 1)))};
+}
+
 void SpaceTimeGrid::occupy_row(int row, double left, double right, int slot) {
-  const double first = std::max(0.0, std::ceil((left - low_.x) / cell_));
-  const double last =
-      std::min(static_cast<double>(columns_ - 1), std::floor((right - low_.x) / cell_));
-  if (!(first <= last)) return;
+  const Interval columns = columns_between(left, right);
   std::uint64_t* const words = &word(at(0, row), slot);
   const std::uint64_t one = bit(slot);
-  const int end = static_cast<int>(last);
-  for (int i = static_cast<int>(first); i <= end; ++i) words[i] |= one;
+  for (int i = columns.begin; i <= columns.end; ++i) words[i] |= one;
+}
+
+void SpaceTimeGrid::let_row_stand(int row, double left, double right) {
+  const Interval columns = columns_between(left, right);
+  for (int i = columns.begin; i <= columns.end; ++i) let_stand(at(i, row));
 }
 
 void SpaceTimeGrid::occupy(Disc disc, int slot) {

@@ -61,6 +61,8 @@ class SpaceTimeGrid {
   /// Lets no cell stand.
   void clear_standing();
   void let_stand(Cell c) { standing_[c] = ~std::uint64_t{0}; }
+  /// The cells of a row with centres from x = `left` to `right` [µm].
+  void let_row_stand(int row, double left, double right);
   bool stands(Cell c) const { return standing_[c] != 0; }
   /// Frees all cells that do not stand.
   void clear();
@@ -103,6 +105,7 @@ class SpaceTimeGrid {
   const std::uint64_t& word(Cell c, int slot) const {
     return occupied_[static_cast<std::size_t>(slot / 64) * size() + c];
   }
+  Interval columns_between(double left, double right) const;
   int next_free(Cell c, int slot) const;
   int next_occupied(Cell c, int slot) const;
   template <class Use>

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "microswarm/contracts/command.hpp"
+#include "microswarm/navigation/safe_interval/obstacle_forecast.hpp"
+#include "microswarm/navigation/safe_interval/safe_interval_tuning.hpp"
+#include "microswarm/swarm/body/swarm_limits.hpp"
+
+namespace microswarm::navigation {
+
+/// Exact check of the next seconds. A command is safe if the swarm keeps its gaps for the
+/// commitment and an escape remains after it: to go on, to hold, or another direction. Gaps are
+/// measured along the whole motion, relative to the predicted motion of the bodies, and walls
+/// exactly. Does not allocate once it has seen as many bodies.
+class ImminentCheck {
+ public:
+  /// `speed` [µm/s] of the swarm, `tick` [s] between two commands.
+  ImminentCheck(const ImminentTuning& tuning, const SwarmLimits& swarm, double speed, double tick);
+
+  /// Situation of a step: all checks until the next call are from here.
+  struct Situation {
+    const Map* map = nullptr;
+    const ObstacleForecast* forecast = nullptr;
+    Pose2 pose{};
+    double radius = 0;          ///< [µm]
+    double wall_clearance = 0;  ///< [µm]
+    Disc goal{};                ///< where the swarm stops
+  };
+  void begin(const Situation& situation);
+
+  bool is_safe(const Command& command);
+  /// The safe command with the smallest sum of turns from `wanted` and from `last`; nothing if
+  /// there is none.
+  std::optional<Command> nearest_safe(const Command& wanted, const Command& last);
+  /// Start of the manoeuvre of two legs that is free of contact for longest, then keeps the largest
+  /// gap; one that goes on as `last` is kept unless another is clearly better.
+  Command best_escape(const Command& last);
+
+ private:
+  /// Course of a leg.
+  struct Outcome {
+    int until = 0;     ///< first sample without the gap
+    double least = 0;  ///< least gap, at most counted_gap [µm]
+    Pose2 end{};
+  };
+  /// A body that may come near.
+  struct Near {
+    std::size_t index = 0;
+    double noise_gap = 0;  ///< [µm]
+    double present = 0;    ///< gap now [µm]
+  };
+  struct Choice {
+    double cost = 0;
+    Command command{};
+  };
+
+  Outcome roll(Pose2 from, const Command& command, int first, int last, bool in_contact_only) const;
+  bool leaves_escape(const Pose2& from, const Command& command, int first);
+  double required(const Near& near, int sample) const;
+  Command direction(int k, int count, double share = 1) const;
+
+  ImminentTuning tuning_;
+  double turn_rate_;
+  double speed_;
+  double committed_time_;
+  Situation now_;
+  int samples_ = 0;                ///< of the horizon
+  int committed_ = 0;              ///< of the commitment
+  double present_hollow_gap_ = 0;  ///< [µm]
+  std::vector<Near> near_;
+  std::vector<Choice> choices_;
+  int last_escape_ = 0;  ///< direction that was free last time
+};
+
+}  // namespace microswarm::navigation

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/navigation/safe_interval/safe_interval.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/maths.hpp"
+#include "microswarm/navigation/prediction/validate_prediction.hpp"
+
+namespace microswarm::navigation {
+namespace {
+
+constexpr double clearance_rounding = 1e-9;
+/// Shares of the gaps with which a plan is searched in turn.
+constexpr std::array<double, 3> gap_shares{1, 0.5, 0.15};
+
+}  // namespace
+
+Issues validate(const SafeIntervalParams& params) { return validate_prediction(params.prediction); }
+
+SafeIntervalNavigator::SafeIntervalNavigator(const SafeIntervalParams& params, const Task& task,
+                                             Rng)
+    : SteeringNavigator(task, params.speed),
+      params_(params),
+      tick_(task.tick),
+      radius_(swarm().radius),
+      predictor_(params.prediction),
+      forecast_(params, speed()),
+      planner_(params, swarm().radius, speed()),
+      plan_(speed()),
+      straight_(speed()),
+      imminent_(params.tuning.imminent, swarm(), speed(), task.tick) {
+  path_.reserve(KeptPlan::max_legs + 1);
+}
+
+void SafeIntervalNavigator::prepare(const Snapshot& world, const Stop&) {
+  const double wanted = swarm().radius + params_.wall_gap;
+  choose_aim(world, swarm().radius, wanted);
+  planner_.prepare(world.map(), {aim().position, params_.tuning.goal_share * aim().tolerance},
+                   wall_clearance(wanted, aim().position, 0));
+}
+
+Diagnostics SafeIntervalNavigator::diagnostics() const {
+  return path_.empty() ? Diagnostics() : forecast_.diagnostics(radius_);
+}
+
+void SafeIntervalNavigator::update(const Observation& seen, const Stop&) {
+  predictor_.update(seen);
+  path_.clear();
+}
+
+Decision SafeIntervalNavigator::without_swarm() {
+  plan_.clear();
+  return hold(NavigatorState::blind);
+}
+
+Decision SafeIntervalNavigator::finish(const Decision& decision, const Observation&) {
+  last_ = decision.command;
+  step_view().path = path_;
+  return decision;
+}
+
+/// Clearance from walls that the next move can keep [µm].
+double SafeIntervalNavigator::entry_clearance(const Map& map, Vec2 p) const {
+  const double wanted = swarm().radius + params_.tuning.imminent.wall_gap;
+  return std::min(wall_clearance(wanted, p, tick_ * speed()),
+                  (1 - clearance_rounding) * map.clearance(p));
+}
+
+Decision SafeIntervalNavigator::decide(const Moment& moment) {
+  const Pose2& pose = moment.pose;
+  const double now = moment.seen.seen + delay();
+  radius_ = std::max(swarm().radius, moment.seen.swarm->radius);
+  forecast_.update(moment.world(), predictor_, now, std::array{pose.position, aim().position});
+  forecast_.measure_from(pose.position, radius_);
+  imminent_.begin({&moment.map(),
+                   &forecast_,
+                   pose,
+                   radius_,
+                   entry_clearance(moment.map(), pose.position),
+                   {goal(), goal_tolerance()}});
+  plan_.advance(pose.position, 0.6 * tick_ * speed());
+  review(moment, now);
+  path_.push_back(pose.position);
+  for (const KeptPlan::Leg& leg : plan_.legs()) path_.push_back(leg.end);
+  if (!plan_.empty()) step_view().local_target = plan_.leg().end;
+
+  const Command command = wanted(moment, now);
+  const Command kept = steady(command);
+  const bool waits = command.speed == 0;
+  constexpr double near = 60;  // [µm]
+  const auto planned_state = [&] {
+    if (waits) return plan_.empty() ? NavigatorState::hold : NavigatorState::wait;
+    return forecast_.least_present_gap() < near ? NavigatorState::avoid : NavigatorState::follow;
+  };
+  if (kept.heading != command.heading && imminent_.is_safe(kept)) return {kept, planned_state()};
+  if (imminent_.is_safe(command)) return {command, planned_state()};
+  if (const auto instead = imminent_.nearest_safe(command, last_))
+    return {*instead, instead->speed > 0 ? NavigatorState::avoid : NavigatorState::hold};
+  return {imminent_.best_escape(last_), NavigatorState::escape};
+}
+
+// Keeps the plan while it is safe; looks for a better one from time to time.
+void SafeIntervalNavigator::review(const Moment& moment, double now) {
+  const Vec2 position = moment.pose.position;
+  const double conflict =
+      plan_.empty()
+          ? 0
+          : plan_.conflict(position, now, forecast_, forecast_.near_samples(), radius_,
+                           params_.tuning.kept_share, params_.tuning.imminent.recovery_rate);
+  const bool is_due =
+      !reviewed_ || now - *reviewed_ >= params_.replan_period - 1e-9 || now < *reviewed_;
+  if (!plan_.empty() && conflict == infinity && !is_due) return;
+  reviewed_ = now;
+  if (goes_straight(moment, now)) return;
+  replan(moment, now, conflict);
+}
+
+/// Adopts the straight way to the goal if nothing is near it.
+bool SafeIntervalNavigator::goes_straight(const Moment& moment, double now) {
+  const Vec2 position = moment.pose.position;
+  const Segment way{position, aim().position};
+  const double clearance = wall_clearance(swarm().radius + params_.wall_gap, position,
+                                          distance(position, aim().position));
+  if (!moment.map().is_free(way, std::min(clearance, entry_clearance(moment.map(), position))))
+    return false;
+  if (!forecast_.hollow().empty() &&
+      !forecast_.hollow().is_free(way, radius_ + params_.gap + forecast_.closing()))
+    return false;
+  forecast_.predict_all(predictor_);
+  straight_.adopt(std::array{planning::TimedPoint{position, 0}}, now, 0);
+  straight_.append(aim().position);
+  if (straight_.conflict(position, now, forecast_, forecast_.samples(), radius_, 1,
+                         params_.tuning.imminent.recovery_rate) < infinity)
+    return false;
+  plan_ = straight_;
+  return true;
+}
+
+void SafeIntervalNavigator::replan(const Moment& moment, double now, double conflict) {
+  const Pose2& pose = moment.pose;
+  planner_.refresh(moment.map(), forecast_, pose.position, now);
+  forecast_.predict_all(predictor_);
+  step_view().planned = true;
+  for (const double share : gap_shares) {
+    planner_.plan(moment.map(), forecast_, pose, radius_,
+                  entry_clearance(moment.map(), pose.position), share, moment.stop);
+    if (planner_.path().size() > 1) break;
+  }
+  if (planner_.path().size() < 2) {
+    if (conflict < params_.tuning.checked_time) plan_.clear();
+    return;
+  }
+  if (!plan_.empty()) {
+    double kept = plan_.duration(pose.position, now) + plan_.left();
+    if (conflict < infinity) kept += params_.tuning.conflict_delay;
+    const bool is_used_up = plan_.duration(pose.position, now) < 0.5 * params_.horizon &&
+                            plan_.left() > 0 && !planner_.ends_at_goal();
+    const bool is_near = conflict < 0.5 * params_.tuning.checked_time;
+    if (!is_near && !is_used_up && planner_.cost() > kept - params_.switch_time) return;
+  }
+  plan_.adopt(planner_.path(), now, planner_.ends_at_goal() ? 0 : planner_.left());
+  if (planner_.ends_at_goal()) plan_.append(aim().position);
+}
+
+/// Command along the plan. A corner is cut when the next leg is in sight.
+Command SafeIntervalNavigator::wanted(const Moment& moment, double now) {
+  const Pose2& pose = moment.pose;
+  if (plan_.empty()) return {pose.heading, 0};
+  constexpr double cut_time = 0.3;  // [s]
+  const double clearance = entry_clearance(moment.map(), pose.position);
+  while (const KeptPlan::Leg* next = plan_.next_leg()) {
+    if (next->depart - now > cut_time) break;
+    if (distance(pose.position, plan_.leg().end) > cut_time * speed()) break;
+    if (plan_.wait(now) > 0.5 * tick_) break;
+    if (!moment.map().is_free(Segment{pose.position, next->end}, clearance)) break;
+    plan_.skip();
+  }
+  if (plan_.wait(now) > 0.5 * tick_) return {pose.heading, 0};
+  const Vec2 target = plan_.leg().end;
+  const Vec2 offset = target - pose.position;
+  if (norm(offset) == 0) return {pose.heading, 0};
+  return {heading_along(offset), approach_speed(pose, target, plan_.is_last())};
+}
+
+/// Speed at which the target can be reached by one turn, and without passing the goal in a tick.
+double SafeIntervalNavigator::approach_speed(const Pose2& pose, Vec2 target, bool is_goal) const {
+  const double away = distance(pose.position, target);
+  double fastest = speed();
+  if (is_goal) fastest = std::min(fastest, std::max(away, 0.5 * aim().tolerance) / tick_);
+  if (!std::isfinite(swarm().max_turn_rate)) return fastest;
+  const double turn = turn_between(heading_along(target - pose.position), pose.heading);
+  const double sine = maths::sin(std::min(turn, 0.5 * pi));
+  constexpr double slowest_share = 0.1;
+  constexpr double reserve = 0.8;
+  const double turning = reserve * swarm().max_turn_rate * away / std::max(2 * sine, 1e-6);
+  return std::clamp(turning, slowest_share * speed(), fastest);
+}
+
+/// The last heading, if the command hardly differs from it.
+Command SafeIntervalNavigator::steady(const Command& command) const {
+  if (command.speed <= 0 || last_.speed <= 0) return command;
+  if (turn_between(command.heading, last_.heading) > params_.tuning.deadband) return command;
+  return {last_.heading, command.speed};
+}
+
+}  // namespace microswarm::navigation
