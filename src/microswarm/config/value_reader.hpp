@@ -34,8 +34,8 @@ class ValueReader {
   [[noreturn]] void fail(const YamlNode& at, std::string what, std::string value = {},
                          std::string limit = {}) const;
   /// `value` is what the unknown key is given.
-  [[noreturn]] void fail_unknown_key(const Type& record, const YamlNode& key,
-                                     std::string value, bool has_type_key) const;
+  [[noreturn]] void fail_unknown_key(const Type& record, const YamlNode& key, std::string value,
+                                     bool has_type_key) const;
 
  private:
   void read_number(const FieldInfo& info, std::string_view label, double& value,

@@ -44,7 +44,7 @@ HalfPlane avoiding(const OrcaAgent& a, const OrcaAgent& b, double horizon, doubl
   return plane;
 }
 
-/// What is aimed at: the velocity nearest to a given one, or the farthest in a direction.
+/// Velocity that is preferred: the one nearest to a given one, or the farthest in a direction.
 struct OrcaAim {
   Vec2 wanted{};
   bool is_direction = false;

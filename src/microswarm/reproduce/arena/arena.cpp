@@ -22,11 +22,11 @@
 namespace microswarm::reproduce {
 namespace {
 
-constexpr int all_seeds = 5;
+constexpr ArenaExtent every_scene{}, quick_scenes{.seeds = 1, .every = 6};
 constexpr double fast_turning = radians(60);  // mean of a run [rad/s]
 constexpr double detour = 1.5;                // way over the shortest
 
-/// What the runs of a navigator come to.
+/// Counts over the runs of a navigator.
 struct ArenaTally {
   int scenes = 0, refused = 0, arrived = 0, contacts = 0, avoidable = 0, waits = 0, turns = 0,
       detours = 0;
@@ -209,7 +209,8 @@ std::vector<report::ReproduceRow> all_scenes(const ReproduceOptions& options, co
   const std::vector<DrivenNavigator> who = driven_navigators();
   const Progress bar(options.progress, "arena");
   const std::vector<ArenaScene> scenes = run_arena(
-      who, 1, options.quick ? 1 : all_seeds, [&](double share) { bar.update(share); }, stop);
+      who, options.quick ? quick_scenes : every_scene, [&](double share) { bar.update(share); },
+      stop);
   std::vector<report::ReproduceRow> rows;
   std::vector<ArenaTally> tallies;
   for (std::size_t k = 0; k < who.size(); ++k) {

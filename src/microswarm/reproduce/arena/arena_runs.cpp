@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/reproduce/arena/arena_runs.hpp"
 
-#include <algorithm>
 #include <mutex>
 
 #include "microswarm/core/execution/parallel.hpp"
@@ -31,18 +30,19 @@ std::optional<double> find_optimum(const experiment::Scenario& scenario, const W
 
 }  // namespace
 
-std::vector<ArenaScene> run_arena(const std::vector<DrivenNavigator>& who, std::uint64_t first,
-                                  int seeds, const std::function<void(double)>& progress,
-                                  const Stop& stop) {
-  const std::size_t kinds = scenes::arena_kinds().size();
-  std::vector<ArenaScene> out(kinds * static_cast<std::size_t>(std::max(0, seeds)));
+std::vector<ArenaScene> run_arena(const std::vector<DrivenNavigator>& who,
+                                  const ArenaExtent& extent,
+                                  const std::function<void(double)>& progress, const Stop& stop) {
+  const std::size_t all = scenes::arena_kinds().size();
+  const std::size_t kinds = (all + extent.every - 1) / extent.every;
+  std::vector<ArenaScene> out(kinds * extent.seeds);
   std::size_t done = 0;
   std::mutex mutex;
   for_each_index(out.size(), 0, [&](std::size_t i) {
     if (stop()) return;
     ArenaScene& scene = out[i];
-    scene.kind = i % kinds;
-    scene.seed = first + i / kinds;
+    scene.kind = extent.every * (i % kinds);
+    scene.seed = extent.first + i / kinds;
     experiment::Scenario scenario = scenes::arena_scenario(scene.kind, scene.seed);
     const World world = scenes::avoidance_world(scenario);
     scene.optimum = find_optimum(scenario, world, stop);

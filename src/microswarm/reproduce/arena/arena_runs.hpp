@@ -21,11 +21,17 @@ struct ArenaScene {
   std::vector<DrivenRun> runs{};    ///< one for each navigator
 };
 
-/// Runs every navigator through every kind of scene with `seeds` seeds from `first`, in parallel;
-/// the results, apart from wall-clock times, do not depend on the number of threads. `progress`
-/// receives the completed fraction.
-std::vector<ArenaScene> run_arena(const std::vector<DrivenNavigator>& who, std::uint64_t first,
-                                  int seeds, const std::function<void(double)>& progress,
-                                  const Stop& stop);
+/// Scenes that are run: one kind in `every`, with `seeds` seeds from `first` on.
+struct ArenaExtent {
+  std::uint64_t first = 1;
+  std::size_t seeds = 5;
+  std::size_t every = 1;
+};
+
+/// Runs every navigator through the scenes, in parallel; the results, apart from wall-clock times,
+/// do not depend on the number of threads. `progress` receives the completed fraction.
+std::vector<ArenaScene> run_arena(const std::vector<DrivenNavigator>& who,
+                                  const ArenaExtent& extent,
+                                  const std::function<void(double)>& progress, const Stop& stop);
 
 }  // namespace microswarm::reproduce

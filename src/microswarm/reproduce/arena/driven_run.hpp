@@ -13,7 +13,7 @@
 
 namespace microswarm::reproduce {
 
-/// What a navigator must know of a world.
+/// Properties of a world that a navigator must be given.
 struct DrivenSwarm {
   double speed = 0;      ///< [µm/s]
   double clearance = 0;  ///< from the swarm's centre to walls, for D-RRT* and the radar's path [µm]
@@ -45,6 +45,8 @@ struct DrivenRun {
   bool arrived() const { return ran && status == Status::solved; }
 };
 
+/// Runs the scenario from its start, with a verdict on each contact; a scenario that `validate`
+/// refuses is not begun.
 DrivenRun drive(const experiment::Scenario& scenario, const World& world, const Stop& stop);
 
 /// "3 of 60; 95 %: 1.7 – 13.7", in percent.

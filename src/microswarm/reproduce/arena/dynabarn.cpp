@@ -20,7 +20,7 @@ namespace {
 
 constexpr double dynabarn_clearance = 42;  // of the robot of 30 µm [µm]
 
-/// How the worlds are crossed.
+/// Conditions of a crossing.
 struct DynabarnCourse {
   const char* name;
   double speed;       ///< [µm/s]

@@ -54,7 +54,7 @@ const std::vector<ArenaKind>& arena_kinds() {
 experiment::Scenario arena_scenario(std::size_t kind, std::uint64_t seed) {
   assert(kind < all_drawings().size());
   const ArenaDrawing& drawing = all_drawings()[kind];
-  // Each kind has a stream of its own, which further kinds do not change.
+  // Each kind has a separate stream, which further kinds do not change.
   std::uint32_t stream = 0;
   for (const char c : drawing.kind.name) stream = 31 * stream + static_cast<unsigned char>(c);
   Rng rng(seed, Purpose::scene, stream);

@@ -32,7 +32,7 @@ struct ArenaKind {
   std::string_view name{};
   ArenaGroup group{};
   std::string_view description{};
-  double clearance = 52;  ///< of a path from start to goal [µm], where a navigator has to be told
+  double clearance = 52;  ///< of a path from start to goal [µm], for navigators that need one
 };
 
 /// All kinds, by group. One swarm, a vortex of radius 40 µm with 80 µm/s, crosses 2 × 1.2 mm.
