@@ -302,8 +302,9 @@ TEST(Hierarchical, TakesTheShortestWayThroughStillMazes) {
   }
 }
 
-// What comes near is none of the route's business: it chooses in space and time.
-TEST(Hierarchical, LeavesTheRouteWhenABodyAppears) {
+// What comes near is none of the route's business: it chooses in space and time. So it does in
+// sight of the goal.
+TEST(Hierarchical, LeavesTheRouteWhenABodyIsNear) {
   const auto map = room_with({{{{950, 0}, {1050, 0}, {1050, 700}, {950, 700}}, {}}}).shared_map();
   HierarchicalNavigator n(HierarchicalParams{}, body_task(swarm_limits(RibbonParams{})),
                           Rng(1, Purpose::planner));
@@ -311,10 +312,18 @@ TEST(Hierarchical, LeavesTheRouteWhenABodyAppears) {
   n.prepare(still, {});
   n.step(update(still, {300, 300}, 0, 0), {});
   EXPECT_EQ(n.view().local_target, room_goal);
-  const Snapshot crossed(map, 0.1, {{.shape = Disc{{700, 500}, 60}, .obstacle = 0}});
-  n.step(update(crossed, {300, 300}, 0, 0.1), {});
+  const auto with_disc_at = [&](Vec2 centre, double t) {
+    return Snapshot(map, t, {{.shape = Disc{centre, 60}, .obstacle = 0}});
+  };
+  const Snapshot far = with_disc_at({1600, 100}, 0.1);
+  n.step(update(far, {300, 300}, 0, 0.1), {});
+  EXPECT_EQ(n.view().local_target, room_goal);
+  const Snapshot near = with_disc_at({700, 700}, 0.2);
+  n.step(update(near, {300, 300}, 0, 0.2), {});
   EXPECT_NE(n.view().local_target, room_goal);
-  n.step(update(still, {300, 300}, 0, 0.2), {});
+  const Snapshot in_sight = with_disc_at({100, 100}, 0.3);
+  n.step(update(in_sight, {1200, 400}, 0, 0.3), {});
+  EXPECT_NE(n.view().local_target, room_goal);
 }
 
 /// The steps at which it plans, of some on the straight path to the goal.

@@ -104,7 +104,7 @@ Decision HierarchicalNavigator::decide(const Moment& moment) {
   const Snapshot& seen = moment.world();
   pose_ = moment.pose;
   via_.reset();
-  const bool is_lost = path_is_route_ && !seen.moving().empty();
+  const bool is_lost = path_is_route_ && !is_alone(seen, path_, position_);
   if (is_lost || is_used_up() || !path_holds(seen)) replan(seen, moment.stop);  // lines 4–11
   auto decision = keep_path(seen);
   if (!decision && has_path()) {
@@ -229,16 +229,34 @@ double HierarchicalNavigator::max_wait(double now) {
   return params_.target_horizon - (wait_ ? now - wait_->since : 0);
 }
 
+// Whether no body comes near the next part of the route, and walls hide the goal: in the open a
+// target in space and time is as good.
+bool HierarchicalNavigator::is_alone(const Snapshot& seen, std::span<const Vec2> route,
+                                     PathPosition position) const {
+  if (seen.moving().empty()) return true;
+  if (seen.map().is_free(Segment{pose_.position, aim().position}, params_.clearance)) return false;
+  const double far = 2 * params_.clearance + params_.extra_clearance;
+  const Snapshot swept = obstacles_.swept_obstacles(seen, params_.target_horizon, far);
+  double left = params_.speed * params_.target_horizon;
+  Vec2 from = point_ahead(route, position, 0);
+  for (std::size_t i = position.piece + 1; i < route.size() && left > 0; ++i) {
+    if (!swept.moving().is_free(Segment{from, route[i]}, far)) return false;
+    left -= distance(from, route[i]);
+    from = route[i];
+  }
+  return true;
+}
+
 // Among walls alone the shortest path to the aim is known, and nothing local is better.
 bool HierarchicalNavigator::replan_along_route(const Snapshot& seen, double here,
                                                const Stop& stop) {
   constexpr double rounding = 1e-9;
-  if (!seen.moving().empty()) return false;
   for (WallRoute& w : wall_routes_) {
     if (stop()) return false;
     std::vector<Vec2> path = w.route.path_from(pose_.position);
     const double clearance = std::min({params_.clearance, w.clearance, (1 - rounding) * here});
     if (path.size() < 2 || !seen.is_free(Segment{path[0], path[1]}, clearance)) continue;
+    if (!is_alone(seen, path, {})) return false;
     step_view().planned = true;
     plan_ = Plan{.status = Status::solved, .path = path};
     path_ = std::move(path);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "microswarm/contracts/navigator.hpp"
@@ -44,6 +45,7 @@ class HierarchicalNavigator : public SteeringNavigator {
   bool has_path() const { return path_.size() >= 2; }
   bool path_holds(const Snapshot& world) const;
   void replan(const Snapshot& seen, const Stop& stop, bool may_take_route = true);
+  bool is_alone(const Snapshot& seen, std::span<const Vec2> route, PathPosition position) const;
   bool replan_along_route(const Snapshot& seen, double here, const Stop& stop);
   bool replan_with(const Snapshot& world, double clearance, const Stop& stop);
   bool replan_in_time(const Snapshot& seen, double clearance, const Stop& stop);
