@@ -98,6 +98,22 @@ TEST_F(InputFiles, AMapFromStandardInputIsKnownByItsContent) {
   EXPECT_TRUE(is_one_line_naming(unknown.err, "microswarm: /dev/stdin", {"no map"}));
 }
 
+/// The picture of a ROS map from standard input counts from the working folder.
+TEST_F(InputFiles, ARosMapFromStandardInputFindsItsPicture) {
+  write("room.pgm", "P2 3 1 255 0 254 254\n");
+  write("room.yaml", "image: room.pgm\nresolution: 0.05\norigin: [0, 0, 0]\n");
+  const Outcome read = run({"map", "info", "room.yaml", "--json"});
+  EXPECT_EQ(read.code, 0) << read.err;
+  for (const char* line : {"cat room.yaml | microswarm map info - --json",
+                           "microswarm map info <(cat room.yaml) --um-per-unit 1e6 --json"}) {
+    const Outcome piped = shell(line);
+    EXPECT_EQ(piped.out, read.out) << line << piped.err;
+  }
+  const Outcome gone = shell("sed s/room.pgm/gone.pgm/ room.yaml | microswarm map info -");
+  EXPECT_EQ(gone.code, 2);
+  EXPECT_TRUE(is_one_line_naming(gone.err, "microswarm: gone.pgm", {"No such file"}));
+}
+
 TEST_F(InputFiles, AFileOfAnotherKindIsCalledByItsKind) {
   write("sweep.yaml", "scenario: flight.yaml\ntrials: 2\n");
   write("rig.yaml", "coils: helmholtz.yaml\ndriver: {type: simulated}\n");

@@ -120,9 +120,13 @@ TEST(TrackTable, TimesAreThoseOfTheTable) {
     return std::string("taken");
   };
   EXPECT_EQ(refused("0,0,0,0,1\n1,0,0,0,1\n"),
-            "t.csv: frame 1 is at 1 s, not after the frame before");
-  EXPECT_EQ(refused("0,0,0,0,1\n0,9,0,1,2\n"), "t.csv: frame 0 has two times, 1 and 2 s");
-  EXPECT_EQ(refused("0,0,0,0,1\n1,9,0,1,\n"), "t.csv: some positions have no time");
+            "t.csv:3: frame 1 is at 1 s, not after frame 0 at 1 s");
+  EXPECT_EQ(refused("0,0,0,0,1\n0,9,0,1,2\n"), "t.csv:3: frame 0 has two times, 1 and 2 s");
+  EXPECT_EQ(refused("0,0,0,0,1\n1,9,0,1,\n"), "t.csv:3: no time, which other positions have");
+  EXPECT_EQ(refused("0,9,0,1,\n1,0,0,0,1\n"), "t.csv:2: no time, which other positions have");
+  // Sorted by frames, rows keep their lines.
+  EXPECT_EQ(refused("2,0,0,0,1\n\n0,0,0,0,3\n"),
+            "t.csv:2: frame 2 is at 1 s, not after frame 0 at 3 s");
 }
 
 TEST(TrackTable, FilesOfTheseNamesAreTables) {
@@ -205,7 +209,7 @@ TEST(TrackTable, BadOnesAreRefusedWithTheirPlace) {
   EXPECT_TRUE(refusal("frame,x,x,y\n").starts_with("t.csv:1: column 'x' stands twice"));
   EXPECT_EQ(
       refusal("frame,x,y,particle\n0,1,2,5\n0,3,4,5\n"),
-      "t.csv: track 5 has two positions in frame 0, tracks that divide or merge are not taken");
+      "t.csv:3: track 5 has two positions in frame 0, tracks that divide or merge are not taken");
 }
 
 TEST(TrackTable, TracksAreTakenAndFeaturesAreLinked) {

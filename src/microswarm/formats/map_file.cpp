@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <initializer_list>
+#include <numbers>
 #include <span>
 #include <utility>
 
@@ -14,6 +16,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/text/file.hpp"
+#include "microswarm/core/text/input_folder.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/formats/geojson.hpp"
 #include "microswarm/formats/images/image.hpp"
@@ -96,6 +99,11 @@ std::vector<std::string> ros_notes(const RosHeader& header, const Image& image, 
         "{}: {} cells of grey 205, map_saver's unknown, are walls, though free_thresh {:g} would "
         "make them free; map.unknown_free=true does",
         name, lost.cells, header.free_thresh));
+  if (const double yaw = header.origin[2]; std::abs(yaw) > 2 * std::numbers::pi)
+    notes.push_back(
+        fmt::format("{}: the yaw of origin is {:g} rad, more than a turn: ROS writes rad; if it is "
+                    "{:g}°, write {:.7g}",
+                    name, yaw, yaw, yaw * std::numbers::pi / 180));
   if (!header.unread.empty())
     notes.push_back(fmt::format("{}: not read: {}", name, fmt::join(header.unread, ", ")));
   return notes;
@@ -104,13 +112,14 @@ std::vector<std::string> ros_notes(const RosHeader& header, const Image& image, 
 MapParts read(const RosMap& spec, const fs::path& base, Issues&) {
   const fs::path yaml = base / spec.file;
   const RosHeader header = read_ros_header(yaml);
-  const fs::path picture = yaml.parent_path() / header.image;
+  const fs::path picture = input_folder(yaml) / header.image;
   const Image image = read_image(picture);
   const auto transparent = read_transparency(picture);
   const Vec2 origin = spec.um_per_m * Vec2{header.origin[0], header.origin[1]};
   MapParts parts = to_parts(ros_walls(image, header, spec.unknown_free, transparent),
                             header.resolution * spec.um_per_m, origin);
-  if (header.origin[2] != 0) parts = turned(std::move(parts), origin, header.origin[2]);
+  const double turn = map_turn(header.origin[2], std::hypot(image.width, image.height));
+  if (turn != 0) parts = turned(std::move(parts), origin, turn);
   parts.notes = ros_notes(header, image, spec.unknown_free, yaml.string());
   return parts;
 }
@@ -339,7 +348,10 @@ MapParts read_map_parts(const MapSpec& spec, const fs::path& base, Issues& issue
   else
     attempt(of_map, from_file ? "map.file" : "map", [&] {
       parts = std::visit([&](const auto& s) { return read(s, base, of_map); }, spec);
-      if (of_map.empty()) check(parts, from_file ? (base / *file).string() : "map");
+      const std::string name = from_file ? (base / *file).string() : "map";
+      if (!of_map.empty()) return;
+      check(parts, name);
+      if (auto note = outside_note(parts, name)) parts.notes.push_back(*std::move(note));
     });
   issues.add(of_map);
   return parts;
@@ -376,9 +388,11 @@ MapSpec choose_map_spec(const fs::path& path, const MapChoice& choice) {
   std::error_code error;
   if (!fs::exists(path, error)) fail("cannot read: No such file or directory");
   if (choice.um_per_px && !(*choice.um_per_px >= 1e-6 && *choice.um_per_px <= 1e6))
-    fail("µm per px is " + number_text(*choice.um_per_px) + ", must be within 1e-6..1e6");
+    fail(choice.um_per_px_option + " is " + number_text(*choice.um_per_px) +
+         ", must be within 1e-6..1e6");
   if (choice.um_per_unit && !(*choice.um_per_unit >= 1e-9 && *choice.um_per_unit <= 1e9))
-    fail("µm per unit is " + number_text(*choice.um_per_unit) + ", must be within 1e-9..1e9");
+    fail(choice.um_per_unit_option + " is " + number_text(*choice.um_per_unit) +
+         ", must be within 1e-9..1e9");
 
   std::optional<MapSpec> kind = kind_of_file(path);
   if (!kind && !chooses_type(choice.settings))

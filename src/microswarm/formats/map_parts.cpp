@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/formats/map_parts.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <cstddef>
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/maths/hash.hpp"
@@ -32,6 +35,26 @@ Box enclosing_box(const MapParts& parts) {
     box.include(disc.centre + Vec2{disc.radius, disc.radius});
   }
   return box;
+}
+
+std::optional<std::string> outside_note(const MapParts& parts, const std::string& name) {
+  const Box& map = parts.bounds;
+  std::size_t outside = 0;
+  Vec2 first;
+  const auto count = [&](const Box& box) {
+    if (box.lo.x <= map.hi.x && box.hi.x >= map.lo.x && box.lo.y <= map.hi.y &&
+        box.hi.y >= map.lo.y)
+      return;
+    if (outside++ == 0) first = box.centre();
+  };
+  for (const Polygon& wall : parts.walls) count(bounding_box(wall));
+  for (const Disc& disc : parts.discs) count(bounding_box(disc));
+  if (outside == 0) return std::nullopt;
+  return fmt::format(
+      "{}: {} of {} walls are left out, outside the bounds of {:.6g}..{:.6g} × {:.6g}..{:.6g} µm, "
+      "the first at ({:.6g}, {:.6g}) µm",
+      name, outside, parts.walls.size() + parts.discs.size(), map.lo.x, map.hi.x, map.lo.y,
+      map.hi.y, first.x, first.y);
 }
 
 std::uint64_t fingerprint(const MapParts& parts) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ struct MapParts {
 
 /// Bounding box of walls and discs.
 Box enclosing_box(const MapParts& parts);
+
+/// "NAME: WHY" about walls and discs that are wholly outside the bounds, of which no map knows.
+std::optional<std::string> outside_note(const MapParts& parts, const std::string& name);
 
 /// Hash of every bit: equal for equal maps, independent of the file format.
 std::uint64_t fingerprint(const MapParts& parts);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -40,6 +41,14 @@ std::vector<Polygon> cut_off(const std::array<Vec2, 4>& frame, const std::array<
 }
 
 }  // namespace
+
+double map_turn(double angle, double diagonal) {
+  constexpr double quarter = std::numbers::pi / 2;
+  constexpr double rounding = 0.01;  // [cells]
+  const double quarters = std::round(angle / quarter);
+  if (std::abs(angle - quarters * quarter) * diagonal > rounding) return angle;
+  return std::fmod(quarters, 4) * quarter;
+}
 
 MapParts turned(MapParts parts, Vec2 pivot, double angle) {
   const Vec2 u = turn_direction(angle);

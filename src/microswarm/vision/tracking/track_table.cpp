@@ -66,6 +66,11 @@ TableHeader find_header(const Lines& lines, std::string_view line) {
   lines.fail("columns frame, x, y (trackpy) or FRAME, POSITION_X, POSITION_Y (TrackMate) expected");
 }
 
+/// Refuses a row: "NAME:LINE: WHY".
+[[noreturn]] void fail_at(std::string_view name, const TableRow& row, const std::string& why) {
+  throw InputError(std::string(name), row.line, 0, why);
+}
+
 void sort_and_check(std::vector<TableRow>& rows, std::string_view name) {
   std::stable_sort(rows.begin(), rows.end(),
                    [](const TableRow& a, const TableRow& b) { return a.frame < b.frame; });
@@ -73,9 +78,9 @@ void sort_and_check(std::vector<TableRow>& rows, std::string_view name) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (i > 0 && rows[i].frame != rows[i - 1].frame) ids.clear();
     if (rows[i].id && !ids.insert(*rows[i].id).second)
-      throw InputError(std::string(name) + ": track " + std::to_string(*rows[i].id) +
-                       " has two positions in frame " + std::to_string(rows[i].frame) +
-                       ", tracks that divide or merge are not taken");
+      fail_at(name, rows[i],
+              "track " + std::to_string(*rows[i].id) + " has two positions in frame " +
+                  std::to_string(rows[i].frame) + ", tracks that divide or merge are not taken");
   }
 }
 
@@ -106,8 +111,9 @@ class CsvTable {
     if (header_->form.is_trackmate && table.rows.empty() && !parse_number(field(x_column)))
       return take_units();
     const auto fail = [this](const std::string& why) { lines_.fail(why); };
-    TableRow row{.frame =
-                     field_whole(field(frame_column), name(frame_column), max_table_frame, fail)};
+    TableRow row{
+        .frame = field_whole(field(frame_column), name(frame_column), max_table_frame, fail),
+        .line = lines_.number()};
     const auto place = [&](TableColumn c) {
       return field_number(field(c), name(c), -max_table_position, max_table_position, fail) /
              per_px();
@@ -176,7 +182,9 @@ std::vector<double> frame_times(const TrackTable& table, const TrackSettings& se
                                 std::string_view source, double& interval) {
   const std::vector<TableRow>& rows = table.rows;
   std::vector<double> times(static_cast<std::size_t>(rows.back().frame) + 1);
-  const bool are_given = !settings.rate && rows.front().t.has_value();
+  const bool are_given = !settings.rate && std::ranges::any_of(rows, [](const TableRow& row) {
+    return row.t.has_value();
+  });
   interval = settings.rate ? 1 / *settings.rate : table.interval.value_or(1);
   if (!are_given) {
     for (std::size_t k = 0; k < times.size(); ++k) times[k] = static_cast<double>(k) * interval;
@@ -184,17 +192,19 @@ std::vector<double> frame_times(const TrackTable& table, const TrackSettings& se
   }
   std::vector<const TableRow*> known;  // one of each frame
   for (const TableRow& row : rows) {
-    if (!row.t) throw InputError(std::string(source) + ": some positions have no time");
+    if (!row.t) fail_at(source, row, "no time, which other positions have");
     if (!known.empty() && known.back()->frame == row.frame) {
       if (known.back()->t != row.t)
-        throw InputError(std::string(source) + ": frame " + std::to_string(row.frame) +
-                         " has two times, " + number_text(*known.back()->t) + " and " +
-                         number_text(*row.t) + " s");
+        fail_at(source, row,
+                "frame " + std::to_string(row.frame) + " has two times, " +
+                    number_text(*known.back()->t) + " and " + number_text(*row.t) + " s");
       continue;
     }
     if (!known.empty() && !(*row.t > *known.back()->t))
-      throw InputError(std::string(source) + ": frame " + std::to_string(row.frame) + " is at " +
-                       number_text(*row.t) + " s, not after the frame before");
+      fail_at(source, row,
+              "frame " + std::to_string(row.frame) + " is at " + number_text(*row.t) +
+                  " s, not after frame " + std::to_string(known.back()->frame) + " at " +
+                  number_text(*known.back()->t) + " s");
     known.push_back(&row);
   }
   if (known.size() > 1)

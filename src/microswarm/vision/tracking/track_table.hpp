@@ -18,6 +18,7 @@ struct TableRow {
   Vec2 at_px{};             ///< y down, (0, 0) is the centre of the first pixel
   double mass = 0;
   std::optional<double> t{};  ///< time of its frame that the table gives [s]
+  int line = 0;               ///< of the table, from 1; 0 without
 };
 
 /// Features or tracks of another program.
@@ -37,8 +38,8 @@ struct TrackTable {
 ///   positions are in µm, of which a pixel has `um_per_px`, and times in s.
 /// - tracks.csv of `microswarm track`.
 /// Blank lines are skipped. Columns may be quoted. Throws InputError "NAME:LINE: WHY", also if a
-/// track has two positions in a frame, if a unit is
-/// not known, or if µm need a scale that is not given.
+/// track has two positions in a frame, if a unit is not known, or if µm need a scale that is not
+/// given.
 TrackTable parse_track_table(std::string_view text, std::string_view name,
                              std::optional<double> um_per_px);
 TrackTable read_track_table(const std::filesystem::path& path, std::optional<double> um_per_px);
@@ -50,7 +51,7 @@ bool is_track_table(const std::filesystem::path& path);
 /// of the settings' rate, else of the table's rows, else by its interval, else a second a frame;
 /// frames without a position lie evenly between those with one. The world's lower border is that of
 /// the table's pictures, or of the lowest position's pixel. Throws InputError for inconsistent
-/// settings.
+/// settings, and with the line of `source` for times that are missing or do not ascend.
 TrackResult tracks_of_table(const TrackTable& table, const std::string& source,
                             const TrackSettings& settings);
 
