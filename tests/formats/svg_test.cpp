@@ -11,6 +11,7 @@
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/geometry/shapes.hpp"
 #include "tests/files.hpp"
+#include "tests/messages.hpp"
 
 namespace microswarm::formats {
 namespace {
@@ -86,6 +87,40 @@ TEST(Svg, TellsPicturesOfOtherFiles) {
   const LoadedMap loaded = load_drawing(xlink, 10.0);
   ASSERT_EQ(loaded.notes.size(), 1u);
   EXPECT_NE(loaded.notes[0].find("1 of its pictures"), std::string::npos) << loaded.notes[0];
+}
+
+/// Units in mm, a transform, a circle, a stroke and a curve, in front of white.
+TEST(Svg, IsWhatItLooksLike) {
+  const test::Folder folder;
+  folder.with("a.svg", R"(<svg xmlns="http://www.w3.org/2000/svg" width="2mm" height="1mm" )"
+                       R"(viewBox="0 0 200 100"><g transform='translate(100 0)'>)"
+                       R"(<circle cx="50" cy="40" r="20"/></g>)"
+                       R"(<path d="M10 80 H90" stroke="black" stroke-width="8" fill="none"/>)"
+                       R"(<rect x="20" y="10" width="30" height="20" style="fill:#222"/>)"
+                       R"(<rect x="60" y="10" width="10" height="10" fill="#fff"/></svg>)");
+  const LoadedMap map = load_map(guess_map_spec(folder / "a.svg"));
+  EXPECT_EQ(map.map->bounds().hi, (Vec2{2000, 1000}));
+  ASSERT_EQ(map.notes.size(), 1u);
+  EXPECT_NE(map.notes[0].find("--um-per-px"), std::string::npos) << map.notes[0];
+  EXPECT_NEAR(map.map->clearance({1500, 300}), 100, 1);  // circle at (1500, 600), radius 200
+  EXPECT_FALSE(map.map->is_free(Vec2{1500, 600}, 0));
+  EXPECT_FALSE(map.map->is_free(Vec2{500, 200}, 0));  // the stroke, 80 wide
+  EXPECT_NEAR(map.map->clearance({500, 300}), 60, 1);
+  EXPECT_FALSE(map.map->is_free(Vec2{350, 800}, 0));  // the dark rectangle
+  EXPECT_TRUE(map.map->is_free(Vec2{650, 850}, 0));   // the white one
+  const LoadedMap scaled =
+      load_map(choose_map_spec(folder / "a.svg", {.um_per_px = 2, .um_per_unit = 5}));
+  EXPECT_EQ(scaled.map->bounds().hi, (Vec2{1000, 500}));
+  EXPECT_NEAR(scaled.map->clearance({750, 150}), 50, 2);
+  EXPECT_TRUE(scaled.notes.empty());
+  folder.with("b.svg", R"(<svg xmlns="http://www.w3.org/2000/svg" width="200" height="100"/>)");
+  EXPECT_TRUE(
+      test::is_one_line_naming(test::error_of([&] { load_map(guess_map_spec(folder / "b.svg")); }),
+                               (folder / "b.svg").string(), {"mm", "--um-per-unit"}));
+  folder.with("b.svg", "<svg");
+  EXPECT_TRUE(
+      test::is_one_line_naming(test::error_of([&] { load_map(guess_map_spec(folder / "b.svg")); }),
+                               (folder / "b.svg").string(), {"SVG"}));
 }
 
 }  // namespace
