@@ -104,36 +104,36 @@ std::optional<fs::path> shipped(const std::string& name, const std::string& kind
   return std::nullopt;
 }
 
-/// Names of the files in a folder, as `name` would name them; none if it cannot be read.
-std::vector<std::string> file_names(const fs::path& folder, bool with_extension) {
-  std::vector<std::string> names;
+/// The file in a folder whose name without its extension is nearest to that of `path`, and whose
+/// extension is the same unless `path` has none; empty if none is near.
+fs::path nearest_file(const fs::path& path, const fs::path& folder) {
+  std::vector<std::string> stems;
   std::error_code error;
   fs::directory_iterator entry(folder, error);
-  for (; !error && entry != fs::directory_iterator(); entry.increment(error))
-    if (fs::is_regular_file(entry->path(), error))
-      names.push_back(with_extension ? entry->path().filename() : entry->path().stem());
-  std::ranges::sort(names);
-  return names;
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    const fs::path& file = entry->path();
+    const bool has_extension = !path.has_extension() || path.extension() == file.extension();
+    if (has_extension && fs::is_regular_file(file, error)) stems.push_back(file.stem());
+  }
+  std::ranges::sort(stems);
+  const std::vector<std::string_view> views(stems.begin(), stems.end());
+  fs::path near(nearest_word(path.stem().string(), views));
+  if (!near.empty()) near += path.extension();
+  return near;
 }
 
 /// The file beside it, or the shipped one, whose name is nearest to one that is not there; empty if
 /// none is near.
 std::string near_file(const std::string& name, const std::string& kind) {
-  const fs::path path(name);
-  const auto nearest = [&](const std::vector<std::string>& names) {
-    const std::vector<std::string_view> views(names.begin(), names.end());
-    return std::string(nearest_word(path.filename().string(), views));
-  };
-  const fs::path beside = path.parent_path();
-  if (const std::string near = nearest(file_names(beside.empty() ? "." : beside, true));
-      !near.empty())
-    return (beside / near).string();
+  const fs::path path(name), beside = path.parent_path();
+  if (path.has_extension())
+    if (const fs::path near = nearest_file(path, beside.empty() ? "." : beside); !near.empty())
+      return (beside / near).string();
   std::error_code error;
   const fs::path scenarios = scenario_folder(error);
   if (error || !beside.empty()) return {};
   for (const fs::path& folder : {scenarios / kind, scenarios})
-    if (const std::string near = nearest(file_names(folder, path.has_extension())); !near.empty())
-      return near;
+    if (const fs::path near = nearest_file(path, folder); !near.empty()) return near.string();
   return {};
 }
 

@@ -27,7 +27,7 @@ TEST_F(Commands, RunReachesTheGoal) {
   for (const char* name :
        {"run.h5", "index.html", "overview.png", "overview.svg", "overview.pdf", "plots.png"})
     EXPECT_TRUE(exists(std::string("out/") + name)) << name;
-  EXPECT_EQ(files().size(), 16U);  // and moment-1.png to moment-3.pdf, flight.yaml
+  EXPECT_EQ(files().size(), 10U);  // and moment-1.png to moment-1.pdf, flight.yaml
   EXPECT_TRUE(good({"report", "out/run.h5", "--out", "page"}).ends_with("page/index.html\n"));
 }
 

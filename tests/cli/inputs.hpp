@@ -24,6 +24,7 @@ inline std::string two_rooms(int gap = 300) {
          "  type: ribbon\n"
          "  radius_um: 40\n"
          "  max_speed_um_per_s: 120\n"
+         "  position_noise_um: 0.5\n"
          "start: {x_um: 200, y_um: 400, heading_deg: 0}\n"
          "goal_um: [1600, 400]\n"
          "goal_tolerance_um: 50\n"

@@ -76,6 +76,7 @@ TEST_F(Sweeps, TellsWhatCameOfEachCell) {
 }
 
 TEST_F(Sweeps, TrialsThatAreOneRunAreNoted) {
+  write("flight.yaml", with(two_rooms(), "position_noise_um", "  response_lag_s: 0.1"));
   const auto note_on = [&](const std::string& text) {
     write("same.yaml", "name: same\nscenario: flight.yaml\n" + text);
     const Outcome outcome = run({"sweep", "same.yaml", "--json", "--out", "same.db"});
@@ -87,8 +88,9 @@ TEST_F(Sweeps, TrialsThatAreOneRunAreNoted) {
     return notes[0].get<std::string>();
   };
   const std::string methods =
-      "methods:\n  - {name: random trees}\n  - {name: radar, set: [navigator.type=radar]}\n";
-  EXPECT_EQ(note_on("trials: 3\n"), "");
+      "methods:\n  - {name: random trees, set: [navigator.guide=straight]}\n"
+      "  - {name: radar, set: [navigator.type=radar]}\n";
+  EXPECT_EQ(note_on("trials: 3\nset: [navigator.guide=straight]\n"), "");
   EXPECT_TRUE(is_one_line_naming(note_on("trials: 3\nset: [navigator.type=radar]\n"), "",
                                  {"all 3 trials", "same run"}));
   EXPECT_TRUE(is_one_line_naming(note_on(methods + "trials: 2\n"), "", {"1 of 2", "same run"}));

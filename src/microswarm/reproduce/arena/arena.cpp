@@ -175,9 +175,13 @@ void plot_arena(const std::vector<DrivenNavigator>& who, const std::vector<Arena
   shares.x_max = farthest;
   shares.y_min = 0;
   shares.y_max = 100;
+  for (const double ratio : {1.0, 1.2, 1.5, 2.0, 3.0, farthest})
+    shares.x_ticks.push_back({fmt::format("{:g}", ratio), ratio});
   shares.key_below = true;
   report::Plot contacts{.title = "Avoidable contacts", .y_label = "scenes (%), 95 % intervals"};
   contacts.y_min = 0;
+  contacts.x_min = 0.5;
+  contacts.x_max = static_cast<double>(who.size()) + 0.5;
   for (std::size_t k = 0; k < who.size(); ++k) {
     const ArenaTally& t = tallies[k];
     std::vector<double> ratios = t.over_optimum;

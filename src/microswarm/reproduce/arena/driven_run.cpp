@@ -49,8 +49,7 @@ std::vector<DrivenNavigator> driven_navigators() {
           {"radar, ours", driven_radar<false>},
           {"radar, as published", driven_radar<true>},
           {"velocity obstacle", at_speed<navigation::VelocityObstacleParams>},
-          {"potential field", at_speed<navigation::PotentialFieldParams>},
-          {"straight and stop", at_speed<navigation::StraightParams>}};
+          {"potential field", at_speed<navigation::PotentialFieldParams>}};
 }
 
 DrivenRun drive(const experiment::Scenario& scenario, const World& world, const Stop& stop) {

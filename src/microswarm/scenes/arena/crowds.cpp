@@ -91,7 +91,7 @@ void channel(ArenaDraft& d, double half_width) {
   c.wavelength = 600;
   c.period = d.uniform(10, 20);
   c.block_centre = {1000, 600};
-  c.block_width = 2200;
+  c.block_width = 2400;
   c.block_height = 1400;
   d.add(c, Still{});
 }
