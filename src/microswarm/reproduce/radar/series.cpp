@@ -47,7 +47,7 @@ SeriesCurve measured(const RadarSweep& sweep, const RadarVersion& version,
   const double between = options.quick ? 20 : 10;
   SeriesCurve curve;
   for (double r = sweep.first; r <= sweep.last && !stop(); r += between) {
-    RadarSetting s = load_radar(options, "single.yaml", version);
+    RadarSetting s = load_radar(options, "single_printed.yaml", version);
     s.params().safety_distance = sweep.safety.value_or(r) - swarm_radius - planner_step;
     s.params().detection_range = sweep.detection.value_or(r) - swarm_radius;
     const RadarRun run = run_radar(s.scene, s.world, stop);
