@@ -299,12 +299,17 @@ static mxArray* navigator_step(arguments in) {
   return made;
 }
 
-/* A file or a matrix, and the side of a pixel. */
+/* A file or a matrix, the side of a pixel, settings of a file; gives the map and notes on it. */
 static mxArray* map_open(arguments in) {
+  static const char* names[] = {"id", "notes"};
   const double um_per_px = number(in[1], "um_per_px");
+  const char* notes = "";
+  mxArray* made;
   uint64_t map = 0;
   if (mxIsChar(in[0])) {
-    check(ms_map_open(text_of(in[0], "the file"), um_per_px, &map));
+    const texts settings = settings_of(in[2]);
+    check(ms_map_open_with(text_of(in[0], "the file"), um_per_px, settings.all, settings.count,
+                           &map));
   } else {
     size_t row, column, height, width;
     const uint8_t* columns;
@@ -312,8 +317,8 @@ static mxArray* map_open(arguments in) {
     if ((!mxIsLogical(in[0]) && !mxIsUint8(in[0])) || mxIsSparse(in[0]) || mxIsComplex(in[0]) ||
         mxGetNumberOfDimensions(in[0]) != 2)
       REFUSE(
-          "a map must be the name of a file or a matrix of class logical or uint8 (compare with a "
-          "threshold: picture >= 128), not %s%s",
+          "a map must be the name of a file or a matrix of class logical or uint8, or of other "
+          "numbers with a threshold, not %s%s",
           mxIsSparse(in[0]) ? "sparse " : "", mxGetClassName(in[0]));
     height = mxGetM(in[0]), width = mxGetN(in[0]);
     columns = mxGetData(in[0]); /* logical has the same size */
@@ -323,7 +328,11 @@ static mxArray* map_open(arguments in) {
         rows[row * width + column] = columns[row + column * height];
     check(ms_map_from_pixels(rows, width, height, um_per_px, &map));
   }
-  return keep(map);
+  made = mxCreateStructMatrix(1, 1, 2, names);
+  mxSetFieldByNumber(made, 0, 0, keep(map));
+  check(ms_map_notes(map, &notes));
+  mxSetFieldByNumber(made, 0, 1, mxCreateString(notes));
+  return made;
 }
 
 static mxArray* map_bounds(arguments in) {
@@ -386,7 +395,7 @@ static const struct {
     COMMAND(session_path, 1),      COMMAND(session_obstacles, 1),
     COMMAND(navigator_open, 3),    COMMAND(navigator_open_text, 3),
     COMMAND(navigator_step, 8),    COMMAND(navigator_path, 1),
-    COMMAND(map_open, 2),          COMMAND(map_bounds, 1),
+    COMMAND(map_open, 3),          COMMAND(map_bounds, 1),
     COMMAND(map_clearance, 2),     COMMAND(plan, 5),
 };
 

@@ -1,7 +1,8 @@
 % SPDX-License-Identifier: Apache-2.0
 function tests = test_paths()
 % test_paths  Maps and paths.
-  tests = {@maps_of_matrices, @grey_pictures_have_the_walls_of_their_files, @paths_round_a_wall, @bad_maps_and_paths};
+  tests = {@maps_of_matrices, @grey_pictures_have_the_walls_of_their_files, @values_of_maps, ...
+           @paths_round_a_wall, @bad_maps_and_paths};
 end
 
 function free = room()
@@ -37,6 +38,57 @@ function grey_pictures_have_the_walls_of_their_files(world)
   end
   at = @(brightness) microswarm.Map(uint8([255 brightness 255]), 10).clearance([15 5]);
   assert(at(127) == 0 && at(128) == 5);
+end
+
+function values_of_maps(world)
+  at = @(varargin) microswarm.Map(varargin{:}).clearance([5 5; 15 5]);
+  grey = uint8([90 89]);  % free at the left
+  free = [5; 0];
+  assert(isequal(at(grey, 10, 'threshold', 90), free));
+  assert(isequal(at(grey, 10, 'threshold', 90, 'free', 'dark'), flipud(free)));
+  assert(isequal(at(uint8([0 255]), 10, 'free', 'dark'), free));
+  assert(isequal(at(uint8([0 1]), 10, 'free', 'dark'), free));
+  assert(isequal(at([false true], 10, 'free', 'dark'), free));
+  assert(isequal(at([true false], 10, 'threshold', 90), free));
+  assert(isequal(at([0.5 0.4], 10, 'threshold', 0.45), free));
+  assert(isequal(at(uint16([4000 3000]), 10, 'threshold', 3500), free));
+  refuses(@() at(grey, 10, 'threshold', 'high'), 'bad_input', 'threshold must be a number');
+  refuses(@() at(grey, 10, 'free', 'darkk'), 'bad_input', 'bright or dark, not darkk');
+  refuses(@() at(grey, 10, 'wall', 'one'), 'bad_input', 'wall is no value of a matrix');
+  refuses(@() at(grey, 10, 'free'), 'bad_input', 'value of free is missing');
+  refuses(@() at([1 NaN], 10, 'threshold', 1), 'bad_input', 'must be finite');
+  refuses(@() at([1 2], 10, 'free', 'dark'), 'bad_input', 'not double');
+  file = fullfile(world.folder, 'two.pgm');
+  stream = fopen(file, 'w');
+  fwrite(stream, ['P5 2 1 255' char([10 90 89])]);
+  fclose(stream);
+  assert(isequal(at(file, 10, 'threshold', 90), free));
+  assert(isequal(at(file, 10, 'threshold', 90, 'free', 'dark'), flipud(free)));
+  refuses(@() at(file), 'bad_input', 'give um_per_px');
+  refuses(@() at(file, -1), 'bad_input', 'um_per_px is -1');
+  refuses(@() at(file, 10, 'um_per_px', 10), 'bad_input', 'given twice: by um_per_px and by map.um_per_px');
+  refuses(@() at(file, 10, 'um_per_unit', 10), 'bad_input', 'um_per_unit');
+  refuses(@() at(file, 10, 'fre', 'dark'), 'bad_input', 'map.fre');
+  length_of = @(varargin) getfield(microswarm.plan(varargin{:}, 'clearance_um', 1), 'length_um');
+  dark = uint8(10 * ones(10, 10));
+  for map = {dark, [uint8(60) + dark]}
+    assert(abs(length_of(map{1}, [15 15], [75 15], 'um_per_px', 10, 'threshold', 100, 'free', 'dark') - 60) < 1e-9);
+  end
+  matrix = fullfile(world.folder, 'm.txt');
+  stream = fopen(matrix, 'w');
+  fprintf(stream, '0 0 0\n0 0 0\n');
+  fclose(stream);
+  assert(abs(length_of(matrix, [5 5], [25 5], 'um_per_px', 10, 'map.wall', 'one') - 20) < 1e-9);
+  lastwarn('');
+  microswarm.Map(matrix, 10, 'wall', 'one');
+  assert(isempty(lastwarn()));
+  microswarm.Map(matrix, 10);  % shows the warning
+  [text, identifier] = lastwarn();
+  assert(strcmp(identifier, 'microswarm:note') && ~isempty(strfind(text, 'map.wall=one')));
+  open = microswarm.Map(true(9), 10);
+  for value = {'um_per_px', 'threshold'}
+    refuses(@() microswarm.plan(open, [15 15], [75 15], value{1}, 10), 'bad_input', 'is open');
+  end
 end
 
 function paths_round_a_wall(world)

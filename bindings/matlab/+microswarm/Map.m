@@ -3,6 +3,7 @@ classdef Map < microswarm.internal.Handle
 %
 %   map = microswarm.Map('vessels.geojson');
 %   map = microswarm.Map(picture > 128, 9);     % a pixel has a side of 9 um
+%   map = microswarm.Map('chip.png', 9, 'free', 'dark', 'threshold', 90);
 %
 % Lengths are in um; y points up, and the origin of a matrix is its lower left corner.
 %
@@ -11,20 +12,32 @@ classdef Map < microswarm.internal.Handle
 
 % SPDX-License-Identifier: Apache-2.0
   methods
-    function self = Map(source, um_per_px)
-    % Map(source, um_per_px)
+    function self = Map(source, um_per_px, varargin)
+    % Map(source, um_per_px, name, value, ...)
     %
-    % source      a picture, ROS .yaml, MovingAI .map, GeoJSON or CSV of rectangles, or a matrix of class
-    %             logical or uint8, the upper row first: free where it is true, or 1 of only 0 and 1; other
-%             matrices of uint8 are grey pictures, free where they are at least 128, as in a file
+    % source      a picture, ROS .yaml, MovingAI .map, GeoJSON, SVG, CSV of rectangles or matrix of 0 and 1; or a
+    %             matrix of class logical or uint8, the upper row first: free where it is true, or 1 of only 0
+    %             and 1; other matrices of uint8 are grey pictures, free where they are at least 128, as in a file
     % um_per_px   side of a pixel or cell [um]; needed if the file does not contain it
+    % threshold   a pixel is free if it is at least this; matrices of other classes than logical and uint8 need it
+    % free        'bright', or 'dark': a pixel is free if it is below the threshold
+    % others      of a file, keys of `map` in a scenario: 'um_per_unit', 'wall', 'simplify_um', ...
+    %
+    % What was assumed in reading a file is a warning, microswarm:note.
       microswarm.internal.need(nargin, 1, 'a map needs a file or a matrix');
       if nargin < 2, um_per_px = 0; end
       if isa(source, 'string') && isscalar(source), source = char(source); end
-      if ~ischar(source) && isequal(um_per_px, 0)
+      settings = {};
+      if ischar(source)
+        settings = microswarm.internal.settings_of(varargin, 'map.');
+      elseif isequal(um_per_px, 0)
         error('microswarm:bad_input', 'a map of a matrix needs um_per_px');
+      elseif ~isempty(varargin)
+        source = microswarm.internal.free_pixels(source, varargin);
       end
-      self.id = microswarm_mex('map_open', source, um_per_px);
+      opened = microswarm_mex('map_open', source, um_per_px, settings);
+      self.id = opened.id;
+      if ~isempty(opened.notes), warning('microswarm:note', '%s', opened.notes); end
     end
 
     function box = bounds(self)
