@@ -13,7 +13,7 @@
 namespace microswarm::navigation {
 
 /// Exact check of the next seconds. A command is safe if the swarm keeps its gaps for the
-/// commitment and an escape remains after it: to go on, to hold, or another direction. Gaps are
+/// commitment and an escape remains after it: to continue, to hold, or another direction. Gaps are
 /// measured along the whole motion, relative to the predicted motion of the bodies, and walls
 /// exactly. Does not allocate once it has seen as many bodies.
 class ImminentCheck {
@@ -37,7 +37,7 @@ class ImminentCheck {
   /// there is none.
   std::optional<Command> nearest_safe(const Command& wanted, const Command& last);
   /// Start of the manoeuvre of two legs that is free of contact for longest, then keeps the largest
-  /// gap; one that goes on as `last` is kept unless another is clearly better.
+  /// gap; one that continues `last` is kept unless another is clearly better.
   Command best_escape(const Command& last);
 
  private:

@@ -35,8 +35,8 @@ class KeptPlan {
   void adopt(std::span<const planning::TimedPoint> path, double begin, double left);
   /// Appends a leg without a wait.
   void append(Vec2 end) { legs_.push_back({end, -infinity}); }
-  /// Goes on to the next leg when the swarm is within `reach` [µm] of the end of one or has passed
-  /// it.
+  /// Continues with the next leg when the swarm is within `reach` [µm] of the end of one or has
+  /// passed it.
   void advance(Vec2 position, double reach);
   /// Leaves out the current leg.
   void skip() { from_ = legs_[next_++].end; }

@@ -9,7 +9,7 @@
 
 namespace microswarm::navigation {
 
-/// Tells which bodies have rested for a while: a body whose estimated motion is slow and certain.
+/// Says which bodies have rested for a while: a body whose estimated motion is slow and certain.
 /// Allocates only if there are more bodies than ever before.
 class RestingBodies {
  public:

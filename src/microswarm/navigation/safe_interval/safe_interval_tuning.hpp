@@ -73,7 +73,7 @@ struct SafeIntervalTuning {
     visit(self.closing_time,
           s("closing_time", 0, 60, "Time for which a non-convex obstacle closes in."));
     visit(self.refresh_period,
-          s("refresh_period", 0, 60, "Time after which a non-convex obstacle is drawn anew."));
+          s("refresh_period", 0, 60, "Time after which a non-convex obstacle is drawn again."));
     visit(self.max_expansions,
           plain("max_expansions", 1, 1e8, "Maximum number of expanded states of a search."));
     visit(self.max_cells, plain("max_cells", 100, 1e8, "Maximum number of cells."));

@@ -26,7 +26,7 @@ class SpaceTimePlanner {
   /// Makes the grid. `reached` is the region of the goal, whose centre has at least `clearance`
   /// [µm] from walls.
   void prepare(const Map& map, Disc reached, double clearance);
-  /// Draws the bodies that stand anew if they changed; `from` is the swarm's position, `now` the
+  /// Draws the bodies that stand again if they changed; `from` is the swarm's position, `now` the
   /// time [s].
   void refresh(const Map& map, const ObstacleForecast& forecast, Vec2 from, double now);
   /// Plans from `pose` with `share` of the gaps; `radius` [µm] is the swarm's, `clearance` [µm]

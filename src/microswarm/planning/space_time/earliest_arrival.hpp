@@ -31,9 +31,9 @@ struct EarliestArrival {
 };
 
 /// Earliest arrival of a swarm that knows how all obstacles will move (clairvoyant): no navigator
-/// arrives earlier, but for the resolution. Any-angle safe-interval search over the grid's cells;
-/// an obstacle occupies a cell during a slot if it is within the radius in the middle of the slot.
-/// A start that has less room in the map counts as having enough.
+/// arrives earlier, except for the resolution. Any-angle safe-interval search over the grid's
+/// cells; an obstacle occupies a cell during a slot if it is within the radius in the middle of the
+/// slot. A start that has less room in the map counts as having enough.
 EarliestArrival earliest_arrival(const World& world, const ArrivalQuery& query,
                                  const Stop& stop = {});
 
