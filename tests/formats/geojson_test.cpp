@@ -355,5 +355,42 @@ TEST(ThickLine, PointsThatSayNothingAreLeftOut) {
       EXPECT_NEAR(map.clearance({r * std::cos(angle), r * std::sin(angle)}), 5, 0.01);
 }
 
+/// The sides are where they are drawn but for the rounding, however far apart the points are.
+TEST(ThickLine, SidesMoveByNoMoreThanTheRounding) {
+  constexpr double width = 10, radius = 100;
+  for (const double step : {1e-4, 1e-3, 4e-3}) {
+    std::vector<Vec2> arc;
+    for (double angle = 0; angle <= 1; angle += step)
+      arc.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+    MapParts parts;
+    add_thick_line(parts, arc, width);
+    EXPECT_LT(2 * parts.walls.size(), arc.size()) << step;
+    const Map map({{-200, -200}, {200, 200}}, parts.walls, parts.discs);
+    for (double angle = 0.01; angle < 0.99; angle += 0.00137)
+      for (const double r : {90.0, 110.0})
+        EXPECT_NEAR(map.clearance({r * std::cos(angle), r * std::sin(angle)}), 5,
+                    1.01 * thick_line_rounding * width)
+            << step;
+  }
+}
+
+/// A rectangle spans at most 64 segments, or long lines would take quadratic time.
+TEST(ThickLine, StraightLinesAreSplit) {
+  std::vector<Vec2> line;
+  for (int i = 0; i <= 64 * 100; ++i) line.push_back({0.1 * i, 0});
+  MapParts parts;
+  add_thick_line(parts, line, 10);
+  EXPECT_EQ(parts.walls.size(), 100u);
+}
+
+TEST(ThickLine, RepeatedPointsAreADisc) {
+  MapParts parts;
+  add_thick_line(parts, std::vector<Vec2>(3, Vec2{1, 2}), 10);
+  EXPECT_TRUE(parts.walls.empty());
+  ASSERT_EQ(parts.discs.size(), 1u);
+  EXPECT_EQ(parts.discs[0].centre, (Vec2{1, 2}));
+  EXPECT_EQ(parts.discs[0].radius, 5);
+}
+
 }  // namespace
 }  // namespace microswarm::formats

@@ -91,44 +91,6 @@ TEST(MapFile, RosMapIsTurnedByTheYawOfItsOrigin) {
   }
 }
 
-/// A yaw as programs round it turns a map by quarters exactly; one of a hundredth of a cell is
-/// none.
-TEST(MapFile, RosMapIsNotTurnedByRounding) {
-  const Folder folder;
-  Image image{3, 4, 1, std::vector<std::uint8_t>(12, 254)};
-  image.pixels[1] = 0;
-  folder.with("a.pgm", encode_pnm(image));
-  const auto parts = [&](const std::string& yaw) {
-    folder.with("a.yaml", "image: a.pgm\nresolution: 1\norigin: [2, 3, " + yaw + "]\n");
-    return read_map_parts(RosMap{.file = "a.yaml", .um_per_m = 10}, folder / "");
-  };
-  const auto same = [&](const char* a, const char* b) {
-    return fingerprint(parts(a)) == fingerprint(parts(b));
-  };
-  for (const char* none : {"1e-9", "-1e-9", "0.0019", "6.283185", "-12.56637"})
-    EXPECT_TRUE(same("0", none)) << none;
-  for (const char* quarter : {"1.5708", "-4.712389"})
-    EXPECT_TRUE(same("1.5707963267948966", quarter)) << quarter;
-  EXPECT_TRUE(same("3.141592653589793", "-3.1416"));
-  EXPECT_FALSE(same("0", "0.0021"));  // of a diagonal of 5 cells
-  const Box quarter = parts("1.5708").bounds;
-  EXPECT_EQ(quarter.lo, (Vec2{-20, 30}));
-  EXPECT_EQ(quarter.hi, (Vec2{20, 60}));
-}
-
-TEST(MapFile, AYawInDegreesIsNoted) {
-  const Folder folder;
-  folder.with("a.pgm", encode_pnm(Image{2, 1, 1, {0, 254}}));
-  const auto notes = [&](const std::string& yaw) {
-    folder.with("a.yaml", "image: a.pgm\nresolution: 1\norigin: [0, 0, " + yaw + "]\n");
-    return read_map_parts(RosMap{.file = "a.yaml"}, folder / "").notes;
-  };
-  for (const char* rad : {"0", "-3.2", "6.283", "-6.283"}) EXPECT_TRUE(notes(rad).empty()) << rad;
-  for (const char* degrees : {"90", "-90", "6.3"}) ASSERT_EQ(notes(degrees).size(), 1u) << degrees;
-  EXPECT_NE(notes("90")[0].find("if it is 90°, write 1.570796"), std::string::npos)
-      << notes("90")[0];
-}
-
 TEST(MapFile, RosMapTellsWhatItAssumesAndLeavesOut) {
   const Folder folder;
   const auto notes = [&](std::vector<std::uint8_t> pixels, bool unknown_free) {

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "microswarm/formats/map_file.hpp"
+#include "microswarm/formats/matrix.hpp"
 #include "tests/files.hpp"
 #include "tests/messages.hpp"
 
@@ -27,7 +28,8 @@ TEST(MapFile, MatrixOfZerosAndOnes) {
   };
   for (const char* text : {"1 1 1 1\n1 0 1 1\n", "1,1,1,1\n1,0,1,1", "# a\n\n1;1;1;1;\n1;0;1;1;\n",
                            "1\t1\t1\t1\r\n1\t0\t1\t1\r\n", "1111\n1011\n",
-                           "1.0 1.0 1.0 1.0\n1.000e+00 0.000e+00 1.000e+00 1.000e+00\n"}) {
+                           "1.0 1.0 1.0 1.0\n1.000e+00 0.000e+00 1.000e+00 1.000e+00\n",
+                           "% of MATLAB\n// of C\n1 1 1 1\n1 0 1 1\n"}) {
     const MapParts parts = read("m.txt", text);
     EXPECT_EQ(parts.bounds.hi, (Vec2{40, 20})) << text;
     ASSERT_EQ(parts.walls.size(), 1u) << text;
@@ -60,6 +62,16 @@ TEST(MapFile, MatrixOfZerosAndOnes) {
   EXPECT_TRUE(test::is_one_line_naming(
       error_of([&] { read_map_parts(choose_map_spec(typo, {.um_per_px = 1})); }),
       typo.string() + ":3", {"'O'", "0", "1"}));
+}
+
+/// A few cells that are mistyped leave a matrix one; numbers of which some are 0 and 1 are none.
+TEST(MapFile, MatrixIsToldFromOtherTables) {
+  for (const char* text :
+       {"1 0 1\n1 O 1\n1 1 1\n", "1 0 1\n1 2 1\n1 1 1\n", "10\n01\n", "1 1 0 1\n"})
+    EXPECT_TRUE(is_matrix(text)) << text;
+  for (const char* text : {"1 0 1\n2 5 7\n3 4 5\n", "1 0 1\n2 5 7\n", "0,0,1,1\n1,0,1,1\n0,0,2,1\n",
+                           "0\n1\n0\n", "1 2 3\n", "# 1\n"})
+    EXPECT_FALSE(is_matrix(text)) << text;
 }
 
 TEST(MapFile, RectanglesOfSpreadsheets) {

@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/geometry/shapes.hpp"
@@ -45,6 +46,50 @@ TEST(Svg, LinesThinnerThanAPixelAreWalls) {
   const LoadedMap half = load_drawing(line_drawing(5), 10.0);
   ASSERT_EQ(half.notes.size(), 1u);
   EXPECT_NE(half.notes[0].find("drawn with pixels of 5 µm"), std::string::npos) << half.notes[0];
+}
+
+/// The pixels in which a line between two columns of them is half of one at least.
+TEST(Svg, PixelsAreNoFinerThanALineNeeds) {
+  const auto pixels_of = [](const std::string& drawn) {
+    const LoadedMap loaded = load_drawing(drawn, 10.0);
+    return loaded.notes.empty() ? std::string() : loaded.notes[0];
+  };
+  for (const auto& [width, pixel] :
+       {std::pair(7.0, "5"), {3.6, "2.5"}, {1.8, "1.25"}, {0.9, "0.625"}})
+    EXPECT_NE(pixels_of(line_drawing(width)).find(fmt::format("drawn with pixels of {} µm", pixel)),
+              std::string::npos)
+        << width << ' ' << pixels_of(line_drawing(width));
+  // A short line among long ones that are less thin.
+  const std::string both = line_drawing(7) + line_drawing(0.9, "M1500 400 V500");
+  EXPECT_NE(pixels_of(both).find("pixels of 0.625 µm"), std::string::npos) << pixels_of(both);
+}
+
+/// A line that closes a gap of eight pixels is a wall; a few dots need no finer pixels.
+TEST(Svg, AFewDotsAreNoLine) {
+  const std::string gap =
+      R"(<rect x="600" y="0" width="300" height="460"/><rect x="600" y="540" width="300" )"
+      R"(height="460"/>)";
+  const LoadedMap closed = load_drawing(gap + line_drawing(3, "M755 450 V550"), 10.0);
+  EXPECT_FALSE(closed.map->is_free(Segment{{500, 500}, {1300, 500}}, 0));
+  EXPECT_TRUE(load_drawing(gap, 10.0).map->is_free(Segment{{500, 500}, {1300, 500}}, 30));
+  std::string dots;
+  for (int k = 0; k < 5; ++k)
+    dots += fmt::format(R"(<circle cx="{}5" cy="505" r="2"/>)", 60 + 20 * k);
+  const LoadedMap dotted = load_drawing(dots, 10.0);
+  ASSERT_EQ(dotted.notes.size(), 1u);
+  EXPECT_NE(dotted.notes[0].find("5 pixels with some ink are free"), std::string::npos)
+      << dotted.notes[0];
+}
+
+/// Hatching that is finer than pixels looks like a pale fill.
+TEST(Svg, HatchingIsAPaleFill) {
+  std::string hatching;
+  for (int x = 1000; x < 1400; x += 4)
+    hatching += line_drawing(1, fmt::format("M{} 300 V700", x).c_str());
+  const LoadedMap loaded = load_drawing(hatching, 10.0);
+  EXPECT_TRUE(loaded.map->is_free(Segment{{900, 500}, {1500, 500}}, 30));
+  ASSERT_EQ(loaded.notes.size(), 1u);
+  EXPECT_NE(loaded.notes[0].find("or pale fills"), std::string::npos) << loaded.notes[0];
 }
 
 TEST(Svg, WideLinesNeedNoFinerPixels) {

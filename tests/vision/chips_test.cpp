@@ -2,12 +2,15 @@
 // Channels of chips: two greys under uneven light, in noise.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <opencv2/core.hpp>
 
 #include "microswarm/vision/image/total_variation.hpp"
 #include "microswarm/vision/vessels/agreement.hpp"
 #include "microswarm/vision/vessels/light_fit.hpp"
+#include "microswarm/vision/vessels/two_levels.hpp"
 #include "microswarm/vision/vessels/vessels.hpp"
 #include "tests/cases.hpp"
 #include "tests/vision/drawn_chips.hpp"
@@ -99,6 +102,28 @@ TEST(Chips, AnEmptyPictureHasNoLevels) {
       EXPECT_EQ(found.method, VesselMethod::lines) << noise;
     }
   }
+}
+
+// All first sets are tried unless one explains a picture that is clear of its noise.
+TEST(Chips, OnlyAClearPictureIsFittedOnce) {
+  const auto tried = [](const formats::Image& picture) {
+    const cv::Mat grey(picture.height, picture.width, CV_8U,
+                       const_cast<std::uint8_t*>(picture.pixels.data()));
+    return fit_two_levels(grey, cv::Mat(grey.size(), CV_8U, cv::Scalar(255))).tried;
+  };
+  EXPECT_EQ(tried(test::draw_chip({.contrast = 80, .noise = 3, .light = 20}, 3).picture), 1);
+  // Few levels of noise, which hides what else there could be.
+  EXPECT_EQ(tried(test::draw_chip({.contrast = 30, .noise = 20, .light = 20}, 3).picture), 6);
+  // Fine texture that two levels explain in part.
+  ChipLooks looks{.contrast = 80, .noise = 3, .light = 20};
+  formats::Image shaded = test::draw_chip(looks, 3).picture;
+  for (int row = 0; row < shaded.height; ++row)
+    for (int column = 0; column < shaded.width; ++column) {
+      auto& pixel = shaded.pixels[shaded.index(column, row)];
+      const double wave = 25 * std::sin(0.15 * column) * std::sin(0.15 * row);
+      pixel = static_cast<std::uint8_t>(std::clamp(pixel + wave, 0.0, 255.0));
+    }
+  EXPECT_EQ(tried(shaded), 6);
 }
 
 TEST(Chips, TheChoiceIsDescribedAndItsDoubtsAre) {

@@ -9,6 +9,7 @@
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/vision/image/mask_ops.hpp"
+#include "microswarm/vision/tracking/band_pass.hpp"
 #include "microswarm/vision/tracking/ring_fit.hpp"
 #include "tests/vision/spots.hpp"
 
@@ -77,6 +78,50 @@ TEST(Particles, MovedPictureMovesParticles) {
   ASSERT_EQ(after.size(), before.size());
   for (std::size_t i = 0; i < after.size(); ++i)
     EXPECT_NEAR(distance(after[i].at_px, before[i].at_px + Vec2{7, 0}), 0, 1e-9);
+}
+
+/// Centroid of greys in the round mask about a whole pixel, as trackpy defines it.
+Vec2 mask_centroid(const std::vector<int>& greys, int width, int column, int row, int radius) {
+  double total = 0;
+  Vec2 sum;
+  for (int dy = -radius; dy <= radius; ++dy)
+    for (int dx = -radius; dx <= radius; ++dx) {
+      if (dx * dx + dy * dy > radius * radius) continue;
+      const double grey = greys[static_cast<std::size_t>((row + dy) * width + column + dx)];
+      total += grey;
+      sum += grey * Vec2{1.0 * (column + dx), 1.0 * (row + dy)};
+    }
+  return sum / total;
+}
+
+/// Spots that fade into each other are where trackpy sees them: a mask between pixels would leave
+/// them for their neighbours.
+TEST(Particles, FadingSpotsHaveTheCentroidsOfMasksAtWholePixels) {
+  const ParticleParams params{.diameter = 11, .tone = ParticleTone::bright, .min_mass = 300};
+  Rng rng(21, Purpose::test);
+  const auto truth = test::scattered(400, 300, 16, rng);
+  const formats::Image image = test::draw_spots(400, 300, truth, 3.5, 90, 3, rng);
+  BandPass pass({.noise_px = params.noise,
+                 .box_px = params.diameter,
+                 .min_foreground = params.min_foreground,
+                 .dark_rises = false});
+  const std::vector<float> rise = pass.filter(image);
+  const float scale = 255 / *std::ranges::max_element(rise);
+  std::vector<int> greys;
+  for (const float value : rise) greys.push_back(static_cast<int>(scale * value));
+  ParticleFinder finder(params);
+  const auto& found = finder.find(image);
+  EXPECT_GT(found.size(), 300U);
+  for (const Particle& p : found) {
+    double least = 1;
+    for (int k = 0; k < 9; ++k) {
+      const int column = static_cast<int>(std::lround(p.at_px.x)) + k % 3 - 1;
+      const int row = static_cast<int>(std::lround(p.at_px.y)) + k / 3 - 1;
+      if (std::min(column, row) < 5 || column >= 395 || row >= 295) continue;
+      least = std::min(least, distance(p.at_px, mask_centroid(greys, 400, column, row, 5)));
+    }
+    EXPECT_LT(least, 1e-6) << p.at_px.x << ' ' << p.at_px.y;
+  }
 }
 
 TEST(Particles, FainterOfTwoTooNearIsDropped) {

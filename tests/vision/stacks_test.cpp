@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/vision/camera/frames.hpp"
 #include "microswarm/vision/camera/picture_names.hpp"
+#include "microswarm/vision/camera/stack_pages.hpp"
 #include "tests/files.hpp"
 #include "tests/formats/tiff_writer.hpp"
 #include "tests/vision/seen.hpp"
@@ -50,12 +52,21 @@ TEST(Names, MayHaveSignsDecimalsAndCapitals) {
         {"t0.2.png", "t0.25.png", "t0.3.png", "t1.png", "t1.05.png"},
         {"run1.9.png", "run1.10.png", "run1.11.png"},  // counters
         {"v1.2.9.png", "v1.2.30.png"},
+        {"v1.2.9.png", "v1.2.31.png"},
+        {"v1.2.9.png", "v1.12.9.png"},
+        {"a.png", "a-.png"},  // no sign without a number
+        {"f-10.png", "f-2.png", "f0.png", "f+1.png", "f+3.png"},
+        {"f-2.png", "f-1.png", "f+1.png", "f+10.png"},
+        {"f-a1.png", "f-b0.png", "f-b1.png"},
         {"f00.png", "F01.png", "f02.png", "F03.png"}})
     EXPECT_EQ(ordered(names), names) << names[0];
   const std::vector<fs::path> tenths{"t0.1.png", "t0.2.png", "t0.25.png", "t0.3.png", "t0.35.png"};
   const auto found = numbers_in(tenths);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->steps, (std::vector<double>{0, 2, 3, 4, 5}));
+  const auto below_0 = numbers_in({"f-2.png", "f-1.png", "f0.png", "f+2.png"});
+  ASSERT_TRUE(below_0);
+  EXPECT_EQ(below_0->steps, (std::vector<double>{0, 1, 2, 4}));
 }
 
 TEST(Names, OfSeveralChannelsGiveTheOneThatIsChosen) {
@@ -90,6 +101,22 @@ TEST(Names, OfAPictureInTwoFormatsAreReadOnce) {
   ASSERT_EQ(seen.notes.size(), 1U);
   EXPECT_NE(seen.notes[0].find("2 of 5 pictures"), std::string::npos);
   EXPECT_NE(seen.notes[0].find("f0.png and f0.pgm"), std::string::npos);
+}
+
+/// TIFF before PNG before others before JPEG, which loses what the others keep.
+TEST(Names, OfTwoFormatsTheOneWithoutLossIsRead) {
+  for (const auto& [better, worse] :
+       std::vector<std::pair<std::string, std::string>>{{"tif", "png"},
+                                                        {"tiff", "bmp"},
+                                                        {"png", "ppm"},
+                                                        {"png", "bmp"},
+                                                        {"pgm", "jpg"},
+                                                        {"pgm", "jpeg"},
+                                                        {"bmp", "jpg"}}) {
+    std::vector<fs::path> files{"a." + worse, "a." + better, "b." + better, "b." + worse};
+    EXPECT_EQ(choose_pictures(files, {}, {}, "d").size(), 1U);
+    EXPECT_EQ(files, (std::vector<fs::path>{"a." + better, "b." + better})) << better;
+  }
 }
 
 TEST(Names, OrderIsStrictAndTotal) {
@@ -179,6 +206,19 @@ TEST(Stacks, WithSlicesAloneAreSeries) {
   EXPECT_EQ(see(two, {.stack_channel = 2}).greys, (std::vector<int>{1, 3, 5}));
 }
 
+/// A description whose product is not its own count, or not that of its planes, tells no order.
+TEST(Stacks, OfContradictingCountsAreTimes) {
+  const test::Folder folder;
+  const Seen seen = see(stack(folder, 5, "channels=2\nframes=3\n"));
+  EXPECT_EQ(seen.greys, (std::vector<int>{0, 1, 2, 3, 4}));
+  ASSERT_EQ(seen.notes.size(), 1U);
+  EXPECT_NE(seen.notes[0].find("2 channels, 1 slices and 3 times of 5 pictures"), std::string::npos)
+      << seen.notes[0];
+  const formats::TiffDescription planes{
+      .software = "OME", .images = 2, .times = 3, .plane_pages = {1, 0}};
+  EXPECT_EQ(choose_pages(planes, 2, {}, "s.tif").pages, (std::vector<int>{0, 1}));
+}
+
 TEST(Stacks, OfOmeHaveTheTimesOfTheirPlanes) {
   const test::Folder folder;
   std::string planes;
@@ -197,6 +237,25 @@ TEST(Stacks, OfOmeHaveTheTimesOfTheirPlanes) {
   EXPECT_EQ(seen.greys, (std::vector<int>{3, 4, 5}));
   EXPECT_EQ(seen.times, (std::vector<double>{0, 7, 16}));
   EXPECT_EQ(open_frames(folder / "s.tif", FrameOptions{.stack_channel = 1})->um_per_px(), 0.5);
+}
+
+/// Times that do not ascend, or that a picture lacks, are no times: the interval is taken.
+TEST(Stacks, OfOmeHaveAscendingTimesOrNone) {
+  for (const std::vector<std::string>& told :
+       {std::vector<std::string>{"5", "3", "4"}, {"5", "5", "6"}, {"1", "2", "2"}}) {
+    std::string planes;
+    for (std::size_t k = 0; k < told.size(); ++k)
+      planes += "<Plane TheC=\"0\" TheZ=\"0\" TheT=\"" + std::to_string(k) + "\" DeltaT=\"" +
+                told[k] + "\"/>";
+    const test::Folder folder;
+    std::vector<std::vector<std::uint8_t>> pages(3, std::vector<std::uint8_t>(4));
+    test::write_tiff<std::uint8_t>(
+        folder / "s.tif", 2, pages,
+        {.description = "<OME><Image><Pixels DimensionOrder=\"XYZTC\" SizeC=\"1\" SizeZ=\"1\" "
+                        "SizeT=\"3\" TimeIncrement=\"0.5\">" +
+                        planes + "</Pixels></Image></OME>"});
+    EXPECT_EQ(see(folder / "s.tif").times, (std::vector<double>{0, 0.5, 1})) << told[0] << told[1];
+  }
 }
 
 /// A stack whose page k has the grey k, with any description.
@@ -272,6 +331,36 @@ TEST(Stacks, OfOmeInSeveralFilesGiveThePicturesOfThisOne) {
   const Seen even = see(described(folder, "even.ome.tif", 2, ome(1, 4, later)));
   EXPECT_EQ(even.times, (std::vector<double>{0, 1}));
   EXPECT_TRUE(any_names(even.notes, "gaps in time"));
+  const Seen odd = see(described(folder, "odd.ome.tif", 2, ome(1, 4, later)));
+  EXPECT_EQ(odd.times, (std::vector<double>{0, 1}));  // since the first that is here
+}
+
+TEST(Stacks, OfOmeInAFileWithOneSliceGiveThatSlice) {
+  const test::Folder folder;
+  std::string data = ome(2, 2, "");
+  data.replace(data.find("SizeZ=\"1\""), 9, "SizeZ=\"2\"");
+  data.replace(data.find("XYCZT"), 5, "XYZCT");
+  std::string runs;
+  for (int z = 0; z < 2; ++z)
+    for (int c = 0; c < 2; ++c)
+      for (int t = 0; t < 2; ++t) {
+        std::string run = tiff_data(c, t, c + 2 * t, z == 0 ? "z0.ome.tif" : "z1.ome.tif");
+        runs += run.insert(run.find(" IFD"), " FirstZ=\"" + std::to_string(z) + "\"");
+      }
+  data.insert(data.find("</Pixels>"), runs);
+  const auto file = described(folder, "z1.ome.tif", 4, data);
+  EXPECT_NE(test::error_of([&] { see(file); }).find("2 channels"), std::string::npos);
+  const Seen seen = see(file, {.stack_channel = 2});
+  EXPECT_EQ(seen.greys, (std::vector<int>{1, 3}));
+  EXPECT_TRUE(any_names(seen.notes, "of 2 slices only number 2"));
+}
+
+TEST(Stacks, PicturesWithoutAPlaceInOmeAreLeftOutAndTold) {
+  const test::Folder folder;
+  const Seen seen =
+      see(described(folder, "l.ome.tif", 4, ome(1, 2, tiff_data(0, 0, 0) + tiff_data(0, 1, 1))));
+  EXPECT_EQ(seen.greys, (std::vector<int>{0, 1}));
+  EXPECT_TRUE(any_names(seen.notes, "its last 2 pictures have no place"));
 }
 
 TEST(Stacks, OfOmeMayHaveAPrefixOrAnotherFileForItsDescription) {
@@ -305,6 +394,8 @@ TEST(Stacks, OfTifffileAndScifioHaveChannelsToo) {
   }
   const auto slow = described(folder, "b.tif", 6, R"({"shape": [2, 3, 2, 2], "axes": "CTYX"})");
   EXPECT_EQ(see(slow, {.stack_channel = 2}).greys, (std::vector<int>{3, 4, 5}));
+  const auto depth = described(folder, "z.tif", 6, R"({"shape": [2, 3, 2, 2], "axes": "CZYX"})");
+  EXPECT_EQ(see(depth, {.stack_channel = 2}).greys, (std::vector<int>{3, 4, 5}));
   const Seen plain = see(described(folder, "c.tif", 3, R"({"shape": [3, 2, 2]})"));
   EXPECT_EQ(plain.greys, (std::vector<int>{0, 1, 2}));
   EXPECT_EQ(plain.notes, std::vector<std::string>{});

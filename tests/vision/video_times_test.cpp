@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <optional>
 
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/formats/images/image.hpp"
@@ -100,6 +102,55 @@ TEST(VideoTimes, OfAGifAreItsDelaysAndNoOthersAreMovedToAGrid) {
     ASSERT_EQ(seen.times.size(), at.size());
     for (std::size_t k = 0; k < at.size(); ++k) EXPECT_NEAR(seen.times[k], at[k], 1e-9) << k;
   }
+}
+
+/// Times that a clock makes of those in a file.
+std::vector<double> clocked(ContainerClock clock, const std::vector<std::optional<double>>& told) {
+  std::vector<double> times;
+  times.reserve(told.size());
+  for (const auto& t : told) times.push_back(clock.next(t));
+  return times;
+}
+
+TEST(ContainerClock, KeepsAnEvenRowAsLongAsTicksCanTell) {
+  const ContainerClock ms(10, 0.001);
+  // Rounded to ticks, and from another zero.
+  EXPECT_EQ(clocked(ms, {5.0, 5.101, 5.199, 5.3}), (std::vector<double>{0, 0.1, 0.2, 0.3}));
+  // More than a tick off: times are those of the file from there on.
+  const auto off = clocked(ms, {0.0, 0.11, 0.2005, 0.3005});
+  for (std::size_t k = 0; k < 4; ++k)
+    EXPECT_NEAR(off[k], (std::vector<double>{0, 0.11, 0.2005, 0.3005})[k], 1e-12) << k;
+  // So are they after a gap, though it is of whole intervals.
+  const auto gap = clocked(ms, {0.0, 0.1, 0.3005, 0.4005});
+  for (std::size_t k = 2; k < 4; ++k)
+    EXPECT_NEAR(gap[k], (std::vector<double>{0, 0.1, 0.3005, 0.4005})[k], 1e-12) << k;
+  // However coarse the ticks are, half an interval is no rounding.
+  EXPECT_NEAR(clocked(ContainerClock(10, 0.05), {0.0, 0.1, 0.15})[2], 0.15, 1e-12);
+}
+
+TEST(ContainerClock, PlacesPicturesWithoutATimeAfterTheOneBefore) {
+  ContainerClock clock(10, 0.001);
+  const std::vector<double> expected{0, 0.1, 0.2, 0.3, 0.4};
+  std::size_t k = 0;
+  for (const std::optional<double> t :
+       std::vector<std::optional<double>>{0.0, 0.1, 0.1, std::nullopt, 0.05})
+    EXPECT_NEAR(clock.next(t), expected[k++], 1e-12) << k;
+  ASSERT_EQ(clock.notes().size(), 1U);
+  EXPECT_NE(clock.notes()[0].find("3 of 5 pictures have no time after the one before"),
+            std::string::npos)
+      << clock.notes()[0];
+}
+
+/// Ticks alone are not told as uneven times.
+TEST(ContainerClock, RoundedTimesAreNotUneven) {
+  ContainerClock drifting(30, 0.001);  // a mean rate that is rounded: 29.97
+  for (int k = 0; k < 500; ++k) drifting.next(std::round(1000 * k / 29.97) / 1000);
+  EXPECT_NEAR(drifting.last(), 499 / 29.97, 0.002);
+  EXPECT_TRUE(drifting.notes().empty());
+  ContainerClock uneven_by_more(30, 0.001);
+  for (int k = 0; k < 500; ++k)
+    uneven_by_more.next(std::round(1000 * k / 29.97) / 1000 + 0.004 * (k % 2));
+  EXPECT_EQ(uneven_by_more.notes().size(), 1U);
 }
 
 TEST(VideoTimes, AnAnimatedPngIsAVideo) {

@@ -117,9 +117,7 @@ MapParts read(const RosMap& spec, const fs::path& base, Issues&) {
   const Vec2 origin = spec.um_per_m * Vec2{header.origin[0], header.origin[1]};
   MapParts parts = to_parts(ros_walls(image, header, spec.unknown_free, transparent),
                             header.resolution * spec.um_per_m, origin);
-  const double turn =
-      map_turn(header.origin[2],
-               norm(Vec2{static_cast<double>(image.width), static_cast<double>(image.height)}));
+  const double turn = map_turn(header.origin[2], norm(Vec2{1.0 * image.width, 1.0 * image.height}));
   if (turn != 0) parts = turned(std::move(parts), origin, turn);
   parts.notes = ros_notes(header, image, spec.unknown_free, yaml.string());
   return parts;

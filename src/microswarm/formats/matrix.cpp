@@ -25,7 +25,7 @@ bool is_comment(std::string_view line) {
 }
 
 bool is_digits(std::string_view word) {
-  return word.size() > 1 && word.find_first_not_of("01") == std::string_view::npos;
+  return word.find_first_not_of("01") == std::string_view::npos;
 }
 
 /// The fields of a row, between any of the separators, one of which may end it.

@@ -120,7 +120,7 @@ SvgWalls draw_svg_walls(const SvgMap& spec, const std::filesystem::path& file) {
   const std::string text = read_file(file, max_svg_bytes);
   Drawing drawing = draw(text, spec, name, spec.um_per_px);
   std::vector<std::string> notes = std::move(drawing.picture.notes);
-  constexpr std::size_t specks = 6;  // so few thin pixels bar no way
+  constexpr std::size_t specks = 6;  // fewer are tips and dots, which the note reports
   if (drawing.thin.size() >= specks)
     if (auto finer = draw_finer(text, spec, name, drawing)) {
       notes.push_back(fmt::format(

@@ -86,7 +86,7 @@ double ContainerClock::next(std::optional<double> in_file) {
   if (in_file) {
     const double told = *in_file - *zero_;
     const double nearest = std::round(told * rate_) / rate_;
-    const double rounding = std::min(1.01 * tick_, 0.25 / rate_) + 1e-9;
+    const double rounding = std::min(1.01 * tick_, 0.25 / rate_);
     is_even_ = is_even_ && std::abs(nearest - told) <= rounding &&
                (count_ == 0 || std::abs(nearest - last_ - 1 / rate_) < 0.5 / rate_);
     t = is_even_ ? nearest : told;

@@ -95,18 +95,30 @@ bool are_decimal(const std::vector<std::vector<std::string>>& names) {
   return lengths.size() > 1;
 }
 
-/// A '-' is a sign where names differ in nothing else before a number.
+/// Text before the signs of these texts, if they differ in nothing but a last '-' or '+'.
+std::optional<std::string> text_before_signs(const std::set<std::string>& texts) {
+  const std::string& first = *texts.begin();
+  for (const std::string& base : {first, first.substr(0, first.empty() ? 0 : first.size() - 1)})
+    if (std::ranges::all_of(texts, [&](const std::string& text) {
+          return text == base || text == base + "-" || text == base + "+";
+        }))
+      return base;
+  return std::nullopt;
+}
+
+/// A '-' or '+' is a sign where names differ in nothing else before a number.
 void take_signs(std::vector<NameParts>& names) {
   const auto same_size = [&](const NameParts& n) { return n.size() == names.front().size(); };
   if (names.empty() || !std::ranges::all_of(names, same_size)) return;
   for (std::size_t i = 0; i < names.front().size(); ++i) {
     std::set<std::string> texts;
     for (const NameParts& name : names) texts.insert(name[i].text);
-    if (texts.size() != 2 || *texts.rbegin() != *texts.begin() + "-") continue;
+    const std::optional<std::string> before = text_before_signs(texts);
+    if (!before) continue;
     for (NameParts& name : names) {
-      if (name[i].text == *texts.begin() || name[i].digits.empty()) continue;
-      name[i].text.pop_back();
-      name[i].is_negative = true;
+      if (name[i].text == *before || name[i].digits.empty()) continue;
+      name[i].is_negative = name[i].text.back() == '-';
+      name[i].text = *before;
     }
   }
 }

@@ -236,12 +236,14 @@ TwoLevels fit_two_levels(const cv::Mat& grey, const cv::Mat& view, const Stop& s
   const LightFit first = fit_light(s.clean, {}, s.view, early_degree, 0);
   const double wide = local_share * std::min(s.clean.rows, s.clean.cols);
   LevelCandidate best;
+  int tried = 0;
   for (const bool spot : {false, true}) {
     const cv::Mat light =
         spot ? widely_blurred(s.clean, s.view, wide) : first.light.over(s.clean.size());
     for (const cv::Mat& set : first_sets(s.clean - light, s.view)) {
       if (stop()) return {};
       const LevelCandidate c = settle(s, set, spot);
+      ++tried;
       if (c.left < best.left) best = c;
       if (best.is_clear) break;
     }
@@ -250,7 +252,7 @@ TwoLevels fit_two_levels(const cv::Mat& grey, const cv::Mat& view, const Stop& s
   if (best.set.empty()) return {};
   cv::Mat whole;
   grey.convertTo(whole, CV_32F);
-  return {best.fit, best.residual, best.contrast, white_noise(whole, view), best.explained};
+  return {best.fit, best.residual, best.contrast, white_noise(whole, view), best.explained, tried};
 }
 
 cv::Mat level_picture(const cv::Mat& grey, const TwoLevels& levels, const Stop& stop) {

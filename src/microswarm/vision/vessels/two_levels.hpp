@@ -19,6 +19,7 @@ struct TwoLevels {
   /// 1 for a chip or a stained network, 0.5 to 0.7 for a fundus photograph, up to 0.85 for a small
   /// part of one. 0 if there are not two levels.
   double explained = 0;
+  int tried = 0;  ///< first sets from which it was fitted; one is enough for a clear picture
 };
 
 /// Fits two levels to `grey` (8-bit, one channel) within `view`, on a smaller picture: from a few
