@@ -60,7 +60,8 @@ TEST(Arena, NothingIsAtTheStart) {
 /// The walls of a still scene with the bodies that rest in it.
 Map map_with_bodies(const Scenario& s, const World& world) {
   formats::MapParts parts = formats::read_map_parts(s.map);
-  for (const Body& body : world.at(0).moving().bodies())
+  const Snapshot at_start = world.at(0);
+  for (const Body& body : at_start.moving().bodies())
     if (const auto* disc = std::get_if<Disc>(&body.shape))
       parts.discs.push_back(*disc);
     else

@@ -107,14 +107,16 @@ Box part_that_matters(const RadarRun& run, const World& world, std::span<const d
   for (std::size_t k = 0; k < record.frames.size(); ++k)
     include(record.frames[k].pose.position, edge * circles_at(run, k).detection);
   const Box passage = box;
-  for (const double t : moments)
-    for (const Body& body : world.at(t).moving().bodies())
+  for (const double t : moments) {
+    const Snapshot then = world.at(t);
+    for (const Body& body : then.moving().bodies())
       std::visit(Overloaded{[&](const Disc& disc) {
                               if (disc.centre.x > passage.lo.x && disc.centre.x < passage.hi.x)
                                 include(disc.centre, edge * disc.radius);
                             },
                             [](const Polygon&) {}},
                  body.shape);
+  }
   const Box& all = world.map->bounds();
   return {{std::max(box.lo.x, all.lo.x), std::max(box.lo.y, all.lo.y)},
           {std::min(box.hi.x, all.hi.x), std::min(box.hi.y, all.hi.y)}};
