@@ -40,6 +40,11 @@ class KeptPlan {
   void advance(Vec2 position, double reach);
   /// Leaves out the current leg.
   void skip() { from_ = legs_[next_++].end; }
+  /// Leaves out the current leg and its wait: the next one departs at once from `from`.
+  void cut(Vec2 from) {
+    legs_[++next_].depart = -infinity;
+    from_ = from;
+  }
 
   /// The current leg, and the one after it; null if there is none.
   const Leg& leg() const { return legs_[next_]; }

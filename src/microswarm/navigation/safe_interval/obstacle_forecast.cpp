@@ -134,9 +134,11 @@ double ObstacleForecast::least_present_gap() const {
 }
 
 double ObstacleForecast::gap(int sample, std::size_t i) const {
-  if (rests(i)) return params_.gap;
+  const double noise = bodies_[i].noise;
+  if (rests(i)) return params_.gap + noise;
   const double grown = params_.gap + params_.gap_rate * sample * step_;
-  return std::min(std::max(params_.gap, params_.max_gap), grown) + at(sample, i).uncertainty;
+  return std::min(std::max(params_.gap, params_.max_gap), grown) + noise +
+         at(sample, i).uncertainty;
 }
 
 double ObstacleForecast::gap_along(Segment move, int sample, std::size_t i, double radius,

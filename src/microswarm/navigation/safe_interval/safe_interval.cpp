@@ -30,7 +30,7 @@ SafeIntervalNavigator::SafeIntervalNavigator(const SafeIntervalParams& params, c
       forecast_(params, speed()),
       planner_(params, swarm().radius, speed()),
       plan_(speed()),
-      straight_(speed()),
+      tried_(speed()),
       imminent_(params.tuning.imminent, swarm(), speed(), task.tick) {
   path_.reserve(KeptPlan::max_legs + 1);
 }
@@ -49,11 +49,6 @@ Diagnostics SafeIntervalNavigator::diagnostics() const {
 void SafeIntervalNavigator::update(const Observation& seen, const Stop&) {
   predictor_.update(seen);
   path_.clear();
-}
-
-Decision SafeIntervalNavigator::without_swarm() {
-  plan_.clear();
-  return hold(NavigatorState::blind);
 }
 
 Decision SafeIntervalNavigator::finish(const Decision& decision, const Observation&) {
@@ -130,12 +125,12 @@ bool SafeIntervalNavigator::goes_straight(const Moment& moment, double now) {
       !forecast_.hollow().is_free(way, radius_ + params_.gap + forecast_.closing()))
     return false;
   forecast_.predict_all(predictor_);
-  straight_.adopt(std::array{planning::TimedPoint{position, 0}}, now, 0);
-  straight_.append(aim().position);
-  if (straight_.conflict(position, now, forecast_, forecast_.samples(), radius_, 1,
-                         params_.tuning.imminent.recovery_rate) < infinity)
+  tried_.adopt(std::array{planning::TimedPoint{position, 0}}, now, 0);
+  tried_.append(aim().position);
+  if (tried_.conflict(position, now, forecast_, forecast_.samples(), radius_, 1,
+                      params_.tuning.imminent.recovery_rate) < infinity)
     return false;
-  plan_ = straight_;
+  plan_ = tried_;
   return true;
 }
 
@@ -163,6 +158,25 @@ void SafeIntervalNavigator::replan(const Moment& moment, double now, double conf
   }
   plan_.adopt(planner_.path(), now, planner_.ends_at_goal() ? 0 : planner_.left());
   if (planner_.ends_at_goal()) plan_.append(aim().position);
+  shorten(moment, now);
+}
+
+/// Cuts corners of the plan's next seconds that are due to the grid and to cells occupied for whole
+/// slots, where the direct way keeps the gaps.
+void SafeIntervalNavigator::shorten(const Moment& moment, double now) {
+  constexpr double shorten_time = 3;  // [s]
+  const Vec2 position = moment.pose.position;
+  const double clearance = entry_clearance(moment.map(), position);
+  while (const KeptPlan::Leg* next = plan_.next_leg()) {
+    if (next->depart - now > shorten_time) return;
+    if (!moment.map().is_free(Segment{position, next->end}, clearance)) return;
+    tried_ = plan_;
+    tried_.cut(position);
+    if (tried_.conflict(position, now, forecast_, forecast_.near_samples(), radius_, 1,
+                        params_.tuning.imminent.recovery_rate) < infinity)
+      return;
+    plan_ = tried_;
+  }
 }
 
 /// Command along the plan. A corner is cut when the next leg is in sight.

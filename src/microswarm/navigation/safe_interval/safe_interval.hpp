@@ -33,12 +33,12 @@ class SafeIntervalNavigator : public SteeringNavigator {
  private:
   void update(const Observation& seen, const Stop& stop) override;
   Decision decide(const Moment& moment) override;
-  Decision without_swarm() override;
   Decision finish(const Decision& decision, const Observation& seen) override;
 
   void review(const Moment& moment, double now);
   bool goes_straight(const Moment& moment, double now);
   void replan(const Moment& moment, double now, double conflict);
+  void shorten(const Moment& moment, double now);
   double entry_clearance(const Map& map, Vec2 p) const;
   Command wanted(const Moment& moment, double now);
   Command steady(const Command& command) const;
@@ -51,7 +51,7 @@ class SafeIntervalNavigator : public SteeringNavigator {
   ObstacleForecast forecast_;
   SpaceTimePlanner planner_;
   KeptPlan plan_;
-  KeptPlan straight_;  ///< the straight way to the goal
+  KeptPlan tried_;  ///< another plan that is tested
   ImminentCheck imminent_;
   std::optional<double> reviewed_;  ///< time of the last search [s]
   Command last_;                    ///< last command

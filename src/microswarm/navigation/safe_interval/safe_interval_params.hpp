@@ -17,15 +17,15 @@ struct SafeIntervalParams {
   static MultiModelPredictorParams default_prediction() {
     MultiModelPredictorParams p;
     p.uncertainty = 0.5;
-    p.max_uncertainty = 15;
+    p.max_uncertainty = 12;
     return p;
   }
 
   static constexpr std::string_view type_name = "safe_interval";
   double speed = 80;
-  double gap = 6;
-  double gap_rate = 3;
-  double max_gap = 20;
+  double gap = 5;
+  double gap_rate = 1;
+  double max_gap = 10;
   double wall_gap = 4;
   double horizon = 16;
   double cell_share = 0.25;

@@ -11,9 +11,9 @@ namespace microswarm::navigation {
 struct ImminentTuning {
   double horizon = 2.5;
   double commitment = 0.4;
-  double gap = 2;
-  double gap_rate = 2;
-  double noise_gain = 2;
+  double gap = 1.5;
+  double gap_rate = 1;
+  double noise_gain = 1;
   double recovery_rate = 5;
   double wall_gap = 1.5;
   int directions = 36;
@@ -50,7 +50,7 @@ struct SafeIntervalTuning {
   double slow_share = 0.1;
   double closing_time = 1.5;
   double refresh_period = 1;
-  int max_expansions = 8000;
+  int max_expansions = 5000;
   int max_cells = 400'000;
   ImminentTuning imminent{};
   ConvexOutlineTuning outline{};
