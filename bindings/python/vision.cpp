@@ -3,6 +3,7 @@
 #include "microswarm/config/setting_keys.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/vision/tracking/track_table.hpp"
 #include "microswarm/vision/tracking/video_tracks.hpp"
 #include "microswarm/vision/vessels/channel_graph.hpp"
 #include "microswarm/vision/vessels/vessel_map.hpp"
@@ -180,13 +181,33 @@ class ArrayTracker {
   int width_ = 0, height_ = 0;
 };
 
-/// Tracks the robots of a video file or a folder of pictures.
+/// Tracks of a table of another program.
+vision::TrackResult tracks_of_file(const std::string& file, vision::TrackSettings settings,
+                                   const std::string& times) {
+  if (settings.region) throw InputError(file + ": is a table, region needs pictures");
+  if (!times.empty()) throw InputError(file + ": is a table, times_s needs pictures");
+  const vision::TrackTable table = vision::read_track_table(file, settings.um_per_px);
+  if (!settings.um_per_px) settings.um_per_px = table.um_per_px;
+  if (!settings.um_per_px) throw InputError(file + ": tells no scale: give um_per_px");
+  if (!settings.rate && !table.rows.front().t && !table.interval)
+    throw InputError(file + ": tells no times: give fps");
+  vision::TrackResult result = vision::tracks_of_table(table, file, settings);
+  if (!table.rows.front().id)
+    result.notes.push_back(file + ": has no tracks, its positions are linked");
+  if (table.untracked > 0)
+    result.notes.push_back(file + ": " + std::to_string(table.untracked) +
+                           " positions in no track are left out");
+  return result;
+}
+
+/// Tracks the robots of a video file or a folder of pictures, or takes those of a table.
 py::dict track_file(const std::string& file, const Given& given, const std::string& times,
                     const py::object& report) {
   const vision::TrackSettings settings = track_settings(given);
   std::atomic<double> done = 0;
   std::string ended;
   const auto work = [&](const Stop& stop) {
+    if (vision::is_track_table(file)) return tracks_of_file(file, settings, times);
     const auto frames = vision::open_frames(file, vision::frame_options(settings, times));
     if (!frames->rate()) throw InputError(file + ": tells no times: give fps or times_s");
     if (!settings.um_per_px && !frames->um_per_px())

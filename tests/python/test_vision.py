@@ -129,6 +129,34 @@ def test_pandas_takes_tracks(video):
     assert len(table.groupby("particle")) == 2
 
 
+def test_tracks_of_a_table_are_taken(program, tmp_path, video):
+    tracks = ms.track(video, 0.5, 4, min_mass=100)
+    file = tmp_path / "t.csv"
+
+    def write(*names):
+        np.savetxt(file, np.column_stack([tracks[name] for name in names]), fmt="%.9g", delimiter=",", header=",".join(names), comments="")
+
+    write("frame", "x", "y", "particle", "mass")
+    taken = ms.track(file, 0.5, 4)
+    csv, _ = tracks_of_program(program, file, tmp_path / "out", "--um-per-px", 0.5, "--rate", 4)
+    assert_like_the_csv(taken, csv)
+    assert np.array_equal(taken["particle"], tracks["particle"])
+    for name in ("x_um", "t_s", "vx_um_per_s", "vy_um_per_s", "mass"):
+        assert np.allclose(taken[name], tracks[name], rtol=1e-6), name
+    for values, words in (({"fps": 4}, "give um_per_px"), ({"um_per_px": 0.5}, "give fps"), ({"um_per_px": 0.5, "times_s": file}, "times_s")):
+        with pytest.raises(ms.InputError, match=words):
+            ms.track(file, **values)
+    with pytest.raises(ms.InputError, match="region"):
+        ms.track(file, 0.5, 4, region={"x_px": 0, "y_px": 0, "width_px": 9, "height_px": 9})
+    write("frame", "x", "y", "t_s")
+    with pytest.warns(UserWarning, match="has no tracks"):
+        linked = ms.track(file, 0.5)
+    assert np.array_equal(linked["t_s"], tracks["t_s"]) and len(set(linked["particle"].tolist())) == 2
+    file.write_text("frame,x,y,particle,t_s\n0,1,2,0,1\n1,1,2,0,1\n")
+    with pytest.raises(ms.InputError, match=r"t\.csv:3: frame 1 is at 1 s"):
+        ms.track(file, 0.5)
+
+
 def test_times_of_ones_own(video, tmp_path):
     times = 100 + np.arange(12) / 4
     tracks = ms.track(video, 0.5, times_s=times, min_mass=100)

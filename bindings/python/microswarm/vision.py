@@ -99,6 +99,8 @@ def track(
     frames         array of shape (n, height, width) or (n, height, width, 3), any iterable of such pictures,
                    which are held one at a time, or the name of a video, folder of pictures or TIFF. Pictures are
                    uint8, or uint16, whose numbers have as many bits as the first picture needs, or `depth`.
+                   Or the name of a table, whose tracks are taken, and whose positions are linked where it has none:
+                   CSV of trackpy, CSV or XML of TrackMate, or tracks.csv.
     um_per_px      side of a pixel, 1e-6 to 1e6; default: what ImageJ or OME wrote into a TIFF
     fps            frame rate [Hz]; default: the times of the file, or of the table that `rig run --video` wrote beside
                    it
