@@ -64,7 +64,9 @@ ImminentCheck::Outcome ImminentCheck::roll(Pose2 from, const Command& command, i
   const ObstacleForecast& forecast = *now_.forecast;
   Outcome out{first, counted_gap, from};
   for (int s = first; s < last; ++s) {
-    const bool has_arrived = distance(out.end.position, now_.goal.centre) <= now_.goal.radius;
+    // The commitment ends at the goal; what comes near there later can be escaped from.
+    const bool has_arrived =
+        first == 0 && distance(out.end.position, now_.goal.centre) <= now_.goal.radius;
     const Pose2 next =
         has_arrived ? out.end : unicycle_step(out.end, command, turn_rate_, forecast.step());
     const Segment move{out.end.position, next.position};
