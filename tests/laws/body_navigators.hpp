@@ -40,8 +40,8 @@ inline std::vector<BodyNavigator> body_navigators() {
   guided.obstacle_speed_bound = 50;
   navigation::RadarParams published = radar;
   published.as_published = true;
-  return {{"Hierarchical", hierarchical, 0xce4454b94bfe1fa5, true},
-          {"HierarchicalLearned", hierarchical_learned, 0x7f35d30000256b3a, true},
+  return {{"Hierarchical", hierarchical, 0x633f1bd2f1a88fe4, true},
+          {"HierarchicalLearned", hierarchical_learned, 0x92b57391d436c468, true},
           {"Path", navigation::PathNavigatorParams{}, 0x4ce7911165a783d9},
           {"PathAgainstFlow", against_flow, 0x2cdf8fd66303967f},
           {"PathLearned", learned, 0x891a8f1cfb0b1f27},
@@ -52,7 +52,7 @@ inline std::vector<BodyNavigator> body_navigators() {
           {"PotentialField", navigation::PotentialFieldParams{}, 0xb25c0dc003a24249},
           {"VelocityObstacle", navigation::VelocityObstacleParams{}, 0x3cdda3d52bc4c9f6},
           {"Predictive", navigation::PredictiveParams{}, 0xb69a8061ef8a7fc5},
-          {"SafeInterval", navigation::SafeIntervalParams{}, 0xde7a7e0f69c4046c}};
+          {"SafeInterval", navigation::SafeIntervalParams{}, 0x55a888752dd1d196}};
 }
 
 }  // namespace microswarm
