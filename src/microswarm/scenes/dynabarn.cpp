@@ -93,6 +93,7 @@ std::vector<DynabarnWorld> read_dynabarn(const std::filesystem::path& folder) {
                  world.tracks.push_back(plugin->second);
                });
   std::vector<DynabarnWorld> out;
+  out.reserve(worlds.size());
   for (auto& [number, world] : worlds) out.push_back(std::move(world));
   return out;
 }

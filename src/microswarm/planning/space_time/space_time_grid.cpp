@@ -11,10 +11,10 @@ namespace microswarm::planning {
 namespace {
 
 /// Deviation from a cell's centre that does not count [cells].
-constexpr double rounding = 1e-6;
+constexpr double grid_rounding = 1e-6;
 
 int cells_along(double length, double cell) {
-  return std::max(1, static_cast<int>(std::floor(length / cell + rounding)) + 1);
+  return std::max(1, static_cast<int>(std::floor(length / cell + grid_rounding)) + 1);
 }
 
 }  // namespace
@@ -32,7 +32,7 @@ SpaceTimeGrid::SpaceTimeGrid(const Box& bounds, double cell, double slot, int sl
 }
 
 int SpaceTimeGrid::slot_at(double t) const {
-  return static_cast<int>(std::min(t / slot_ + rounding, static_cast<double>(forever)));
+  return static_cast<int>(std::min(t / slot_ + grid_rounding, static_cast<double>(forever)));
 }
 
 SpaceTimeGrid::Cell SpaceTimeGrid::nearest(Vec2 p) const {
@@ -124,19 +124,19 @@ bool SpaceTimeGrid::for_each_pair(Segment move, Use&& use) const {
     std::swap(b.x, b.y);
   }
   const double extent = b.x - a.x;
-  if (std::abs(extent) < rounding) return true;
+  if (std::abs(extent) < grid_rounding) return true;
   const int direction = extent > 0 ? 1 : -1;
   const int along = (steep ? rows_ : columns_) - 1;
   const int across = (steep ? columns_ : rows_) - 1;
   const double slope = (b.y - a.y) / extent;
-  const auto first = extent > 0 ? std::ceil(a.x - rounding) : std::floor(a.x + rounding);
-  const auto last = extent > 0 ? std::floor(b.x + rounding) : std::ceil(b.x - rounding);
+  const auto first = extent > 0 ? std::ceil(a.x - grid_rounding) : std::floor(a.x + grid_rounding);
+  const auto last = extent > 0 ? std::floor(b.x + grid_rounding) : std::ceil(b.x - grid_rounding);
   const int end = static_cast<int>(last);
   for (int i = static_cast<int>(first); direction * (end - i) >= 0; i += direction) {
     if (i < 0 || i > along) continue;
     const double beside = a.y + slope * (i - a.x);
-    const int low = std::clamp(static_cast<int>(std::floor(beside + rounding)), 0, across);
-    const int high = std::clamp(static_cast<int>(std::ceil(beside - rounding)), 0, across);
+    const int low = std::clamp(static_cast<int>(std::floor(beside + grid_rounding)), 0, across);
+    const int high = std::clamp(static_cast<int>(std::ceil(beside - grid_rounding)), 0, across);
     const double share = (i - a.x) / extent;
     if (!use(share, steep ? at(low, i) : at(i, low), steep ? at(high, i) : at(i, high)))
       return false;
@@ -164,10 +164,10 @@ double SpaceTimeGrid::departure(Segment move, double speed, double depart, doubl
         return std::isfinite(later);
       }
       const double until = std::min(1.0, share + half) * duration;
-      const int last = std::min(slots_ - 1, slot_at(depart + until - 4 * rounding * slot_));
+      const int last = std::min(slots_ - 1, slot_at(depart + until - 4 * grid_rounding * slot_));
       for (int slot = last; slot >= first; --slot) {
         if (((word(low, slot) | word(high, slot)) & bit(slot)) == 0) continue;
-        later = std::max((slot + 1) * slot_ - since, depart + slot_ * rounding);
+        later = std::max((slot + 1) * slot_ - since, depart + slot_ * grid_rounding);
         return false;
       }
       return true;

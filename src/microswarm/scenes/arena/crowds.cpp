@@ -18,6 +18,7 @@ constexpr ArenaGroup crowds = ArenaGroup::crowds, sight = ArenaGroup::sight,
 void crowd(ArenaDraft& d, int discs, double slowest, double fastest) {
   for (int i = 0; i < discs; ++i) {
     std::vector<Vec2> places;
+    places.reserve(4);
     for (int k = 0; k < 4; ++k) places.push_back({d.uniform(350, 1680), d.uniform(50, 1150)});
     const double radius = d.uniform(22, 50);
     d.add(DiscShape{radius}, Waypoints{places, d.uniform(slowest, fastest), AtEnd::loop});
