@@ -13,7 +13,7 @@ using Json = nlohmann::json;
 
 class Commands : public CommandLine {
  protected:
-  Commands() { write("flight.yaml", two_rooms()); }
+  Commands() { write("flight.yaml", noisy_rooms()); }
 };
 
 TEST_F(Commands, HelpAndVersion) {

@@ -40,7 +40,7 @@ bool is_wall_clock(const std::string& column) {
 class Sweeps : public CommandLine {
  protected:
   Sweeps() {
-    write("flight.yaml", two_rooms());
+    write("flight.yaml", noisy_rooms());
     write("sweep.yaml", sweep_of(6));
   }
 
@@ -76,7 +76,7 @@ TEST_F(Sweeps, TellsWhatCameOfEachCell) {
 }
 
 TEST_F(Sweeps, TrialsThatAreOneRunAreNoted) {
-  write("flight.yaml", with(two_rooms(), "position_noise_um", "  response_lag_s: 0.1"));
+  write("flight.yaml", two_rooms());
   const auto note_on = [&](const std::string& text) {
     write("same.yaml", "name: same\nscenario: flight.yaml\n" + text);
     const Outcome outcome = run({"sweep", "same.yaml", "--json", "--out", "same.db"});
