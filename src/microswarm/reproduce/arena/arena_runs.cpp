@@ -5,31 +5,10 @@
 
 #include "microswarm/core/execution/parallel.hpp"
 #include "microswarm/planning/exact/shortest_paths.hpp"
-#include "microswarm/planning/space_time/earliest_arrival.hpp"
 #include "microswarm/scenes/arena/arena.hpp"
 #include "microswarm/scenes/avoidance_worlds.hpp"
 
 namespace microswarm::reproduce {
-namespace {
-
-/// Time of the earliest arrival; nothing if there is none.
-std::optional<double> find_optimum(const experiment::Scenario& scenario, const World& world,
-                                   const Stop& stop) {
-  const SwarmLimits swarm = swarm_limits(scenario.swarm);
-  const planning::EarliestArrival found =
-      planning::earliest_arrival(world,
-                                 {.start = scenario.start->position,
-                                  .goal = *scenario.goal,
-                                  .tolerance = scenario.goal_tolerance,
-                                  .radius = swarm.radius,
-                                  .speed = swarm.max_speed,
-                                  .horizon = scenario.time_limit},
-                                 stop);
-  return found.status == Status::solved ? std::optional(found.time) : std::nullopt;
-}
-
-}  // namespace
-
 std::vector<ArenaScene> run_arena(const std::vector<DrivenNavigator>& who,
                                   const ArenaExtent& extent,
                                   const std::function<void(double)>& progress, const Stop& stop) {

@@ -9,7 +9,6 @@
 
 #include "microswarm/core/execution/parallel.hpp"
 #include "microswarm/core/maths/statistics.hpp"
-#include "microswarm/planning/space_time/earliest_arrival.hpp"
 #include "microswarm/reproduce/arena/driven_run.hpp"
 #include "microswarm/reproduce/figures.hpp"
 #include "microswarm/scenes/avoidance_worlds.hpp"
@@ -20,8 +19,8 @@ namespace {
 
 constexpr int all_cases = 500, quick_cases = 40;
 constexpr double crowd_clearance = 42;  // of the robot of 30 µm [µm]
-// Published for this task with an invisible robot, as later papers cite it.
-constexpr double published_orca = 43, published_sarl = 100;  // crossed [%]
+// Published for SARL with an invisible robot, as later papers cite it.
+constexpr double published_sarl = 100;  // crossed [%]
 
 std::vector<std::optional<double>> crowd_optima(int cases, const ReproduceOptions& options,
                                                 const Stop& stop) {
@@ -30,17 +29,7 @@ std::vector<std::optional<double>> crowd_optima(int cases, const ReproduceOption
   for_each_index(optima.size(), 0, [&](std::size_t i) {
     if (stop()) return;
     const experiment::Scenario s = scenes::orca_crowd_scenario(i + 1);
-    const SwarmLimits swarm = swarm_limits(s.swarm);
-    const planning::EarliestArrival found =
-        planning::earliest_arrival(scenes::avoidance_world(s),
-                                   {.start = s.start->position,
-                                    .goal = *s.goal,
-                                    .tolerance = s.goal_tolerance,
-                                    .radius = swarm.radius,
-                                    .speed = swarm.max_speed,
-                                    .horizon = s.time_limit},
-                                   stop);
-    if (found.status == Status::solved) optima[i] = found.time;
+    optima[i] = find_optimum(s, scenes::avoidance_world(s), stop);
   });
   return optima;
 }
@@ -78,16 +67,11 @@ std::vector<report::ReproduceRow> crowd_crossing(const ReproduceOptions& options
     const auto aim = [&](double value) {
       return navigator.is_recommended ? std::optional(value) : std::nullopt;
     };
-    const bool reacts = navigator.name == "velocity obstacle";
-    add(make_row("crowd", named("crossed"), "%",
-                 navigator.is_recommended ? std::optional(published_sarl)
-                 : reacts                 ? std::optional(published_orca)
-                                          : std::nullopt,
-                 100.0 * crossed / cases, aim(100), false),
-        share_text(crossed, cases) + (navigator.is_recommended
-                                          ? "; published at second hand: 99 to 100 (SARL)"
-                                      : reacts ? "; published at second hand: 43 (ORCA)"
-                                               : ""));
+    add(make_row("crowd", named("crossed"), "%", aim(published_sarl), 100.0 * crossed / cases,
+                 aim(100), false),
+        share_text(crossed, cases) +
+            (navigator.is_recommended ? "; published at second hand: 99 to 100 (SARL), 43 (ORCA)"
+                                      : ""));
     add(make_row("crowd", named("avoidable contact"), "%", {}, 100.0 * avoidable / cases, aim(0)),
         share_text(avoidable, cases));
     add(make_row("crowd", named("time, mean"), "s", {},

@@ -9,6 +9,7 @@
 #include "microswarm/experiment/run/contact_judge.hpp"
 #include "microswarm/experiment/scenario/validate.hpp"
 #include "microswarm/experiment/session/session.hpp"
+#include "microswarm/planning/space_time/earliest_arrival.hpp"
 
 namespace microswarm::reproduce {
 namespace {
@@ -75,6 +76,21 @@ DrivenRun drive(const experiment::Scenario& scenario, const World& world, const 
   run.step_p50 = steps.p50;
   run.step_p99 = steps.p99;
   return run;
+}
+
+std::optional<double> find_optimum(const experiment::Scenario& scenario, const World& world,
+                                   const Stop& stop) {
+  const SwarmLimits swarm = swarm_limits(scenario.swarm);
+  const planning::EarliestArrival found =
+      planning::earliest_arrival(world,
+                                 {.start = scenario.start->position,
+                                  .goal = *scenario.goal,
+                                  .tolerance = scenario.goal_tolerance,
+                                  .radius = swarm.radius,
+                                  .speed = swarm.max_speed,
+                                  .horizon = scenario.time_limit},
+                                 stop);
+  return found.status == Status::solved ? std::optional(found.time) : std::nullopt;
 }
 
 std::string share_text(int count, int all) {

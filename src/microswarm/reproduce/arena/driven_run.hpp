@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -48,6 +49,10 @@ struct DrivenRun {
 /// Runs the scenario from its start, with a verdict on each contact; a scenario that `validate`
 /// refuses is not begun.
 DrivenRun drive(const experiment::Scenario& scenario, const World& world, const Stop& stop);
+
+/// Time of the earliest arrival with all motions known [s]; nothing if there is none.
+std::optional<double> find_optimum(const experiment::Scenario& scenario, const World& world,
+                                   const Stop& stop);
 
 /// "3 of 60; 95 %: 1.7 – 13.7", in percent.
 std::string share_text(int count, int all);
