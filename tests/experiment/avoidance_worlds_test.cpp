@@ -19,7 +19,7 @@ namespace {
 
 using scenes::AvoidanceOptions;
 
-constexpr int worlds = 10;
+constexpr int drawn_worlds = 10;
 
 scenes::AvoidanceOptions with_walls(scenes::AvoidanceOptions options) {
   options.walls = true;
@@ -28,7 +28,7 @@ scenes::AvoidanceOptions with_walls(scenes::AvoidanceOptions options) {
 
 template <class Check>
 void for_each_world(const scenes::AvoidanceOptions& options, Check&& check_one) {
-  for (std::uint64_t seed = 0; seed < worlds; ++seed) {
+  for (std::uint64_t seed = 0; seed < drawn_worlds; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Scenario s = scenes::avoidance_scenario(seed, options);
     check_one(s, scenes::avoidance_world(s));
