@@ -13,6 +13,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/experiment/scenario/validate.hpp"
+#include "microswarm/experiment/session/session.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/planning/exact/shortest_paths.hpp"
 #include "microswarm/world/map/map.hpp"
@@ -77,6 +78,20 @@ TEST(Arena, StillScenesHaveAWay) {
     planning::ShortestPaths paths(map, radius_in(s));
     EXPECT_EQ(paths.find(s.start->position, *s.goal).status, Status::solved);
   });
+}
+
+// Among walls that close in the swarm leaves in time, though it would rather wait for its way.
+TEST(Arena, NoWaitWhereAChannelClosesIn) {
+  const auto& kinds = scenes::arena_kinds();
+  const auto kind = std::ranges::find(kinds, "channel_narrow", &scenes::ArenaKind::name);
+  ASSERT_NE(kind, kinds.end());
+  for (std::uint64_t seed = 300; seed < 310; ++seed) {
+    Scenario s = scenes::arena_scenario(static_cast<std::size_t>(kind - kinds.begin()), seed);
+    s.navigator = navigation::SafeIntervalParams{};
+    const World world = build_world({s, formats::read_map_parts(s.map)});
+    const RunResult result = simulate(s, world);
+    EXPECT_EQ(result.status, Status::solved) << seed;
+  }
 }
 
 /// A scenario with the samples of its tracks.

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "microswarm/core/maths/angles.hpp"
@@ -25,7 +27,8 @@ struct LateDrive {
   SwarmLimits swarm = slow_vortex;
   Pose2 pose{{200, 500}, 0};
   typename N::Params params{};
-  double min_gap = infinity;  ///< from edge to edge [µm]
+  std::function<bool(int frame)> is_missed{};  ///< whether a frame does not show the swarm
+  double min_gap = infinity;                   ///< from edge to edge [µm]
   double time = 0;
   bool arrived = false;
   double turned = 0;  ///< sum of the changes of the commanded heading [rad]
@@ -46,12 +49,11 @@ struct LateDrive {
     while (time < seconds && !arrived) {
       const double seen = std::max(0.0, time - 0.05);
       const Snapshot now = world.at(seen);
-      const Command command = navigator.step({.now = time,
-                                              .seen = seen,
-                                              .swarm = SwarmPose{was_there.front(), swarm.radius},
-                                              .robots = {},
-                                              .world = borrowed(now)},
-                                             {});
+      std::optional<SwarmPose> swarm_seen = SwarmPose{was_there.front(), swarm.radius};
+      if (is_missed && is_missed(static_cast<int>(commands.size()))) swarm_seen.reset();
+      const Command command = navigator.step(
+          {.now = time, .seen = seen, .swarm = swarm_seen, .robots = {}, .world = borrowed(now)},
+          {});
       if (!commands.empty()) turned += turn_between(command.heading, commands.back().heading);
       commands.push_back(command);
       states.push_back(navigator.view().state);

@@ -11,8 +11,6 @@
 namespace microswarm::navigation {
 namespace {
 
-using SafeIntervalDrive = LateDrive<SafeIntervalNavigator>;
-
 std::vector<Polygon> wall_with_gap(double low, double high) {
   return {{{{980, 0}, {1020, 0}, {1020, low}, {980, low}}, {}},
           {{{980, high}, {1020, high}, {1020, 1000}, {980, 1000}}, {}}};
@@ -20,7 +18,7 @@ std::vector<Polygon> wall_with_gap(double low, double high) {
 
 TEST(SafeInterval, GoesStraightInTheOpen) {
   for (const SwarmLimits& swarm : {slow_vortex, slow_ribbon}) {
-    SafeIntervalDrive drive{.swarm = swarm};
+    LateDrive<SafeIntervalNavigator> drive{.swarm = swarm};
     drive.run(40);
     EXPECT_TRUE(drive.arrived);
     EXPECT_LT(drive.time, 1600 / 70.0 + 1);
@@ -36,8 +34,8 @@ TEST(SafeInterval, LetsWhatIsThreeTimesAsFastCross) {
       // It crosses the straight way when the swarm is there.
       const Vec2 from{900, y};
       const Vec2 velocity{0, (500 - y) / 10};
-      SafeIntervalDrive drive{.obstacles = {{DiscShape{80}, Straight{from, velocity}}},
-                              .swarm = swarm};
+      LateDrive<SafeIntervalNavigator> drive{
+          .obstacles = {{DiscShape{80}, Straight{from, velocity}}}, .swarm = swarm};
       drive.run(60);
       EXPECT_TRUE(drive.arrived);
       EXPECT_GT(drive.min_gap, 0) << y;
@@ -48,7 +46,7 @@ TEST(SafeInterval, LetsWhatIsThreeTimesAsFastCross) {
 TEST(SafeInterval, StepsAsideOfWhatComesHeadOn) {
   for (const SwarmLimits& swarm : {slow_vortex, slow_ribbon})
     for (const double faster : {1.0, 2.0, 3.0}) {
-      SafeIntervalDrive drive{
+      LateDrive<SafeIntervalNavigator> drive{
           .obstacles = {{DiscShape{100}, Straight{{1900, 500}, {-70 * faster, 0}}}},
           .swarm = swarm};
       drive.run(60);
@@ -65,7 +63,7 @@ TEST(SafeInterval, LeavesAClosedDoorForAnOpenGap) {
                                    {{{980, 600}, {1020, 600}, {1020, 1000}, {980, 1000}}, {}}};
   const Waypoints closes{.points = {{1000, 740}, {1000, 500}}, .speed = 40, .at_end = AtEnd::stay};
   for (const SwarmLimits& swarm : {slow_vortex, slow_ribbon}) {
-    SafeIntervalDrive drive{
+    LateDrive<SafeIntervalNavigator> drive{
         .walls = walls, .obstacles = {{BoxShape{210, 30}, closes}}, .swarm = swarm};
     drive.run(60);
     EXPECT_TRUE(drive.arrived);
@@ -76,8 +74,9 @@ TEST(SafeInterval, LeavesAClosedDoorForAnOpenGap) {
 
 // A body that rests in the only way may go; in front of it the swarm waits.
 TEST(SafeInterval, WaitsInFrontOfWhatRestsInTheOnlyWay) {
-  SafeIntervalDrive drive{.walls = wall_with_gap(380, 620),
-                          .obstacles = {{BoxShape{240, 30}, Still{{1000, 500}, 0.5 * pi}}}};
+  LateDrive<SafeIntervalNavigator> drive{
+      .walls = wall_with_gap(380, 620),
+      .obstacles = {{BoxShape{240, 30}, Still{{1000, 500}, 0.5 * pi}}}};
   drive.run(25);
   EXPECT_FALSE(drive.arrived);
   EXPECT_GT(drive.min_gap, 0);
@@ -89,8 +88,8 @@ TEST(SafeInterval, WaitsForAValveAndGoesThrough) {
   for (const double phase : {0.0, 0.25, 0.5, 0.75}) {
     Valve now = valve;
     now.phase = phase;
-    SafeIntervalDrive drive{.walls = wall_with_gap(380, 620),
-                            .obstacles = {{now, Still{{1000, 500}, 0}}}};
+    LateDrive<SafeIntervalNavigator> drive{.walls = wall_with_gap(380, 620),
+                                           .obstacles = {{now, Still{{1000, 500}, 0}}}};
     drive.run(60);
     EXPECT_TRUE(drive.arrived) << phase;
     EXPECT_GT(drive.min_gap, 0) << phase;
@@ -103,9 +102,10 @@ TEST(SafeInterval, FollowsASlowerDiscSteadily) {
   const std::vector<Polygon> walls{{{{300, 0}, {1700, 0}, {1700, 420}, {300, 420}}, {}},
                                    {{{300, 580}, {1700, 580}, {1700, 1000}, {300, 1000}}, {}}};
   for (const SwarmLimits& swarm : {slow_vortex, slow_ribbon}) {
-    SafeIntervalDrive drive{.walls = walls,
-                            .obstacles = {{DiscShape{45}, Straight{{500, 500}, {35, 0}}}},
-                            .swarm = swarm};
+    LateDrive<SafeIntervalNavigator> drive{
+        .walls = walls,
+        .obstacles = {{DiscShape{45}, Straight{{500, 500}, {35, 0}}}},
+        .swarm = swarm};
     drive.run(90);
     EXPECT_TRUE(drive.arrived);
     EXPECT_GT(drive.min_gap, 0);
@@ -121,14 +121,15 @@ TEST(SafeInterval, ThroughAChannelWithMovingWalls) {
   channel.amplitude = 20;
   channel.block_centre = {1000, 500};
   channel.block_height = 1100;
-  SafeIntervalDrive drive{.obstacles = {{channel, Still{{0, 0}, 0}}}};
+  LateDrive<SafeIntervalNavigator> drive{.obstacles = {{channel, Still{{0, 0}, 0}}}};
   drive.run(120);
   EXPECT_TRUE(drive.arrived);
   EXPECT_GT(drive.min_gap, 0);
 }
 
 TEST(SafeInterval, GivesWayBeforeItsGoal) {
-  SafeIntervalDrive drive{.obstacles = {{DiscShape{60}, HarmonicLine{room_goal, {0, 300}, 8, 0}}}};
+  LateDrive<SafeIntervalNavigator> drive{
+      .obstacles = {{DiscShape{60}, HarmonicLine{room_goal, {0, 300}, 8, 0}}}};
   drive.run(120);
   EXPECT_TRUE(drive.arrived);
   EXPECT_GT(drive.min_gap, 0);
@@ -137,7 +138,7 @@ TEST(SafeInterval, GivesWayBeforeItsGoal) {
 // Lanes that are hardly wider than the swarm are found on a finer grid.
 TEST(SafeInterval, FindsALaneHardlyWiderThanTheSwarm) {
   for (const double low : {440.0, 447.3}) {
-    SafeIntervalDrive drive{.walls = wall_with_gap(low, low + 106)};
+    LateDrive<SafeIntervalNavigator> drive{.walls = wall_with_gap(low, low + 106)};
     drive.run(60);
     EXPECT_TRUE(drive.arrived) << low;
     EXPECT_GT(drive.min_gap, 0) << low;
@@ -145,7 +146,7 @@ TEST(SafeInterval, FindsALaneHardlyWiderThanTheSwarm) {
 }
 
 TEST(SafeInterval, ArrivesAmongWhatSwings) {
-  SafeIntervalDrive drive{
+  LateDrive<SafeIntervalNavigator> drive{
       .obstacles = {{DiscShape{80}, HarmonicLine{{900, 500}, {100, 300}, 9, 0}},
                     {BoxShape{90, 60}, HarmonicArc{{1300, 500}, 200, 0, 2, 12, 0}}}};
   drive.run(60);
@@ -155,7 +156,7 @@ TEST(SafeInterval, ArrivesAmongWhatSwings) {
 
 TEST(SafeInterval, TheSameRunGivesTheSameCommands) {
   const auto driven = [] {
-    SafeIntervalDrive drive{
+    LateDrive<SafeIntervalNavigator> drive{
         .obstacles = {{DiscShape{80}, HarmonicLine{{900, 500}, {100, 300}, 9, 0}},
                       {DiscShape{60}, Straight{{1500, 100}, {-40, 30}}}}};
     drive.run(30);

@@ -196,6 +196,13 @@ void MultiModelPredictor::issue_forecasts(BodyHistory& history) const {
   }
 }
 
+double MultiModelPredictor::surprise(std::size_t body) const {
+  const BodyHistory& history = histories_[seen_bodies_[body]];
+  const double expected =
+      params_.tuning.straight_prior * norm(history.motion.velocity) * spans_.back();
+  return expected > 0 ? std::min(1.0, history.error / expected) : 0;
+}
+
 PredictedBody MultiModelPredictor::at(std::size_t body, double t) const {
   const BodyHistory& history = histories_[seen_bodies_[body]];
   const TrackedBody& motion = history.motion;

@@ -37,6 +37,9 @@ class MultiModelPredictor {
   PredictedBody at(std::size_t body, double t) const;
   /// Index of the selected model in MotionModels.
   std::size_t model(std::size_t body) const { return histories_[seen_bodies_[body]].selected; }
+  /// Share, 0 to 1, by which the errors of a body's prediction are those of one that turns without
+  /// notice; 1 for a new body.
+  double surprise(std::size_t body) const;
   const TrackedBody& tracked(std::size_t body) const {
     return histories_[seen_bodies_[body]].motion;
   }

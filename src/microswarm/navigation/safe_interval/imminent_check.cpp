@@ -75,7 +75,9 @@ ImminentCheck::Outcome ImminentCheck::roll(Pose2 from, const Command& command, i
       const double away = forecast.hollow_clearance(next.position, now_.radius + counted_gap);
       const double gap = away - now_.radius;
       const double needed = in_contact_only ? contact_gap : tuning_.gap;
-      if (gap < std::min(needed, present_hollow_gap_)) return out;
+      const double recovered = tuning_.recovery_rate * (s + 1) * forecast.step();
+      if (gap < std::min(needed, present_hollow_gap_ + (in_contact_only ? 0 : recovered)))
+        return out;
       out.least = std::min(out.least, gap);
     }
     for (const Near& near : near_) {

@@ -99,7 +99,9 @@ void ObstacleForecast::update(const Snapshot& world, const MultiModelPredictor& 
     }
     const bool rests = resting_.rests(i);
     if (rests) standing_.push_back({outline.centre, outline.radius});
-    bodies_.push_back({i, motion.noise, rests});
+    const double late = effect - world.time() + params_.tuning.reaction_time;
+    const double reach = late * norm(motion.velocity) + params_.tuning.noisy_turn * motion.noise;
+    bodies_.push_back({i, motion.noise, rests, rests ? 0 : predictor.surprise(i) * reach});
   }
   hollow_.assign(hollow_bodies_);
   predict_until(predictor, near_samples_);
@@ -138,7 +140,7 @@ double ObstacleForecast::gap(int sample, std::size_t i) const {
   if (rests(i)) return params_.gap + noise;
   const double grown = params_.gap + params_.gap_rate * sample * step_;
   return std::min(std::max(params_.gap, params_.max_gap), grown) + noise +
-         at(sample, i).uncertainty;
+         at(sample, i).uncertainty + params_.tuning.turn_gain * turn_reach(i);
 }
 
 double ObstacleForecast::gap_along(Segment move, int sample, std::size_t i, double radius,

@@ -53,6 +53,8 @@ class ObstacleForecast {
   bool rests(std::size_t i) const { return bodies_[i].rests; }
   /// Standard deviation of an observed coordinate of the body [µm].
   double noise(std::size_t i) const { return bodies_[i].noise; }
+  /// Way [µm] of a body that turns without notice, until the swarm answers.
+  double turn_reach(std::size_t i) const { return bodies_[i].turn_reach; }
   /// Gap [µm] that a plan keeps from a body at a sample, including its uncertainty.
   double gap(int sample, std::size_t i) const;
   /// Gap [µm] between a swarm of a radius [µm] that moves straight during the time after a sample,
@@ -84,6 +86,7 @@ class ObstacleForecast {
     std::size_t index = 0;  ///< in the frame
     double noise = 0;       ///< [µm]
     bool rests = false;
+    double turn_reach = 0;  ///< [µm]
   };
 
   void predict_until(const MultiModelPredictor& predictor, int sample);

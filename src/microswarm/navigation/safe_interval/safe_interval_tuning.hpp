@@ -50,6 +50,11 @@ struct SafeIntervalTuning {
   double slow_share = 0.1;
   double closing_time = 1.5;
   double refresh_period = 1;
+  double reaction_time = 0.3;
+  double noisy_turn = 2;
+  double turn_gain = 0.7;
+  double straying_gain = 1.5;
+  double straying_time = 3;
   int max_expansions = 5000;
   int max_cells = 400'000;
   ImminentTuning imminent{};
@@ -74,6 +79,16 @@ struct SafeIntervalTuning {
           s("closing_time", 0, 60, "Time for which a non-convex obstacle closes in."));
     visit(self.refresh_period,
           s("refresh_period", 0, 60, "Time after which a non-convex obstacle is drawn again."));
+    visit(self.reaction_time,
+          s("reaction_time", 0, 60, "Time in which an obstacle's turn is noticed and answered."));
+    visit(self.noisy_turn,
+          plain("noisy_turn", 0, 100, "Noises of an obstacle's position added to that way."));
+    visit(self.turn_gain,
+          plain("turn_gain", 0, 100, "Share of an unnoticed turn's way added to the gap."));
+    visit(self.straying_gain,
+          plain("straying_gain", 0, 100, "Position errors of the swarm added to its gaps."));
+    visit(self.straying_time,
+          s("straying_time", 1e-2, 1e3, "Time constant with which these errors are forgotten."));
     visit(self.max_expansions,
           plain("max_expansions", 1, 1e8, "Maximum number of expanded states of a search."));
     visit(self.max_cells, plain("max_cells", 100, 1e8, "Maximum number of cells."));

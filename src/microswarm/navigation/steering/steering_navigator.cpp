@@ -34,11 +34,29 @@ Command SteeringNavigator::step(const Observation& seen, const Stop& stop) {
 }
 
 Decision SteeringNavigator::decision_for(const Observation& seen, const Stop& stop) {
-  if (!sees_swarm(seen)) return without_swarm();
+  if (sees_swarm(seen)) {
+    last_seen_ = {seen.seen, seen.swarm->pose, seen.swarm->radius};
+    delay_ = seen.age() + swarm_.response_lag;
+    pose_ = compensator_.at_effect(seen);
+    return decision_at({seen, pose_, stop});
+  }
+  if (!misses_briefly(seen)) return without_swarm();
+  Observation bridged = seen;
+  bridged.swarm = {compensator_.moved(last_seen_->pose, last_seen_->t, seen.seen),
+                   last_seen_->radius};
+  if (!sees_swarm(bridged)) return without_swarm();
   delay_ = seen.age() + swarm_.response_lag;
-  pose_ = compensator_.at_effect(seen);
-  const Moment moment{seen, pose_, stop};
+  pose_ = compensator_.moved(last_seen_->pose, last_seen_->t, seen.now + swarm_.response_lag);
+  return decision_at({bridged, pose_, stop});
+}
+
+Decision SteeringNavigator::decision_at(const Moment& moment) {
   return arrives(pose_.position) ? at_goal(moment) : decide(moment);
+}
+
+bool SteeringNavigator::misses_briefly(const Observation& seen) const {
+  return bridges_misses() && !seen.swarm && last_seen_ && seen.now >= last_seen_->t &&
+         seen.now - last_seen_->t <= frame_timeout_;
 }
 
 bool SteeringNavigator::sees_swarm(const Observation& seen) const {

@@ -51,6 +51,9 @@ class SteeringNavigator : public Navigator {
   /// Whether the observation shows a swarm to steer: a recent frame, a world, and a swarm whose
   /// pose is finite and in no wall.
   virtual bool sees_swarm(const Observation& seen) const;
+  /// Whether a swarm that frames miss is taken to have moved as commanded, until it has not been
+  /// seen for the age above which a frame is too old.
+  virtual bool bridges_misses() const { return false; }
   /// One of these three decides.
   virtual Decision decide(const Moment& moment) = 0;
   virtual Decision at_goal(const Moment&) { return hold(NavigatorState::arrived); }
@@ -94,6 +97,8 @@ class SteeringNavigator : public Navigator {
 
  private:
   Decision decision_for(const Observation& seen, const Stop& stop);
+  Decision decision_at(const Moment& moment);
+  bool misses_briefly(const Observation& seen) const;
   void record(double now, const Command& command);
 
   SwarmLimits swarm_;
@@ -105,6 +110,7 @@ class SteeringNavigator : public Navigator {
   DelayCompensator compensator_;
   double delay_ = 0;
   std::optional<double> last_command_;
+  std::optional<PoseStamped> last_seen_;  ///< the swarm in the last frame that showed it
   Pose2 pose_;
   NavigatorView view_;
 };

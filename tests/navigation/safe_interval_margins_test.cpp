@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// Margins of the safe-interval navigator for what it cannot know exactly.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "microswarm/navigation/safe_interval/obstacle_forecast.hpp"
+#include "microswarm/navigation/safe_interval/safe_interval.hpp"
+#include "tests/navigation/late_drive.hpp"
+
+namespace microswarm::navigation {
+namespace {
+
+constexpr double frame_time = 0.1;  // [s]
+
+/// Frames of an open place with obstacles, and a swarm at rest that is seen up to `error` µm beside
+/// its place.
+struct Seen {
+  std::vector<Obstacle> obstacles{};
+  double error = 0;
+  double delay = 0;
+  double noise = 0;  ///< of the obstacles' positions
+  Rng rng{7, Purpose::test};
+  int frames = 0;
+  SafeIntervalParams params{};
+  MultiModelPredictor predictor{params.prediction};
+  std::shared_ptr<const Map> map =
+      std::make_shared<const Map>(Box{{0, 0}, {2000, 1000}}, std::vector<Polygon>{});
+
+  Snapshot next() {
+    const double t = frame_time * frames++;
+    std::vector<Body> bodies;
+    for (std::uint32_t i = 0; i < obstacles.size(); ++i) append_bodies(obstacles[i], i, t, bodies);
+    for (Body& body : bodies) {
+      const double dx = rng.normal(), dy = rng.normal();
+      shift(body, noise * Vec2{dx, dy});
+    }
+    return Snapshot(map, t, std::move(bodies));
+  }
+  Observation observe(const Snapshot& frame) const {
+    const double shown = frames % 2 == 0 ? error : -error;
+    return {.now = frame.time() + delay,
+            .seen = frame.time(),
+            .swarm = SwarmPose{{{200 + shown, 500}, 0}, 50},
+            .robots = {},
+            .world = borrowed(frame)};
+  }
+};
+
+/// A way with a turn after every 0.9 to 1.5 s, which no motion model repeats.
+Obstacle turning_disc() {
+  Waypoints way{.points = {{1000, 500}}, .speed = 60, .at_end = AtEnd::stay};
+  Rng rng(3, Purpose::test);
+  for (int k = 0; k < 40; ++k)
+    way.points.push_back(way.points.back() +
+                         rng.uniform(54, 90) * unit_vector(rng.uniform(-pi, pi)));
+  return {DiscShape{40}, way};
+}
+
+TEST(SafeIntervalMargins, TheGapFromWhatTurnsWithoutNoticeIsTheWayUntilTheAnswer) {
+  for (const double delay : {0.0, 0.4}) {
+    Seen seen{.obstacles = {{DiscShape{40}, Straight{{200, 200}, {60, 0}}}, turning_disc()},
+              .delay = delay};
+    ObstacleForecast forecast(seen.params, 80);
+    for (int k = 0; k < 150; ++k) {
+      const Snapshot frame = seen.next();
+      seen.predictor.update(seen.observe(frame));
+      forecast.update(frame, seen.predictor, frame.time() + delay, std::array{Vec2{200, 500}});
+    }
+    ASSERT_EQ(forecast.size(), 2u);
+    const double way = 60 * (delay + seen.params.tuning.reaction_time);
+    EXPECT_LT(forecast.turn_reach(0), 0.1 * way) << "it has always gone straight";
+    EXPECT_NEAR(forecast.turn_reach(1), way, 0.2 * way);
+    const double known = seen.params.gap + forecast.noise(1) + forecast.at(0, 1).uncertainty;
+    EXPECT_NEAR(forecast.gap(0, 1), known + 0.7 * forecast.turn_reach(1), 1e-9);
+  }
+}
+
+TEST(SafeIntervalMargins, NoiseHidesATurnForLonger) {
+  Seen seen{.obstacles = {turning_disc()}, .noise = 6};
+  ObstacleForecast forecast(seen.params, 80);
+  for (int k = 0; k < 100; ++k) {
+    const Snapshot frame = seen.next();
+    seen.predictor.update(seen.observe(frame));
+    forecast.update(frame, seen.predictor, frame.time(), std::array{Vec2{200, 500}});
+  }
+  ASSERT_GT(forecast.noise(0), 3);
+  const double way = seen.params.tuning.reaction_time * norm(seen.predictor.tracked(0).velocity);
+  EXPECT_NEAR(forecast.turn_reach(0), way + 2 * forecast.noise(0), 1);
+}
+
+TEST(SafeIntervalMargins, ANewObstacleMayTurn) {
+  Seen seen{.obstacles = {{DiscShape{40}, Straight{{200, 200}, {60, 0}}}}};
+  for (int k = 0; k < 3; ++k) {
+    const Snapshot frame = seen.next();
+    seen.predictor.update(seen.observe(frame));
+  }
+  EXPECT_EQ(seen.predictor.surprise(0), 1);
+}
+
+// The swarm is told to stay and seems to move: its gaps grow by that, its radius does not.
+TEST(SafeIntervalMargins, GapsGrowByHowFarTheSwarmIsFromWhereItShouldBe) {
+  const auto radius = [](double error) {
+    Seen seen{.obstacles = {{DiscShape{40}, Still{{1500, 500}, 0}}}, .error = error};
+    SafeIntervalParams params;
+    SafeIntervalNavigator navigator(params, body_task(slow_vortex), Rng(1, Purpose::planner));
+    navigator.prepare(seen.next(), {});
+    double shown = 0;
+    for (int k = 0; k < 100; ++k) {
+      const Snapshot frame = seen.next();
+      navigator.step(seen.observe(frame), {});
+      navigator.overruled(frame.time(), {0, 0});
+      shown = std::get<PredictiveDiagnostics>(navigator.diagnostics()).radius;
+    }
+    return shown;
+  };
+  EXPECT_NEAR(radius(0), 50, 1e-6);
+  // Along one axis by 2 · 4 µm from frame to frame: 8 ÷ √2 µm a coordinate.
+  EXPECT_NEAR(radius(4), 50 + 1.5 * 8 / std::sqrt(2), 0.5);
+}
+
+TEST(SafeIntervalMargins, ASwarmThatFramesMissIsWhereItsCommandsTookIt) {
+  LateDrive<SafeIntervalNavigator> drive;
+  drive.is_missed = [](int frame) { return frame % 4 >= 2; };
+  drive.run(40);
+  EXPECT_TRUE(drive.arrived);
+  EXPECT_FALSE(drive.was(NavigatorState::blind));
+  EXPECT_LT(drive.time, 1600 / 70.0 + 1);
+}
+
+TEST(SafeIntervalMargins, ASwarmThatIsLostIsHeld) {
+  LateDrive<SafeIntervalNavigator> drive;
+  drive.is_missed = [](int frame) { return frame >= 20; };
+  drive.run(4);
+  const double lost = frame_time * 20;
+  for (std::size_t k = 0; k < drive.commands.size(); ++k) {
+    const double t = frame_time * static_cast<double>(k);
+    if (t > lost + default_frame_timeout + frame_time) {
+      EXPECT_EQ(drive.states[k], NavigatorState::blind) << t;
+      EXPECT_EQ(drive.commands[k].speed, 0) << t;
+    } else if (t < lost + default_frame_timeout - 2 * frame_time) {
+      EXPECT_EQ(drive.states[k], NavigatorState::follow) << t;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace microswarm::navigation
