@@ -120,6 +120,23 @@ TEST(SafeIntervalMargins, GapsGrowByHowFarTheSwarmIsFromWhereItShouldBe) {
   EXPECT_NEAR(radius(4), 50 + 1.5 * 8 / std::sqrt(2), 0.5);
 }
 
+// A disc closes in from below on a swarm beside a wall, and touches it whatever it does.
+TEST(SafeIntervalMargins, InContactItDoesNotRunIntoAWall) {
+  const std::vector<Polygon> walls{{{{0, 555}, {2000, 555}, {2000, 1000}, {0, 1000}}, {}}};
+  Seen seen{.obstacles = {{DiscShape{300}, Straight{{200, 100}, {0, 200}}}}};
+  seen.map = std::make_shared<const Map>(Box{{0, 0}, {2000, 1000}}, walls);
+  SafeIntervalNavigator navigator({}, body_task(slow_vortex), Rng(1, Purpose::planner));
+  navigator.prepare(seen.next(), {});
+  for (int k = 0; k < 20; ++k) {
+    const Snapshot frame = seen.next();
+    const Command command = navigator.step(seen.observe(frame), {});
+    const Vec2 at{200, 500};
+    const Segment next{at, at + 0.12 * command.speed * unit_vector(command.heading)};
+    EXPECT_TRUE(seen.map->is_free(next, 50)) << k << ": " << degrees(command.heading);
+    navigator.overruled(frame.time(), {0, 0});
+  }
+}
+
 TEST(SafeIntervalMargins, ASwarmThatFramesMissIsWhereItsCommandsTookIt) {
   LateDrive<SafeIntervalNavigator> drive;
   drive.is_missed = [](int frame) { return frame % 4 >= 2; };

@@ -70,7 +70,10 @@ ImminentCheck::Outcome ImminentCheck::roll(Pose2 from, const Command& command, i
     const Pose2 next =
         has_arrived ? out.end : unicycle_step(out.end, command, turn_rate_, forecast.step());
     const Segment move{out.end.position, next.position};
-    if (command.speed > 0 && !now_.map->is_free(move, now_.wall_clearance)) return out;
+    if (command.speed > 0 && !now_.map->is_free(move, now_.wall_clearance)) {
+      if (s == first) out.least = -infinity;  // no start at all
+      return out;
+    }
     if (!forecast.hollow().empty()) {
       const double away = forecast.hollow_clearance(next.position, now_.radius + counted_gap);
       const double gap = away - now_.radius;
