@@ -8,15 +8,18 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdarg>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/formats/images/orientation.hpp"
+#include "microswarm/formats/images/tiff_colours.hpp"
 #include "microswarm/formats/images/tiff_samples.hpp"
 
 namespace microswarm::formats {
@@ -30,11 +33,28 @@ struct Page {
   std::uint32_t width = 0, height = 0;
   std::uint16_t bits = 1, samples = 1, format = SAMPLEFORMAT_UINT;
   std::uint16_t planes = PLANARCONFIG_CONTIG, photometric = PHOTOMETRIC_MINISBLACK;
-  std::uint16_t orientation = ORIENTATION_TOPLEFT, compression = COMPRESSION_NONE;
+  std::uint16_t orientation = 0, compression = COMPRESSION_NONE;  // 0: no tag
+  tiff::PixelSamples pixel{};
 
   bool is_whole() const { return format == SAMPLEFORMAT_UINT || format == SAMPLEFORMAT_VOID; }
-  int channels() const { return samples >= 3 ? 3 : 1; }
+  bool is_grey() const {
+    return photometric == PHOTOMETRIC_MINISBLACK || photometric == PHOTOMETRIC_MINISWHITE;
+  }
+  /// Whether what its samples mean is known here, and not by libtiff alone.
+  bool is_plain() const {
+    return is_grey() || photometric == PHOTOMETRIC_RGB || photometric == PHOTOMETRIC_PALETTE ||
+           (photometric == PHOTOMETRIC_SEPARATED && inks == INKSET_CMYK);
+  }
+  /// The largest whole sample.
+  std::uint32_t full() const { return (std::uint32_t{1} << bits) - 1; }
+  std::uint16_t inks = INKSET_CMYK;
 };
+
+/// Samples of a colour by the photometric interpretation.
+int colours_of(const Page& p) {
+  if (p.photometric == PHOTOMETRIC_SEPARATED) return 4;
+  return p.is_grey() || p.photometric == PHOTOMETRIC_PALETTE ? 1 : 3;
+}
 
 /// Name of the samples that become a RealImage; empty for others.
 std::string_view real_kind(const Page& p) {
@@ -131,9 +151,17 @@ struct TiffPages::File {
     TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLESPERPIXEL, &p.samples);
     TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLEFORMAT, &p.format);
     TIFFGetFieldDefaulted(tiff, TIFFTAG_PLANARCONFIG, &p.planes);
-    TIFFGetField(tiff, TIFFTAG_PHOTOMETRIC, &p.photometric);
-    TIFFGetFieldDefaulted(tiff, TIFFTAG_ORIENTATION, &p.orientation);
+    std::uint16_t count = 0;
+    const std::uint16_t* kinds = nullptr;
+    TIFFGetFieldDefaulted(tiff, TIFFTAG_EXTRASAMPLES, &count, &kinds);
+    if (!kinds || count > p.samples) count = 0;
+    // Without a photometric interpretation the samples tell it, as in libtiff.
+    if (TIFFGetField(tiff, TIFFTAG_PHOTOMETRIC, &p.photometric) != 1 && p.samples - count == 3)
+      p.photometric = PHOTOMETRIC_RGB;
+    TIFFGetFieldDefaulted(tiff, TIFFTAG_INKSET, &p.inks);
+    TIFFGetField(tiff, TIFFTAG_ORIENTATION, &p.orientation);
     TIFFGetFieldDefaulted(tiff, TIFFTAG_COMPRESSION, &p.compression);
+    p.pixel = tiff::PixelSamples::of(p.samples, colours_of(p), p.is_grey(), {kinds, count});
     return p;
   }
 
@@ -150,10 +178,10 @@ struct TiffPages::File {
   std::optional<DecodedImage> decode_8(const Page& p) const {
     std::vector<std::uint32_t> rgba(std::size_t{p.width} * p.height);
     // In the order stored: libtiff mirrors, but does not transpose.
-    if (!TIFFReadRGBAImageOriented(tiff, p.width, p.height, rgba.data(), p.orientation, 1))
+    if (!TIFFReadRGBAImageOriented(tiff, p.width, p.height, rgba.data(),
+                                   p.orientation ? p.orientation : ORIENTATION_TOPLEFT, 1))
       return std::nullopt;
-    const bool grey =
-        p.photometric == PHOTOMETRIC_MINISBLACK || p.photometric == PHOTOMETRIC_MINISWHITE;
+    const bool grey = p.is_grey();
     Image image{static_cast<int>(p.width), static_cast<int>(p.height), grey ? 1 : 3, {}};
     image.pixels.resize(image.index(0, image.height));
     std::uint8_t* out = image.pixels.data();
@@ -166,51 +194,117 @@ struct TiffPages::File {
     return image;
   }
 
-  /// Decodes samples of 9 to 16 bits: grey, or the first three samples.
-  std::optional<DecodedImage> decode_deep(const Page& p) const {
-    DeepImage image{.width = static_cast<int>(p.width),
-                    .height = static_cast<int>(p.height),
-                    .channels = p.channels(),
-                    .samples = {},
-                    .bits = p.bits};
-    if (!decode_samples(p, tiff::PackedSamples{p.bits}, image.samples)) return std::nullopt;
+  /// Decodes whole samples of 1 to 16 bits that libtiff's conversion does not know, or drops.
+  std::optional<DecodedImage> decode_whole(const Page& p) const {
+    std::vector<std::uint16_t> samples;
+    if (!decode_colours(p, tiff::PackedSamples{p.bits}, samples)) return std::nullopt;
+    const std::uint32_t full = p.full();
     if (p.photometric == PHOTOMETRIC_MINISWHITE)
-      for (std::uint16_t& sample : image.samples)
-        sample = static_cast<std::uint16_t>((1 << p.bits) - 1 - sample);
+      for (std::uint16_t& s : samples) s = static_cast<std::uint16_t>(full - s);
+    if (p.photometric == PHOTOMETRIC_SEPARATED) samples = tiff::rgb_of_cmyk(samples, full);
+    int bits = p.bits;
+    if (p.photometric == PHOTOMETRIC_PALETTE) {
+      if (!take_palette(p, samples)) return std::nullopt;
+      bits = 8;
+    }
+    const int channels = p.pixel.colours == 1 && p.photometric != PHOTOMETRIC_PALETTE ? 1 : 3;
+    if (p.pixel.alpha >= 0) {
+      std::vector<std::uint16_t> alpha;
+      if (!decode_samples(p, tiff::PackedSamples{p.bits}, p.pixel.alpha, 1, alpha))
+        return std::nullopt;
+      if (bits != p.bits)
+        for (std::uint16_t& a : alpha) a = static_cast<std::uint16_t>(a * 255U / full);
+      tiff::put_over_white(samples, alpha, static_cast<std::size_t>(channels), p.pixel.multiplied,
+                           bits == 8 ? 255 : full);
+    }
+    const int width = static_cast<int>(p.width), height = static_cast<int>(p.height);
+    if (bits > 8) return DeepImage{width, height, channels, std::move(samples), bits};
+    Image image{width, height, channels, {}};
+    image.pixels.reserve(samples.size());
+    const std::uint32_t white = bits == 8 ? 255 : full;
+    for (const std::uint16_t s : samples)
+      image.pixels.push_back(static_cast<std::uint8_t>((s * 255U + white / 2) / white));
     return image;
+  }
+
+  /// Replaces indices by colours of 8 bits.
+  bool take_palette(const Page& p, std::vector<std::uint16_t>& samples) const {
+    std::uint16_t *red = nullptr, *green = nullptr, *blue = nullptr;
+    if (TIFFGetField(tiff, TIFFTAG_COLORMAP, &red, &green, &blue) != 1) return false;
+    const std::size_t entries = std::size_t{p.full()} + 1;
+    const auto is_small = [&](const std::uint16_t* c) {
+      return std::all_of(c, c + entries, [](std::uint16_t v) { return v < 256; });
+    };
+    // Some writers fill a palette with 8-bit colours; libtiff takes them as such too.
+    const int shift = is_small(red) && is_small(green) && is_small(blue) ? 0 : 8;
+    std::vector<std::uint16_t> rgb;
+    rgb.reserve(3 * samples.size());
+    for (const std::uint16_t index : samples)
+      for (const std::uint16_t* c : {red, green, blue})
+        rgb.push_back(static_cast<std::uint16_t>(c[index] >> shift));
+    samples = std::move(rgb);
+    return true;
   }
 
   /// Decodes signed and floating samples, and those of 32 bits.
   std::optional<DecodedImage> decode_real(const Page& p) const {
     RealImage image{.width = static_cast<int>(p.width),
                     .height = static_cast<int>(p.height),
-                    .channels = p.channels(),
+                    .channels = p.pixel.colours,
                     .samples = {},
                     .kind = real_kind(p)};
-    const bool good =
-        with_real_reader(p, [&](auto reader) { return decode_samples(p, reader, image.samples); });
+    std::vector<float> alpha;
+    const bool good = with_real_reader(p, [&](auto reader) {
+      return decode_colours(p, reader, image.samples) &&
+             (p.pixel.alpha < 0 || decode_samples(p, reader, p.pixel.alpha, 1, alpha));
+    });
     if (!good) return std::nullopt;
     if (p.photometric == PHOTOMETRIC_MINISWHITE)
       for (float& sample : image.samples) sample = -sample;
+    if (p.pixel.alpha >= 0)
+      tiff::put_over_white(image.samples, alpha, static_cast<std::size_t>(image.channels),
+                           p.pixel.multiplied, full_opacity(p, alpha));
     return image;
   }
 
-  /// Decodes 8-bit samples of a page that has no directory.
-  std::optional<DecodedImage> decode_8_in_row(const Page& p) const {
-    Image image{static_cast<int>(p.width), static_cast<int>(p.height), p.channels(), {}};
-    if (!decode_samples(p, tiff::PackedSamples{p.bits}, image.pixels)) return std::nullopt;
-    if (p.photometric == PHOTOMETRIC_MINISWHITE)
-      for (std::uint8_t& sample : image.pixels) sample = static_cast<std::uint8_t>(255 - sample);
-    return image;
+  static double full_opacity(const Page& p, std::span<const float> alpha) {
+    if (p.format == SAMPLEFORMAT_IEEEFP) return tiff::full_opacity(alpha);
+    return std::ldexp(1.0, p.bits - (p.format == SAMPLEFORMAT_INT ? 1 : 0)) - 1;
   }
 
+  /// 1 for each pixel that is not opaque; empty for a page without an opacity, nothing for one that
+  /// cannot be read.
+  std::optional<std::vector<std::uint8_t>> transparency(const Page& p) const {
+    std::vector<std::uint8_t> out;
+    if (p.pixel.alpha < 0) return out;
+    std::vector<float> alpha;
+    const bool real = !real_kind(p).empty();
+    const bool good =
+        real ? with_real_reader(
+                   p,
+                   [&](auto reader) { return decode_samples(p, reader, p.pixel.alpha, 1, alpha); })
+             : decode_samples(p, tiff::PackedSamples{p.bits}, p.pixel.alpha, 1, alpha);
+    if (!good) return std::nullopt;
+    const double full = real ? full_opacity(p, alpha) : p.full();
+    for (const float a : alpha) out.push_back(static_cast<double>(a) < full);
+    return out;
+  }
+
+  /// The samples that are shown: of the colour, or of the channel that was chosen.
   template <class Sample, class Reader>
-  bool decode_samples(const Page& p, Reader reader, std::vector<Sample>& samples) const {
-    const auto channels = static_cast<std::size_t>(p.channels());
+  bool decode_colours(const Page& p, Reader reader, std::vector<Sample>& samples) const {
+    return decode_samples(p, reader, p.pixel.channels > 1 ? channel : 0, p.pixel.colours, samples);
+  }
+
+  /// Samples `first` and those behind it of each pixel, `count` in all.
+  template <class Sample, class Reader>
+  bool decode_samples(const Page& p, Reader reader, int first, int count,
+                      std::vector<Sample>& samples) const {
+    const auto channels = static_cast<std::size_t>(count);
     samples.resize(std::size_t{p.width} * p.height * channels);
     const bool apart = p.planes == PLANARCONFIG_SEPARATE;
-    for (int plane = 0; plane < (apart ? p.channels() : 1); ++plane) {
-      const tiff::SampleRow row{p.bits, apart ? 1 : p.samples, apart ? plane : -1};
+    for (int k = 0; k < (apart ? count : 1); ++k) {
+      const tiff::SampleRow row{p.bits, apart ? 1 : p.samples, apart ? first + k : -1, first};
       const tiff::SamplePlacer<Sample, Reader> placer{row, reader, samples.data(), p.width,
                                                       channels};
       if (!(in_row              ? decode_in_row(p, placer)
@@ -293,8 +387,7 @@ struct TiffPages::File {
     if (p.width > max_image_side || p.height > max_image_side) return std::nullopt;
     const bool known = p.bits == 8 || p.bits == 16 || p.bits == 32;
     if (!known || p.compression != COMPRESSION_NONE || TIFFIsTiled(tiff) ||
-        p.planes != PLANARCONFIG_CONTIG || (p.samples != 1 && p.samples != 3) ||
-        p.photometric == PHOTOMETRIC_PALETTE)
+        p.planes != PLANARCONFIG_CONTIG || !p.is_plain() || p.photometric == PHOTOMETRIC_PALETTE)
       return std::nullopt;
     const std::uint64_t size = std::uint64_t{p.width} * p.height * p.samples * p.bits / 8;
     std::uint64_t end = TIFFGetStrileOffset(tiff, 0);
@@ -306,15 +399,41 @@ struct TiffPages::File {
     return size > 0 && row.begin > 0 ? std::optional(row) : std::nullopt;
   }
 
+  /// Where the first directory tells that the second begins [B]; 0: there is none.
+  std::uint64_t second_directory() const {
+    const bool big = TIFFIsBigTIFF(tiff) != 0;
+    const auto number = [&](std::uint64_t from, std::size_t size) {
+      std::vector<std::uint8_t> raw(size);
+      if (!read_at(from, raw)) return std::uint64_t{0};
+      if (!TIFFIsBigEndian(tiff)) std::ranges::reverse(raw);
+      std::uint64_t value = 0;
+      for (const std::uint8_t byte : raw) value = value << 8 | byte;
+      return value;
+    };
+    const std::uint64_t first = TIFFCurrentDirOffset(tiff);
+    const std::uint64_t entries = number(first, big ? 8 : 2);
+    if (entries > 65'535) return 0;
+    return number(first + (big ? 8 + 20 * entries : 2 + 12 * entries), big ? 8 : 4);
+  }
+
+  /// Whether tifffile wrote a page of 1 bit from true and false, of which it shows true as black.
+  bool is_of_bools() const {
+    const char* software = nullptr;
+    return page().bits == 1 && page().photometric == PHOTOMETRIC_MINISWHITE &&
+           TIFFGetField(tiff, TIFFTAG_SOFTWARE, &software) == 1 && software &&
+           std::string_view(software).starts_with("tifffile");
+  }
+
   TiffDescription description(const std::string& name) const {
     const char* text = nullptr;
     if (TIFFGetField(tiff, TIFFTAG_IMAGEDESCRIPTION, &text) != 1 || !text) return {};
     float x = 0, y = 0;
     TIFFGetField(tiff, TIFFTAG_XRESOLUTION, &x);
     TIFFGetField(tiff, TIFFTAG_YRESOLUTION, &y);
-    return parse_tiff_description(text, x, y, name);
+    return parse_tiff_description(text, x, y, name, page().samples);
   }
 
+  int channel = 0;  ///< that is chosen of a pixel's, from 0
   int page_in_row = 0;
   std::vector<toff_t> places;  ///< of the directories read so far [B]
 };
@@ -350,26 +469,55 @@ TiffPages::~TiffPages() = default;
 void TiffPages::count_pages() {
   TIFF* const tiff = file_->tiff;
   if (!tiff) throw InputError(name_ + ": is no TIFF that can be read");
+  const Page first = file_->page();
   description_ = file_->description(name_);
+  description_.pixel_channels = first.pixel.channels;
+  orientation_ = first.orientation;
   file_->errors = 0;
   count_ = static_cast<int>(std::min<std::uint64_t>(TIFFNumberOfDirectories(tiff), max_pages));
   if (count_ == 0) throw InputError(name_ + ": holds no picture");
-  if (file_->errors > 0)
+  const bool is_cut = file_->errors > 0;
+  const int told = description_.images;
+  if (told > 1 && count_ == 1 && may_be_in_row(is_cut)) {
+    const auto& row = file_->in_row;
+    const std::uint64_t size = file_->file_size();
+    const std::uint64_t whole = size > row->begin ? (size - row->begin) / row->size : 0;
+    count_ = static_cast<int>(std::clamp<std::uint64_t>(whole, 1, static_cast<unsigned>(told)));
+    if (is_cut && count_ == told)
+      notes_.push_back("it is cut behind its pictures: they are read as they follow the first one");
+  } else if (is_cut) {
     why_fewer_ = fmt::format(
         "{}: the list of its pictures breaks off after {}: it is cut or damaged", name_, count_);
-  const int told = description_.images;
-  if (told > 1 && count_ == 1 && why_fewer_.empty() && description_.one_directory) {
-    file_->in_row = file_->find_row();
-    if (const auto& row = file_->in_row) {
-      const std::uint64_t size = file_->file_size();
-      const std::uint64_t whole = size > row->begin ? (size - row->begin) / row->size : 0;
-      count_ = static_cast<int>(std::clamp<std::uint64_t>(whole, 1, static_cast<unsigned>(told)));
-    }
   }
   if (why_fewer_.empty() && count_ < told)
-    why_fewer_ = fmt::format("{}: {} tells {} pictures in it, {} are there", name_,
-                             description_.software, told, count_);
+    why_fewer_ =
+        fmt::format("{}: {} tells {} pictures in it, {} are there{}", name_, description_.software,
+                    told, count_, is_cut ? ": it is cut or damaged" : "");
+  if (first.pixel.unknown > 0)
+    notes_.push_back(
+        fmt::format("of the {} samples of a pixel {} are left out: the file does not tell what "
+                    "they are",
+                    first.samples, first.pixel.unknown));
+  if (file_->is_of_bools())
+    notes_.push_back(
+        "its 1 is black (WhiteIsZero), as tifffile stores true and false: what was "
+        "true is dark");
 }
+
+/// Whether the pages follow the first one without directories, whose place is then kept. If the
+/// file is cut, the second directory must begin behind them all.
+bool TiffPages::may_be_in_row(bool is_cut) {
+  File& f = *file_;
+  if (!is_cut && !description_.one_directory) return false;
+  f.in_row = f.find_row();
+  if (f.in_row && is_cut &&
+      f.second_directory() <
+          f.in_row->begin + f.in_row->size * static_cast<std::uint64_t>(description_.images))
+    f.in_row.reset();
+  return f.in_row.has_value();
+}
+
+void TiffPages::take_channel(int channel) { file_->channel = channel; }
 
 void TiffPages::go_to(int page) { next_ = page; }
 
@@ -414,19 +562,50 @@ DecodedImage TiffPages::next() {
         : page.is_whole()                  ? "whole"
                                            : "signed or complex",
         page.bits));
+  require_known(page.is_plain() || (!real && page.bits <= 8 && page.pixel.alpha < 0),
+                page.pixel.channels);
   const auto decode = [&] {
     if (!file_->in_row && !file_->is_all_there()) return std::optional<DecodedImage>();
     if (real) return file_->decode_real(page);
-    if (page.bits > 8) return file_->decode_deep(page);
-    return file_->in_row ? file_->decode_8_in_row(page) : file_->decode_8(page);
+    const bool is_simple = page.pixel.alpha < 0 && page.pixel.channels == 1 && !file_->in_row;
+    return page.bits > 8 || !is_simple ? file_->decode_whole(page) : file_->decode_8(page);
   };
   std::optional<DecodedImage> picture = decode();
   if (!picture)
     throw InputError(
         fmt::format("{}: picture {} is damaged, or the file ends early", name_, next_));
-  orient(*picture, page.orientation);
+  orient(*picture, page.orientation ? page.orientation : orientation_);
   ++next_;
   return *std::move(picture);
+}
+
+/// Refuses the next page if its colours are not `known`, or fewer channels than the one chosen.
+void TiffPages::require_known(bool known, int channels) const {
+  if (!known)
+    throw InputError(fmt::format(
+        "{}: picture {} has colours of a kind that is not read with its samples: save it as RGB or "
+        "grey",
+        name_, next_));
+  if (file_->channel >= channels)
+    throw InputError(fmt::format("{}: picture {} has {} channel{}, number {} is chosen", name_,
+                                 next_, channels, channels == 1 ? "" : "s", file_->channel + 1));
+}
+
+std::vector<std::uint8_t> TiffPages::transparency() {
+  step();
+  const Page page = file_->page();
+  check_image_size(page.width, page.height, name_);
+  const bool is_read = !real_kind(page).empty() || (page.is_whole() && page.bits <= 16);
+  if (!is_read || !page.is_plain()) return {};
+  auto clear = file_->transparency(page);
+  if (!clear)
+    throw InputError(
+        fmt::format("{}: picture {} is damaged, or the file ends early", name_, next_));
+  if (clear->empty()) return {};
+  DecodedImage picture =
+      Image{static_cast<int>(page.width), static_cast<int>(page.height), 1, *std::move(clear)};
+  orient(picture, page.orientation ? page.orientation : orientation_);
+  return std::get<Image>(std::move(picture)).pixels;
 }
 
 }  // namespace microswarm::formats
