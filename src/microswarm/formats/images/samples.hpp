@@ -46,7 +46,7 @@ GreyScale scale_of(const DecodedImage& picture);
 /// 12 bits"; empty if each value keeps its place.
 std::string scale_note(const DecodedImage& picture, const GreyScale& scale);
 
-/// Tells how many samples are no number; empty if none is.
+/// Note on the samples that are no number; empty if none is.
 std::string no_number_note(const DecodedImage& picture);
 
 /// Moves or scales a picture into `image`, whose memory is used again. Samples that are no number

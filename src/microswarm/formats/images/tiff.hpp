@@ -39,7 +39,7 @@ class TiffPages {
   const std::string& why_fewer() const { return why_fewer_; }
   /// Description that ImageJ, SCIFIO, tifffile or OME wrote.
   const TiffDescription& description() const { return description_; }
-  /// What was assumed or left out, a line each.
+  /// Notes on assumptions and on samples that are left out, a line each.
   const std::vector<std::string>& notes() const { return notes_; }
 
   /// Pixels of the next page: one channel (grey) or three (red, green, blue), in front of white.

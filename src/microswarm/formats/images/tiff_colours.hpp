@@ -19,7 +19,7 @@ struct PixelSamples {
   int channels = 1;         ///< grey ones of which one is shown
   int alpha = -1;           ///< index of the sample that is the opacity; -1: none
   bool multiplied = false;  ///< colours are multiplied by the opacity
-  int unknown = 0;          ///< samples that mean nothing that is told
+  int unknown = 0;          ///< samples of unknown meaning
 
   /// Of grey (`colours` 1) or of others, `samples` in all, whose last ones are `extra` (their kinds
   /// in TIFF: 0, 1 multiplied by the opacity, 2 not).
