@@ -88,7 +88,7 @@ class PageChoice {
   [[noreturn]] void fail(const std::string& why) const { throw InputError(name_ + ": " + why); }
   double planes_told() const { return static_cast<double>(d_.plane_pages.size()); }
 
-  /// The pages of ImageJ are channels first, then slices, then times, whatever it counts.
+  /// The pages of ImageJ are channels first, then slices, then times, for any counts.
   void mend_imagej_counts() {
     const double in_a_time = static_cast<double>(d_.channels) * d_.slices;
     if (d_.software != "ImageJ" || in_a_time < 2) return;
