@@ -81,7 +81,8 @@ std::string csv_number(std::string_view cell, char separator) {
 }
 
 void require_clear_commas(std::string_view text, std::string_view name, char separator) {
-  if (text.find(',') == std::string_view::npos) return;
+  // Between commas only a quoted cell holds one.
+  if (text.find(separator == ',' ? '"' : ',') == std::string_view::npos) return;
   bool has_point = false, has_whole = false, has_decimal = false;
   int line_of_either = 0;
   std::string either;
