@@ -219,7 +219,8 @@ int32_t ms_map_open_with(const char* file, double um_per_px, const char* const* 
    its goal: a line each, "" if there is nothing. The text belongs to the map's handle. */
 int32_t ms_map_notes(uint64_t map, const char** notes);
 /* A map from `width` x `height` pixels, upper row first: a mask of 0 and 1, where 1 is free, or
- * else a grey picture, free where a pixel is at least 128, as in a picture's file. */
+ * else a grey picture, free where a pixel is at least 128, as in a picture's file. One that is all
+ * wall is refused, one without walls is noted. */
 int32_t ms_map_from_pixels(const uint8_t* pixels, size_t width, size_t height, double um_per_px,
                            uint64_t* map);
 /* Extent of a map, and the distance of a position to its walls, 0 inside one. */

@@ -54,8 +54,12 @@ int32_t ms_map_from_pixels(const uint8_t* pixels, size_t width, size_t height, d
                            uint64_t* map) {
   return c::guarded([&]() -> int32_t {
     c::require(pixels, "pixels"), c::require(map, "map");
-    Map made = formats::map_of_pixels({pixels, width * height}, width, height, um_per_px);
-    *map = c::keep(of(std::make_shared<const Map>(std::move(made)), "map"));
+    formats::PixelMap made =
+        formats::map_of_pixels({pixels, width * height}, width, height, um_per_px);
+    auto object = of(std::make_shared<const Map>(std::move(made.map)), "map");
+    add_lines(object->map->notes_of_reading, made.notes);
+    object->map->notes = object->map->notes_of_reading;
+    *map = c::keep(std::move(object));
     return MS_OK;
   });
 }

@@ -59,9 +59,14 @@ NamedMap from_pixels(const py::array_t<std::uint8_t, py::array::c_style>& pixels
   const auto height = static_cast<std::size_t>(pixels.shape(0));
   const auto width = static_cast<std::size_t>(pixels.shape(1));
   const std::span<const std::uint8_t> all{pixels.data(), width * height};
-  return interruptible([&](const Stop&) {
-    return map_in_memory(formats::map_of_pixels(all, width, height, um_per_px, simplify));
+  Notes notes;
+  NamedMap made = interruptible([&](const Stop&) {
+    formats::PixelMap read = formats::map_of_pixels(all, width, height, um_per_px, simplify);
+    notes = std::move(read.notes);
+    return map_in_memory(std::move(read.map));
   });
+  warn(notes);
+  return made;
 }
 
 py::list outlines(const NamedMap& map) {

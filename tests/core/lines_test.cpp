@@ -25,6 +25,25 @@ TEST(Lines, EndsAndAByteOrderMarkAreLeftOut) {
   }
 }
 
+TEST(Lines, EndInLfCrLfOrCr) {
+  for (const char* text : {"a\nb\n\nc", "a\r\nb\r\n\r\nc\r\n", "a\rb\r\rc\r", "a\rb\n\nc\r\n",
+                           "a\r\r\nb\r\r\n\r\r\nc", "sep=;\na\nb\n\nc"}) {
+    Lines lines(text, "x.txt");
+    for (const char* line : {"a", "b", "", "c"}) EXPECT_EQ(lines.next(), line) << text;
+    EXPECT_EQ(lines.number(), text[0] == 's' ? 5 : 4) << text;
+    EXPECT_EQ(lines.next(), std::nullopt) << text;
+  }
+}
+
+TEST(Lines, OfUtf16AreRefused) {
+  for (const char* mark : {"\xff\xfe", "\xfe\xff"}) try {
+      Lines(std::string(mark) + "1", "x.txt");
+      ADD_FAILURE();
+    } catch (const InputError& error) {
+      EXPECT_STREQ(error.what(), "x.txt: is a text in UTF-16: save it in UTF-8");
+    }
+}
+
 TEST(Lines, PiecesAndWords) {
   EXPECT_EQ(split(" 1, 2,,3 ", ','), (Pieces{"1", "2", "", "3"}));
   EXPECT_EQ(split("", ','), (Pieces{""}));

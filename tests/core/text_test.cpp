@@ -120,6 +120,36 @@ TEST(Text, TablesOfOtherLanguagesAreRead) {
   EXPECT_EQ(csv_number("0,5", ','), "0,5");
 }
 
+TEST(Text, ACommaThatMayMeanThousandsIsRefused) {
+  const auto complaint = [](std::string_view table, char separator) {
+    try {
+      require_clear_commas(table, "x.csv", separator);
+      return std::string();
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_EQ(complaint("x;y\n0.5;2\n1,010;-3\n", ';'),
+            "x.csv:3: '1,010' may be 1010 or 1.01: write thousands without a comma, and decimals "
+            "in one way");
+  for (const auto& [table, separator] : {std::pair("x\ty\n995.5\t2\n-1,010\t3\n", '\t'),
+                                         {"x\ty\n995\t2\n1,010\t3\n", '\t'},
+                                         {"\"1,500\",200,30,10\n", ','},
+                                         {"\"1,500\";0.5\n", ';'}})
+    EXPECT_NE(complaint(table, separator).find("may be"), std::string::npos) << table;
+  for (const auto& [table, separator] : {std::pair("x;y\n0,5;2\n1,010;3\n", ';'),
+                                         {"x;y\n1,010;3\n", ';'},
+                                         {"1,010\t2,345\n", '\t'},
+                                         {"0,125\t2,345\n7\t8\n", '\t'},
+                                         {"\"1,5\",\"2,125\"\n", ','},
+                                         {"1,010,2.5\n", ','},
+                                         {"0,5;1.5\n", ';'},
+                                         {"# 1,010;1.5\n1,010;2\n", ';'},
+                                         {"\"a,b\",1.5\n", ','},
+                                         {"1234,567;1.5\n", ';'}})
+    EXPECT_EQ(complaint(table, separator), "") << table;
+}
+
 TEST(Text, AValueThatIsNoneOfTheWordsIsAnsweredWithTheNearestAndAll) {
   const std::vector<std::string_view> words{"rrt", "rrt_star", "drrt_star", "disc"};
   const std::string all = "rrt, rrt_star, drrt_star, disc";

@@ -42,6 +42,23 @@ std::string collection(std::string_view features) {
   return "{\"type\":\"FeatureCollection\",\n\"features\":[\n" + std::string(features) + "]}";
 }
 
+TEST(GeoJson, OneFeatureIsTheBoundsByTrue) {
+  for (const char* value : {"\"true\"", "1", "\"yes\"", "{}"})
+    EXPECT_TRUE(test::is_one_line_naming(
+        geojson_complaint(
+            collection(feature(polygon(square), fmt::format(R"({{"bounds":{}}})", value)))),
+        "x.geojson:3", {"bounds", "true or false"}))
+        << value;
+  for (const char* value : {"false", "null"})
+    EXPECT_EQ(parsed_geojson(
+                  collection(feature(polygon(square), fmt::format(R"({{"bounds":{}}})", value))))
+                  .walls.size(),
+              1u);
+  const std::string bounds = feature(polygon(square), R"({"bounds":true})");
+  EXPECT_TRUE(test::is_one_line_naming(geojson_complaint(collection(bounds + ",\n" + bounds)),
+                                       "x.geojson:4", {"features[1]", "second", "bounds"}));
+}
+
 TEST(GeoJson, PolygonsMultiPolygonsAndPointsWithRadius) {
   const MapParts parts = parsed_geojson(collection(
       feature(polygon(square)) + "," +

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "microswarm/formats/map_file.hpp"
 #include "tests/files.hpp"
 #include "tests/messages.hpp"
 
@@ -33,6 +34,20 @@ TEST(MovingAi, OtherLineEndsAndBlankLinesAtTheEnd) {
   EXPECT_EQ(parsed_octile(crlf), parsed_octile(small));
   EXPECT_EQ(parsed_octile(std::string(small) + "\n \n"), parsed_octile(small));
   EXPECT_EQ(parsed_octile("type tile\nheight 1\nwidth 1\nmap\n."), Mask(1, 1));
+}
+
+TEST(MovingAi, LettersThatTheFormatDoesNotHaveAreTold) {
+  std::string unknown;
+  parse_moving_ai("type octile\nheight 2\nwidth 7\nmap\n.GS@OTW\n.......\n", "x.map", &unknown);
+  EXPECT_EQ(unknown, "");
+  parse_moving_ai("type octile\rheight 2\rwidth 3\rmap\r101\r.#0\r", "x.map", &unknown);
+  EXPECT_EQ(unknown, "10#");
+  const test::Folder folder;
+  const auto file = folder.with("x.map", "type octile\nheight 1\nwidth 3\nmap\n101\n");
+  const auto notes = read_map_parts(MovingAiMap{.file = file.string()}).notes;
+  ASSERT_EQ(notes.size(), 2u);
+  EXPECT_NE(notes[0].find("all cells are walls"), std::string::npos);
+  EXPECT_NE(notes[1].find("'10'"), std::string::npos);
 }
 
 TEST(MovingAi, WrittenAndReadAgain) {

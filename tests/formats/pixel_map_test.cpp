@@ -6,13 +6,14 @@
 #include <vector>
 
 #include "microswarm/world/snapshot.hpp"
+#include "tests/files.hpp"
 
 namespace microswarm::formats {
 namespace {
 
 /// Which pixels of a row, between two bright ones, are free.
 std::vector<bool> free_pixels(const std::vector<std::uint8_t>& row) {
-  const Map map = map_of_pixels(row, row.size(), 1, 10);
+  const Map map = map_of_pixels(row, row.size(), 1, 10).map;
   std::vector<bool> free;
   for (std::size_t i = 0; i < row.size(); ++i)
     free.push_back(map.clearance({10 * static_cast<double>(i) + 5, 5}) > 0);
@@ -28,8 +29,22 @@ TEST(PixelMap, AGreyPictureIsFreeFromTheThresholdOfPictures) {
             (std::vector{true, false, false, true, false, false, true}));
 }
 
-TEST(PixelMap, APictureThatIsDarkThroughoutIsWall) {
-  EXPECT_EQ(free_pixels({2, 1, 100}), (std::vector{false, false, false}));
+/// As a picture's file that is all wall, or has no walls.
+TEST(PixelMap, OneKindOfPixelsIsRefusedOrTold) {
+  const auto complaint = [](const std::vector<std::uint8_t>& row) {
+    return test::error_of([&] { map_of_pixels(row, row.size(), 1, 10); });
+  };
+  EXPECT_EQ(complaint({2, 1, 100}),
+            "all of the image is wall: its largest value is 100, free are pixels of at least 128");
+  EXPECT_EQ(complaint({0, 1, 2}),
+            "all of the image is wall: its largest value is 2, free are pixels of at least 128");
+  EXPECT_EQ(complaint({0, 0}), "all of the image is wall: no pixel is free");
+  for (const std::vector<std::uint8_t>& row : {std::vector<std::uint8_t>{1, 1}, {200, 128}}) {
+    const auto notes = map_of_pixels(row, row.size(), 1, 10).notes;
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_NE(notes[0].find("no walls"), std::string::npos);
+  }
+  EXPECT_TRUE(map_of_pixels(std::vector<std::uint8_t>{0, 1}, 2, 1, 10).notes.empty());
 }
 
 }  // namespace

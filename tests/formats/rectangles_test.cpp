@@ -97,6 +97,61 @@ TEST(MapFile, ColumnsOfRectanglesAreFoundByName) {
         << header;
 }
 
+TEST(MapFile, RectanglesOfOtherPrograms) {
+  const auto first = [](std::string_view text) {
+    const Box box = bounding_box(parse_rectangles(text, "x.csv").at(0));
+    return std::vector{box.lo.x, box.lo.y, box.width(), box.height()};
+  };
+  const std::vector wanted{10.5, 20.0, 30.0, 10.0};
+  for (const char* text :
+       {"10,5\t20\t30\t10\n", "x\ty\twidth\theight\n10,5\t20\t30\t10\n", "10.5,\t20,\t30,\t10\n",
+        "sep=;\n10,5;20;30;10\n", "\"\",\"x\",\"y\",\"width\",\"height\"\n\"one\",10.5,20,30,10\n",
+        ",y,x,width,height\n0,20,10.5,30,10\n", "x,y,width,height\r10.5,20,30,10\r",
+        "\"10,5\",20,30,10\n", "10.5 20\t30 10\n"})
+    EXPECT_EQ(first(text), wanted) << text;
+  for (const char* text : {"\"1,500\",200,30,10\n", "995.5\t1\t2\t3\n1,010\t2\t3\t4\n",
+                           "1,500;200;30;10\n0.5;1;2;3\n"})
+    EXPECT_NE(error_of([&] { parse_rectangles(text, "x.csv"); }).find("may be"), std::string::npos)
+        << text;
+  EXPECT_TRUE(test::is_one_line_naming(error_of([&] { parse_rectangles("1,2,3,4,5\n", "x.csv"); }),
+                                       "x.csv:1", {"5", "4"}));
+}
+
+/// What a table of numbers is taken for, and that it may be another.
+TEST(MapFile, ATableThatLooksLikeAMatrixIsTold) {
+  const Folder folder;
+  const auto notes_of = [&](std::string_view text) {
+    const auto file = folder.with("r.csv", text);
+    return read_map_parts(RectanglesMap{.file = file.string()}).notes;
+  };
+  for (const char* text :
+       {"1 1 1 1\n1 0 1 1\n1 0 1 2\n", "0 0 255 255\n255 0 255 255\n0 255 255 255\n"}) {
+    const auto notes = notes_of(text);
+    ASSERT_EQ(notes.size(), 1u) << text;
+    EXPECT_NE(notes[0].find("map.type=matrix"), std::string::npos) << notes[0];
+  }
+  for (const char* text :
+       {"0 0 10 20\n30 40 10 20\n50 60 10 20\n", "0.5,0,1,1\n0,0,1,1\n1,1,1,1\n"})
+    EXPECT_TRUE(notes_of(text).empty()) << text;
+  for (const char* text : {"True False\nFalse True\n", "[[1,0],[0,1]]\n", "0,255\n255,0\n"}) {
+    const auto file = folder.with("m.csv", text);
+    EXPECT_TRUE(test::is_one_line_naming(error_of([&] { choose_map_spec(file, {.um_per_px = 1}); }),
+                                         file.string(), {"rectangles", "--um-per-unit", "matrix"}));
+  }
+  const auto wide = folder.with("u.csv", std::string("\xff\xfe\x31\0\x20\0", 6));
+  EXPECT_EQ(error_of([&] { choose_map_spec(wide, {.um_per_px = 1}); }),
+            wide.string() + ": is a text in UTF-16: save it in UTF-8");
+  for (const auto& [name, text] : {std::pair("m.txt", "1 1\r1 0\r"),
+                                   {"m.tsv", "1\t1\n1\t0\n"},
+                                   {"q.csv", "\"1\",\"1\"\n\"1\",\"0\"\n"}}) {
+    const MapParts parts =
+        read_map_parts(choose_map_spec(folder.with(name, text), {.um_per_px = 10}));
+    EXPECT_EQ(parts.bounds.hi, (Vec2{20, 20})) << name;
+    ASSERT_EQ(parts.walls.size(), 1u) << name;
+    EXPECT_EQ(bounding_box(parts.walls[0]).lo, (Vec2{10, 0})) << name;
+  }
+}
+
 TEST(MapFile, TracksAreNoRectangles) {
   for (const char* text : {"id;t_s;x_um;y_um\n1;0;10;20\n", "frame,x,y,track\n0,1,2,3\n"})
     EXPECT_TRUE(test::is_one_line_naming(error_of([&] { parse_rectangles(text, "x.csv"); }),

@@ -104,6 +104,12 @@ TEST(Ros, UnknownOfMapSaverStaysUnknown) {
   EXPECT_EQ(ros_walls(saved, header).cells, (Cells{1, 1, 0, 1, 0}));
   EXPECT_EQ(ros_walls(saved, header, true).cells, (Cells{1, 0, 0, 0, 0}));
 
+  const Image edited{3, 1, 1, {0, 205, 255}};
+  EXPECT_TRUE(find_saver_unknown(edited, header).is_of_map_saver);
+  EXPECT_EQ(ros_walls(edited, header).cells, (Cells{1, 1, 0}));
+  const Image lossy{5, 1, 1, {3, 205, 203, 206, 252}};
+  EXPECT_EQ(find_saver_unknown(lossy, header).lost, 2u);  // 205 and 203
+
   const Image shaded{4, 1, 1, {0, 205, 254, 220}};  // somebody's shades of grey
   EXPECT_FALSE(find_saver_unknown(shaded, header).is_of_map_saver);
   EXPECT_EQ(find_saver_unknown(shaded, header).cells, 1u);

@@ -126,6 +126,58 @@ TEST(Svg, TellsLinesThatAreLost) {
       << hair.notes[0];
 }
 
+TEST(Svg, TellsDrawingsAndStyleSheetsOfOtherFiles) {
+  for (const auto& [drawn, told] :
+       {std::pair(R"(<use href="other.svg#x"/>)", "1 of its elements <use>"),
+        {R"(<use x="1" xlink:href='other.svg#x' xmlns:xlink="http://www.w3.org/1999/xlink"/>)",
+         "1 of its elements <use>"},
+        {"<style>@import url(a.css);</style>", "1 of its style sheets"},
+        {"<use href=\"#x\"/>", ""},
+        {"<style>rect { fill: black }</style>", ""}}) {
+    const LoadedMap loaded = load_drawing(drawn, 10.0);
+    if (*told == 0) {
+      EXPECT_TRUE(loaded.notes.empty()) << loaded.notes[0];
+      continue;
+    }
+    ASSERT_EQ(loaded.notes.size(), 1u) << drawn;
+    EXPECT_NE(loaded.notes[0].find(told), std::string::npos) << loaded.notes[0];
+  }
+  const test::Folder folder;
+  const auto file = folder.with(
+      "s.svg",
+      "<?xml version=\"1.0\"?><?xml-stylesheet href=\"a.css\"?><svg "
+      "xmlns=\"http://www.w3.org/2000/svg\" width=\"2mm\" height=\"1mm\"><rect width=\"1mm\" "
+      "height=\"1mm\"/></svg>");
+  const auto notes = load_map(choose_map_spec(file, {.um_per_px = 10})).notes;
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes[0].find("1 of its style sheets"), std::string::npos);
+}
+
+/// As in a viewer; a blank before the unit is a slip.
+TEST(Svg, ASideThatIsNotGivenFollows) {
+  const test::Folder folder;
+  for (const char* size : {"width=\"2mm\"", "height=\"1mm\"", "width=\"2 mm\" height=\"1 mm\"",
+                           "width=' 2 mm '", "width='0.2 cm' height='1mm'"}) {
+    const auto file = folder.with(
+        "s.svg",
+        fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" {} viewBox=\"0 0 20 10\"><rect "
+                    "width=\"5\" height=\"5\"/></svg>",
+                    size));
+    const LoadedMap loaded = load_map(choose_map_spec(file, {.um_per_px = 10}));
+    EXPECT_NEAR(loaded.map->bounds().hi.x, 2000, 1e-3) << size;
+    EXPECT_NEAR(loaded.map->bounds().hi.y, 1000, 1e-3) << size;
+    EXPECT_FALSE(loaded.map->is_free(Vec2{250, 750}, 0)) << size;
+    EXPECT_TRUE(loaded.map->is_free(Vec2{750, 750}, 0)) << size;
+  }
+  const auto open = folder.with("s.svg",
+                                "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"200\" "
+                                "viewBox=\"0 0 20 10\"><rect width=\"5\" height=\"5\"/></svg>");
+  EXPECT_NE(test::error_of([&] {
+              load_map(choose_map_spec(open, {.um_per_px = 10}));
+            }).find("its size is not in mm"),
+            std::string::npos);
+}
+
 TEST(Svg, TellsPicturesOfOtherFiles) {
   const std::string link = R"(<image xlink:href="photo.png" width="10" height="10"/>)";
   const std::string xlink = R"(<g xmlns:xlink="http://www.w3.org/1999/xlink">)" + link + "</g>";

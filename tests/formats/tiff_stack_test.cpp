@@ -126,6 +126,65 @@ TEST(TiffStack, ACutListOfPagesIsTold) {
   }
 }
 
+/// The pages of ImageJ and tifffile lie behind each other, the other directories at the end.
+TEST(TiffStack, AFileThatIsCutInItsDirectoriesHasItsPages) {
+  const test::Folder folder;
+  std::string whole = one_directory<std::uint8_t>(folder, 12, "wl");
+  const auto begin = static_cast<std::uint32_t>(whole.size());
+  const std::size_t offset = whole.find(std::string("\x11\x01\x04\0", 4));  // StripOffsets
+  ASSERT_NE(offset, std::string::npos);
+  std::memcpy(&whole[offset + 8], &begin, 4);
+  for (char k = 0; k < 12 * 6; ++k) whole += k;
+  const auto told = [&](std::uint32_t second) {
+    std::uint32_t first = 0;
+    std::uint16_t entries = 0;
+    std::memcpy(&first, &whole[4], 4);
+    std::memcpy(&entries, &whole[first], 2);
+    std::memcpy(&whole[first + 2 + 12U * entries], &second, 4);
+  };
+  told(begin + 12 * 6);  // behind all pages, and cut
+  TiffPages pages(test::bytes_of(whole), "a.tif");
+  ASSERT_EQ(pages.count(), 12);
+  EXPECT_EQ(pages.why_fewer(), "");
+  ASSERT_EQ(pages.notes().size(), 1u);
+  EXPECT_NE(pages.notes()[0].find("is cut"), std::string::npos);
+  for (int k = 0; k < 12; ++k) EXPECT_EQ(std::get<Image>(pages.next()).pixels[0], 6 * k);
+  const std::string cut = whole.substr(0, whole.size() - 9);
+  EXPECT_EQ(TiffPages(test::bytes_of(cut), "a.tif").count(), 10);
+  EXPECT_EQ(TiffPages(test::bytes_of(cut), "a.tif").why_fewer(),
+            "a.tif: ImageJ tells 12 pictures in it, 10 are there: it is cut or damaged");
+  // What lies between is not known where the second directory is told to be among the pages.
+  told(begin + 12 * 6 - 1);
+  const std::string among = whole.substr(0, whole.size() - 9);
+  EXPECT_EQ(TiffPages(test::bytes_of(among), "a.tif").count(), 1);
+}
+
+/// Writers of stacks put the tag in the first directory only.
+TEST(TiffStack, PagesWithoutATagAreTurnedAsTheFirst) {
+  const test::Folder folder;
+  const auto file = folder / "a.tif";
+  TIFF* tiff = TIFFOpen(file.c_str(), "w");
+  ASSERT_TRUE(tiff);
+  for (int k = 0; k < 3; ++k) {
+    TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, 3);
+    TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, 1);
+    TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 8);
+    TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, 1);
+    TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
+    if (k == 0) TIFFSetField(tiff, TIFFTAG_ORIENTATION, ORIENTATION_TOPRIGHT);
+    if (k == 2) TIFFSetField(tiff, TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
+    std::uint8_t row[] = {1, 2, 3};
+    TIFFWriteScanline(tiff, row, 0, 0);
+    TIFFWriteDirectory(tiff);
+  }
+  TIFFClose(tiff);
+  TiffPages pages(file);
+  using Greys = std::vector<std::uint8_t>;
+  EXPECT_EQ(std::get<Image>(pages.next()).pixels, (Greys{3, 2, 1}));
+  EXPECT_EQ(std::get<Image>(pages.next()).pixels, (Greys{3, 2, 1}));
+  EXPECT_EQ(std::get<Image>(pages.next()).pixels, (Greys{1, 2, 3}));
+}
+
 TEST(TiffStack, PagesThatAreMissingAtAPageAreTold) {
   const test::Folder folder;
   test::write_tiff<std::uint8_t>(folder / "a.tif", 3, {page(0), page(1)},

@@ -50,6 +50,8 @@ function values_of_maps(world)
   assert(isequal(at(uint8([0 1]), 10, 'free', 'dark'), free));
   assert(isequal(at([false true], 10, 'free', 'dark'), free));
   assert(isequal(at([true false], 10, 'threshold', 90), free));
+  assert(isequal(at([1 0], 10), free));  % a mask of class double
+  assert(isequal(at(int32([0 1]), 10, 'free', 'dark'), free));
   assert(isequal(at([0.5 0.4], 10, 'threshold', 0.45), free));
   assert(isequal(at(uint16([4000 3000]), 10, 'threshold', 3500), free));
   refuses(@() at(grey, 10, 'threshold', 'high'), 'bad_input', 'threshold must be a number');
@@ -117,7 +119,8 @@ function bad_maps_and_paths(world)
   refuses(@() microswarm.Map(room()), 'bad_input', 'needs um_per_px');
   refuses(@() microswarm.Map(room(), NaN), 'bad_input', 'um_per_px');
   refuses(@() microswarm.Map(room(), [1 2]), 'bad_input', 'um_per_px');
-  refuses(@() microswarm.Map(double(room()), 10), 'bad_input', 'not double');
+  refuses(@() microswarm.Map(2 * double(room()), 10), 'bad_input', 'not double');
+  refuses(@() microswarm.Map(uint8([2 1 0]), 10), 'bad_input', 'its largest value is 2');
   refuses(@() microswarm.Map(sparse(room()), 10), 'bad_input', 'not sparse');
   refuses(@() microswarm.Map({1}, 10), 'bad_input', 'not cell');
   refuses(@() microswarm.Map(true(2, 2, 2), 10), 'bad_input', 'matrix');

@@ -110,6 +110,18 @@ def test_images_of_every_kind_give_the_same_map(room):
         assert np.array_equal(one.clearance(places), room.clearance(places))
 
 
+def test_an_image_of_one_kind_of_pixels_is_refused_or_told():
+    labels = np.array([[0, 1, 2]], np.uint8)
+    mask = labels.clip(0, 1)
+    grey = np.array([[60, 200]], np.uint8)
+    for image, values in ((labels, {}), (mask, {"threshold": 128}), (grey, {"threshold": 300}), (grey > 255, {}), (grey, {"free": "dark", "threshold": 0})):
+        with pytest.raises(ms.InputError, match="all of image is wall"):
+            ms.Map.from_image(image, 1, **values)
+    for image, values in ((grey.astype(np.uint16) * 257, {"threshold": 128}), (grey > 0, {})):
+        with pytest.warns(FutureWarning, match="no walls"):
+            ms.Map.from_image(image, 1, **values)
+
+
 def test_a_grey_array_is_the_map_of_its_file(tmp_path):
     grey = np.full((60, 80), 200, dtype=np.uint8)
     grey[9:, 37:42] = 20  # dark, not black

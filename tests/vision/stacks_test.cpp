@@ -206,14 +206,25 @@ TEST(Stacks, WithSlicesAloneAreSeries) {
   EXPECT_EQ(see(two, {.stack_channel = 2}).greys, (std::vector<int>{1, 3, 5}));
 }
 
-/// A description whose product is not its own count, or not that of its planes, tells no order.
-TEST(Stacks, OfContradictingCountsAreTimes) {
+/// The order of ImageJ's pages is always the same; of others a description whose product is not its
+/// own count, or not that of its planes, tells no order.
+TEST(Stacks, OfContradictingCounts) {
   const test::Folder folder;
-  const Seen seen = see(stack(folder, 5, "channels=2\nframes=3\n"));
-  EXPECT_EQ(seen.greys, (std::vector<int>{0, 1, 2, 3, 4}));
+  const auto file = stack(folder, 5, "channels=2\nframes=3\n");
+  EXPECT_NE(test::error_of([&] { see(file); }).find("stack_channel, 1 to 2"), std::string::npos);
+  const Seen seen = see(file, {.stack_channel = 2});
+  EXPECT_EQ(seen.greys, (std::vector<int>{1, 3}));
   ASSERT_EQ(seen.notes.size(), 1U);
   EXPECT_NE(seen.notes[0].find("2 channels, 1 slices and 3 times of 5 pictures"), std::string::npos)
       << seen.notes[0];
+  EXPECT_EQ(see(stack(folder, 6, "channels=2\nframes=2\n"), {.stack_channel = 1}).greys,
+            (std::vector<int>{0, 2, 4}));
+  const formats::TiffDescription other{
+      .software = "SCIFIO", .images = 5, .channels = 2, .times = 3};
+  EXPECT_NE(test::error_of([&] {
+              choose_pages(other, 5, {.stack_channel = 1}, "s.tif");
+            }).find("does not fit"),
+            std::string::npos);
   const formats::TiffDescription planes{
       .software = "OME", .images = 2, .times = 3, .plane_pages = {1, 0}};
   EXPECT_EQ(choose_pages(planes, 2, {}, "s.tif").pages, (std::vector<int>{0, 1}));

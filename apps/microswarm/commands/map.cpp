@@ -178,7 +178,7 @@ Json json_share(const std::optional<double>& v) { return v ? Json(*v) : Json(nul
 /// The ground-truth mask; empty without a file.
 std::optional<formats::Mask> read_truth(const std::string& file, const formats::Image& photo) {
   if (file.empty()) return std::nullopt;
-  formats::Mask mask = formats::threshold(formats::read_image(file), 128, false);
+  formats::Mask mask = formats::threshold(read_photo(file), 128, false);
   if (mask.width != photo.width || mask.height != photo.height)
     throw InputError(fmt::format("{}: {}x{} pixels, the photograph has {}x{}", file, mask.width,
                                  mask.height, photo.width, photo.height));

@@ -68,7 +68,7 @@ vision::TrackSettings to_settings(const TrackOptions& o) {
   if (!o.region.empty()) settings.region = to_region(o.region);
   if (!o.mask.empty()) {
     constexpr int light = 128;  // as everywhere
-    settings.mask = formats::threshold(formats::read_photograph(o.mask), light, false);
+    settings.mask = formats::threshold(read_photo(o.mask), light, false);
   }
   return settings;
 }

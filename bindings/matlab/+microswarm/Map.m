@@ -16,10 +16,10 @@ classdef Map < microswarm.internal.Handle
     % Map(source, um_per_px, name, value, ...)
     %
     % source      a picture, ROS .yaml, MovingAI .map, GeoJSON, SVG, CSV of rectangles or matrix of 0 and 1; or a
-    %             matrix of class logical or uint8, the upper row first: free where it is true, or 1 of only 0
-    %             and 1; other matrices of uint8 are grey pictures, free where they are at least 128, as in a file
+    %             matrix, the upper row first: of class logical free where it is true, of only 0 and 1 of any
+    %             class where it is 1; others of uint8 are grey pictures, free where they are at least 128, as in a file
     % um_per_px   side of a pixel or cell [um]; needed if the file does not contain it
-    % threshold   a pixel is free if it is at least this; matrices of other classes than logical and uint8 need it
+    % threshold   a pixel is free if it is at least this; other matrices than those need it
     % free        'bright', or 'dark': a pixel is free if it is below the threshold
     % others      of a file, keys of `map` in a scenario: 'um_per_unit', 'wall', 'simplify_um', ...
     %
@@ -32,7 +32,7 @@ classdef Map < microswarm.internal.Handle
         settings = microswarm.internal.settings_of(varargin, 'map.');
       elseif isequal(um_per_px, 0)
         error('microswarm:bad_input', 'a map of a matrix needs um_per_px');
-      elseif ~isempty(varargin)
+      else
         source = microswarm.internal.free_pixels(source, varargin);
       end
       opened = microswarm_mex('map_open', source, um_per_px, settings);

@@ -63,7 +63,8 @@ class Map(Drawable):
         """A map from an array of shape (height, width), the upper row first.
 
         A pixel is free if it is at least `threshold`, or with free="dark" if it is below. In an array of booleans True is
-        free, in one of only 0 and 1 the 1. The default threshold of uint8 is 128; other numbers have no default.
+        free, in one of only 0 and 1 the 1. The default threshold of uint8 is 128; other numbers have no default. An array that
+        is all wall is refused, one without walls is a warning.
         """
         array = grid_of("image", image, MAX_SIDE_PX)
         if free not in ("bright", "dark"):
@@ -73,6 +74,8 @@ class Map(Drawable):
         else:
             bright = array >= number("threshold", threshold)
         open_pixels = bright if free == "bright" else ~bright
+        if not open_pixels.any():
+            raise InputError(f"all of image is wall: its values are {array.min():g} to {array.max():g}, see threshold and free")
         return cls(_core.Map.from_pixels(np.ascontiguousarray(open_pixels, dtype=np.uint8), number("um_per_px", um_per_px), number("simplify_um", simplify_um)))
 
     @property

@@ -189,10 +189,23 @@ class GeoJsonReader {
     const JsonPlace properties_place = place.member("properties");
     const auto found = value.find("properties");
     const Json* properties = found != value.end() && found->is_object() ? &found.value() : nullptr;
-    if (properties && properties->contains("bounds") && (*properties)["bounds"] == true)
+    if (is_bounds(properties, properties_place)) {
+      if (bounds_) fail(place, "a second feature with the property 'bounds': only one is the map");
       bounds_ = rectangle(shape, shape_place);
-    else
+    } else {
       object(shape, shape_place, {properties, &properties_place});
+    }
+  }
+
+  /// Whether a feature is the extent of the map.
+  bool is_bounds(const Json* properties, const JsonPlace& place) const {
+    if (!properties) return false;
+    const auto found = properties->find("bounds");
+    if (found == properties->end() || found->is_null()) return false;
+    if (!found->is_boolean())
+      fail(place.member("bounds"),
+           "true or false expected, not a " + std::string(found->type_name()));
+    return found->get<bool>();
   }
 
   void geometry(const std::string& type, const Json& value, const JsonPlace& place,

@@ -27,12 +27,14 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 8> beginning
 /// Whether a line of a YAML file sets the key.
 bool has_key(std::string_view text, std::string_view key) {
   for (std::size_t at = text.find(key); at != std::string_view::npos; at = text.find(key, at + 1))
-    if ((at == 0 || text[at - 1] == '\n') && text.substr(at + key.size()).starts_with(':'))
+    if ((at == 0 || text[at - 1] == '\n' || text[at - 1] == '\r') &&
+        text.substr(at + key.size()).starts_with(':'))
       return true;
   return false;
 }
 
 std::string extension_of(std::string_view text) {
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) return ".txt";  // of UTF-16
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
   for (const auto& [begin, extension] : beginnings)
     if (text.starts_with(begin)) return std::string(extension);
@@ -42,7 +44,7 @@ std::string extension_of(std::string_view text) {
   if (text.starts_with('{') || text.starts_with('[')) return ".geojson";
   if (text.starts_with("<svg") || text.starts_with("<?xml")) return ".svg";
   if (has_key(text, "image") && has_key(text, "resolution")) return ".yaml";
-  const std::string_view line = text.substr(0, text.find('\n'));
+  const std::string_view line = text.substr(0, text.find_first_of("\r\n"));
   if (is_matrix(line)) return ".txt";
   return line.find_first_of(",;\t") == std::string_view::npos ? "" : ".csv";
 }

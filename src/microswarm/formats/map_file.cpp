@@ -90,9 +90,9 @@ std::vector<std::string> ros_notes(const RosHeader& header, const Image& image, 
   const SaverUnknown lost = find_saver_unknown(image, header);
   if (lost.cells > 0 && !lost.is_of_map_saver)
     notes.push_back(fmt::format(
-        "{}: {} cells of grey 205, map_saver's unknown, are free by free_thresh {:g}; with "
+        "{}: {} cells of grey 205, map_saver's unknown, {}are free by free_thresh {:g}; with "
         "free_thresh 0.196 they are walls",
-        name, lost.cells, header.free_thresh));
+        name, lost.lost, lost.lost > lost.cells ? "or near it " : "", header.free_thresh));
   else if (lost.cells > 0 && !unknown_free)
     notes.push_back(fmt::format(
         "{}: {} cells of grey 205, map_saver's unknown, are walls, though free_thresh {:g} would "
@@ -124,7 +124,28 @@ MapParts read(const RosMap& spec, const fs::path& base, Issues&) {
 }
 
 MapParts read(const MovingAiMap& spec, const fs::path& base, Issues&) {
-  return to_parts(read_moving_ai(base / spec.file), spec.um_per_cell);
+  const fs::path file = base / spec.file;
+  std::string unknown;
+  const Mask walls = read_moving_ai(file, &unknown);
+  MapParts parts = to_parts(walls, spec.um_per_cell);
+  if (std::ranges::find(walls.cells, 0) == walls.cells.end())
+    parts.notes.push_back(
+        fmt::format("{}: all cells are walls: free are only ., G and S", file.string()));
+  if (!unknown.empty())
+    parts.notes.push_back(fmt::format(
+        "{}: cells of {} are walls: MovingAI has ., G and S for what is free, @, O, T and W for "
+        "what is not",
+        file.string(), quote(unknown)));
+  return parts;
+}
+
+/// Adds a note on a table of rectangles that may be meant as a matrix.
+void note_matrix(const fs::path& file, std::vector<std::string>& notes) {
+  if (resembles_matrix(read_file(file)))
+    notes.push_back(fmt::format(
+        "{}: is read as rectangles, x, y, width and height, though it looks like a matrix: "
+        "map.type=matrix reads one, of 0 and 1",
+        file.string()));
 }
 
 MapParts read(const GeoJsonMap& spec, const fs::path& base, Issues&) {
@@ -141,6 +162,7 @@ MapParts read(const RectanglesMap& spec, const fs::path& base, Issues& issues) {
   if (!spec.file.empty()) {
     std::vector<Polygon> more = read_rectangles(base / spec.file, spec.um_per_unit);
     std::move(more.begin(), more.end(), std::back_inserter(parts.walls));
+    note_matrix(base / spec.file, parts.notes);
   }
   const Box around = enclosing_box(parts);
   parts.bounds = {spec.lo.value_or(around.lo), spec.hi.value_or(around.hi)};
@@ -194,7 +216,8 @@ struct FileFormat {
 
 /// The format of a kind of map; nothing for one without a file.
 std::optional<FileFormat> file_format(const MapSpec& spec) {
-  static constexpr std::array<std::string_view, 2> csv{".csv", ".txt"}, ros{".yaml", ".yml"},
+  static constexpr std::array<std::string_view, 3> csv{".csv", ".txt", ".tsv"};
+  static constexpr std::array<std::string_view, 2> ros{".yaml", ".yml"},
       geojson{".geojson", ".json"};
   static constexpr std::array<std::string_view, 1> moving_ai{".map"}, svg{".svg"};
   using Format = std::optional<FileFormat>;
@@ -229,6 +252,12 @@ std::vector<MapSpec> every_kind() {
     return std::vector<MapSpec>{std::variant_alternative_t<I, MapSpec>{}...};
   }
   (std::make_index_sequence<std::variant_size_v<MapSpec>>());
+}
+
+/// Whether the settings choose the type of the map.
+bool chooses_type(const Settings& settings) {
+  return std::ranges::any_of(
+      settings.list, [](const Setting& s) { return s.key == "map.type" || s.key == "map"; });
 }
 
 /// Sets the scale of a map whose file and settings are set; `fail` throws.
@@ -292,17 +321,15 @@ void set_scale(MapSpec& spec, const MapChoice& choice, Fail&& fail) {
                    if (unit) s.um_per_unit = unit;
                  },
                  [&](RectanglesMap& s) {
+                   if (px && !chooses_type(choice.settings))
+                     fail("is read as a table of rectangles, which has no pixels: give " +
+                          choice.um_per_unit_option + ", not " + choice.um_per_px_option +
+                          "; a matrix has rows of 0 and 1 only");
                    need_no_px();
                    s.um_per_unit = unit.value_or(s.um_per_unit);
                  },
                  [&](const OneOf<PolygonsMap, ChannelMap> auto&) { fail("is no file of walls"); }},
       spec);
-}
-
-/// Whether the settings choose the type of the map.
-bool chooses_type(const Settings& settings) {
-  return std::ranges::any_of(
-      settings.list, [](const Setting& s) { return s.key == "map.type" || s.key == "map"; });
 }
 
 /// Whether a file is named as one of a CAD program.

@@ -4,11 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/csv.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/lines.hpp"
 #include "microswarm/core/text/text.hpp"
@@ -28,12 +31,16 @@ bool is_digits(std::string_view word) {
   return word.find_first_not_of("01") == std::string_view::npos;
 }
 
-/// The fields of a row, between any of the separators, one of which may end it.
+/// The fields of a row, between any of the separators, one of which may end it, without quotes.
 std::vector<std::string_view> matrix_fields(std::string_view row) {
   if (row.ends_with(',') || row.ends_with(';')) row = trimmed(row.substr(0, row.size() - 1));
   for (const char separator : {',', ';'})
-    if (row.find(separator) != std::string_view::npos) return split(row, separator);
-  return words(row);
+    if (row.find(separator) != std::string_view::npos) return csv_cells(row, separator);
+  std::vector<std::string_view> fields = words(row);
+  for (std::string_view& field : fields)
+    if (field.size() > 2 && field.front() == '"' && field.back() == '"')
+      field = field.substr(1, field.size() - 2);
+  return fields;
 }
 
 /// The cells of a row; nothing where a field is neither 0 nor 1, which `bad` receives.
@@ -101,12 +108,35 @@ Mask read_matrix(const std::filesystem::path& path) {
   return parse_matrix(read_file(path, max_matrix_bytes), path.string());
 }
 
+bool resembles_matrix(std::string_view text) {
+  Lines lines(text, "");
+  std::size_t rows = 0, of_bits = 0;
+  std::set<double> values;
+  std::string_view bad;
+  while (const std::optional<std::string_view> line = lines.next()) {
+    const std::string_view row = trimmed(*line);
+    if (is_comment(row)) continue;
+    ++rows;
+    of_bits += row_cells(row, bad).has_value();
+    for (const std::string_view field : matrix_fields(row)) {
+      const std::optional<double> number = parse_number(field);
+      if (!number || *number != std::floor(*number)) return false;
+      if (values.size() < 3) values.insert(*number);
+    }
+  }
+  constexpr std::size_t few = 2;
+  return rows > few && (2 * of_bits > rows || values.size() <= 2);
+}
+
 bool is_matrix_file(const std::filesystem::path& path) {
+  std::string text;
   try {
-    return is_matrix(read_file(path, max_matrix_bytes));
+    text = read_file(path, max_matrix_bytes);
   } catch (const InputError&) {
     return false;
   }
+  require_utf8(text, path.string());
+  return is_matrix(text);
 }
 
 }  // namespace microswarm::formats

@@ -35,7 +35,11 @@ std::string_view header_value(Lines& lines, std::string_view key) {
   return found[1];
 }
 
-void read_row(const Lines& lines, std::string_view line, int row, Mask& mask) {
+/// Letters of the format: trees, water and what is out of bounds too.
+constexpr std::string_view known_letters = ".GS@OTW";
+
+void read_row(const Lines& lines, std::string_view line, int row, Mask& mask,
+              std::string& unknown) {
   if (line.size() != static_cast<std::size_t>(mask.width))
     lines.fail("row of " + std::to_string(line.size()) + " cells, width is " +
                std::to_string(mask.width));
@@ -43,6 +47,8 @@ void read_row(const Lines& lines, std::string_view line, int row, Mask& mask) {
     const char c = line[static_cast<std::size_t>(column)];
     if (c <= ' ' || c > '~') lines.fail("column " + std::to_string(column + 1) + " is no letter");
     mask.at(column, row) = !is_free_letter(c);
+    if (known_letters.find(c) == known_letters.npos && unknown.find(c) == unknown.npos)
+      unknown += c;
   }
 }
 
@@ -54,7 +60,8 @@ GridCell read_cell(const Lines& lines, std::string_view column, std::string_view
 
 }  // namespace
 
-Mask parse_moving_ai(std::string_view text, std::string_view name) {
+Mask parse_moving_ai(std::string_view text, std::string_view name, std::string* unknown) {
+  std::string others;
   Lines lines(text, name);
   const std::string_view type = header_value(lines, "type");
   if (type != "octile" && type != "tile")
@@ -75,15 +82,16 @@ Mask parse_moving_ai(std::string_view text, std::string_view name) {
     if (!line)
       lines.fail("truncated: " + std::to_string(height) + " rows expected, " + std::to_string(row) +
                  " there");
-    read_row(lines, *line, row, mask);
+    read_row(lines, *line, row, mask, others);
   }
   while (const std::optional<std::string_view> line = lines.next())
     if (!trimmed(*line).empty()) lines.fail("more than " + std::to_string(height) + " rows");
+  if (unknown) *unknown = others;
   return mask;
 }
 
-Mask read_moving_ai(const std::filesystem::path& path) {
-  return parse_moving_ai(read_file(path, max_map_bytes), path.string());
+Mask read_moving_ai(const std::filesystem::path& path, std::string* unknown) {
+  return parse_moving_ai(read_file(path, max_map_bytes), path.string(), unknown);
 }
 
 std::string moving_ai_text(const Mask& blocked) {

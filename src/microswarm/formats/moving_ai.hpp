@@ -13,9 +13,10 @@ namespace microswarm::formats {
 /// Reads a grid map of the MovingAI benchmarks (Sturtevant, "Benchmarks for grid-based
 /// pathfinding", 2012): `type octile` or `tile`, height, width, then one letter per cell. '.', 'G'
 /// and 'S' are free, every other letter is blocked. The mask's set cells are the blocked ones.
-/// Throws InputError "NAME:LINE: WHY".
-Mask read_moving_ai(const std::filesystem::path& path);
-Mask parse_moving_ai(std::string_view text, std::string_view name);
+/// `unknown` receives the letters that the format does not have, each once. Throws InputError
+/// "NAME:LINE: WHY".
+Mask read_moving_ai(const std::filesystem::path& path, std::string* unknown = nullptr);
+Mask parse_moving_ai(std::string_view text, std::string_view name, std::string* unknown = nullptr);
 
 /// MovingAI text of a mask: '@' where it is set, '.' elsewhere.
 std::string moving_ai_text(const Mask& blocked);

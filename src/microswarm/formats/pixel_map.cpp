@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/formats/images/mask.hpp"
@@ -21,10 +22,19 @@ int least_free(std::span<const std::uint8_t> pixels) {
   return is_mask ? 1 : ImageMap{}.threshold;
 }
 
+[[noreturn]] void fail_all_wall(std::span<const std::uint8_t> pixels, int least) {
+  const int most = *std::ranges::max_element(pixels);
+  throw InputError(most == 0
+                       ? "all of the image is wall: no pixel is free"
+                       : fmt::format("all of the image is wall: its largest value is {}, free "
+                                     "are pixels of at least {}",
+                                     most, least));
+}
+
 }  // namespace
 
-Map map_of_pixels(std::span<const std::uint8_t> pixels, std::size_t width, std::size_t height,
-                  double um_per_px, double tolerance) {
+PixelMap map_of_pixels(std::span<const std::uint8_t> pixels, std::size_t width, std::size_t height,
+                       double um_per_px, double tolerance) {
   constexpr std::size_t most = 65'535;
   for (const std::size_t side : {width, height})
     if (side < 1 || side > most)
@@ -40,6 +50,7 @@ Map map_of_pixels(std::span<const std::uint8_t> pixels, std::size_t width, std::
   Mask blocked(static_cast<int>(width), static_cast<int>(height));
   const int least = least_free(pixels);
   std::ranges::transform(pixels, blocked.cells.begin(), [&](std::uint8_t v) { return v < least; });
+  if (std::ranges::find(blocked.cells, 0) == blocked.cells.end()) fail_all_wall(pixels, least);
   std::vector<Polygon> walls = mask_walls(blocked, um_per_px);
   simplify(walls, tolerance);
   std::size_t corners = 0;
@@ -52,7 +63,9 @@ Map map_of_pixels(std::span<const std::uint8_t> pixels, std::size_t width, std::
         fmt::format("an image whose walls have {} corners, at most {} are taken: simplify them, or "
                     "remove its noise",
                     corners, max_corners));
-  return Map(cell_bounds(blocked, um_per_px), std::move(walls));
+  std::vector<std::string> notes;
+  if (walls.empty()) notes.emplace_back("the image has no walls: all of its pixels are free");
+  return {Map(cell_bounds(blocked, um_per_px), std::move(walls)), std::move(notes)};
 }
 
 }  // namespace microswarm::formats

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
+#include <optional>
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/csv.hpp"
@@ -21,11 +21,20 @@ bool has_number(const std::vector<std::string_view>& fields) {
                      [](std::string_view f) { return parse_number(f).has_value(); });
 }
 
-/// The fields of a line between ';' or commas, without double quotes around them, else words.
-std::vector<std::string_view> rectangle_fields(std::string_view line) {
-  for (const char separator : {';', ','})
-    if (line.find(separator) != std::string_view::npos) return csv_cells(line, separator);
-  return words(line);
+/// Separator of the fields of a table by its first line: ';', a tab, a comma, or ' ' for blanks.
+char rectangle_separator(std::string_view line) {
+  if (line.find(';') != std::string_view::npos) return ';';
+  const auto is_no_cell = [](std::string_view field) {
+    return field.starts_with(',') || field.ends_with(',') || words(field).size() > 1;
+  };
+  const bool has_tab = line.find('\t') != std::string_view::npos;
+  if (has_tab && std::ranges::none_of(split(line, '\t'), is_no_cell)) return '\t';
+  return line.find(',') == std::string_view::npos ? ' ' : ',';
+}
+
+/// The fields of a line, without double quotes around them.
+std::vector<std::string_view> rectangle_fields(std::string_view line, char separator) {
+  return separator == ' ' ? words(line) : csv_cells(line, separator);
 }
 
 /// Whether a header names columns of tracks, which are four too.
@@ -39,7 +48,8 @@ bool names_tracks(const std::vector<std::string_view>& header) {
 /// Places of x, y, width and height among the columns of a rectangles' table.
 using RectangleColumns = std::array<std::size_t, 4>;
 
-/// The columns by their names, in any order. Refuses others, and a unit other than µm.
+/// The columns by their names, in any order. A first one without a name holds those of the rows,
+/// as R and pandas write them. Refuses others, and a unit other than µm.
 RectangleColumns find_columns(const Lines& lines, const std::vector<std::string_view>& header) {
   constexpr std::array<std::array<std::string_view, 3>, 4> names{{{"x", "left", "x_um"},
                                                                   {"y", "bottom", "y_um"},
@@ -51,6 +61,7 @@ RectangleColumns find_columns(const Lines& lines, const std::vector<std::string_
       "rectangles have x,y,width,height, (x, y) being the lower left corner; other units by "
       "um_per_unit (--um-per-unit)";
   for (std::size_t column = 0; column < header.size(); ++column) {
+    if (column == 0 && header[column].empty()) continue;
     std::string name(header[column]);
     std::ranges::transform(name, name.begin(), [](char c) {
       return c == 'X' || c == 'Y' || c == 'W' || c == 'H' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -98,26 +109,31 @@ std::vector<Polygon> parse_rectangles(std::string_view text, std::string_view na
   Lines lines(text, name);
   std::vector<Polygon> rectangles;
   RectangleColumns columns{0, 1, 2, 3};
-  bool first = true;
+  std::size_t in_row = columns.size();
+  std::optional<char> separator;
   while (const std::optional<std::string_view> raw = lines.next()) {
     const std::string_view line = trimmed(*raw);
     if (line.empty() || line.front() == '#') continue;
-    const std::vector<std::string_view> fields = rectangle_fields(line);
-    if (std::exchange(first, false) && !has_number(fields)) {
+    const bool is_first = !separator;
+    if (is_first) {
+      separator = rectangle_separator(line);
+      require_clear_commas(text, name, *separator);
+    }
+    const std::vector<std::string_view> fields = rectangle_fields(line, *separator);
+    if (is_first && !has_number(fields)) {
       if (names_tracks(fields))
         lines.fail("columns of tracks, not of rectangles: x,y,width,height expected");
       columns = find_columns(lines, fields);
+      in_row = fields.size();
       continue;
     }
     std::vector<double> numbers;
-    for (const std::string_view field : fields) {
-      const std::optional<double> number = rectangle_number(field);
-      if (!number) lines.fail(quote(field) + " is no number");
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      const std::size_t column = fields.size() == in_row && i < columns.size() ? columns[i] : i;
+      if (fields.size() == in_row && i >= columns.size()) break;  // the names of rows
+      const std::optional<double> number = rectangle_number(fields[column]);
+      if (!number) lines.fail(quote(fields[column]) + " is no number");
       numbers.push_back(um_per_unit * *number);
-    }
-    if (numbers.size() == columns.size()) {
-      const std::vector<double> in_file = numbers;
-      for (std::size_t i = 0; i < columns.size(); ++i) numbers[i] = in_file[columns[i]];
     }
     rectangles.push_back(
         rectangle(numbers, std::string(name) + ":" + std::to_string(lines.number())));

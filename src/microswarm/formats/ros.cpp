@@ -26,6 +26,7 @@ Cell to_cell(double value, const RosHeader& header) {
 }
 
 constexpr std::uint8_t saver_unknown = 205, saver_free = 254;
+constexpr double usual_free_thresh = 0.196;
 
 /// Grey of a pixel: the mean of the colours, as in map_server.
 double mean_grey(const Image& image, std::size_t pixel) {
@@ -105,16 +106,19 @@ SaverUnknown find_saver_unknown(const Image& image, const RosHeader& header) {
   SaverUnknown found;
   const bool is_lost = to_cell(saver_unknown, header) == Cell::free;
   if (header.mode != RosMode::trinary || header.negate != 0 || !is_lost) return found;
+  RosHeader usual = header;
+  usual.free_thresh = usual_free_thresh;
   bool has_free = false, has_others = false;
   const std::size_t pixels =
       static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
   for (std::size_t i = 0; i < pixels; ++i) {
     const double value = mean_grey(image, i);
+    if (to_cell(value, header) == Cell::free && to_cell(value, usual) != Cell::free) ++found.lost;
     if (value == saver_unknown)
       ++found.cells;
-    else if (value == saver_free)
+    else if (value == saver_free || value == 255)
       has_free = true;
-    else if (value != 0 && value != 255)
+    else if (value != 0)
       has_others = true;
   }
   found.is_of_map_saver = found.cells > 0 && has_free && !has_others;

@@ -65,7 +65,10 @@ RosHeader parse_ros_header(std::string_view text, std::string_view name);
 /// without negate.
 struct SaverUnknown {
   std::size_t cells = 0;
-  /// Whether the picture has map_saver's greys only, 0, 205 and 254, or 255, and 254 among them.
+  /// Cells that are free by free_thresh, and would be unknown by 0.196: those of 205, and in a
+  /// picture that was compressed with loss, or shaded, of greys near it.
+  std::size_t lost = 0;
+  /// Whether the picture has map_saver's greys only: 0, 205 and 254 or 255, all of them.
   bool is_of_map_saver = false;
 };
 SaverUnknown find_saver_unknown(const Image& image, const RosHeader& header);

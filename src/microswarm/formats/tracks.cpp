@@ -76,7 +76,10 @@ Tracks parse_tracks(std::string_view text, std::string_view name) {
   char separator = ',';
   while (const std::optional<std::string_view> line = lines.next()) {
     if (says_nothing(*line)) continue;
-    if (!places) separator = csv_separator(*line);
+    if (!places) {
+      separator = csv_separator(*line);
+      require_clear_commas(text, name, separator);
+    }
     const std::vector<std::string_view> field = csv_cells(*line, separator);
     if (!places) {
       places = find_columns(lines, *line, separator);

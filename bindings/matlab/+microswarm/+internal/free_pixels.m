@@ -1,8 +1,8 @@
 function free = free_pixels(picture, values)
 % microswarm.internal.free_pixels  Which pixels of a matrix are free, by its values 'threshold' and 'free'.
 %
-% Of a mask, of class logical or of 0 and 1 of class uint8, 1 is bright; a grey picture of uint8 is bright from 128
-% on. Matrices of other classes need a threshold: without, they are left as they are.
+% Of a mask, of class logical or of 0 and 1 of any class, 1 is bright; a grey picture of uint8 is bright from 128
+% on. Other matrices need a threshold: without, they are left as they are.
 
   % SPDX-License-Identifier: Apache-2.0
   threshold = [];
@@ -31,9 +31,14 @@ function free = free_pixels(picture, values)
   if islogical(picture)
     threshold = 1;
   elseif isempty(threshold)
-    if ~isa(picture, 'uint8'), return; end
-    threshold = 128;
-    if all(picture(:) <= 1), threshold = 1; end
+    is_numbers = isnumeric(picture) && isreal(picture) && ~issparse(picture);
+    if is_numbers && all(picture(:) == 0 | picture(:) == 1)
+      threshold = 1;
+    elseif isa(picture, 'uint8')
+      threshold = 128;
+    else
+      return;
+    end
   elseif ~isnumeric(picture) || ~isreal(picture) || issparse(picture)
     return;
   elseif ~all(isfinite(picture(:)))

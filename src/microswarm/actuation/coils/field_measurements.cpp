@@ -73,6 +73,7 @@ FieldMeasurements parse_measurements(std::string_view text, std::string_view nam
   FieldMeasurements measured{.file = std::string(name)};
   if (!rows.next()) rows.fail("a header with the columns i_NAME_a, bx_mt, by_mt, bz_mt is missing");
   const Columns columns = read_header(rows, measured.coils);
+  require_clear_commas(text, name, columns.separator);
   while (rows.next()) {
     const std::vector<std::string_view> pieces = csv_cells(rows.row(), columns.separator);
     if (pieces.size() != columns.count)

@@ -14,20 +14,34 @@ constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 }  // namespace
 
 Lines::Lines(std::string_view text, std::string_view name) : rest_(text), name_(name) {
+  require_utf8(text, name);
   if (rest_.starts_with(byte_order_mark)) rest_.remove_prefix(byte_order_mark.size());
+  // Excel reads a first line "sep=;" as the separator of a table.
+  constexpr std::string_view separator_line = "sep=";
+  if (rest_.starts_with(separator_line) && rest_.size() > separator_line.size() + 1 &&
+      (rest_[separator_line.size() + 1] == '\n' || rest_[separator_line.size() + 1] == '\r'))
+    next();
 }
 
 std::optional<std::string_view> Lines::next() {
   if (rest_.empty()) return std::nullopt;
   ++number_;
-  const std::size_t end = std::min(rest_.find('\n'), rest_.size());
-  std::string_view line = rest_.substr(0, end);
-  rest_.remove_prefix(std::min(end + 1, rest_.size()));
-  if (line.ends_with('\r')) line.remove_suffix(1);
+  std::size_t end = 0;
+  while (end < rest_.size() && rest_[end] != '\n' && rest_[end] != '\r') ++end;
+  const std::string_view line = rest_.substr(0, end);
+  rest_.remove_prefix(end);
+  const std::size_t behind = std::min(rest_.find_first_not_of('\r'), rest_.size());
+  const bool has_lf = behind < rest_.size() && rest_[behind] == '\n';
+  rest_.remove_prefix(has_lf ? behind + 1 : std::min<std::size_t>(1, rest_.size()));
   return line;
 }
 
 void Lines::fail(const std::string& why) const { throw InputError(name_, number_, 0, why); }
+
+void require_utf8(std::string_view text, std::string_view name) {
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
+    throw InputError(std::string(name) + ": is a text in UTF-16: save it in UTF-8");
+}
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(blanks);

@@ -8,10 +8,11 @@
 
 namespace microswarm {
 
-/// Lines of a text file, one by one, without their ends (LF or CRLF) and without a byte order mark.
+/// Lines of a text file, one by one, without their ends (LF, CRLF or CR), a byte order mark and a
+/// first line "sep=;" of a spreadsheet.
 class Lines {
  public:
-  /// `name` stands for the file in messages.
+  /// `name` stands for the file in messages. Throws as require_utf8.
   Lines(std::string_view text, std::string_view name);
 
   /// Next line, or nothing at the end.
@@ -26,6 +27,9 @@ class Lines {
   std::string name_;
   int number_ = 0;
 };
+
+/// Refuses a text in UTF-16 or UTF-32, by its byte order mark: "NAME: is in UTF-16: …".
+void require_utf8(std::string_view text, std::string_view name);
 
 /// `text` without leading and trailing blanks.
 std::string_view trimmed(std::string_view text);

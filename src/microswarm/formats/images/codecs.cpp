@@ -258,6 +258,7 @@ std::string encode_png(const Image& image) {
 }
 
 std::vector<std::uint8_t> transparency(Bytes bytes, std::string_view name) {
+  if (is_tiff(bytes)) return TiffPages(bytes, name).transparency();
   if (!is_png(bytes)) return {};
   const OpenPng png(bytes, name);
   if (!png.transparent) return {};
@@ -280,7 +281,13 @@ DecodedImage decode_pixels(Bytes bytes, std::string_view name) {
     orient(picture, exif_orientation(bytes));
     return picture;
   }
-  if (is_tiff(bytes)) return TiffPages(bytes, name).next();
+  if (is_tiff(bytes)) {
+    TiffPages pages(bytes, name);
+    if (const int channels = pages.description().pixel_channels; channels > 1)
+      fail_image(name, "its pixels have " + std::to_string(channels) +
+                           " channels that are no colours: save one of them");
+    return pages.next();
+  }
   if (!starts_with(bytes, "BM"))
     fail_image(name, "not an image (PNG, JPEG, BMP, TIFF, PGM, PPM or PBM)");
   check_bmp(bytes, name);

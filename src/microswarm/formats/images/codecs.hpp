@@ -26,8 +26,8 @@ DecodedImage decode_pixels(std::span<const std::byte> bytes, std::string_view na
 /// Pixels of a picture file of any kind that read_image takes; throws as it.
 DecodedImage read_stored(const std::filesystem::path& path);
 
-/// 1 for each pixel of a PNG that is not opaque, else 0; empty for a picture without transparency.
-/// Throws as `decode_pixels`.
+/// 1 for each pixel of a PNG or TIFF that is not opaque, else 0; empty for a picture without
+/// transparency. Throws as `decode_pixels`.
 std::vector<std::uint8_t> transparency(std::span<const std::byte> bytes, std::string_view name);
 
 /// Encodes an image as an 8-bit PNG. Throws InputError "cannot encode a PNG: WHY".

@@ -86,6 +86,10 @@ ReadPicture read_picture(const std::filesystem::path& path) {
     if (pages.count() > 1)
       note(fmt::format("holds {} pictures, the first is taken", pages.count()));
     picture.um_per_px = pages.description().um_per_px;
+    if (const int channels = pages.description().pixel_channels; channels > 1)
+      note(fmt::format("its pixels have {} channels that are no colours, the first is taken",
+                       channels));
+    for (const std::string& text : pages.notes()) note(text);
     decoded = pages.next();
   } else {
     decoded = decode_pixels(bytes, name);
@@ -94,6 +98,7 @@ ReadPicture read_picture(const std::filesystem::path& path) {
   picture.black = scale.black;
   picture.white = scale.white;
   note(scale_note(*decoded, scale));
+  note(no_number_note(*decoded));
   take_pixels(*std::move(decoded), scale, picture.image);
   return picture;
 }

@@ -39,7 +39,7 @@ void check_image_size(std::int64_t width, std::int64_t height, std::string_view 
 /// Reads PNG, JPEG, BMP, TIFF (its first page), PGM, PPM or PBM: deeper samples are scaled to 8
 /// bits, those of PNG and TIFF as numbers of `depth` bits (8 to 16; what is larger becomes white;
 /// signed, floating and 32-bit ones from the smallest to the largest),
-/// palettes and 1-bit pictures expanded, a PNG composed over white. The structure
+/// palettes and 1-bit pictures expanded, a PNG or TIFF composed over white. The structure
 /// is checked before anything is decoded; throws InputError "x.png: WHY" for no file, an empty one,
 /// no image, a truncated or damaged one, 0 pixels, or more than max_image_side or max_image_pixels.
 Image read_image(const std::filesystem::path& path, int depth = 16);
@@ -52,8 +52,8 @@ inline constexpr std::array<std::string_view, 10> image_extensions{
     ".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".pgm", ".ppm", ".pbm", ".pnm"};
 bool has_image_extension(const std::filesystem::path& path);
 
-/// 1 for each pixel of a PNG that is not opaque, else 0; empty for a picture without transparency.
-/// Throws as `read_image`.
+/// 1 for each pixel of a PNG or TIFF that is not opaque, else 0; empty for a picture without
+/// transparency. Throws as `read_image`.
 std::vector<std::uint8_t> read_transparency(const std::filesystem::path& path);
 
 /// A picture of a camera, and what was assumed in reading it.

@@ -52,7 +52,7 @@ class PnmReader {
     for (; at_ < text_.size(); ++at_) {
       const char c = text_[at_];
       if (c == '#')
-        while (at_ + 1 < text_.size() && text_[at_ + 1] != '\n') ++at_;
+        while (at_ + 1 < text_.size() && text_[at_ + 1] != '\n' && text_[at_ + 1] != '\r') ++at_;
       else if (c != ' ' && (c < '\t' || c > '\r'))
         return;
     }

@@ -108,6 +108,15 @@ std::string scale_note(const DecodedImage& picture, const GreyScale& scale) {
                      scale.black, scale.white);
 }
 
+std::string no_number_note(const DecodedImage& picture) {
+  const auto* real = std::get_if<RealImage>(&picture);
+  if (!real) return {};
+  const auto count =
+      std::ranges::count_if(real->samples, [](float sample) { return std::isnan(sample); });
+  if (count == 0) return {};
+  return fmt::format("{} of its samples are no number (NaN): they are read as black", count);
+}
+
 std::size_t take_pixels(DecodedImage decoded, const GreyScale& scale, Image& image) {
   if (auto* plain = std::get_if<Image>(&decoded)) {
     image = std::move(*plain);

@@ -46,6 +46,9 @@ GreyScale scale_of(const DecodedImage& picture);
 /// 12 bits"; empty if each value keeps its place.
 std::string scale_note(const DecodedImage& picture, const GreyScale& scale);
 
+/// Note on the samples that are no number; empty if none is.
+std::string no_number_note(const DecodedImage& picture);
+
 /// Moves or scales a picture into `image`, whose memory is used again. Samples that are no number
 /// become black. Returns the number of samples beyond the scale.
 std::size_t take_pixels(DecodedImage decoded, const GreyScale& scale, Image& image);

@@ -2,322 +2,27 @@
 #include "microswarm/formats/images/tiff.hpp"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 #include <tiffio.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cstdarg>
 #include <cstdint>
-#include <cstdio>
 #include <cstring>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/formats/images/orientation.hpp"
-#include "microswarm/formats/images/tiff_samples.hpp"
+#include "microswarm/formats/images/tiff_file.hpp"
+#include "microswarm/formats/images/tiff_page.hpp"
 
 namespace microswarm::formats {
 namespace {
 
-constexpr tmsize_t max_allocation = 512L << 20;  // [bytes] of the library at once
 constexpr int max_pages = 1'000'000;
 
-/// Header of a page.
-struct Page {
-  std::uint32_t width = 0, height = 0;
-  std::uint16_t bits = 1, samples = 1, format = SAMPLEFORMAT_UINT;
-  std::uint16_t planes = PLANARCONFIG_CONTIG, photometric = PHOTOMETRIC_MINISBLACK;
-  std::uint16_t orientation = ORIENTATION_TOPLEFT, compression = COMPRESSION_NONE;
-
-  bool is_whole() const { return format == SAMPLEFORMAT_UINT || format == SAMPLEFORMAT_VOID; }
-  int channels() const { return samples >= 3 ? 3 : 1; }
-};
-
-/// Name of the samples that become a RealImage; empty for others.
-std::string_view real_kind(const Page& p) {
-  if (p.format == SAMPLEFORMAT_IEEEFP && p.bits == 32) return "32-bit float";
-  if (p.format == SAMPLEFORMAT_IEEEFP && p.bits == 64) return "64-bit float";
-  if (p.format == SAMPLEFORMAT_INT && p.bits == 8) return "signed 8-bit";
-  if (p.format == SAMPLEFORMAT_INT && p.bits == 16) return "signed 16-bit";
-  if (p.format == SAMPLEFORMAT_INT && p.bits == 32) return "signed 32-bit";
-  if (p.is_whole() && p.bits == 32) return "32-bit";
-  return {};
-}
-
-/// Calls `with` with the reader of samples of this kind.
-template <class With>
-bool with_real_reader(const Page& p, With&& with) {
-  using namespace tiff;
-  if (p.format == SAMPLEFORMAT_IEEEFP)
-    return p.bits == 32 ? with(PlainSamples<float>()) : with(PlainSamples<double>());
-  if (p.format != SAMPLEFORMAT_INT) return with(PlainSamples<std::uint32_t>());
-  if (p.bits == 8) return with(PlainSamples<std::int8_t>());
-  return p.bits == 16 ? with(PlainSamples<std::int16_t>()) : with(PlainSamples<std::int32_t>());
-}
-
-int keep_silent(TIFF*, void*, const char*, const char*, va_list) { return 1; }
-
-int keep_count(TIFF*, void* errors, const char*, const char*, va_list) {
-  ++*static_cast<int*>(errors);
-  return 1;
-}
-
 }  // namespace
-
-/// The open file. libtiff's errors are counted, its messages are not shown.
-struct TiffPages::File {
-  /// Pages that follow each other without directories.
-  struct Row {
-    std::uint64_t begin = 0;  ///< of the first page in the file [B]
-    std::uint64_t size = 0;   ///< of a page [B]
-  };
-
-  std::span<const std::byte> bytes;  // of a file in memory
-  toff_t at = 0;                     // place in it
-  TIFF* tiff = nullptr;
-  int errors = 0;
-  std::optional<Row> in_row;
-
-  File() = default;
-  ~File() {
-    if (tiff) TIFFClose(tiff);
-  }
-  File(const File&) = delete;
-  File& operator=(const File&) = delete;
-  template <class Open>
-  void open(Open&& with) {
-    TIFFOpenOptions* options = TIFFOpenOptionsAlloc();
-    TIFFOpenOptionsSetMaxSingleMemAlloc(options, max_allocation);
-    TIFFOpenOptionsSetErrorHandlerExtR(options, keep_count, &errors);
-    TIFFOpenOptionsSetWarningHandlerExtR(options, keep_silent, nullptr);
-    tiff = with(options);
-    TIFFOpenOptionsFree(options);
-  }
-
-  static File& of(thandle_t handle) { return *static_cast<File*>(handle); }
-  static tmsize_t read(thandle_t handle, void* to, tmsize_t size) {
-    File& f = of(handle);
-    if (size <= 0 || f.at >= f.bytes.size()) return 0;
-    const auto count = std::min<std::size_t>(static_cast<std::size_t>(size), f.bytes.size() - f.at);
-    std::memcpy(to, &f.bytes[f.at], count);
-    f.at += count;
-    return static_cast<tmsize_t>(count);
-  }
-  static tmsize_t write(thandle_t, void*, tmsize_t) { return -1; }
-  static toff_t seek(thandle_t handle, toff_t offset, int whence) {
-    File& f = of(handle);
-    f.at = whence == SEEK_SET ? offset : offset + (whence == SEEK_CUR ? f.at : f.bytes.size());
-    return f.at;
-  }
-  static int close(thandle_t) { return 0; }
-  static toff_t size(thandle_t handle) { return of(handle).bytes.size(); }
-  // Without a map, libtiff 4.5 refuses small tiles that are not compressed.
-  static int map(thandle_t handle, void** begin, toff_t* size) {
-    const auto bytes = of(handle).bytes;
-    *begin = const_cast<std::byte*>(bytes.data());
-    *size = bytes.size();
-    return 1;
-  }
-  static void unmap(thandle_t, void*, toff_t) {}
-
-  Page page() const {
-    Page p;
-    TIFFGetField(tiff, TIFFTAG_IMAGEWIDTH, &p.width);
-    TIFFGetField(tiff, TIFFTAG_IMAGELENGTH, &p.height);
-    TIFFGetFieldDefaulted(tiff, TIFFTAG_BITSPERSAMPLE, &p.bits);
-    TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLESPERPIXEL, &p.samples);
-    TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLEFORMAT, &p.format);
-    TIFFGetFieldDefaulted(tiff, TIFFTAG_PLANARCONFIG, &p.planes);
-    TIFFGetField(tiff, TIFFTAG_PHOTOMETRIC, &p.photometric);
-    TIFFGetFieldDefaulted(tiff, TIFFTAG_ORIENTATION, &p.orientation);
-    TIFFGetFieldDefaulted(tiff, TIFFTAG_COMPRESSION, &p.compression);
-    return p;
-  }
-
-  /// Whether every strip or tile is in the file. libtiff would read a missing one as black.
-  bool is_all_there() const {
-    const std::uint32_t count =
-        TIFFIsTiled(tiff) ? TIFFNumberOfTiles(tiff) : TIFFNumberOfStrips(tiff);
-    for (std::uint32_t i = 0; i < count; ++i)
-      if (TIFFGetStrileOffset(tiff, i) == 0) return false;
-    return true;
-  }
-
-  /// Decodes samples of at most 8 bits by libtiff's own conversion to red, green, blue.
-  std::optional<DecodedImage> decode_8(const Page& p) const {
-    std::vector<std::uint32_t> rgba(std::size_t{p.width} * p.height);
-    // In the order stored: libtiff mirrors, but does not transpose.
-    if (!TIFFReadRGBAImageOriented(tiff, p.width, p.height, rgba.data(), p.orientation, 1))
-      return std::nullopt;
-    const bool grey =
-        p.photometric == PHOTOMETRIC_MINISBLACK || p.photometric == PHOTOMETRIC_MINISWHITE;
-    Image image{static_cast<int>(p.width), static_cast<int>(p.height), grey ? 1 : 3, {}};
-    image.pixels.resize(image.index(0, image.height));
-    std::uint8_t* out = image.pixels.data();
-    for (const std::uint32_t pixel : rgba) {
-      *out++ = static_cast<std::uint8_t>(TIFFGetR(pixel));
-      if (grey) continue;
-      *out++ = static_cast<std::uint8_t>(TIFFGetG(pixel));
-      *out++ = static_cast<std::uint8_t>(TIFFGetB(pixel));
-    }
-    return image;
-  }
-
-  /// Decodes samples of 9 to 16 bits: grey, or the first three samples.
-  std::optional<DecodedImage> decode_deep(const Page& p) const {
-    DeepImage image{.width = static_cast<int>(p.width),
-                    .height = static_cast<int>(p.height),
-                    .channels = p.channels(),
-                    .samples = {},
-                    .bits = p.bits};
-    if (!decode_samples(p, tiff::PackedSamples{p.bits}, image.samples)) return std::nullopt;
-    if (p.photometric == PHOTOMETRIC_MINISWHITE)
-      for (std::uint16_t& sample : image.samples)
-        sample = static_cast<std::uint16_t>((1 << p.bits) - 1 - sample);
-    return image;
-  }
-
-  /// Decodes signed and floating samples, and those of 32 bits.
-  std::optional<DecodedImage> decode_real(const Page& p) const {
-    RealImage image{.width = static_cast<int>(p.width),
-                    .height = static_cast<int>(p.height),
-                    .channels = p.channels(),
-                    .samples = {},
-                    .kind = real_kind(p)};
-    const bool good =
-        with_real_reader(p, [&](auto reader) { return decode_samples(p, reader, image.samples); });
-    if (!good) return std::nullopt;
-    if (p.photometric == PHOTOMETRIC_MINISWHITE)
-      for (float& sample : image.samples) sample = -sample;
-    return image;
-  }
-
-  /// Decodes 8-bit samples of a page that has no directory.
-  std::optional<DecodedImage> decode_8_in_row(const Page& p) const {
-    Image image{static_cast<int>(p.width), static_cast<int>(p.height), p.channels(), {}};
-    if (!decode_samples(p, tiff::PackedSamples{p.bits}, image.pixels)) return std::nullopt;
-    if (p.photometric == PHOTOMETRIC_MINISWHITE)
-      for (std::uint8_t& sample : image.pixels) sample = static_cast<std::uint8_t>(255 - sample);
-    return image;
-  }
-
-  template <class Sample, class Reader>
-  bool decode_samples(const Page& p, Reader reader, std::vector<Sample>& samples) const {
-    const auto channels = static_cast<std::size_t>(p.channels());
-    samples.resize(std::size_t{p.width} * p.height * channels);
-    const bool apart = p.planes == PLANARCONFIG_SEPARATE;
-    for (int plane = 0; plane < (apart ? p.channels() : 1); ++plane) {
-      const tiff::SampleRow row{p.bits, apart ? 1 : p.samples, apart ? plane : -1};
-      const tiff::SamplePlacer<Sample, Reader> placer{row, reader, samples.data(), p.width,
-                                                      channels};
-      if (!(in_row              ? decode_in_row(p, placer)
-            : TIFFIsTiled(tiff) ? decode_tiles(p, placer)
-                                : decode_rows(p, placer)))
-        return false;
-    }
-    return true;
-  }
-
-  bool decode_rows(const Page& p, const auto& placer) const {
-    const std::size_t size = placer.row.bytes(p.width);
-    if (TIFFScanlineSize64(tiff) != size) return false;
-    std::vector<std::uint8_t> row(size);
-    for (std::uint32_t y = 0; y < p.height; ++y) {
-      if (TIFFReadScanline(tiff, row.data(), y, placer.row.plane_number()) != 1) return false;
-      placer.place(row.data(), 0, y, p.width);
-    }
-    return true;
-  }
-
-  bool decode_tiles(const Page& p, const auto& placer) const {
-    std::uint32_t width = 0, height = 0;
-    TIFFGetField(tiff, TIFFTAG_TILEWIDTH, &width);
-    TIFFGetField(tiff, TIFFTAG_TILELENGTH, &height);
-    if (width == 0 || height == 0 || width > max_image_side || height > max_image_side)
-      return false;
-    const std::size_t a_row = placer.row.bytes(width);
-    const std::size_t size = a_row * height;
-    if (size > max_allocation || TIFFTileSize64(tiff) != size) return false;
-    std::vector<std::uint8_t> tile(size);
-    for (std::uint32_t y = 0; y < p.height; y += height)
-      for (std::uint32_t x = 0; x < p.width; x += width) {
-        if (TIFFReadTile(tiff, tile.data(), x, y, 0, placer.row.plane_number()) < 0) return false;
-        for (std::uint32_t k = 0; k < std::min(height, p.height - y); ++k)
-          placer.place(&tile[k * a_row], x, y + k, std::min(width, p.width - x));
-      }
-    return true;
-  }
-
-  /// Page `page_in_row` of those that follow each other.
-  bool decode_in_row(const Page& p, const auto& placer) const {
-    std::vector<std::uint8_t> page(in_row->size);
-    const auto number = static_cast<std::uint64_t>(page_in_row);
-    if (!read_at(in_row->begin + in_row->size * number, page)) return false;
-    const auto count = static_cast<tmsize_t>(page.size()) / std::max(1, p.bits / 8);
-    if (TIFFIsByteSwapped(tiff) && p.bits == 16)
-      TIFFSwabArrayOfShort(reinterpret_cast<std::uint16_t*>(page.data()), count);
-    if (TIFFIsByteSwapped(tiff) && p.bits == 32)
-      TIFFSwabArrayOfLong(reinterpret_cast<std::uint32_t*>(page.data()), count);
-    const std::size_t a_row = placer.row.bytes(p.width);
-    for (std::uint32_t y = 0; y < p.height; ++y) placer.place(&page[y * a_row], 0, y, p.width);
-    return true;
-  }
-  bool read_at(std::uint64_t from, std::vector<std::uint8_t>& to) const {
-    if (!bytes.empty()) {
-      if (from > bytes.size() || to.size() > bytes.size() - from) return false;
-      std::memcpy(to.data(), &bytes[from], to.size());
-      return true;
-    }
-    for (std::size_t done = 0; done < to.size();) {
-      const ssize_t got =
-          ::pread(TIFFFileno(tiff), &to[done], to.size() - done, static_cast<off_t>(from + done));
-      if (got <= 0) return false;
-      done += static_cast<std::size_t>(got);
-    }
-    return true;
-  }
-
-  /// Size of the file [B].
-  std::uint64_t file_size() const {
-    if (!bytes.empty()) return bytes.size();
-    struct stat info {};
-    return ::fstat(TIFFFileno(tiff), &info) == 0 ? static_cast<std::uint64_t>(info.st_size) : 0;
-  }
-
-  /// Place of the pages without directories, if the only page is plain and in one piece.
-  std::optional<Row> find_row() const {
-    const Page p = page();
-    if (p.width > max_image_side || p.height > max_image_side) return std::nullopt;
-    const bool known = p.bits == 8 || p.bits == 16 || p.bits == 32;
-    if (!known || p.compression != COMPRESSION_NONE || TIFFIsTiled(tiff) ||
-        p.planes != PLANARCONFIG_CONTIG || (p.samples != 1 && p.samples != 3) ||
-        p.photometric == PHOTOMETRIC_PALETTE)
-      return std::nullopt;
-    const std::uint64_t size = std::uint64_t{p.width} * p.height * p.samples * p.bits / 8;
-    std::uint64_t end = TIFFGetStrileOffset(tiff, 0);
-    const Row row{end, size};
-    for (std::uint32_t i = 0; i + 1 < TIFFNumberOfStrips(tiff); ++i) {
-      end += TIFFGetStrileByteCount(tiff, i);
-      if (TIFFGetStrileOffset(tiff, i + 1) != end) return std::nullopt;
-    }
-    return size > 0 && row.begin > 0 ? std::optional(row) : std::nullopt;
-  }
-
-  TiffDescription description(const std::string& name) const {
-    const char* text = nullptr;
-    if (TIFFGetField(tiff, TIFFTAG_IMAGEDESCRIPTION, &text) != 1 || !text) return {};
-    float x = 0, y = 0;
-    TIFFGetField(tiff, TIFFTAG_XRESOLUTION, &x);
-    TIFFGetField(tiff, TIFFTAG_YRESOLUTION, &y);
-    return parse_tiff_description(text, x, y, name);
-  }
-
-  int page_in_row = 0;
-  std::vector<toff_t> places;  ///< of the directories read so far [B]
-};
 
 bool is_tiff(std::span<const std::byte> bytes) {
   constexpr std::array<std::string_view, 4> begins{
@@ -350,26 +55,55 @@ TiffPages::~TiffPages() = default;
 void TiffPages::count_pages() {
   TIFF* const tiff = file_->tiff;
   if (!tiff) throw InputError(name_ + ": is no TIFF that can be read");
+  const tiff::Page first = file_->page();
   description_ = file_->description(name_);
+  description_.pixel_channels = first.pixel.channels;
+  orientation_ = first.orientation;
   file_->errors = 0;
   count_ = static_cast<int>(std::min<std::uint64_t>(TIFFNumberOfDirectories(tiff), max_pages));
   if (count_ == 0) throw InputError(name_ + ": holds no picture");
-  if (file_->errors > 0)
+  const bool is_cut = file_->errors > 0;
+  const int told = description_.images;
+  if (told > 1 && count_ == 1 && may_be_in_row(is_cut)) {
+    const auto& row = file_->in_row;
+    const std::uint64_t size = file_->file_size();
+    const std::uint64_t whole = size > row->begin ? (size - row->begin) / row->size : 0;
+    count_ = static_cast<int>(std::clamp<std::uint64_t>(whole, 1, static_cast<unsigned>(told)));
+    if (is_cut && count_ == told)
+      notes_.push_back("it is cut behind its pictures: they are read as they follow the first one");
+  } else if (is_cut) {
     why_fewer_ = fmt::format(
         "{}: the list of its pictures breaks off after {}: it is cut or damaged", name_, count_);
-  const int told = description_.images;
-  if (told > 1 && count_ == 1 && why_fewer_.empty() && description_.one_directory) {
-    file_->in_row = file_->find_row();
-    if (const auto& row = file_->in_row) {
-      const std::uint64_t size = file_->file_size();
-      const std::uint64_t whole = size > row->begin ? (size - row->begin) / row->size : 0;
-      count_ = static_cast<int>(std::clamp<std::uint64_t>(whole, 1, static_cast<unsigned>(told)));
-    }
   }
   if (why_fewer_.empty() && count_ < told)
-    why_fewer_ = fmt::format("{}: {} tells {} pictures in it, {} are there", name_,
-                             description_.software, told, count_);
+    why_fewer_ =
+        fmt::format("{}: {} tells {} pictures in it, {} are there{}", name_, description_.software,
+                    told, count_, is_cut ? ": it is cut or damaged" : "");
+  if (first.pixel.unknown > 0)
+    notes_.push_back(
+        fmt::format("of the {} samples of a pixel {} are left out: the file does not tell what "
+                    "they are",
+                    first.samples, first.pixel.unknown));
+  if (file_->is_of_bools())
+    notes_.push_back(
+        "its 1 is black (WhiteIsZero), as tifffile stores true and false: what was "
+        "true is dark");
 }
+
+/// Whether the pages follow the first one without directories, whose place is then kept. If the
+/// file is cut, the second directory must begin behind them all.
+bool TiffPages::may_be_in_row(bool is_cut) {
+  File& f = *file_;
+  if (!is_cut && !description_.one_directory) return false;
+  f.in_row = f.find_row();
+  if (f.in_row && is_cut &&
+      f.second_directory() <
+          f.in_row->begin + f.in_row->size * static_cast<std::uint64_t>(description_.images))
+    f.in_row.reset();
+  return f.in_row.has_value();
+}
+
+void TiffPages::take_channel(int channel) { file_->channel = channel; }
 
 void TiffPages::go_to(int page) { next_ = page; }
 
@@ -399,9 +133,9 @@ void TiffPages::step() {
 
 DecodedImage TiffPages::next() {
   step();
-  const Page page = file_->page();
+  const tiff::Page page = file_->page();
   check_image_size(page.width, page.height, name_);
-  const bool real = !real_kind(page).empty();
+  const bool real = !tiff::real_kind(page).empty();
   if (page.samples < 1 || page.samples > 16)
     throw InputError(fmt::format("{}: picture {} has {} samples a pixel, at most 16 are read",
                                  name_, next_, page.samples));
@@ -414,19 +148,52 @@ DecodedImage TiffPages::next() {
         : page.is_whole()                  ? "whole"
                                            : "signed or complex",
         page.bits));
+  const bool is_colour = page.is_grey() || page.photometric == PHOTOMETRIC_RGB;
+  require_known(
+      (real ? is_colour : page.is_plain()) || (!real && page.bits <= 8 && page.pixel.alpha < 0),
+      page.pixel.channels);
   const auto decode = [&] {
     if (!file_->in_row && !file_->is_all_there()) return std::optional<DecodedImage>();
     if (real) return file_->decode_real(page);
-    if (page.bits > 8) return file_->decode_deep(page);
-    return file_->in_row ? file_->decode_8_in_row(page) : file_->decode_8(page);
+    const bool is_simple = page.pixel.alpha < 0 && page.pixel.channels == 1 && !file_->in_row;
+    return page.bits > 8 || !is_simple ? file_->decode_whole(page) : file_->decode_8(page);
   };
   std::optional<DecodedImage> picture = decode();
   if (!picture)
     throw InputError(
         fmt::format("{}: picture {} is damaged, or the file ends early", name_, next_));
-  orient(*picture, page.orientation);
+  orient(*picture, page.orientation ? page.orientation : orientation_);
   ++next_;
   return *std::move(picture);
+}
+
+/// Refuses the next page if its colours are not `known`, or fewer channels than the one chosen.
+void TiffPages::require_known(bool known, int channels) const {
+  if (!known)
+    throw InputError(fmt::format(
+        "{}: picture {} has colours of a kind that is not read with its samples: save it as RGB or "
+        "grey",
+        name_, next_));
+  if (file_->channel >= channels)
+    throw InputError(fmt::format("{}: picture {} has {} channel{}, number {} is chosen", name_,
+                                 next_, channels, channels == 1 ? "" : "s", file_->channel + 1));
+}
+
+std::vector<std::uint8_t> TiffPages::transparency() {
+  step();
+  const tiff::Page page = file_->page();
+  check_image_size(page.width, page.height, name_);
+  const bool is_read = !tiff::real_kind(page).empty() || (page.is_whole() && page.bits <= 16);
+  if (!is_read || !page.is_plain()) return {};
+  auto clear = file_->transparency(page);
+  if (!clear)
+    throw InputError(
+        fmt::format("{}: picture {} is damaged, or the file ends early", name_, next_));
+  if (clear->empty()) return {};
+  DecodedImage picture =
+      Image{static_cast<int>(page.width), static_cast<int>(page.height), 1, *std::move(clear)};
+  orient(picture, page.orientation ? page.orientation : orientation_);
+  return std::get<Image>(std::move(picture)).pixels;
 }
 
 }  // namespace microswarm::formats

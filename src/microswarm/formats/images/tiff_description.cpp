@@ -137,7 +137,8 @@ TiffDescription of_scifio(std::string_view text, double x_resolution, double y_r
 }
 
 /// tifffile writes the shape of an array, whose last axis changes fastest, and perhaps its axes.
-TiffDescription of_tifffile(std::string_view text) {
+/// An axis of `samples` entries, last or before the rows, is that of a pixel's samples.
+TiffDescription of_tifffile(std::string_view text, int samples) {
   const auto json = nlohmann::json::parse(text, nullptr, false);
   if (!json.is_object() || !json.contains("shape") || !json["shape"].is_array()) return {};
   TiffDescription d{.software = "tifffile"};
@@ -153,8 +154,10 @@ TiffDescription of_tifffile(std::string_view text) {
     d.one_directory = cut->get<bool>();
   if (names.size() != shape.size()) {
     // Without names the last two axes, or three of colours, are those of a picture.
-    const std::size_t in_picture =
-        shape.size() > 2 && (shape.back() == 3 || shape.back() == 4) ? 3 : 2;
+    const bool in_pixel =
+        shape.size() > 2 && samples > 1 && (shape.back() == samples || shape.end()[-3] == samples);
+    const bool colours = shape.size() > 2 && (shape.back() == 3 || shape.back() == 4);
+    const std::size_t in_picture = in_pixel || colours ? 3 : 2;
     const auto end = shape.end() - static_cast<std::ptrdiff_t>(std::min(in_picture, shape.size()));
     if (std::count_if(shape.begin(), end, [](int size) { return size > 1; }) > 1)
       d.notes.push_back(
@@ -169,6 +172,7 @@ TiffDescription of_tifffile(std::string_view text) {
   for (std::size_t k = names.size(); k-- > 0;) {
     const char name = names[k];
     if (name == 'X' || name == 'Y' || name == 'S') continue;
+    if (name == 'C' && samples > 1 && shape[k] == samples) continue;
     const bool is_series = !has_time && (name == 'I' || name == 'Q');
     found.names += is_series ? 'T' : std::string_view("CZT").find(name) < 3 ? name : '?';
     found.sizes.push_back(shape[k]);
@@ -188,10 +192,11 @@ int count_in_text(std::string_view text) {
 }
 
 TiffDescription parse_tiff_description(std::string_view text, double x_resolution,
-                                       double y_resolution, std::string_view file_name) {
+                                       double y_resolution, std::string_view file_name,
+                                       int samples) {
   if (text.starts_with("ImageJ=")) return of_imagej(text, x_resolution, y_resolution);
   if (text.starts_with("SCIFIO=")) return of_scifio(text, x_resolution, y_resolution);
-  if (text.starts_with("{")) return of_tifffile(text);
+  if (text.starts_with("{")) return of_tifffile(text, samples);
   if (is_ome(text)) return parse_ome(text, file_name);
   return {};
 }

@@ -28,6 +28,7 @@ struct TiffDescription {
   /// Page of each plane, from 0, or -1 for one that is not in this file; empty: plane k is page k.
   std::vector<int> plane_pages{};
   std::vector<std::string> other_files{};  ///< that hold the other planes
+  int pixel_channels = 1;                  ///< among the samples of a pixel
   bool one_directory = false;              ///< pages may follow the first one without directories
   std::vector<std::string> notes{};        ///< what cannot be used, a line each
 
@@ -36,9 +37,11 @@ struct TiffDescription {
 };
 
 /// Reads a page's description in the file named `file_name`; `x_resolution` and `y_resolution` are
-/// the page's pixels per unit, 0 without. What it does not understand stays at its default.
+/// the page's pixels per unit, 0 without, and `samples` those of a pixel. What it does not
+/// understand stays at its default.
 TiffDescription parse_tiff_description(std::string_view text, double x_resolution,
-                                       double y_resolution, std::string_view file_name = {});
+                                       double y_resolution, std::string_view file_name = {},
+                                       int samples = 1);
 
 /// A count of 1 to max_tiff_images; 1 for anything else.
 int count_in_text(std::string_view text);

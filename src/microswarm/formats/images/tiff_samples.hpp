@@ -13,7 +13,8 @@ namespace microswarm::formats::tiff {
 struct SampleRow {
   int bits = 16;
   int step = 1;    ///< samples a pixel
-  int plane = -1;  ///< channel of the only sample; -1: all channels
+  int plane = -1;  ///< plane of the only sample; -1: all channels
+  int first = 0;   ///< sample of a pixel that is the first channel
 
   std::uint16_t plane_number() const { return static_cast<std::uint16_t>(std::max(plane, 0)); }
   /// Size of a row [B].
@@ -65,9 +66,10 @@ struct SamplePlacer {
              std::uint32_t count) const {
     Sample* to = out + (y * width + x) * channels;
     for (std::size_t i = 0; i < count; ++i, to += channels) {
-      const std::size_t first = i * static_cast<std::size_t>(row.step);
+      const std::size_t first = i * static_cast<std::size_t>(row.step) +
+                                static_cast<std::size_t>(row.plane < 0 ? row.first : 0);
       if (row.plane >= 0)
-        to[row.plane] = static_cast<Sample>(read(bytes, first));
+        to[row.plane - row.first] = static_cast<Sample>(read(bytes, first));
       else
         for (std::size_t c = 0; c < channels; ++c)
           to[c] = static_cast<Sample>(read(bytes, first + c));

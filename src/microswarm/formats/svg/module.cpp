@@ -56,6 +56,11 @@ std::optional<double> physical_um(const RsvgLength& length) {
   }
 }
 
+/// Whether a side is not given, which librsvg returns as the whole of its surroundings.
+bool is_open(const RsvgLength& length) {
+  return length.unit == RSVG_UNIT_PERCENT && length.length == 1;
+}
+
 class RsvgRenderer : public SvgRenderer {
  public:
   SvgSize measure(std::string_view svg) const override {
@@ -71,6 +76,12 @@ class RsvgRenderer : public SvgRenderer {
       size.width_um = physical_um(width);
       size.height_um = physical_um(height);
     }
+    // A side that is not given follows from the other one, as in a viewer.
+    const bool has_shape = has_box && box.width > 0 && box.height > 0;
+    if (has_shape && size.width_um && is_open(height))
+      size.height_um = *size.width_um * box.height / box.width;
+    else if (has_shape && size.height_um && is_open(width))
+      size.width_um = *size.height_um * box.width / box.height;
     if (has_box) {
       size.width = box.width, size.height = box.height;
     } else {

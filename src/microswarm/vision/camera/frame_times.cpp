@@ -47,7 +47,10 @@ std::vector<double> parse_frame_times(std::string_view text, std::string_view na
     const std::string_view line = trimmed(*raw);
     if (line.empty() || line.front() == '#') continue;
     const bool is_first = !separator;
-    if (is_first) separator = csv_separator(line);
+    if (is_first) {
+      separator = csv_separator(line);
+      require_clear_commas(text, name, *separator);
+    }
     const std::vector<std::string_view> fields = csv_cells(line, *separator);
     if (is_first && !has_a_number(fields, *separator)) {
       column = times_place(lines, fields);

@@ -183,6 +183,9 @@ formats::DecodedImage read_only_page(const fs::path& file) {
   if (pages.count() > 1)
     fail(file,
          "holds " + std::to_string(pages.count()) + " pictures: name the file, not its folder");
+  if (const int channels = pages.description().pixel_channels; channels > 1)
+    fail(file, "its pixels have " + std::to_string(channels) +
+                   " channels that are no colours: save one of them in each file");
   return pages.next();
 }
 
@@ -250,6 +253,8 @@ class TiffStack : public Source {
         chosen_(choose_pages(pages_.description(), pages_.count(), options, file.string())) {
     const formats::TiffDescription& told = pages_.description();
     for (const std::string& text : chosen_.notes) note(text);
+    for (const std::string& text : pages_.notes()) note(text);
+    pages_.take_channel(chosen_.pixel_channel);
     if (told.um_per_px && told.um_per_px_y &&
         std::abs(*told.um_per_px - *told.um_per_px_y) > 1e-3 * *told.um_per_px)
       note(fmt::format("pixels of {:.6g} × {:.6g} µm are not square", *told.um_per_px,

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -63,11 +64,17 @@ class PageChoice {
 
   StackPages run() {
     chosen_.notes = d_.notes;
+    mend_imagej_counts();
     // A description that does not fit its own count says nothing about the order of the pages.
     const double told = static_cast<double>(d_.channels) * d_.slices * d_.times;
     fits_ = !d_.software.empty() &&
             (d_.plane_pages.empty() ? told == d_.images : told == planes_told()) &&
             (d_.images >= count_ || !d_.plane_pages.empty());
+    if (!fits_ && d_.channels > 1 && options_.stack_channel)
+      fail(fmt::format(
+          "{} tells {} channels, {} slices and {} times of {} pictures, which does not fit: no "
+          "channel can be chosen",
+          d_.software, d_.channels, d_.slices, d_.times, count_));
     if (!fits_ && told > 1)
       chosen_.notes.push_back(fmt::format(
           "{} tells {} channels, {} slices and {} times of {} pictures: all are taken as times",
@@ -81,13 +88,29 @@ class PageChoice {
   [[noreturn]] void fail(const std::string& why) const { throw InputError(name_ + ": " + why); }
   double planes_told() const { return static_cast<double>(d_.plane_pages.size()); }
 
+  /// The pages of ImageJ are channels first, then slices, then times, for any counts.
+  void mend_imagej_counts() {
+    const double in_a_time = static_cast<double>(d_.channels) * d_.slices;
+    if (d_.software != "ImageJ" || in_a_time < 2) return;
+    const bool fits = in_a_time * d_.times == d_.images && d_.images >= count_;
+    // Counts of slices and times alone may be those of a plain stack.
+    if (fits || d_.channels < 2 || in_a_time > count_) return;
+    chosen_.notes.push_back(fmt::format(
+        "ImageJ tells {} channels, {} slices and {} times of {} pictures: the pages are "
+        "taken in its order, channels first",
+        d_.channels, d_.slices, d_.times, count_));
+    d_.times = static_cast<int>(std::ceil(count_ / in_a_time));
+    d_.images = static_cast<int>(in_a_time) * d_.times;
+  }
+
   Axis choose(std::string_view what, std::string_view key, std::optional<int> given, char axis) {
-    const int size = fits_ ? d_.size_of(axis) : 1;
+    const int in_pixel = axis == 'C' ? d_.pixel_channels : 1;
+    const int size = (fits_ ? d_.size_of(axis) : 1) * in_pixel;
     if (given && (*given < 1 || *given > size))
       fail(fmt::format("{} is {}, the stack has {} {}{}", key, *given, size, what,
                        size == 1 ? "" : "s"));
     if (given || size == 1) return {given.value_or(1) - 1, size};
-    if (const std::optional<int> only = only_one_here(d_, axis)) {
+    if (const std::optional<int> only = only_one_here(d_, axis); only && in_pixel == 1) {
       chosen_.notes.push_back(
           fmt::format("of {} {}s only number {} is in this file", size, what, *only + 1));
       return {*only, size};
@@ -99,8 +122,10 @@ class PageChoice {
   /// Planes that are wanted, in the order of time.
   std::vector<int> planes() {
     Axis c, z;
-    if (fits_ || options_.stack_channel)
+    if (fits_ || options_.stack_channel || d_.pixel_channels > 1)
       c = choose("channel", "stack_channel", options_.stack_channel, 'C');
+    chosen_.pixel_channel = c.at % d_.pixel_channels;
+    c = {c.at / d_.pixel_channels, c.size / d_.pixel_channels};
     if (fits_ && d_.slices > 1 && d_.times == 1 && !options_.slice) {
       chosen_.notes.push_back(fmt::format(
           "its {} slices are taken as times, as a plain stack is stored; slice chooses one",
@@ -161,7 +186,7 @@ class PageChoice {
     if (chosen_.times.size() != chosen_.pages.size()) chosen_.times.clear();
   }
 
-  const formats::TiffDescription& d_;
+  formats::TiffDescription d_;
   int count_;
   const FrameOptions& options_;
   const std::string& name_;

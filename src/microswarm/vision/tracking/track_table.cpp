@@ -88,16 +88,18 @@ void sort_and_check(std::vector<TableRow>& rows, std::string_view name) {
 class CsvTable {
  public:
   CsvTable(std::string_view text, std::string_view name, std::optional<double> um_per_px)
-      : lines_(text, name), um_per_px_(um_per_px) {}
+      : text_(text), name_(name), lines_(text, name), um_per_px_(um_per_px) {}
 
   TrackTable read() {
     TrackTable table;
     while (const std::optional<std::string_view> line = lines_.next()) {
       if (trimmed(*line).empty()) continue;
-      if (header_)
+      if (header_) {
         take(*line, table);
-      else
-        header_ = find_header(lines_, *line);
+        continue;
+      }
+      header_ = find_header(lines_, *line);
+      require_clear_commas(text_, name_, header_->separator);
     }
     return table;
   }
@@ -162,6 +164,7 @@ class CsvTable {
     return *um_per_px_ / *length_unit_;
   }
 
+  std::string_view text_, name_;
   Lines lines_;
   std::optional<double> um_per_px_;
   std::optional<TableHeader> header_;
