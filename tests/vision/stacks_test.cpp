@@ -91,6 +91,75 @@ TEST(Names, OfSeveralChannelsGiveTheOneThatIsChosen) {
   EXPECT_NE(seen.notes[0].find("f0_dark.png and f0_light.png"), std::string::npos);
 }
 
+TEST(Names, OfChannelsOfWhichAPictureIsMissingAreStillChannels) {
+  for (const std::vector<std::string>& names :
+       {std::vector<std::string>{"f0_ch0.png", "f0_ch1.png", "f1_ch0.png", "f1_ch1.png",
+                                 "f2_ch0.png"},
+        {"f0_C0.png", "f0_C1.png", "f1_C0.png", "f1_C1.png", "f2_C0.png"},
+        {"img_channel000_position000_time000_z000.png",
+         "img_channel001_position000_time000_z000.png",
+         "img_channel000_position000_time001_z000.png",
+         "img_channel001_position000_time001_z000.png",
+         "img_channel000_position000_time002_z000.png"}}) {
+    const test::Folder folder;
+    write_pictures(folder, names);
+    EXPECT_NE(test::error_of([&] { see(folder / ""); }).find("2 channels"), std::string::npos)
+        << names[0];
+    EXPECT_EQ(see(folder / "", {.stack_channel = 1}).greys, (std::vector<int>{0, 2, 4}));
+    EXPECT_EQ(see(folder / "", {.stack_channel = 2}).greys, (std::vector<int>{1, 3}));
+  }
+  const test::Folder words;
+  write_pictures(words, {"f0_gfp.png", "f0_rfp.png", "f1_gfp.png", "f1_rfp.png", "f2_gfp.png"});
+  const Seen seen = see(words / "");
+  ASSERT_FALSE(seen.notes.empty());
+  EXPECT_NE(seen.notes[0].find("f0_gfp.png and f0_rfp.png"), std::string::npos);
+}
+
+TEST(Names, OfSeveralCamerasPositionsOrWellsAreRefused) {
+  for (const std::vector<std::string>& names :
+       {std::vector<std::string>{"0000_cam0.png", "0000_cam1.png", "0001_cam0.png",
+                                 "0001_cam1.png"},
+        {"pos0_t000.png", "pos0_t001.png", "pos1_t000.png", "pos1_t001.png"},
+        {"exp_s1_t1.png", "exp_s1_t2.png", "exp_s2_t1.png", "exp_s2_t2.png"},
+        {"A01_t00.png", "A01_t01.png", "A02_t00.png", "A02_t01.png"},
+        {"img_channel000_position000_time000_z000.png",
+         "img_channel000_position000_time001_z000.png",
+         "img_channel000_position001_time000_z000.png"}}) {
+    const test::Folder folder;
+    write_pictures(folder, names);
+    EXPECT_NE(test::error_of([&] { see(folder / ""); }).find("a folder of its own"),
+              std::string::npos)
+        << names[0];
+  }
+  const test::Folder times;
+  write_pictures(times, {"cam_10-59-54.png", "cam_10-59-55.png", "cam_11-00-20.png"});
+  const Seen seen = see(times / "");
+  EXPECT_EQ(seen.greys, (std::vector<int>{0, 1, 2}));
+  ASSERT_EQ(seen.notes.size(), 1U);
+  EXPECT_NE(seen.notes[0].find("more than one number"), std::string::npos);
+  const test::Folder hours;
+  write_pictures(hours, {"10-59.png", "11-00.png", "11-05.png"});
+  EXPECT_EQ(see(hours / "", {.rate = 10}).times, (std::vector<double>{0, 0.1, 0.2}));
+  const test::Folder other;
+  write_pictures(other, {"f001_cam1.png", "f002_cam2.png", "f010_cam1.png"});
+  EXPECT_EQ(see(other / "").notes.size(), 1U);
+}
+
+TEST(Names, OfStrayPicturesAmongNumberedOnesAreLeftOut) {
+  for (const std::string stray :
+       {"background.png", "empty.png", "bg001.png", "mask.png", "f000-overlay.png", "thumb.png"}) {
+    const test::Folder folder;
+    write_pictures(folder, {"f000.png", "f001.png", "f002.png", "f003.png", stray});
+    const Seen seen = see(folder / "");
+    EXPECT_EQ(seen.greys, (std::vector<int>{0, 1, 2, 3})) << stray;
+    ASSERT_EQ(seen.notes.size(), 1U) << stray;
+    EXPECT_NE(seen.notes[0].find(stray + " is left out"), std::string::npos) << seen.notes[0];
+  }
+  const test::Folder folder;
+  write_pictures(folder, {"img.png", "img (1).png", "img (2).png", "img (3).png"});
+  EXPECT_EQ(see(folder / "").greys, (std::vector<int>{0, 1, 2, 3}));
+}
+
 TEST(Names, OfAPictureInTwoFormatsAreReadOnce) {
   const test::Folder folder;
   write_pictures(folder, {"f0.png", "f1.png", "f2.png"});
@@ -142,7 +211,6 @@ TEST(Names, OfEvenStepsHaveNoGaps) {
   for (const std::vector<std::string>& names :
        {std::vector<std::string>{"f0.png", "f10.png", "f20.png"},
         {"f7.png", "f8.png", "f9.png"},
-        {"10-59.png", "11-00.png", "11-05.png"},
         {"a1.png", "b3.png", "c9.png"}}) {
     const test::Folder folder;
     write_pictures(folder, names);
