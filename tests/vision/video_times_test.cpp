@@ -259,6 +259,26 @@ TEST(VideoTimes, ComeFromTheRecordersTableThatASpreadsheetSavedAgain) {
   }
 }
 
+TEST(VideoTimes, OfARecordingWithoutItsTableHaveTheRateOfItsFirstPictures) {
+  const test::Folder folder;
+  const fs::path file = folder / "camera.mkv";
+  for (const int pictures : {1, 5, 40}) {
+    {
+      VideoRecorder recorder(file, 0);
+      recorder.begin(100);
+      for (int k = 0; k < pictures; ++k)
+        recorder.input()({.index = k, .t = 0, .picture = {8, 8, 1, std::vector<std::uint8_t>(64)}},
+                         100 + k / 15.0);
+      ASSERT_EQ(recorder.finish().trouble, "");
+      ASSERT_EQ(recorder.finish().frames, pictures);
+    }
+    fs::remove(folder / "camera.csv");
+    const Seen seen = see(file);
+    ASSERT_EQ(seen.times.size(), static_cast<std::size_t>(pictures));
+    EXPECT_NEAR(seen.times.back(), (pictures - 1) / 15.0, 1e-3 * pictures);
+  }
+}
+
 TEST(VideoTimes, GivenOnesFarFromTheFilesAreTold) {
   const test::Folder folder;
   if (!test::write_clip(folder / "a.mkv", {"ffv1", AV_PIX_FMT_GRAY8}, {0, 0.1, 0.2}))
@@ -337,9 +357,9 @@ TEST(FrameTimes, OfAVideoMustBeEnough) {
   EXPECT_NE(test::error_of([&] { see(folder / "a.mkv", few); }).find("t.csv: 3 times, "),
             std::string::npos);
   std::string many;
-  for (int k = 0; k < 20; ++k) many += std::to_string(0.25 * k) + "\n";
+  for (int k = 0; k < 20; ++k) many += std::to_string(0.15 * k) + "\n";
   const Seen seen = see(folder / "a.mkv", {.times = folder.with("t.csv", many)});
-  EXPECT_EQ(seen.times.back(), 3.25);
+  EXPECT_EQ(seen.times.back(), 1.95);
   ASSERT_EQ(seen.notes.size(), 1U);
   EXPECT_NE(seen.notes[0].find("t.csv holds 20 times, there are 14 pictures"), std::string::npos);
 }

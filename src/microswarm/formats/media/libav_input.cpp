@@ -148,7 +148,7 @@ double told_end(const AVFormatContext& format, const AVStream& stream) {
   return 0;
 }
 
-/// Whether a file of a format that tells neither pictures nor duration ends before its end: within
+/// Whether a file of a format without a number of pictures and a duration ends too early: within
 /// a picture, or without its last part. `packets_end` is where the last packet read ends [B].
 bool ends_early(const AVFormatContext& format, std::int64_t packets_end) {
   constexpr std::streamoff end_part = 64;  // [B], some bytes may follow

@@ -36,7 +36,7 @@ struct NumberedNames {
   std::string first_gap{};  ///< "f005.png and f026.png"
 };
 
-/// Whether names differ in several numbers, or in words and numbers: steps of time cannot be told.
+/// Whether names differ in several numbers, or in words and numbers: steps of time are not known.
 bool differ_in_several(const std::vector<std::filesystem::path>& files);
 
 /// Numbers of sorted files, whose names must be alike except for one number; nothing otherwise.

@@ -36,7 +36,7 @@ const std::array<Vec2, ray_count>& directions() {
   return all;
 }
 
-/// Smoothed greys, with particles above the background whatever their tone.
+/// Smoothed greys, with particles above the background for any tone.
 class Greys {
  public:
   Greys(const formats::Image& grey, ParticleTone tone)

@@ -10,7 +10,7 @@
 namespace microswarm::vision {
 
 /// Particles of a one-channel picture that are wider than the round mask of `radius_px` in which
-/// they were measured: from the centre of the mask they go on to a pixel beyond it in two of five
+/// they were measured: from the centre of the mask they reach to a pixel beyond it in two of five
 /// directions, above 60 % of their contrast with what is around. The mask lies anywhere on such a
 /// particle, and so does its centroid. A neighbour that touches is in fewer directions.
 std::vector<bool> wider_than_mask(const formats::Image& grey, std::span<const Particle> particles,

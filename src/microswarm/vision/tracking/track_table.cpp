@@ -231,7 +231,7 @@ void require_text(std::string_view text, std::string_view name) {
                      "files, which are named");
 }
 
-/// The number of µm per px that a table contradicts, and what it cannot tell.
+/// Notes on a scale that contradicts the table, and on what is missing in it.
 std::vector<std::string> notes_on(const TrackTable& table, const TrackSettings& settings,
                                   std::string_view source, double lowest) {
   std::vector<std::string> notes = table.notes;

@@ -55,7 +55,7 @@ bool is_track_table(const std::filesystem::path& path);
 /// Tracks of a table. Rows without ids are linked by RobotTracker with `settings`. Times are those
 /// of the settings' rate, else of the table's rows, else by its interval, else a second a frame;
 /// frames without a position lie evenly between those with one. The world's lower border is that of
-/// the table's pictures, or of the lowest position's pixel, which the result's notes tell. Throws
+/// the table's pictures, or of the lowest position's pixel, with a note. Throws
 /// InputError for inconsistent settings, and with the line of `source` for times that are missing
 /// or do not ascend.
 TrackResult tracks_of_table(const TrackTable& table, const std::string& source,

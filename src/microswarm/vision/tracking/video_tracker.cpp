@@ -14,8 +14,9 @@
 namespace microswarm::vision {
 namespace {
 
-constexpr double enough_mass = 0.02;     // of wide robots, for a note
-constexpr double enough_crowded = 0.01;  // of the robots kept
+constexpr double enough_mass = 0.02;     // of wide robots, for a note if a larger diameter fits
+constexpr double surely_mass = 0.5;      // of them, for a note in any case
+constexpr double enough_crowded = 0.25;  // of the robots kept
 
 double picture_scale(const TrackSettings& settings) {
   if (!settings.um_per_px) throw InputError("um_per_px: is missing");
@@ -90,15 +91,16 @@ void VideoTracker::note_widths() {
 // Features of noise are many and light, so the share of the mass counts.
 std::vector<std::string> VideoTracker::doubts() const {
   std::vector<std::string> lines;
-  if (wider_mass_ > enough_mass * mass_) {
-    const int fits = suggest_particles(std::span(&wide_picture_, 1), find_).params.diameter;
-    lines.push_back(
-        fmt::format("{} of {} features are wider than find.diameter_px={}, their centres are up to "
-                    "their radius "
-                    "beside: {}",
-                    wider_, seen_, find_.diameter,
-                    fits > find_.diameter ? fmt::format("find.diameter_px={} fits", fits)
-                                          : "it needs a larger one"));
+  const int fits = wider_mass_ > enough_mass * mass_
+                       ? suggest_particles(std::span(&wide_picture_, 1), find_).params.diameter
+                       : 0;
+  if (fits > (find_.diameter | 1) || wider_mass_ > surely_mass * mass_) {
+    lines.push_back(fmt::format(
+        "{} of {} features are wider than find.diameter_px={}, their centres are up to their "
+        "radius beside: {}",
+        wider_, seen_, find_.diameter,
+        fits > find_.diameter ? fmt::format("find.diameter_px={} fits", fits)
+                              : "it needs a larger one"));
   } else if (crowded_ > enough_crowded * seen_) {
     lines.push_back(fmt::format(
         "{} features are left out, {} are kept: another is nearer than their least distance of {} "

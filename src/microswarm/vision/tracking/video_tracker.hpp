@@ -99,7 +99,7 @@ class VideoTracker {
   int wider() const { return wider_; }
   /// Robots of all pictures that were left out because another is closer than `find.separation`.
   int crowded() const { return crowded_; }
-  /// What makes the positions doubtful, a line each; with the diameter that fits.
+  /// Reasons to doubt the positions, a line each; with the diameter that fits.
   std::vector<std::string> doubts() const;
 
  private:
