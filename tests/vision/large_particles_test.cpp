@@ -136,19 +136,6 @@ double share_wider(double radius, int diameter, double contrast, double noise, R
          static_cast<double>(found.size());
 }
 
-TEST(LargeParticles, ADiscThatHardlyExceedsItsMaskIsCentred) {
-  Rng rng(9, Purpose::test);
-  for (const double noise : {0.0, 2.0})
-    for (const auto& [radius, diameter] : {std::pair{8, 15}, {15, 29}}) {
-      const test::Discs discs = test::two_discs(radius, -90, noise, rng);
-      ParticleParams params = params_of(radius, 2, -90);
-      params.diameter = diameter;
-      ParticleFinder finder(params);
-      EXPECT_LT(sum_of_errors(discs.at_px, finder.find(discs.picture)), 1.2)
-          << radius << " px in " << diameter << ", noise " << noise;
-    }
-}
-
 TEST(LargeParticles, WiderOnesThanTheDiameterAreTold) {
   Rng rng(8, Purpose::test);
   for (const double noise : {0.0, 5.0})

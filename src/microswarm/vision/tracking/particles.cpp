@@ -325,12 +325,11 @@ void ParticleFinder::centre(Particle& particle, Peak at) const {
     particle.at_px = Vec2{1.0 * at.column, 1.0 * at.row} + sum / total;
     return;
   }
-  const double far = is_large() ? std::max(far_from_mask, radius_ / 3.0) : far_from_mask;
   Vec2 centre = particle.at_px;
   for (int round = 0; round < max_soft_rounds; ++round) {
     const Vec2 next = soft_centroid(centre, weights);
     const double moved_by = distance(next, centre);
-    if (distance(next, particle.at_px) > far) return;  // it runs to a neighbour
+    if (distance(next, particle.at_px) > far_from_mask) return;  // it runs to a neighbour
     centre = next;
     if (moved_by < settled_move) break;
   }
