@@ -42,6 +42,7 @@ inline std::vector<std::string> runs_of(const fs::path& file) {
   return runs;
 }
 
+/// Value of digits; nothing if it is too large.
 inline std::optional<std::int64_t> to_number(std::string_view digits) {
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
@@ -49,6 +50,7 @@ inline std::optional<std::int64_t> to_number(std::string_view digits) {
   return value;
 }
 
+/// Small letters of ASCII.
 inline char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 inline std::string lower(std::string_view text) {
@@ -59,8 +61,8 @@ inline std::string lower(std::string_view text) {
 
 /// A number of a name and the text before it; the last one of a name may be without digits.
 struct NamePart {
-  std::string text;  ///< in small letters
-  std::string digits, fraction;
+  std::string text{};  ///< in small letters
+  std::string digits{}, fraction{};
   bool is_negative = false;
 
   /// Value in units of the last of `places` places; nothing if it is too large.
