@@ -16,6 +16,7 @@ namespace microswarm::vision::name_parts {
 
 namespace fs = std::filesystem;
 
+/// Whether a letter is a digit of ASCII.
 inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// A run of digits or of other letters at the beginning of a text.
@@ -25,6 +26,7 @@ inline std::string_view first_run(std::string_view text) {
   return text.substr(0, static_cast<std::size_t>(end - text.begin()));
 }
 
+/// Digits without leading zeros.
 inline std::string_view without_zeros(std::string_view digits) {
   return digits.substr(std::min(digits.find_first_not_of('0'), digits.size()));
 }
@@ -53,6 +55,7 @@ inline std::optional<std::int64_t> to_number(std::string_view digits) {
 /// Small letters of ASCII.
 inline char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
+/// Small letters of a text.
 inline std::string lower(std::string_view text) {
   std::string all(text);
   for (char& c : all) c = lower(c);
