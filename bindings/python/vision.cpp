@@ -130,6 +130,7 @@ py::dict to_tracks(const vision::TrackResult& result) {
   out["events"] = to_dict(result.events);
   out["frames"] = result.frames;
   out["unsettled"] = result.unsettled;
+  out["notes"] = result.notes;
   out["search_range_um"] = search_range(result.settings);
   out["is_noise"] = vision::looks_like_noise(summarise(result.rows, result.frames));
   return out;
@@ -171,6 +172,7 @@ class ArrayTracker {
     vision::take_velocities(result_.rows);
     result_.events = tracker_.events();
     result_.unsettled = tracker_.unsettled();
+    result_.notes = tracker_.doubts();
     return to_tracks(result_);
   }
 
@@ -229,7 +231,6 @@ py::dict track_file(const std::string& file, const Given& given, const std::stri
   });
   py::dict out = to_tracks(result);
   out["ended"] = ended;
-  out["notes"] = result.notes;
   return out;
 }
 

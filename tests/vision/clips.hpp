@@ -26,6 +26,7 @@ struct ClipForm {
   AVPixelFormat pixels = AV_PIX_FMT_YUV420P;
   AVRational tick{1, 1000};
   int b_frames = 0;
+  AVRational aspect{1, 1};  ///< of the pixels, width to height
 };
 
 /// Grey of a pixel: which picture, column, row.
@@ -50,6 +51,7 @@ inline bool write_clip(
   codec->width = clip_width;
   codec->height = clip_height;
   codec->pix_fmt = form.pixels;
+  codec->sample_aspect_ratio = stream->sample_aspect_ratio = form.aspect;
   codec->time_base = form.tick;
   codec->max_b_frames = form.b_frames;
   codec->gop_size = 12;

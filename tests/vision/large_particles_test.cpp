@@ -6,9 +6,11 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "microswarm/core/maths/rng.hpp"
 #include "microswarm/vision/tracking/particles.hpp"
+#include "microswarm/vision/tracking/robot_width.hpp"
 #include "tests/vision/discs.hpp"
 
 namespace microswarm::vision {
@@ -117,6 +119,59 @@ TEST(Peaks, APlateauIsThinnedToItsMiddle) {
   std::vector<Peak> none;
   thin_plateaus(none);
   EXPECT_TRUE(none.empty());
+}
+
+/// Share of the particles of two discs that are told to be wider than `diameter`.
+double share_wider(double radius, int diameter, double contrast, double noise, Rng& rng) {
+  const test::Discs discs = test::two_discs(radius, contrast, noise, rng);
+  ParticleParams params = params_of(radius, 2, contrast);
+  params.min_mass = 300;
+  params.diameter = diameter;
+  ParticleFinder finder(params);
+  const auto& found = finder.find(discs.picture);
+  if (found.empty()) return -1;
+  const std::vector<bool> wider =
+      wider_than_mask(discs.picture, found, finder.radius_px(), params.tone);
+  return static_cast<double>(std::count(wider.begin(), wider.end(), true)) /
+         static_cast<double>(found.size());
+}
+
+TEST(LargeParticles, WiderOnesThanTheDiameterAreTold) {
+  Rng rng(8, Purpose::test);
+  for (const double noise : {0.0, 5.0})
+    for (const double contrast : {-90.0, 70.0}) {
+      for (const auto& [radius, diameter] : {std::pair{8, 11}, {15, 11}, {30, 11}, {30, 45}})
+        EXPECT_GE(share_wider(radius, diameter, contrast, noise, rng), 0.3)
+            << radius << " px in " << diameter << ", noise " << noise;
+      for (const auto& [radius, diameter] :
+           {std::pair{4, 11}, {5, 11}, {8, 19}, {15, 35}, {15, 45}, {30, 69}})
+        EXPECT_EQ(share_wider(radius, diameter, contrast, noise, rng), 0)
+            << radius << " px in " << diameter << ", noise " << noise;
+    }
+}
+
+TEST(LargeParticles, NeighboursThatTouchAreNoWideParticles) {
+  constexpr double radius = 10;
+  formats::Image picture = test::flat_picture(140, 140, 170);
+  std::vector<Vec2> at{{70.3, 69.6}};
+  for (int k = 0; k < 6; ++k)
+    at.push_back(at[0] + 21.0 * Vec2{std::cos(k * 1.0471976), std::sin(k * 1.0471976)});
+  test::draw_discs(picture, at, radius, -90, 0, nullptr);
+  std::vector<Particle> particles;
+  for (const Vec2 place : at) particles.push_back({.at_px = place});
+  EXPECT_EQ(wider_than_mask(picture, particles, 11, ParticleTone::dark),
+            std::vector<bool>(at.size()));
+}
+
+TEST(LargeParticles, DiscsThatAreDroppedForANearerOneAreCounted) {
+  ParticleParams params = params_of(20, 2.3, -90);
+  for (const double gap : {0.5, 2.0, 5.0, 20.0}) {
+    formats::Image picture = test::flat_picture(220, 120, 170);
+    test::draw_discs(picture, {{60.3, 60.7}, {100.3 + gap, 60.7}}, 20, -90, 0, nullptr);
+    ParticleFinder finder(params);
+    const std::size_t found = finder.find(picture).size();
+    EXPECT_EQ(static_cast<int>(found) + finder.crowded(), 2) << gap;
+  }
 }
 
 }  // namespace

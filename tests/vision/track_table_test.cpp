@@ -232,5 +232,71 @@ TEST(TrackTable, TracksAreTakenAndFeaturesAreLinked) {
   EXPECT_EQ(linked.rows[3].id, linked.rows[0].id);
 }
 
+/// A tracks.csv of pictures of 200 px height, 0.35 µm per px, at (20, 40) and (25, 77).
+const std::string own_tracks =
+    "frame,id,t_s,x_um,y_um,vx_um_per_s,vy_um_per_s,radius_um,mass,signal,eccentricity,particle,x,"
+    "y\n"
+    "0,0,0,7.175,55.825,0,0,2.1,900,120,0.05,0,20,40\n"
+    "1,0,0.1,8.925,42.875,0,0,2.2,910,121,0.06,0,25,77\n";
+
+TEST(TrackTable, OurOwnTracksComeBackAsTheyWere) {
+  const TrackTable table = parse_track_table(own_tracks, "t.csv", std::nullopt);
+  ASSERT_TRUE(table.um_per_px && table.height);
+  EXPECT_NEAR(*table.um_per_px, 0.35, 1e-9);
+  EXPECT_EQ(*table.height, 200);
+  const TrackResult back = tracks_of_table(table, "t.csv", {.um_per_px = table.um_per_px});
+  ASSERT_EQ(back.rows.size(), 2U);
+  EXPECT_NEAR(back.rows[0].position.y, 55.825, 1e-9);
+  EXPECT_NEAR(back.rows[1].position.x, 8.925, 1e-9);
+  EXPECT_NEAR(back.rows[1].position.y, 42.875, 1e-9);
+  EXPECT_EQ(back.rows[0].radius, 2.1);
+  EXPECT_EQ(back.rows[1].signal, 121);
+  EXPECT_EQ(back.rows[1].eccentricity, 0.06);
+  EXPECT_EQ(back.notes, std::vector<std::string>{});
+}
+
+TEST(TrackTable, AScaleThatContradictsTheTableIsTold) {
+  const TrackTable table = parse_track_table(own_tracks, "t.csv", 0.7);
+  const TrackResult back = tracks_of_table(table, "t.csv", {.um_per_px = 0.7});
+  ASSERT_EQ(back.notes.size(), 1U);
+  EXPECT_EQ(back.notes[0], "t.csv: tells 0.35 µm per px, 0.7 is taken, as asked");
+  EXPECT_NEAR(back.rows[0].position.y, 0.7 * 159.5, 1e-9);
+}
+
+TEST(TrackTable, PlacesThatDoNotGoTogetherAndAnUnknownHeightAreTold) {
+  const TrackTable other = parse_track_table(
+      "frame,particle,x,y,x_um,y_um\n0,0,20,40,7.175,55.825\n1,0,25,77,9.925,42.875\n", "t.csv", 1);
+  EXPECT_FALSE(other.um_per_px);
+  const TrackResult back = tracks_of_table(other, "t.csv", {.um_per_px = 1});
+  ASSERT_EQ(back.notes.size(), 2U);
+  EXPECT_NE(back.notes[0].find("x_um and y_um do not go with x and y"), std::string::npos);
+  EXPECT_NE(back.notes[1].find("the lowest position, y = 77 px"), std::string::npos);
+}
+
+TEST(TrackTable, ShapesOfTrackpyAreTaken) {
+  const auto rows = rows_of(
+      "y,x,mass,size,ecc,signal,frame\n2,1,300,2.5,0.1,40,0\n3,1,300,2.5,,41,1\n", "t.csv", 1);
+  EXPECT_EQ(rows[0].eccentricity, 0.1);
+  EXPECT_EQ(rows[1].eccentricity, 0);
+  EXPECT_EQ(rows[1].signal, 41);
+}
+
+TEST(TrackTable, Utf16AndWhatIsNoTextAreNamed) {
+  std::string wide = "\xFF\xFE";
+  for (const char c : std::string("frame,x,y\n0,1,2\n")) wide += {c, '\0'};
+  EXPECT_EQ(refusal(wide), "t.csv: is UTF-16: save it as UTF-8");
+  EXPECT_EQ(refusal(wide.substr(2)), "t.csv: is UTF-16: save it as UTF-8");
+  EXPECT_TRUE(refusal(std::string("\0\0\0\x20"
+                                  "ftypisom",
+                                  12))
+                  .starts_with("t.csv: is no text"));
+  std::string xml = "\xFF\xFE";
+  for (const char c :
+       std::string("<Tracks spaceUnits=\"pixel\"><particle><detection t=\"0\" x=\"1\" "
+                   "y=\"2\"/></particle></Tracks>"))
+    xml += {c, '\0'};
+  EXPECT_EQ(rows_of(xml, "t.xml", 1).size(), 1U);
+}
+
 }  // namespace
 }  // namespace microswarm::vision

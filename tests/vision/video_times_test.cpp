@@ -183,12 +183,14 @@ TEST(VideoTimes, PicturesThatAnEditListHidesAreNeitherShownNorCounted) {
 
 TEST(VideoTimes, ACutVideoSaysSo) {
   const test::Folder folder;
+  std::vector<Container> all = containers();
+  all.push_back({"a.apng", {"apng", AV_PIX_FMT_GRAY8, {1, 100}}});
+  all.push_back({"a.y4m", {"wrapped_avframe", AV_PIX_FMT_YUV420P, {1, 10}}});
   const auto noise = [](int k, int x, int y) { return (x * 7919 + y * 104729 + k * 31) % 251; };
-  for (const Container& c : containers()) {
+  for (const Container& c : all) {
     SCOPED_TRACE(c.name);
-    if (std::string_view(c.name).ends_with(".gif") || std::string_view(c.name).ends_with(".mp4") ||
-        std::string_view(c.name).ends_with(".mov"))
-      continue;  // its end is not told, or it cannot be opened
+    if (std::string_view(c.name).ends_with(".mp4") || std::string_view(c.name).ends_with(".mov"))
+      continue;  // it cannot be opened
     if (!test::write_clip(folder / c.name, c.form, uneven, noise)) continue;
     const std::string whole = read_file(folder / c.name);
     const auto file = folder.with(c.name, whole.substr(0, whole.size() / 2));
@@ -196,6 +198,8 @@ TEST(VideoTimes, ACutVideoSaysSo) {
     EXPECT_LT(seen.times.size(), uneven.size());
     EXPECT_TRUE(!seen.why_ended.empty() ||
                 seen.count.value_or(0) > static_cast<int>(seen.times.size()));
+    folder.with(c.name, whole);
+    EXPECT_EQ(see(folder / c.name).why_ended, "");
   }
 }
 
@@ -232,6 +236,83 @@ TEST(VideoTimes, ComeFromTheTableThatTheRecorderWrote) {
   EXPECT_NE(too_few.why_ended.find("camera.csv: 2 times, "), std::string::npos);
 }
 
+TEST(VideoTimes, ComeFromTheRecordersTableThatASpreadsheetSavedAgain) {
+  const test::Folder folder;
+  if (!test::write_clip(folder / "a.mkv", {"ffv1", AV_PIX_FMT_GRAY8}, {0, 0.1, 0.2}))
+    GTEST_SKIP() << "without ffv1";
+  for (const std::string text :
+       {"frame,camera_frame,t_s\n0,0,5\n1,1,5.5\n2,2,7\n",
+        "\"frame\";\"camera_frame\";\"t_s\"\r\n0;0;5\r\n1;1;5,5\r\n2;2;7\r\n",
+        "\xEF\xBB\xBF"
+        "frame\tcamera_frame\tt_s\n0\t0\t5\n1\t1\t5.5\n2\t2\t7\n"}) {
+    folder.with("a.csv", text);
+    EXPECT_EQ(see(folder / "a.mkv").times, (std::vector<double>{5, 5.5, 7})) << text;
+  }
+  folder.with("a.csv", "frame,t_s\n0,5\n1,5.5\n2,7\n");
+  const Seen own = see(folder / "a.mkv");
+  EXPECT_NEAR(own.times[1], 0.1, 1e-9);
+  ASSERT_EQ(own.notes.size(), 1U);
+  EXPECT_NE(own.notes[0].find("a.csv beside it are not used"), std::string::npos) << own.notes[0];
+  for (const char* other : {"frame,id,t_s,x_um\n0,0,5,1\n", "a,b\n1,2\n", ""}) {
+    folder.with("a.csv", other);
+    EXPECT_EQ(see(folder / "a.mkv").notes, std::vector<std::string>{}) << other;
+  }
+}
+
+TEST(VideoTimes, OfARecordingWithoutItsTableHaveTheRateOfItsFirstPictures) {
+  const test::Folder folder;
+  const fs::path file = folder / "camera.mkv";
+  for (const int pictures : {1, 5, 40}) {
+    {
+      VideoRecorder recorder(file, 0);
+      recorder.begin(100);
+      for (int k = 0; k < pictures; ++k)
+        recorder.input()({.index = k, .t = 0, .picture = {8, 8, 1, std::vector<std::uint8_t>(64)}},
+                         100 + k / 15.0);
+      ASSERT_EQ(recorder.finish().trouble, "");
+      ASSERT_EQ(recorder.finish().frames, pictures);
+    }
+    fs::remove(folder / "camera.csv");
+    const Seen seen = see(file);
+    ASSERT_EQ(seen.times.size(), static_cast<std::size_t>(pictures));
+    EXPECT_NEAR(seen.times.back(), (pictures - 1) / 15.0, 1e-3 * pictures);
+  }
+}
+
+TEST(VideoTimes, GivenOnesFarFromTheFilesAreTold) {
+  const test::Folder folder;
+  if (!test::write_clip(folder / "a.mkv", {"ffv1", AV_PIX_FMT_GRAY8}, {0, 0.1, 0.2}))
+    GTEST_SKIP() << "without ffv1";
+  const Seen ms = see(folder / "a.mkv", {.times = folder.with("t.csv", "0\n100\n200\n")});
+  EXPECT_EQ(ms.times, (std::vector<double>{0, 100, 200}));
+  ASSERT_EQ(ms.notes.size(), 1U);
+  EXPECT_NE(ms.notes[0].find("are 100 s apart, those in the file 0.1 s"), std::string::npos);
+  EXPECT_EQ(see(folder / "a.mkv", {.times = folder.with("t.csv", "0\n0.11\n0.2\n")}).notes,
+            std::vector<std::string>{});
+}
+
+TEST(VideoPixels, ThatAreNoSquaresAreStretched) {
+  const test::Folder folder;
+  for (const char* name : {"a.mp4", "a.mkv", "a.avi"})
+    for (const AVRational aspect : {AVRational{2, 1}, AVRational{1, 2}, AVRational{1, 1}}) {
+      test::ClipForm form{"mpeg4"};
+      form.tick = {1, 10};
+      form.aspect = aspect;
+      if (!test::write_clip(folder / name, form, {0, 0.1, 0.2})) continue;
+      const auto frames = open_frames(folder / name);
+      VideoFrame frame;
+      ASSERT_TRUE(frames->next(frame));
+      const double ratio = av_q2d(aspect);
+      EXPECT_EQ(frame.picture.width, ratio > 1 ? 2 * test::clip_width : test::clip_width) << name;
+      EXPECT_EQ(frame.picture.height, ratio < 1 ? 2 * test::clip_height : test::clip_height)
+          << name;
+      ASSERT_EQ(frames->notes().size(), ratio == 1 ? 0U : 1U) << name;
+      if (ratio != 1) {
+        EXPECT_NE(frames->notes()[0].find("times as wide as high"), std::string::npos);
+      }
+    }
+}
+
 TEST(FrameTimes, OfATableAreTaken) {
   const test::Folder folder;
   fs::create_directory(folder / "v");
@@ -258,6 +339,9 @@ TEST(FrameTimes, ThatAreNoneAreRefusedWithTheirLine) {
   };
   EXPECT_EQ(error("1\n1\n"), "t.csv:2: time 1 s is not after 1 s");
   EXPECT_EQ(error("1\nx\n"), "t.csv:2: 'x' is no time in seconds");
+  EXPECT_EQ(error("\xFF\xFE"
+                  "1"),
+            "t.csv: is UTF-16: save it as UTF-8");
   EXPECT_TRUE(error("frame,time_ms\n").starts_with("t.csv:1: no column 't_s'"));
   EXPECT_TRUE(error("0,1\n").starts_with("t.csv:1: 2 columns without names"));
   EXPECT_EQ(error("frame,t_s\n0\n"), "t.csv:2: no time in this line");
@@ -273,9 +357,9 @@ TEST(FrameTimes, OfAVideoMustBeEnough) {
   EXPECT_NE(test::error_of([&] { see(folder / "a.mkv", few); }).find("t.csv: 3 times, "),
             std::string::npos);
   std::string many;
-  for (int k = 0; k < 20; ++k) many += std::to_string(k) + "\n";
+  for (int k = 0; k < 20; ++k) many += std::to_string(0.15 * k) + "\n";
   const Seen seen = see(folder / "a.mkv", {.times = folder.with("t.csv", many)});
-  EXPECT_EQ(seen.times.back(), 13);
+  EXPECT_EQ(seen.times.back(), 1.95);
   ASSERT_EQ(seen.notes.size(), 1U);
   EXPECT_NE(seen.notes[0].find("t.csv holds 20 times, there are 14 pictures"), std::string::npos);
 }

@@ -188,7 +188,9 @@ vision::TrackResult take_table(const std::string& file, vision::TrackSettings se
   } else {
     note("note: {} has positions beyond {:g} px: no trajectories.png\n", file, max_side);
   }
-  return vision::tracks_of_table(table, file, settings);
+  vision::TrackResult result = vision::tracks_of_table(table, file, settings);
+  note_each(result.notes);
+  return result;
 }
 
 Tracked track_one(const TrackOptions& o, const std::string& video,
@@ -313,11 +315,13 @@ void add_track(Command app, Action& action) {
       .type_name("FILE")
       .input();
   cmd.add_option("--config", o->config, "Settings file (YAML); other options override it")
-      .type_name("FILE");
+      .type_name("FILE")
+      .input();
   cmd.add_option("--region", o->region, "Rectangle of the pictures to track in, in px")
       .type_name("X,Y,WIDTH,HEIGHT");
   cmd.add_option("--mask", o->mask, "Picture whose light pixels are the area to track in")
-      .type_name("FILE");
+      .type_name("FILE")
+      .input();
   add_settings(cmd, o->settings, "Override a value, e.g. find.tone=bright",
                type_of<vision::TrackSettings>);
   cmd.add_flag("--suggest", o->suggest,

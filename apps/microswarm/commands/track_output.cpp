@@ -65,6 +65,8 @@ std::string tracks_h5(const vision::TrackResult& result) {
   file.attribute("/", "source", result.source);
   file.attribute("/", "frames", std::int64_t{result.frames});
   file.attribute("/", "unsettled", std::int64_t{result.unsettled});
+  file.attribute("/", "wider", std::int64_t{result.wider});
+  file.attribute("/", "crowded", std::int64_t{result.crowded});
   file.attribute("/", "um_per_px", result.settings.um_per_px.value_or(0));
   file.attribute("/", "frame_time_s", result.frame_time);
   file.text("/settings", to_yaml(result.settings));
@@ -165,6 +167,8 @@ nlohmann::ordered_json tracks_json(const vision::TrackResult& result) {
           {"tracks_1_frame", s.single_tracks},
           {"search_range_um", search_range(result.settings)},
           {"unsettled", result.unsettled},
+          {"wider", result.wider},
+          {"crowded", result.crowded},
           {"um_per_px", scale},
           {"notes", result.notes}};
 }

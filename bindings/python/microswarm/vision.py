@@ -140,8 +140,6 @@ def track(
     with shown(progress) as report:
         if is_file:
             made = _core.track_file(path_text(frames, "frames"), settings, table, report)
-            for note in made["notes"]:
-                warnings.warn(note, stacklevel=2)
             if made["ended"]:
                 warnings.warn(f"the tracks end at picture {made['frames']}: {made['ended']}", stacklevel=2)
         elif fps is None:
@@ -150,6 +148,8 @@ def track(
             made = track_arrays(frames, settings, report, times)
     if times is not None and len(times) != made["frames"]:
         raise InputError(f"times_s has {len(times)} times, there are {made['frames']} pictures")
+    for note in made["notes"]:
+        warnings.warn(note, stacklevel=2)
     if made["is_noise"]:
         warnings.warn(
             "most tracks are one picture long: noise may be taken for robots, raise min_mass; or robots move more than "

@@ -19,7 +19,8 @@ bool is_genicam(const std::string& source) { return source.starts_with(genicam);
 }  // namespace
 
 bool is_camera(const std::string& source) {
-  return source.starts_with("/dev/") || is_genicam(source);
+  const bool is_pipe = source == "/dev/stdin" || source.starts_with("/dev/fd/");
+  return (source.starts_with("/dev/") && !is_pipe) || is_genicam(source);
 }
 
 vision::AnyCameraParams camera_for(const std::string& source,

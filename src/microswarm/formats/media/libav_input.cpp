@@ -18,6 +18,7 @@ extern "C" {
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <opencv2/core.hpp>
 #include <string>
 #include <string_view>
@@ -147,6 +148,24 @@ double told_end(const AVFormatContext& format, const AVStream& stream) {
   return 0;
 }
 
+/// Whether a file of a format without a number of pictures and a duration ends too early: within
+/// a picture, or without its last part. `packets_end` is where the last packet read ends [B].
+bool ends_early(const AVFormatContext& format, std::int64_t packets_end) {
+  constexpr std::streamoff end_part = 64;  // [B], some bytes may follow
+  const std::string_view name = format.iformat->name;
+  std::ifstream in(std::string(format.url).substr(file_protocol.size()), std::ios::binary);
+  in.seekg(0, std::ios::end);
+  const std::streamoff size = in.tellg();
+  if (!in) return false;
+  if (name == "yuv4mpegpipe") return packets_end > 0 && packets_end < size;
+  if (name != "apng" && name != "gif") return false;
+  in.seekg(std::max<std::streamoff>(0, size - end_part));
+  const std::string last{std::istreambuf_iterator<char>(in), {}};
+  if (name == "apng") return last.find("IEND") == std::string::npos;
+  const std::size_t mark = last.find_last_not_of('\0');
+  return mark == std::string::npos || last[mark] != ';';
+}
+
 class LibavInput : public VideoInput {
  public:
   LibavInput(Format format, int stream, const AVCodec* codec)
@@ -168,6 +187,7 @@ class LibavInput : public VideoInput {
     turn_ = Turn::of(*stream_);
     width = decoder_->width;
     height = decoder_->height;
+    take_aspect();
     if (turn_.transposed) std::swap(width, height);
     const AVRational mean = stream_->avg_frame_rate.num > 0
                                 ? stream_->avg_frame_rate
@@ -205,20 +225,41 @@ class LibavInput : public VideoInput {
     }
     return false;
   }
+  /// Shown size of pictures whose pixels are no squares, as most programs that play them show it.
+  void take_aspect() {
+    constexpr double most = 8;  // beyond it a file is wrong
+    const AVRational told = av_guess_sample_aspect_ratio(format_.get(), stream_, nullptr);
+    const double aspect = told.num > 0 && told.den > 0 ? av_q2d(told) : 1;
+    if (aspect > most || aspect < 1 / most) return;
+    wider_ = std::max(1.0, aspect);
+    higher_ = std::max(1.0, 1 / aspect);
+    const int w = stretched(width, wider_), h = stretched(height, higher_);
+    if (w == width && h == height) return;
+    pixel_aspect = aspect;
+    width = w;
+    height = h;
+  }
+  static int stretched(int side, double times) {
+    return static_cast<int>(std::lround(times * side));
+  }
   /// Gives the decoder the next packet, or the end; false for a damaged one.
   bool feed() {
     for (;;) {
       av_packet_unref(packet_.get());
-      if (av_read_frame(format_.get(), packet_.get()) < 0)
+      if (av_read_frame(format_.get(), packet_.get()) < 0) {
+        is_cut = ends_early(*format_, packets_end_);
         return avcodec_send_packet(decoder_.get(), nullptr) >= 0;
+      }
+      packets_end_ = std::max(packets_end_, packet_->pos + packet_->size);
       if (packet_->stream_index == stream_->index && packet_->size > 0)
         return avcodec_send_packet(decoder_.get(), packet_.get()) >= 0;
     }
   }
   bool convert(cv::Mat& picture) {
-    const int w = frame_->width, h = frame_->height;
-    if (w < 1 || h < 1) return false;
-    scaler_.reset(sws_getCachedContext(scaler_.release(), w, h,
+    const int stored_w = frame_->width, stored_h = frame_->height;
+    if (stored_w < 1 || stored_h < 1) return false;
+    const int w = stretched(stored_w, wider_), h = stretched(stored_h, higher_);
+    scaler_.reset(sws_getCachedContext(scaler_.release(), stored_w, stored_h,
                                        static_cast<AVPixelFormat>(frame_->format), w, h,
                                        AV_PIX_FMT_BGR24, SWS_BICUBIC, nullptr, nullptr, nullptr));
     if (!scaler_) return false;
@@ -227,7 +268,7 @@ class LibavInput : public VideoInput {
     rows_.create(h + 1, step, CV_8U);  // one more, as the scaler may write beyond a row
     std::uint8_t* to[4] = {rows_.data, nullptr, nullptr, nullptr};
     const int steps[4] = {step, 0, 0, 0};
-    if (sws_scale(scaler_.get(), frame_->data, frame_->linesize, 0, h, to, steps) != h)
+    if (sws_scale(scaler_.get(), frame_->data, frame_->linesize, 0, stored_h, to, steps) != h)
       return false;
     cv::Mat(h, w, CV_8UC3, rows_.data, static_cast<std::size_t>(step)).copyTo(picture);
     turn_.apply(picture);
@@ -242,8 +283,10 @@ class LibavInput : public VideoInput {
   std::unique_ptr<SwsContext, FreeScaler> scaler_;
   cv::Mat rows_;
   Turn turn_;
-  double unit_ = 0;   ///< of the times in the file [s]
-  bool any_ = false;  ///< whether a picture was decoded
+  double wider_ = 1, higher_ = 1;  ///< stretches of pictures as shown
+  std::int64_t packets_end_ = 0;   ///< in the file [B]
+  double unit_ = 0;                ///< of the times in the file [s]
+  bool any_ = false;               ///< whether a picture was decoded
 };
 
 int best_stream(const Format& format, const AVCodec** codec) {

@@ -34,8 +34,12 @@ class VideoInput {
   /// The next picture, grey or blue, green, red; false at the end or where it cannot be decoded.
   virtual bool read(cv::Mat& picture) = 0;
 
-  int width = 0;             ///< as shown [px]
-  int height = 0;            ///< as shown [px]
+  int width = 0;   ///< as shown [px]
+  int height = 0;  ///< as shown [px]
+  /// Width of the stored pixels, heights being 1. Pictures are stretched along their shorter side,
+  /// so that those read have square pixels.
+  double pixel_aspect = 1;
+  bool is_cut = false;       ///< known when `read` fails: the file ends within a picture
   double rate = 0;           ///< mean frame rate [Hz]; 0 if unknown
   double picture_count = 0;  ///< pictures shown, by the file's header; 0 if unknown
   double end = 0;            ///< duration of the pictures by the header [s]; 0 if unknown

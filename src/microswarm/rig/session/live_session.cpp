@@ -29,9 +29,8 @@ RigExperiment checked(RigExperiment on, const LiveOptions& options) {
 
 std::unique_ptr<vision::VideoRecorder> video_recorder(const std::filesystem::path& file,
                                                       std::optional<double> rate) {
-  constexpr double usual_rate = 30;  // [Hz]
   if (file.empty()) return nullptr;
-  return std::make_unique<vision::VideoRecorder>(file, rate.value_or(usual_rate));
+  return std::make_unique<vision::VideoRecorder>(file, rate.value_or(0));
 }
 
 experiment::SessionParts to_parts(const Rig& rig, std::shared_ptr<Plant> plant,

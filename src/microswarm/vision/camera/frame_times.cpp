@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "microswarm/core/errors/error.hpp"
@@ -18,12 +19,20 @@ namespace {
 constexpr std::uint64_t max_times_bytes = 256ULL << 20;
 constexpr double max_seconds = 1e12;  // seconds since 1970 are fewer
 constexpr std::string_view times_column = "t_s";
-constexpr std::string_view recorded_header = "frame,camera_frame,t_s";
+constexpr std::array<std::string_view, 3> recorded_header{"frame", "camera_frame", "t_s"};
 
 bool has_a_number(const std::vector<std::string_view>& fields, char separator) {
   return std::ranges::any_of(fields, [&](std::string_view field) {
     return parse_number(csv_number(field, separator)).has_value();
   });
+}
+
+/// Cells of the first line of a table.
+std::vector<std::string_view> first_cells(std::string_view text) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  const std::string_view line = trimmed(text.substr(0, text.find_first_of("\r\n")));
+  return csv_cells(line, csv_separator(line));
 }
 
 /// Index of the column of times in a header.
@@ -39,6 +48,7 @@ std::size_t times_place(const Lines& lines, const std::vector<std::string_view>&
 }  // namespace
 
 std::vector<double> parse_frame_times(std::string_view text, std::string_view name) {
+  refuse_utf16(text, name);
   Lines lines(text, name);
   std::vector<double> times;
   std::optional<std::size_t> column;
@@ -80,7 +90,25 @@ std::vector<double> read_frame_times(const std::filesystem::path& file) {
   return parse_frame_times(read_file(file, max_times_bytes), file.string());
 }
 
-bool is_recorded_table(std::string_view text) { return text.starts_with(recorded_header); }
+bool is_recorded_table(std::string_view text) {
+  return std::ranges::equal(first_cells(text), recorded_header);
+}
+
+bool has_times_column(std::string_view text) {
+  const std::vector<std::string_view> names = first_cells(text);
+  const auto has = [&](std::string_view name) { return std::ranges::count(names, name) > 0; };
+  return has(times_column) && !has("id") && !has("particle");
+}
+
+bool is_utf16(std::string_view text) {
+  return text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF") ||
+         (text.size() > 3 && (text[0] == '\0') != (text[1] == '\0') &&
+          (text[2] == '\0') == (text[0] == '\0') && (text[3] == '\0') == (text[1] == '\0'));
+}
+
+void refuse_utf16(std::string_view text, std::string_view name) {
+  if (is_utf16(text)) throw InputError(std::string(name) + ": is UTF-16: save it as UTF-8");
+}
 
 double ContainerClock::next(std::optional<double> in_file) {
   if (!zero_ && in_file) zero_ = *in_file - last_;

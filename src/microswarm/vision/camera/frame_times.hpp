@@ -16,8 +16,16 @@ std::vector<double> parse_frame_times(std::string_view text, std::string_view na
 /// The same of a file; throws InputError also if it cannot be read.
 std::vector<double> read_frame_times(const std::filesystem::path& file);
 
-/// Whether a table beside a video is the one that VideoRecorder writes.
+/// Whether a table beside a video is the one that VideoRecorder writes, also if a spreadsheet saved
+/// it again.
 bool is_recorded_table(std::string_view text);
+/// Whether a table names a column of times, and none of robots.
+bool has_times_column(std::string_view text);
+
+/// Whether a text begins like UTF-16, as some programs save tables.
+bool is_utf16(std::string_view text);
+/// Throws InputError "NAME: WHY" for such a text.
+void refuse_utf16(std::string_view text, std::string_view name);
 
 /// Times of a video's pictures [s] since its first, from those in its file, which are rounded to
 /// whole ticks: as long as every picture is within a tick of its place in an even row of the mean

@@ -74,6 +74,7 @@ class Source : public FrameSource {
   void set_times(GivenTimes given) {
     given_ = std::move(given);
     const std::vector<double>& t = given_->times;
+    if (given_->asked) compare_times();
     if (t.size() > 1) rate_ = static_cast<double>(t.size() - 1) / (t.back() - t.front());
   }
   /// Checks a number of times against a number of pictures that is certain.
@@ -131,6 +132,19 @@ class Source : public FrameSource {
     if (at < given_->times.size()) return given_->times[at];
     times_are_short_ = given_->asked;
     fail(given_->name, fmt::format("{} times, {} has more pictures", at, name_.string()));
+  }
+  /// Notes times that go far from the source's own.
+  void compare_times() {
+    constexpr double far = 2;  // times the source's own
+    const std::vector<double>& t = given_->times;
+    if (!rate_ || t.size() < 2) return;
+    const double apart = (t.back() - t.front()) / static_cast<double>(t.size() - 1);
+    const double ratio = apart * *rate_;
+    if (ratio > far || ratio < 1 / far)
+      note(
+          fmt::format("the times of {} are {:.4g} s apart, those in the file {:.4g} s: are they "
+                      "in seconds?",
+                      given_->name, apart, 1 / *rate_));
   }
   void note_surplus_times() {
     if (given_ && given_->times.size() > static_cast<std::size_t>(next_))
@@ -197,6 +211,11 @@ class Pictures : public Source {
          choose_pictures(files_, options.stack_channel, options.slice, name.string()))
       note(text);
     numbers_ = numbers_in(files_);
+    if (!numbers_ && options.times.empty() && differ_in_several(files_))
+      note(
+          fmt::format("names such as {} differ in more than one number: the pictures are read in "
+                      "their order, evenly in time; gaps need --times",
+                      files_.front().filename().string()));
     if (numbers_ && numbers_->gaps > 0 && options.times.empty())
       note(
           fmt::format("numbers in the names have {} gap{}, first between {}: taken as gaps in time",
@@ -259,7 +278,15 @@ class TiffStack : public Source {
         std::abs(*told.um_per_px - *told.um_per_px_y) > 1e-3 * *told.um_per_px)
       note(fmt::format("pixels of {:.6g} × {:.6g} µm are not square", *told.um_per_px,
                        *told.um_per_px_y));
-    if (options.rate || !options.times.empty()) return;
+    if (options.rate) return;
+    if (!options.times.empty()) {
+      const std::vector<double>& own = chosen_.times;
+      if (own.size() > 1)
+        set_rate(static_cast<double>(own.size() - 1) / (own.back() - own.front()));
+      else if (told.interval)
+        set_rate(1 / *told.interval);
+      return;
+    }
     if (chosen_.times.size() > 1) {
       note(fmt::format("the times are those that {} tells", told.software));
       const double zero = chosen_.times.front();
@@ -299,6 +326,11 @@ class VideoFile : public Source {
     if (!video_) fail(file, "is no video that can be read");
     require_fit(file, {video_->width, video_->height});
     set_rate(video_->rate);
+    if (video_->pixel_aspect != 1)
+      note(
+          fmt::format("its pixels are {:.4g} times as wide as high: the pictures are stretched to "
+                      "{}x{} square ones",
+                      video_->pixel_aspect, video_->width, video_->height));
     if (!options.rate && options.times.empty()) {
       clock_.emplace(rate().value_or(1), video_->tick);
       take_recorded_times();
@@ -339,7 +371,13 @@ class VideoFile : public Source {
     if (!fs::is_regular_file(table, none)) return;
     try {
       const std::string text = read_file(table);
-      if (!is_recorded_table(text)) return;
+      if (!is_recorded_table(text)) {
+        if (has_times_column(text))
+          note("the times of " + table.string() +
+               " beside it are not used: it is no table of a "
+               "recording; give it as --times");
+        return;
+      }
       set_times({parse_frame_times(text, table.string()), table.string(), false});
       note("the times are those of " + table.string() + ", which was recorded with it");
     } catch (const InputError& error) {
@@ -348,6 +386,7 @@ class VideoFile : public Source {
   }
   /// A file without a number of pictures may say when they end.
   void check_end() {
+    if (video_->is_cut) end(name().string() + ": is cut off");
     if (count() || !clock_ || video_->end <= 0) return;
     const double end_s = video_->end;
     if (in_file_ + 1.5 * clock_->widest() + 0.01 * end_s < end_s)

@@ -4,149 +4,26 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdint>
 #include <map>
 #include <set>
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/file.hpp"
+#include "microswarm/vision/camera/name_parts.hpp"
 
 namespace microswarm::vision {
 namespace {
 
 namespace fs = std::filesystem;
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-/// A run of digits or of other letters at the beginning of a text.
-std::string_view first_run(std::string_view text) {
-  const auto end =
-      std::ranges::find_if(text, [&](char c) { return is_digit(c) != is_digit(text.front()); });
-  return text.substr(0, static_cast<std::size_t>(end - text.begin()));
-}
-
-std::string_view without_zeros(std::string_view digits) {
-  return digits.substr(std::min(digits.find_first_not_of('0'), digits.size()));
-}
-
-/// A name as its runs, of which each second one is of digits.
-std::vector<std::string> runs_of(const fs::path& file) {
-  const std::string stem = file.stem().string();
-  std::vector<std::string> runs;
-  std::string_view rest = stem;
-  if (!rest.empty() && is_digit(rest.front())) runs.emplace_back();
-  while (!rest.empty()) {
-    runs.emplace_back(first_run(rest));
-    rest.remove_prefix(runs.back().size());
-  }
-  return runs;
-}
-
-std::optional<std::int64_t> to_number(std::string_view digits) {
-  std::int64_t value = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error != std::errc() || end != digits.data() + digits.size()) return std::nullopt;
-  return value;
-}
-
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-std::string lower(std::string_view text) {
-  std::string all(text);
-  for (char& c : all) c = lower(c);
-  return all;
-}
-
-/// A number of a name and the text before it; the last one of a name may be without digits.
-struct NamePart {
-  std::string text;  ///< in small letters
-  std::string digits, fraction;
-  bool is_negative = false;
-
-  /// Value in units of the last of `places` places; nothing if it is too large.
-  std::optional<std::int64_t> value(std::size_t places) const {
-    std::string all = digits + fraction;
-    all.append(places - std::min(places, fraction.size()), '0');
-    const auto number = to_number(all);
-    return number && is_negative ? -*number : number;
-  }
-  bool operator==(const NamePart&) const = default;
-};
-using NameParts = std::vector<NamePart>;
-
-/// Whether a point between two numbers, which is none of several in a row, stands behind number i.
-bool has_point(const std::vector<std::string>& runs, std::size_t i) {
-  return i + 2 < runs.size() && runs[i + 1] == "." && runs[i - 1] != "." &&
-         (i + 3 >= runs.size() || runs[i + 3] != ".");
-}
-
-/// Points are decimal if the digits behind them are not equally many and no longer ones end in 0,
-/// as programs print numbers. Counters have 1.10; equally many are in order either way.
-bool are_decimal(const std::vector<std::vector<std::string>>& names) {
-  std::set<std::size_t> lengths;
-  for (const auto& runs : names)
-    for (std::size_t i = 1; i < runs.size(); i += 2) {
-      if (!has_point(runs, i)) continue;
-      const std::string& fraction = runs[i + 2];
-      if (fraction.size() > 1 && fraction.back() == '0') return false;
-      lengths.insert(fraction.size());
-    }
-  return lengths.size() > 1;
-}
-
-/// Text before the signs of these texts, if they differ in nothing but a last '-' or '+'.
-std::optional<std::string> text_before_signs(const std::set<std::string>& texts) {
-  const std::string& first = *texts.begin();
-  for (const std::string& base : {first, first.substr(0, first.empty() ? 0 : first.size() - 1)})
-    if (std::ranges::all_of(texts, [&](const std::string& text) {
-          return text == base || text == base + "-" || text == base + "+";
-        }))
-      return base;
-  return std::nullopt;
-}
-
-/// A '-' or '+' is a sign where names differ in nothing else before a number.
-void take_signs(std::vector<NameParts>& names) {
-  const auto same_size = [&](const NameParts& n) { return n.size() == names.front().size(); };
-  if (names.empty() || !std::ranges::all_of(names, same_size)) return;
-  for (std::size_t i = 0; i < names.front().size(); ++i) {
-    std::set<std::string> texts;
-    for (const NameParts& name : names) texts.insert(name[i].text);
-    const std::optional<std::string> before = text_before_signs(texts);
-    if (!before) continue;
-    for (NameParts& name : names) {
-      if (name[i].text == *before || name[i].digits.empty()) continue;
-      name[i].is_negative = name[i].text.back() == '-';
-      name[i].text = *before;
-    }
-  }
-}
-
-/// Parts of the names of files that belong together.
-std::vector<NameParts> parts_of(const std::vector<fs::path>& files) {
-  std::vector<std::vector<std::string>> names;
-  names.reserve(files.size());
-  for (const fs::path& file : files) names.push_back(runs_of(file));
-  const bool decimal = are_decimal(names);
-  std::vector<NameParts> all;
-  all.reserve(files.size());
-  for (const auto& runs : names) {
-    NameParts parts;
-    for (std::size_t i = 0; i < runs.size(); i += 2) {
-      NamePart part{.text = lower(runs[i]), .digits = {}, .fraction = {}};
-      if (i + 1 < runs.size()) part.digits = runs[i + 1];
-      if (decimal && has_point(runs, i + 1)) {
-        part.fraction = runs[i + 3];
-        i += 2;
-      }
-      parts.push_back(part);
-    }
-    all.push_back(parts);
-  }
-  take_signs(all);
-  return all;
-}
+using name_parts::first_run;
+using name_parts::is_digit;
+using name_parts::lower;
+using name_parts::NamePart;
+using name_parts::NameParts;
+using name_parts::parts_of;
+using name_parts::without_zeros;
 
 /// Below, above or at 0 as a is before, after or like b.
 int compare(const NamePart& a, const NamePart& b) {
@@ -197,7 +74,7 @@ std::string without_number(const NameParts& name, std::size_t i) {
   return rest;
 }
 
-/// An axis in names: there are pictures of all its values at each of several other numbers.
+/// An axis in names: there are pictures of several of its values at the same other numbers.
 struct NamedAxis {
   std::size_t part = 0;
   std::vector<std::string> labels;           ///< ascending
@@ -220,8 +97,8 @@ std::optional<NamedAxis> axis_in(const std::vector<NameParts>& names,
       axis.label_of_file.push_back(digits);
     }
     if (axis.label_of_file.size() != names.size() || labels.size() < 2 || at.size() < 2) continue;
-    if (!std::ranges::all_of(at, [&](const auto& k) { return k.second.size() == labels.size(); }))
-      continue;
+    const auto repeats = [](const auto& k) { return k.second.size() > 1; };
+    if (!std::ranges::any_of(at, repeats)) continue;
     for (const auto& [length, digits] : labels) axis.labels.push_back(digits);
     return axis;
   }
@@ -277,25 +154,144 @@ void drop_twins(std::vector<fs::path>& files, std::vector<std::string>& notes) {
   std::erase_if(files, [&](const fs::path& file) { return best.at(file.stem().string()) != file; });
 }
 
+/// The words of a name without its numbers, which files of one series have in common.
+std::string words_of(const NameParts& name) {
+  std::string words;
+  for (const NamePart& part : name) words += part.text + (part.digits.empty() ? "/" : "#/");
+  return words;
+}
+
+std::string numbers_of(const NameParts& name) {
+  std::string numbers;
+  for (const NamePart& part : name)
+    if (!part.digits.empty())
+      numbers += (part.is_negative ? "-" : "") + part.digits + '.' + part.fraction + '/';
+  return numbers;
+}
+
+/// Whether a name without numbers begins those of a series, as `img` does `img (1)`.
+bool begins(const NameParts& name, const NameParts& series) {
+  if (name.size() != 1 || !name.front().digits.empty()) return false;
+  std::string_view text = series.front().text;
+  while (!text.empty() && !is_letter(text.back())) text.remove_suffix(1);
+  return text == name.front().text;
+}
+
+/// Leaves out files of other words than the great majority, each of which is the only one with its
+/// words, as a background or a mask among numbered pictures.
+void drop_strays(std::vector<fs::path>& files, std::vector<std::string>& notes) {
+  constexpr std::size_t enough = 3;  // of a series
+  const std::vector<NameParts> names = parts_of(files);
+  std::map<std::string, std::vector<std::size_t>> kinds;
+  for (std::size_t k = 0; k < names.size(); ++k) kinds[words_of(names[k])].push_back(k);
+  const auto size = [](const auto& kind) { return kind.second.size(); };
+  const auto most = std::ranges::max_element(kinds, {}, size);
+  const std::vector<std::size_t> series = most->second;
+  const auto is_other = [&](const auto& kind) { return kind.first != most->first; };
+  const auto is_alone = [&](const auto& kind) { return !is_other(kind) || size(kind) == 1; };
+  if (series.size() < enough || kinds.size() < 2 || 2 * (kinds.size() - 1) > series.size() ||
+      most->first.find('#') == std::string::npos || !std::ranges::all_of(kinds, is_alone))
+    return;
+  std::set<std::size_t> strays;
+  std::string list;
+  for (const auto& kind : kinds) {
+    const std::size_t k = kind.second.front();
+    if (!is_other(kind) || begins(names[k], names[series.front()])) continue;
+    strays.insert(k);
+    list += (list.empty() ? "" : ", ") + files[k].filename().string();
+  }
+  if (strays.empty()) return;
+  notes.push_back(
+      fmt::format("{} {} left out: the names of the other {} pictures, such as {}, "
+                  "differ in numbers only",
+                  list, strays.size() == 1 ? "is" : "are", files.size() - strays.size(),
+                  files[series.front()].filename().string()));
+  std::vector<fs::path> kept;
+  for (std::size_t k = 0; k < files.size(); ++k)
+    if (!strays.contains(k)) kept.push_back(files[k]);
+  files = kept;
+}
+
 /// Notes names that differ in words at the same numbers, as colours do.
 void note_words(const std::vector<fs::path>& files, std::vector<std::string>& notes) {
   const std::vector<NameParts> names = parts_of(files);
   std::map<std::string, std::vector<std::size_t>> at;
   for (std::size_t k = 0; k < names.size(); ++k) {
-    std::string numbers;
-    for (const NamePart& part : names[k])
-      numbers += (part.is_negative ? "-" : "") + part.digits + '.' + part.fraction + '/';
-    at[numbers].push_back(k);
+    const std::string numbers = numbers_of(names[k]);
+    if (!numbers.empty()) at[numbers].push_back(k);
   }
-  const std::size_t each = at.begin()->second.size();
-  if (at.size() < 2 || each < 2) return;
-  if (!std::ranges::all_of(at, [&](const auto& k) { return k.second.size() == each; })) return;
-  const auto& first = at.begin()->second;
+  const auto repeats = [](const auto& k) { return k.second.size() > 1; };
+  if (std::ranges::count_if(at, repeats) < 2) return;
+  const auto& first = std::ranges::find_if(at, repeats)->second;
   notes.push_back(
       fmt::format("names such as {} and {} have the same numbers: all are taken as times, in the "
                   "order of their "
                   "names; if they are channels, put each into a folder of its own",
                   files[first[0]].filename().string(), files[first[1]].filename().string()));
+}
+
+/// A name without number i.
+std::string around_number(const NameParts& name, std::size_t i) {
+  std::string rest;
+  for (std::size_t k = 0; k < name.size(); ++k) {
+    rest += name[k].text + '/';
+    if (k != i) rest += (name[k].is_negative ? "-" : "") + name[k].digits + '.' + name[k].fraction;
+  }
+  return rest;
+}
+
+/// Files whose names differ in number i only, of which there are two somewhere; nothing if there
+/// are none.
+std::optional<std::pair<std::size_t, std::size_t>> alike_but(const std::vector<NameParts>& names,
+                                                             std::size_t i) {
+  std::map<std::string, std::size_t> first;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (i >= names[k].size() || names[k][i].digits.empty()) continue;
+    const auto [at, is_new] = first.try_emplace(around_number(names[k], i), k);
+    if (!is_new) return std::pair(at->second, k);
+  }
+  return std::nullopt;
+}
+
+/// Whether a word stands before a number, which is no unit of the number before, as in 10h59m54s.
+bool has_label(const NamePart& part) {
+  return !word_before(part).empty() && part.text != "h" && part.text != "m" && part.text != "min" &&
+         part.text != "t";
+}
+
+/// Refuses names with two numbers of which each takes several values at one of the other, as
+/// cameras, positions and wells do: which of them is time is not known. Numbers without words,
+/// such as dates, are read in their order.
+void require_one_series(const std::vector<fs::path>& files, const std::string& folder) {
+  const std::vector<NameParts> names = parts_of(files);
+  std::size_t most = 0;
+  for (const NameParts& name : names) most = std::max(most, name.size());
+  std::vector<std::size_t> grid;  // numbers that vary alone
+  std::optional<std::pair<std::size_t, std::size_t>> fewest_pair;
+  std::size_t fewest = files.size() + 1;
+  bool labelled = false;
+  for (std::size_t i = 0; i < most; ++i) {
+    const auto pair = alike_but(names, i);
+    if (!pair) continue;
+    std::set<std::string> values;
+    for (const NameParts& name : names)
+      if (i < name.size()) {
+        values.insert(name[i].digits);
+        labelled = labelled || has_label(name[i]);
+      }
+    grid.push_back(values.size());
+    if (values.size() < fewest) {
+      fewest = values.size();
+      fewest_pair = pair;
+    }
+  }
+  if (grid.size() < 2 || !labelled) return;
+  throw InputError(
+      fmt::format("{}: names such as {} and {} differ in two numbers, of {} values each: cameras, "
+                  "positions and "
+                  "the like are no times; put each series of pictures into a folder of its own",
+                  folder, files[fewest_pair->first].filename().string(),
+                  files[fewest_pair->second].filename().string(), fmt::join(grid, " and ")));
 }
 
 }  // namespace
@@ -340,11 +336,28 @@ std::vector<std::string> choose_pictures(std::vector<fs::path>& files,
   if (files.empty()) return notes;
   sort_naturally(files);
   drop_twins(files, notes);
+  drop_strays(files, notes);
   choose_along(files, {"c", "ch", "chan", "channel", "w"}, "channel", "stack_channel",
                stack_channel, folder);
   choose_along(files, {"z", "slice"}, "slice", "slice", slice, folder);
+  require_one_series(files, folder);
   note_words(files, notes);
   return notes;
+}
+
+bool differ_in_several(const std::vector<fs::path>& files) {
+  const std::vector<NameParts> names = parts_of(files);
+  std::set<std::size_t> varying;
+  std::set<std::string> words, numbers;
+  for (const NameParts& name : names) {
+    words.insert(words_of(name));
+    numbers.insert(numbers_of(name));
+    for (std::size_t i = 0; i < std::min(name.size(), names.front().size()); ++i)
+      if (name[i].digits != names.front()[i].digits) varying.insert(i);
+  }
+  const bool do_words_return = words.size() > 1 && words.size() < names.size();
+  return varying.size() > 1 ||
+         (do_words_return && !varying.empty() && numbers.size() == names.size());
 }
 
 std::optional<NumberedNames> numbers_in(const std::vector<fs::path>& files) {

@@ -28,7 +28,9 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t max_queued_frames = 64;
 constexpr std::size_t max_queued_bytes = std::size_t{256} << 20;
-constexpr int lower_priority = 10;  // of the writing thread
+constexpr std::size_t measured_frames = 8;  // of which the rate is taken if none is given
+constexpr double usual_rate = 30;           // [Hz] without any
+constexpr int lower_priority = 10;          // of the writing thread
 
 fs::path part_file(const fs::path& file) {
   fs::path part = file;
@@ -124,12 +126,12 @@ class VideoRecorder::Writer {
  public:
   Writer(std::shared_ptr<Shared> shared, const fs::path& file, double rate)
       : shared_(std::move(shared)),
-        rate_(std::isfinite(rate) && rate > 0 ? rate : 1),
+        rate_(std::isfinite(rate) && rate > 0 ? rate : 0),
         part_(part_file(file)),
         times_file_(times_file(file)),
         result_{.file = file} {
     std::fclose(create_new(part_, file));
-    if (!open_video(part_, rate_, {64, 64}, true))
+    if (!open_video(part_, rate_ > 0 ? rate_ : usual_rate, {64, 64}, true))
       throw InputError(file.string() + ": cannot write: no encoder for it");
     times_.reset(create_new(part_file(times_file_), times_file_));
     std::fputs("frame,camera_frame,t_s\n", times_.get());
@@ -183,15 +185,31 @@ class VideoRecorder::Writer {
   void run() {
     ::setpriority(PRIO_PROCESS, 0, lower_priority);  // of this thread only, on Linux
     while (auto frame = shared_->take()) {
+      first_.push_back(std::move(*frame));
+      if (rate_ > 0 || first_.size() >= measured_frames) write_first();
+    }
+    write_first();
+  }
+
+  /// Writes the frames that wait, at a rate that is theirs if none is given.
+  void write_first() {
+    if (!(rate_ > 0) && !first_.empty()) {
+      const double passed = first_.back().taken - first_.front().taken;
+      const double measured = static_cast<double>(first_.size() - 1) / passed;
+      rate_ =
+          std::isfinite(measured) && measured >= 0.01 && measured <= 1000 ? measured : usual_rate;
+    }
+    for (Shared::QueuedFrame& frame : first_) {
       if (result_.trouble.empty()) {
         try {
-          write(*frame);
+          write(frame);
         } catch (const std::exception& e) {
           result_.trouble = one_line(e.what());
         }
       }
-      shared_->give_back(std::move(frame->picture));
+      shared_->give_back(std::move(frame.picture));
     }
+    first_.clear();
   }
 
   void write(const Shared::QueuedFrame& frame) {
@@ -210,7 +228,8 @@ class VideoRecorder::Writer {
   }
 
   std::shared_ptr<Shared> shared_;
-  double rate_;
+  double rate_;                             ///< [Hz]; 0 until it is measured
+  std::vector<Shared::QueuedFrame> first_;  ///< wait for the rate
   fs::path part_;
   fs::path times_file_;
   RecordedVideo result_;

@@ -23,8 +23,8 @@ struct RecordedVideo {
 /// NAME.part.EXTENSION.
 class VideoRecorder {
  public:
-  /// Opens FILE (.mkv or .avi) with a nominal rate [Hz]. Throws InputError
-  /// "FILE: cannot write: REASON".
+  /// Opens FILE (.mkv or .avi) with a nominal rate [Hz]; 0: that of its first pictures, which the
+  /// video has also where its CSV is lost. Throws InputError "FILE: cannot write: REASON".
   VideoRecorder(const std::filesystem::path& file, double rate);
   /// Ends the recording; without finish() the files keep their temporary names.
   ~VideoRecorder();

@@ -368,15 +368,21 @@ void ParticleFinder::keep_apart() {
   std::iota(order.begin(), order.end(), 0);
   const auto y = [&](std::size_t i) { return particles_[i].at_px.y; };
   std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return y(a) < y(b); });
-  std::vector<bool> dropped(particles_.size());
+  std::vector<bool> dropped(particles_.size()), crowded(particles_.size());
   for (std::size_t i = 0; i < order.size(); ++i)
     for (std::size_t k = i + 1; k < order.size(); ++k) {
       const Particle& a = particles_[order[i]];
       const Particle& b = particles_[order[k]];
       if (b.at_px.y - a.at_px.y >= separation_) break;
       if (squared_norm(b.at_px - a.at_px) >= separation_ * separation_) continue;
-      dropped[order[a.mass < b.mass ? i : k]] = true;
+      const std::size_t lighter = order[a.mass < b.mass ? i : k];
+      dropped[lighter] = true;
+      const bool is_neighbour =
+          settled_[lighter] && squared_norm(b.at_px - a.at_px) > radius_ * radius_ &&
+          std::min(a.mass, b.mass) > std::max(params_.min_mass, 0.5 * std::max(a.mass, b.mass));
+      if (is_neighbour) crowded[lighter] = true;
     }
+  crowded_ = static_cast<int>(std::count(crowded.begin(), crowded.end(), true));
   std::size_t kept = 0;
   unsettled_ = 0;
   for (std::size_t i = 0; i < particles_.size(); ++i) {

@@ -105,6 +105,10 @@ class ParticleFinder {
   /// Number of particles of the last picture whose centroid still moved when the limit of moves
   /// ended the refinement: their centres are wrong.
   int unsettled() const { return unsettled_; }
+  /// Number of particles of the last picture that were dropped for one which is closer than the
+  /// separation, though they are as far apart as two masks' centres and weigh half as much or more:
+  /// likely neighbours.
+  int crowded() const { return crowded_; }
 
   /// Maximum distance of a particle's pixels from its centre: half the diameter [px].
   int radius_px() const { return radius_; }
@@ -157,6 +161,7 @@ class ParticleFinder {
   int width_ = 0;
   int height_ = 0;
   int unsettled_ = 0;
+  int crowded_ = 0;
   double greys_per_byte_ = 0;
   std::vector<std::uint8_t> bytes_;  ///< the filtered picture, its highest at 255; then zeros
   std::vector<Peak> peaks_;

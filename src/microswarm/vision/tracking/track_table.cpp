@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/vision/tracking/track_table.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +16,7 @@
 #include "microswarm/core/text/lines.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/core/text/unit_names.hpp"
+#include "microswarm/vision/camera/frame_times.hpp"
 #include "microswarm/vision/tracking/table_field.hpp"
 #include "microswarm/vision/tracking/trackmate_xml.hpp"
 
@@ -29,6 +32,12 @@ enum TableColumn : std::size_t {
   id_column,
   mass_column,
   time_column,
+  x_um_column,
+  y_um_column,
+  radius_column,
+  signal_column,
+  eccentricity_column,
+  ecc_column,
   columns
 };
 
@@ -38,8 +47,10 @@ struct TableForm {
   bool is_trackmate = false;
 };
 constexpr std::array<TableForm, 2> table_forms{
-    {{{"frame", "x", "y", "particle", "mass", "t_s"}},
-     {{"FRAME", "POSITION_X", "POSITION_Y", "TRACK_ID", "", "POSITION_T"}, true}}};
+    {{{"frame", "x", "y", "particle", "mass", "t_s", "x_um", "y_um", "radius_um", "signal",
+       "eccentricity", "ecc"}},
+     {{"FRAME", "POSITION_X", "POSITION_Y", "TRACK_ID", "", "POSITION_T", "", "", "", "", "", ""},
+      true}}};
 
 /// Positions of the columns in a table.
 struct TableHeader {
@@ -101,6 +112,7 @@ class CsvTable {
       header_ = find_header(lines_, *line);
       require_clear_commas(text_, name_, header_->separator);
     }
+    take_scale(table);
     return table;
   }
 
@@ -128,10 +140,49 @@ class CsvTable {
     if (has_id) row.id = field_whole(field(id_column), name(id_column), max_table_id, fail);
     if (header_->at[mass_column])
       row.mass = field_number(field(mass_column), name(mass_column), -1e12, 1e12, fail);
-    if (header_->at[id_column] && !has_id)
+    row.radius_um = number_or_0(radius_column);
+    row.signal = number_or_0(signal_column);
+    row.eccentricity = number_or_0(header_->at[ecc_column] ? ecc_column : eccentricity_column);
+    if (header_->at[id_column] && !has_id) {
       ++table.untracked;
-    else
-      table.rows.push_back(row);
+      return;
+    }
+    table.rows.push_back(row);
+    if (header_->at[x_um_column] && header_->at[y_um_column])
+      places_um_.push_back({number_or_0(x_um_column), number_or_0(y_um_column)});
+  }
+  /// Cells of features may be empty, or nan where they could not be measured.
+  double number_or_0(TableColumn c) const {
+    const double value = header_->at[c] ? parse_number(field(c)).value_or(0) : 0;
+    return std::isfinite(value) ? value : 0;
+  }
+
+  /// Scale and height of the pictures from positions in both px and µm, which go together as those
+  /// of tracks.csv do: x_um = s (x + 1/2), y_um = s (height - 1/2 - y).
+  void take_scale(TrackTable& table) const {
+    constexpr double rounding = 0.02;  // [px], of printed positions
+    if (places_um_.empty()) return;
+    double products = 0, squares = 0;
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+      const double x = table.rows[i].at_px.x + 0.5;
+      products += x * places_um_[i].x;
+      squares += x * x;
+    }
+    const double scale = squares > 0 ? products / squares : 0;
+    const auto height_of = [&](std::size_t i) {
+      return places_um_[i].y / scale + table.rows[i].at_px.y + 0.5;
+    };
+    const double height = scale > 0 ? std::round(height_of(0)) : 0;
+    bool go_together = scale >= 1e-6 && scale <= 1e6 && height >= 1 && height <= max_table_position;
+    for (std::size_t i = 0; i < table.rows.size() && go_together; ++i)
+      go_together = std::abs(places_um_[i].x / scale - table.rows[i].at_px.x - 0.5) < rounding &&
+                    std::abs(height_of(i) - height) < rounding;
+    if (go_together) {
+      table.um_per_px = scale;
+      table.height = static_cast<int>(height);
+    } else {
+      table.notes.emplace_back("x_um and y_um do not go with x and y, which are read");
+    }
   }
 
   std::string field(TableColumn c) const {
@@ -169,9 +220,35 @@ class CsvTable {
   std::optional<double> um_per_px_;
   std::optional<TableHeader> header_;
   std::vector<std::string_view> cells_;
+  std::vector<Vec2> places_um_;            ///< of the rows, if the table has them
   std::optional<double> length_unit_ = 1;  ///< [µm]; none for px
   std::optional<double> time_unit_ = 1;    ///< [s]; none for frames
 };
+
+/// Refuses what is no text, as a video that is piped in.
+void require_text(std::string_view text, std::string_view name) {
+  constexpr std::size_t looked_at = 4096;
+  if (text.substr(0, looked_at).find('\0') != text.npos)
+    throw InputError(std::string(name) +
+                     ": is no text: a table is expected here; videos and pictures are read from "
+                     "files, which are named");
+}
+
+/// Notes on a scale that contradicts the table, and on what is missing in it.
+std::vector<std::string> notes_on(const TrackTable& table, const TrackSettings& settings,
+                                  std::string_view source, double lowest) {
+  std::vector<std::string> notes = table.notes;
+  if (table.um_per_px && settings.um_per_px &&
+      std::abs(*table.um_per_px / *settings.um_per_px - 1) > 1e-3)
+    notes.push_back(fmt::format("tells {:.6g} µm per px, {:.6g} is taken, as asked",
+                                *table.um_per_px, *settings.um_per_px));
+  if (!table.height)
+    notes.push_back(fmt::format(
+        "tells no height of the pictures: y_um counts from the lowest position, y = {:.6g} px",
+        lowest));
+  for (std::string& text : notes) text.insert(0, std::string(source) + ": ");
+  return notes;
+}
 
 bool is_xml(std::string_view text) {
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
@@ -242,8 +319,13 @@ bool is_track_table(const std::filesystem::path& path) {
 
 TrackTable parse_track_table(std::string_view text, std::string_view name,
                              std::optional<double> um_per_px) {
-  TrackTable table = is_xml(text) ? parse_trackmate_xml(text, name, um_per_px)
-                                  : CsvTable(text, name, um_per_px).read();
+  const bool is_wide_xml = is_utf16(text) && text.substr(0, 4).find('<') != text.npos;
+  if (!is_wide_xml) {
+    refuse_utf16(text, name);
+    require_text(text, name);
+  }
+  TrackTable table = is_wide_xml || is_xml(text) ? parse_trackmate_xml(text, name, um_per_px)
+                                                 : CsvTable(text, name, um_per_px).read();
   if (table.rows.empty())
     throw InputError(std::string(name) + ": no positions" +
                      (table.untracked > 0 ? " in tracks" : ""));
@@ -271,6 +353,7 @@ TrackResult tracks_of_table(const TrackTable& table, const std::string& source,
   RobotTracker tracker(settings.track, settings.find.diameter * scale, result.frame_time);
   double lowest = 0;
   for (const TableRow& row : rows) lowest = std::max(lowest, row.at_px.y);
+  result.notes = notes_on(table, settings, source, lowest);
   const int height = table.height.value_or(static_cast<int>(std::ceil(lowest)) + 1);
   std::vector<Vec2> places;
   std::size_t i = 0;
@@ -291,7 +374,10 @@ TrackResult tracks_of_table(const TrackTable& table, const std::string& source,
                          .t = result.times[at],
                          .id = seen ? (*seen)[n].id : *rows[k].id,
                          .position = places[n],
+                         .radius = rows[k].radius_um,
                          .mass = rows[k].mass,
+                         .signal = rows[k].signal,
+                         .eccentricity = rows[k].eccentricity,
                          .at_px = rows[k].at_px};
       result.rows.push_back(row);
     }

@@ -1,13 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/vision/tracking/video_tracker.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
+#include <span>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/vision/tracking/particle_suggestion.hpp"
+#include "microswarm/vision/tracking/robot_width.hpp"
 
 namespace microswarm::vision {
 namespace {
+
+constexpr double enough_mass = 0.02;     // of wide robots, for a note if a larger diameter fits
+constexpr double surely_mass = 0.5;      // of them, for a note in any case
+constexpr double enough_crowded = 0.25;  // of the robots kept
 
 double picture_scale(const TrackSettings& settings) {
   if (!settings.um_per_px) throw InputError("um_per_px: is missing");
@@ -30,6 +39,7 @@ double search_range(const TrackSettings& settings) {
 
 VideoTracker::VideoTracker(const TrackSettings& settings, double frame_time)
     : channel_(settings.channel),
+      find_(settings.find),
       um_per_px_(picture_scale(settings)),
       finder_(settings.find),
       tracker_(settings.track, settings.find.diameter * um_per_px_, frame_time),
@@ -41,6 +51,8 @@ const std::vector<TrackRow>& VideoTracker::step(const VideoFrame& frame) {
   for (Particle& particle : found_) particle.at_px += area_.offset();
   std::erase_if(found_, [&](const Particle& p) { return !area_.contains(p.at_px); });
   unsettled_ += finder_.unsettled();
+  crowded_ += finder_.crowded();
+  note_widths();
   places_.clear();
   for (const Particle& particle : found_)
     places_.push_back(place_in_world(particle.at_px, grey_.height, um_per_px_));
@@ -61,6 +73,41 @@ const std::vector<TrackRow>& VideoTracker::step(const VideoFrame& frame) {
                      .eccentricity = found_[i].eccentricity,
                      .at_px = found_[i].at_px});
   return rows_;
+}
+
+void VideoTracker::note_widths() {
+  const std::vector<bool> wider = wider_than_mask(grey_, found_, finder_.radius_px(), find_.tone);
+  const int before = wider_;
+  for (std::size_t i = 0; i < found_.size(); ++i) {
+    mass_ += found_[i].mass;
+    if (!wider[i]) continue;
+    ++wider_;
+    wider_mass_ += found_[i].mass;
+  }
+  seen_ += static_cast<int>(found_.size());
+  if (before == 0 && wider_ > 0) wide_picture_ = grey_;
+}
+
+// Features of noise are many and light, so the share of the mass counts.
+std::vector<std::string> VideoTracker::doubts() const {
+  std::vector<std::string> lines;
+  const int fits = wider_mass_ > enough_mass * mass_
+                       ? suggest_particles(std::span(&wide_picture_, 1), find_).params.diameter
+                       : 0;
+  if (fits > (find_.diameter | 1) || wider_mass_ > surely_mass * mass_) {
+    lines.push_back(fmt::format(
+        "{} of {} features are wider than find.diameter_px={}, their centres are up to their "
+        "radius beside: {}",
+        wider_, seen_, find_.diameter,
+        fits > find_.diameter ? fmt::format("find.diameter_px={} fits", fits)
+                              : "it needs a larger one"));
+  } else if (crowded_ > enough_crowded * seen_) {
+    lines.push_back(fmt::format(
+        "{} features are left out, {} are kept: another is nearer than their least distance of {} "
+        "px; see find.separation_px",
+        crowded_, seen_, find_.separation > 0 ? find_.separation : 2 * finder_.radius_px() + 2));
+  }
+  return lines;
 }
 
 bool looks_like_noise(const TrackSummary& s) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "microswarm/core/fields/fields.hpp"
@@ -94,14 +95,29 @@ class VideoTracker {
   const std::vector<TrackEvent>& events() const { return tracker_.events(); }
   /// Robots whose centres had not settled when the limit of moves ended them, in all pictures.
   int unsettled() const { return unsettled_; }
+  /// Robots of all pictures that are wider than `find.diameter`: their centres are wrong.
+  int wider() const { return wider_; }
+  /// Robots of all pictures that were left out because another is closer than `find.separation`.
+  int crowded() const { return crowded_; }
+  /// Reasons to doubt the positions, a line each; with the diameter that fits.
+  std::vector<std::string> doubts() const;
 
  private:
+  void note_widths();
+
   VideoChannel channel_;
+  ParticleParams find_;
   double um_per_px_;
   ParticleFinder finder_;
   RobotTracker tracker_;
   std::optional<double> last_;  ///< time of the picture before [s]
   int unsettled_ = 0;
+  int wider_ = 0;
+  int crowded_ = 0;
+  int seen_ = 0;                 ///< robots
+  double mass_ = 0;              ///< of all robots
+  double wider_mass_ = 0;        ///< of those wider than the diameter
+  formats::Image wide_picture_;  ///< first with one of them
   formats::Image grey_;
   SearchArea area_;
   std::vector<Particle> found_;

@@ -41,8 +41,11 @@ TrackResult track_video(FrameSource& frames, const std::string& source,
   tracker.finish();
   take_velocities(result.rows);
   result.unsettled = tracker.unsettled();
+  result.wider = tracker.wider();
+  result.crowded = tracker.crowded();
   result.events = tracker.events();
   result.notes = frames.notes();
+  for (const std::string& doubt : tracker.doubts()) result.notes.push_back(source + ": " + doubt);
   result.promised = frames.count();  // which is corrected at the end of some videos
   return result;
 }

@@ -18,9 +18,11 @@ struct TrackResult {
   double frame_time = 1;  ///< mean [s]
   int frames = 0;
   int unsettled = 0;                 ///< robots whose centres did not settle
+  int wider = 0;                     ///< robots wider than the diameter that was given
+  int crowded = 0;                   ///< robots left out, since another is too close
   std::optional<int> promised{};     ///< number of frames stated by the video
   std::vector<double> times{};       ///< of each picture [s]
-  std::vector<std::string> notes{};  ///< what was assumed in reading the pictures
+  std::vector<std::string> notes{};  ///< assumptions in reading, doubts about positions
   std::vector<TrackRow> rows{};
   std::vector<TrackEvent> events{};
 };
