@@ -14,7 +14,7 @@ try:
     metrics = record.metrics
     print(
         f"{record.status} after {metrics['time_s']:.1f} s, {metrics['length_um']:.0f} µm; "
-        f"nearest wall {metrics['walls']['clearance_um']:.1f} µm"
+        f"nearest wall {metrics['walls_clearance_um']:.1f} µm"
     )
     record.save("02_run.h5")  # or record.frames["x_um"], an array
     sys.exit(0 if record.solved else 3)

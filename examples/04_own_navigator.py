@@ -44,7 +44,7 @@ record = ms.run(scenario, navigator=Repelled(scenario.goal_um))
 metrics = record.metrics
 print(
     f"{record.status} after {metrics['time_s']:.1f} s, "
-    f"nearest obstacle {metrics['obstacles']['clearance_um']:.1f} µm from the centre, {metrics['contacts']} contacts"
+    f"nearest obstacle {metrics['obstacles_clearance_um']:.1f} µm from the centre, {metrics['contacts']} contacts"
 )
 record.save("04_own_navigator.h5")
 sys.exit(0 if record.solved else 3)

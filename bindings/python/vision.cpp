@@ -172,7 +172,7 @@ class ArrayTracker {
     vision::take_velocities(result_.rows);
     result_.events = tracker_.events();
     result_.unsettled = tracker_.unsettled();
-    result_.notes = tracker_.doubts();
+    result_.notes = tracker_.doubts(vision::summarise(result_.rows, result_.frames));
     return to_tracks(result_);
   }
 

@@ -310,7 +310,8 @@ static void paths(void) {
   EXPECT(ms_map_clearance(map, 200, 50, &free) == MS_OK && free == 0);
   EXPECT(ms_close(map) == MS_OK);
   memset(pixels, 2, sizeof pixels);
-  EXPECT_ERROR(ms_map_from_pixels(pixels, 40, 40, 10, &map), MS_BAD_INPUT, "its largest value is 2");
+  EXPECT_ERROR(ms_map_from_pixels(pixels, 40, 40, 10, &map), MS_BAD_INPUT,
+               "its largest value is 2");
   memset(pixels, 1, sizeof pixels);
   EXPECT(ms_map_from_pixels(pixels, 40, 40, 10, &map) == MS_OK);
   EXPECT(ms_map_notes(map, &notes) == MS_OK && strstr(notes, "no walls"));

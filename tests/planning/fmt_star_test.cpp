@@ -12,11 +12,11 @@
 namespace microswarm::planning {
 namespace {
 
-constexpr double clearance = 15;
+constexpr double kept_clearance = 15;
 
 FmtStarParams one_set(int samples = 300) {
   FmtStarParams params;
-  params.clearance = clearance;
+  params.clearance = kept_clearance;
   params.goal_tolerance = 25;
   params.samples = samples;
   params.max_nodes = samples;
@@ -33,8 +33,8 @@ Query random_query(int kind, std::uint32_t trial) {
   Rng rng(21, Purpose::scene, trial);
   Query q;
   q.world = kind < 0 ? scenes::RawWorld{} : scenes::random_world(kind, rng);
-  q.start = scenes::random_free_point(q.world, clearance, rng);
-  q.goal = scenes::random_free_point(q.world, clearance, rng);
+  q.start = scenes::random_free_point(q.world, kept_clearance, rng);
+  q.goal = scenes::random_free_point(q.world, kept_clearance, rng);
   return q;
 }
 
@@ -52,11 +52,11 @@ struct Graph {
 Graph drawn_again(const Query& q, const FmtStarParams& params, std::uint32_t trial) {
   Rng rng(5, Purpose::planner, trial);
   Graph graph{{q.start, q.goal}};
-  const Box box = q.world.bounds.grown(-clearance);
+  const Box box = q.world.bounds.grown(-kept_clearance);
   int draws = 0;
   for (; std::ssize(graph.samples) < params.samples + 2; ++draws) {
     const Vec2 p = uniform_in(box, rng);
-    if (q.world.clearance(p) >= clearance) graph.samples.push_back(p);
+    if (q.world.clearance(p) >= kept_clearance) graph.samples.push_back(p);
   }
   const double free = box.width() * box.height() * (params.samples + 1.0) / (draws + 1.0);
   graph.radius = fmt_radius(params.radius_factor, free, graph.samples.size());
@@ -78,7 +78,7 @@ std::vector<double> dijkstra(const scenes::RawWorld& world, const Graph& graph) 
     for (std::size_t i = 0; i < p.size(); ++i) {
       const double through = cost[z] + distance(p[z], p[i]);
       if (closed[i] || distance(p[z], p[i]) > graph.radius || through >= cost[i]) continue;
-      if (world.clearance(Segment{p[z], p[i]}) >= clearance) cost[i] = through;
+      if (world.clearance(Segment{p[z], p[i]}) >= kept_clearance) cost[i] = through;
     }
   }
   return cost;
@@ -187,7 +187,7 @@ TEST(FmtStar, KeepsAtLeastTheClearance) {
   ASSERT_EQ(plan.status, Status::solved);
   for (const TreeNode& node : plan.tree)
     EXPECT_GE(q.world.clearance(Segment{plan.tree[node.parent].position, node.position}),
-              clearance - 1e-9);
+              kept_clearance - 1e-9);
 }
 
 TEST(FmtStar, RadiusIsThatOfTheTheory) {

@@ -19,6 +19,7 @@ def told(command, folder):
     environment = {**os.environ, "MICROSWARM_SCENARIOS": str(SCENARIOS)}
     made = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=120, check=False)
     assert made.returncode == 0, made.stderr
+    assert "Warning" not in made.stderr, made.stderr
     return made.stdout
 
 

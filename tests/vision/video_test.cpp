@@ -360,7 +360,7 @@ Comparison compare(const fs::path& folder, const fs::path& reference,
   result.summary = summarise(all, result.summary.frames);
   std::printf("%d features wider than the diameter, %d crowded\n", tracker.wider(),
               tracker.crowded());
-  EXPECT_EQ(tracker.doubts(), std::vector<std::string>{});
+  EXPECT_EQ(tracker.doubts({}), std::vector<std::string>{});
   for (const TrackEvent& e : tracker.events()) {
     result.merges += e.change == TrackChange::merge;
     result.splits += e.change == TrackChange::split;

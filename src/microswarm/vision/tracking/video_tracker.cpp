@@ -89,7 +89,7 @@ void VideoTracker::note_widths() {
 }
 
 // Features of noise are many and light, so the share of the mass counts.
-std::vector<std::string> VideoTracker::doubts() const {
+std::vector<std::string> VideoTracker::doubts(const TrackSummary& tracks) const {
   std::vector<std::string> lines;
   const int fits = wider_mass_ > enough_mass * mass_
                        ? suggest_particles(std::span(&wide_picture_, 1), find_).params.diameter
@@ -101,7 +101,7 @@ std::vector<std::string> VideoTracker::doubts() const {
         wider_, seen_, find_.diameter,
         fits > find_.diameter ? fmt::format("find.diameter_px={} fits", fits)
                               : "it needs a larger one"));
-  } else if (crowded_ > enough_crowded * seen_) {
+  } else if (crowded_ > enough_crowded * seen_ && !looks_like_noise(tracks)) {
     lines.push_back(fmt::format(
         "{} features are left out, {} are kept: another is nearer than their least distance of {} "
         "px; see find.separation_px",

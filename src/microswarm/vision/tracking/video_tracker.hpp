@@ -80,6 +80,20 @@ struct TrackRow {
 /// Search radius of the tracker with these settings, which have a scale [µm].
 double search_range(const TrackSettings& settings);
 
+/// Summary of tracks. Long tracks have at least `long_track` frames.
+struct TrackSummary {
+  static constexpr int long_track = 10;
+
+  int frames = 0;
+  int features = 0;  ///< robots seen, summed over all frames
+  int tracks = 0;
+  int long_tracks = 0;
+  int single_tracks = 0;  ///< of one frame
+  /// Mean displacement of long tracks, summed over the frames [µm]; empty without such tracks.
+  std::optional<Vec2> drift{};
+  std::optional<double> mean_speed{};  ///< of long tracks between consecutive frames [µm/s]
+};
+
 /// Finds and tracks the robots of a video, picture by picture.
 class VideoTracker {
  public:
@@ -99,8 +113,8 @@ class VideoTracker {
   int wider() const { return wider_; }
   /// Robots of all pictures that were left out because another is closer than `find.separation`.
   int crowded() const { return crowded_; }
-  /// Reasons to doubt the positions, a line each; with the diameter that fits.
-  std::vector<std::string> doubts() const;
+  /// Reasons to doubt the positions of these tracks, a line each; with the diameter that fits.
+  std::vector<std::string> doubts(const TrackSummary& tracks) const;
 
  private:
   void note_widths();
@@ -134,20 +148,6 @@ inline Vec2 place_in_world(Vec2 at_px, int height, double um_per_px) {
 inline Vec2 place_in_picture(Vec2 position, int height, double um_per_px) {
   return {position.x / um_per_px - 0.5, height - 0.5 - position.y / um_per_px};
 }
-
-/// Summary of tracks. Long tracks have at least `long_track` frames.
-struct TrackSummary {
-  static constexpr int long_track = 10;
-
-  int frames = 0;
-  int features = 0;  ///< robots seen, summed over all frames
-  int tracks = 0;
-  int long_tracks = 0;
-  int single_tracks = 0;  ///< of one frame
-  /// Mean displacement of long tracks, summed over the frames [µm]; empty without such tracks.
-  std::optional<Vec2> drift{};
-  std::optional<double> mean_speed{};  ///< of long tracks between consecutive frames [µm/s]
-};
 
 /// Summarises tracks. `rows` are sorted by frame; `frames` is the number of processed frames.
 TrackSummary summarise(const std::vector<TrackRow>& rows, int frames);

@@ -45,7 +45,8 @@ TrackResult track_video(FrameSource& frames, const std::string& source,
   result.crowded = tracker.crowded();
   result.events = tracker.events();
   result.notes = frames.notes();
-  for (const std::string& doubt : tracker.doubts()) result.notes.push_back(source + ": " + doubt);
+  for (const std::string& doubt : tracker.doubts(summarise(result.rows, result.frames)))
+    result.notes.push_back(source + ": " + doubt);
   result.promised = frames.count();  // which is corrected at the end of some videos
   return result;
 }
