@@ -121,6 +121,7 @@ function bad_maps_and_paths(world)
   refuses(@() microswarm.Map(room(), [1 2]), 'bad_input', 'um_per_px');
   refuses(@() microswarm.Map(2 * double(room()), 10), 'bad_input', 'not double');
   refuses(@() microswarm.Map(uint8([2 1 0]), 10), 'bad_input', 'its largest value is 2');
+  refuses(@() microswarm.Map(uint8([202 201 200]), 10, 'free', 'dark'), 'bad_input', 'its smallest value is 200');
   refuses(@() microswarm.Map(sparse(room()), 10), 'bad_input', 'not sparse');
   refuses(@() microswarm.Map({1}, 10), 'bad_input', 'not cell');
   refuses(@() microswarm.Map(true(2, 2, 2), 10), 'bad_input', 'matrix');

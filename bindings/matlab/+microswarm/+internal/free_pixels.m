@@ -45,4 +45,9 @@ function free = free_pixels(picture, values)
     error('microswarm:bad_input', 'a map of a matrix must be finite');
   end
   free = (picture >= threshold) == bright;
+  if ~isempty(free) && ~any(free(:)) && any(picture(:) ~= 0)
+    sides = {'largest', max(double(picture(:))), 'from'};
+    if ~bright, sides = {'smallest', min(double(picture(:))), 'below'}; end
+    error('microswarm:bad_input', 'all of the image is wall: its %s value is %g, free pixels are those %s %g', sides{:}, threshold);
+  end
 end
