@@ -19,7 +19,7 @@
 namespace microswarm::formats {
 namespace {
 
-/// How the samples of a pixel are told.
+/// Layout and meaning of the samples of a pixel.
 struct PixelTags {
   int photometric = PHOTOMETRIC_MINISBLACK, planes = PLANARCONFIG_CONTIG;
   int format = SAMPLEFORMAT_UINT;

@@ -153,7 +153,7 @@ TEST(TiffStack, AFileThatIsCutInItsDirectoriesHasItsPages) {
   EXPECT_EQ(TiffPages(test::bytes_of(cut), "a.tif").count(), 10);
   EXPECT_EQ(TiffPages(test::bytes_of(cut), "a.tif").why_fewer(),
             "a.tif: ImageJ tells 12 pictures in it, 10 are there: it is cut or damaged");
-  // What lies between is not known where the second directory is told to be among the pages.
+  // What lies between is not known where the second directory is said to lie among the pages.
   told(begin + 12 * 6 - 1);
   const std::string among = whole.substr(0, whole.size() - 9);
   EXPECT_EQ(TiffPages(test::bytes_of(among), "a.tif").count(), 1);

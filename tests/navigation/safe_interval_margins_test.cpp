@@ -99,7 +99,7 @@ TEST(SafeIntervalMargins, ANewObstacleMayTurn) {
   EXPECT_EQ(seen.predictor.surprise(0), 1);
 }
 
-// The swarm is told to stay and seems to move: its gaps grow by that, its radius does not.
+// The swarm is commanded to stay and is seen to move: the radius in its gaps grows by that.
 TEST(SafeIntervalMargins, GapsGrowByHowFarTheSwarmIsFromWhereItShouldBe) {
   const auto radius = [](double error) {
     Seen seen{.obstacles = {{DiscShape{40}, Still{{1500, 500}, 0}}}, .error = error};
@@ -120,7 +120,7 @@ TEST(SafeIntervalMargins, GapsGrowByHowFarTheSwarmIsFromWhereItShouldBe) {
   EXPECT_NEAR(radius(4), 50 + 1.5 * 8 / std::sqrt(2), 0.5);
 }
 
-// A disc closes in from below on a swarm beside a wall, and touches it whatever it does.
+// A fast disc comes from below towards a swarm beside a wall; a contact cannot be avoided.
 TEST(SafeIntervalMargins, InContactItDoesNotRunIntoAWall) {
   const std::vector<Polygon> walls{{{{0, 555}, {2000, 555}, {2000, 1000}, {0, 1000}}, {}}};
   Seen seen{.obstacles = {{DiscShape{300}, Straight{{200, 100}, {0, 200}}}}};

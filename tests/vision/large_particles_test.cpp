@@ -121,7 +121,7 @@ TEST(Peaks, APlateauIsThinnedToItsMiddle) {
   EXPECT_TRUE(none.empty());
 }
 
-/// Share of the particles of two discs that are told to be wider than `diameter`.
+/// Share of the particles of two discs that are found to be wider than `diameter`.
 double share_wider(double radius, int diameter, double contrast, double noise, Rng& rng) {
   const test::Discs discs = test::two_discs(radius, contrast, noise, rng);
   ParticleParams params = params_of(radius, 2, contrast);

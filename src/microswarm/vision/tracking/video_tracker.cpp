@@ -96,11 +96,11 @@ std::vector<std::string> VideoTracker::doubts(const TrackSummary& tracks) const 
                        : 0;
   if (fits > (find_.diameter | 1) || wider_mass_ > surely_mass * mass_) {
     lines.push_back(fmt::format(
-        "{} of {} features are wider than find.diameter_px={}, their centres are up to their "
-        "radius beside: {}",
+        "{} of {} features are wider than find.diameter_px={}, their centres are wrong by up to "
+        "their radius: {}",
         wider_, seen_, find_.diameter,
         fits > find_.diameter ? fmt::format("find.diameter_px={} fits", fits)
-                              : "it needs a larger one"));
+                              : "a larger diameter is needed"));
   } else if (crowded_ > enough_crowded * seen_ && !looks_like_noise(tracks)) {
     lines.push_back(fmt::format(
         "{} features are left out, {} are kept: another is nearer than their least distance of {} "
