@@ -32,6 +32,7 @@ SafeIntervalNavigator::SafeIntervalNavigator(const SafeIntervalParams& params, c
       plan_(speed()),
       tried_(speed()),
       imminent_(params.tuning.imminent, swarm(), speed(), task.tick) {
+  estimate_swarm(params.tuning.straying_time);
   path_.reserve(KeptPlan::max_legs + 1);
 }
 
@@ -48,20 +49,7 @@ Diagnostics SafeIntervalNavigator::diagnostics() const {
 
 void SafeIntervalNavigator::update(const Observation& seen, const Stop&) {
   predictor_.update(seen);
-  measure_straying(seen);
   path_.clear();
-}
-
-/// Compares where the swarm is seen with where its commands should have taken it.
-void SafeIntervalNavigator::measure_straying(const Observation& seen) {
-  if (!seen.swarm || !is_finite(seen.swarm->pose.position)) return;
-  if (was_ && seen.seen > was_->t) {
-    const Vec2 expected = compensator().moved(was_->pose, was_->t, seen.seen).position;
-    const double error = 0.5 * squared_norm(seen.swarm->pose.position - expected);
-    const double share = 1 - maths::exp(-(seen.seen - was_->t) / params_.tuning.straying_time);
-    strayed_ += share * (error - strayed_);
-  }
-  was_ = {seen.seen, seen.swarm->pose, seen.swarm->radius};
 }
 
 Decision SafeIntervalNavigator::finish(const Decision& decision, const Observation&) {
@@ -81,7 +69,7 @@ Decision SafeIntervalNavigator::decide(const Moment& moment) {
   const Pose2& pose = moment.pose;
   const double now = moment.seen.seen + delay();
   radius_ = std::max(swarm().radius, moment.seen.swarm->radius) +
-            params_.tuning.straying_gain * std::sqrt(strayed_);
+            params_.tuning.straying_gain * std::sqrt(estimate()->variance());
   forecast_.update(moment.world(), predictor_, now, std::array{pose.position, aim().position});
   forecast_.measure_from(pose.position, radius_);
   imminent_.begin({&moment.map(),

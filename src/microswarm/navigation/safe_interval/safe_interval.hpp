@@ -32,7 +32,6 @@ class SafeIntervalNavigator : public SteeringNavigator {
 
  private:
   void update(const Observation& seen, const Stop& stop) override;
-  bool bridges_misses() const override { return true; }
   Decision decide(const Moment& moment) override;
   Decision finish(const Decision& decision, const Observation& seen) override;
 
@@ -45,8 +44,6 @@ class SafeIntervalNavigator : public SteeringNavigator {
   Command steady(const Command& command) const;
   double approach_speed(const Pose2& pose, Vec2 target, bool is_goal) const;
 
-  void measure_straying(const Observation& seen);
-
   SafeIntervalParams params_;
   double tick_;
   double radius_;
@@ -57,8 +54,6 @@ class SafeIntervalNavigator : public SteeringNavigator {
   KeptPlan tried_;  ///< another plan that is tested
   ImminentCheck imminent_;
   std::optional<double> reviewed_;  ///< time of the last search [s]
-  std::optional<PoseStamped> was_;  ///< the swarm in the last frame that showed it
-  double strayed_ = 0;              ///< variance of a coordinate's error [µm²]
   Command last_;                    ///< last command
   std::vector<Vec2> path_;
 };

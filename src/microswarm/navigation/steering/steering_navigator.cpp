@@ -35,28 +35,27 @@ Command SteeringNavigator::step(const Observation& seen, const Stop& stop) {
 
 Decision SteeringNavigator::decision_for(const Observation& seen, const Stop& stop) {
   if (sees_swarm(seen)) {
-    last_seen_ = {seen.seen, seen.swarm->pose, seen.swarm->radius};
-    delay_ = seen.age() + swarm_.response_lag;
-    pose_ = compensator_.at_effect(seen);
-    return decision_at({seen, pose_, stop});
+    if (!estimate_) return decision_at(seen, stop);
+    Observation estimated = seen;
+    estimated.swarm = estimate_->update(*seen.swarm, seen.seen, compensator_);
+    return decision_at(estimated, stop);
   }
   if (!misses_briefly(seen)) return without_swarm();
   Observation bridged = seen;
-  bridged.swarm = {compensator_.moved(last_seen_->pose, last_seen_->t, seen.seen),
-                   last_seen_->radius};
-  if (!sees_swarm(bridged)) return without_swarm();
-  delay_ = seen.age() + swarm_.response_lag;
-  pose_ = compensator_.moved(last_seen_->pose, last_seen_->t, seen.now + swarm_.response_lag);
-  return decision_at({bridged, pose_, stop});
+  bridged.swarm = estimate_->bridge(seen.seen, compensator_);
+  return sees_swarm(bridged) ? decision_at(bridged, stop) : without_swarm();
 }
 
-Decision SteeringNavigator::decision_at(const Moment& moment) {
+Decision SteeringNavigator::decision_at(const Observation& seen, const Stop& stop) {
+  delay_ = seen.age() + swarm_.response_lag;
+  pose_ = compensator_.at_effect(seen);
+  const Moment moment{seen, pose_, stop};
   return arrives(pose_.position) ? at_goal(moment) : decide(moment);
 }
 
 bool SteeringNavigator::misses_briefly(const Observation& seen) const {
-  return bridges_misses() && !seen.swarm && last_seen_ && seen.now >= last_seen_->t &&
-         seen.now - last_seen_->t <= frame_timeout_;
+  return estimate_ && estimate_->shown() && !seen.swarm && seen.now >= *estimate_->shown() &&
+         seen.now - *estimate_->shown() <= frame_timeout_;
 }
 
 bool SteeringNavigator::sees_swarm(const Observation& seen) const {

@@ -8,6 +8,7 @@
 #include "microswarm/navigation/steering/aim.hpp"
 #include "microswarm/navigation/steering/decision.hpp"
 #include "microswarm/navigation/steering/delay_compensator.hpp"
+#include "microswarm/navigation/steering/swarm_estimate.hpp"
 #include "microswarm/navigation/steering/task.hpp"
 
 namespace microswarm::navigation {
@@ -51,9 +52,6 @@ class SteeringNavigator : public Navigator {
   /// Whether the observation shows a swarm to steer: a recent frame, a world, and a swarm whose
   /// pose is finite and in no wall.
   virtual bool sees_swarm(const Observation& seen) const;
-  /// Whether a swarm that frames miss is taken to have moved as commanded, until it has not been
-  /// seen for the age above which a frame is too old.
-  virtual bool bridges_misses() const { return false; }
   /// One of these three decides.
   virtual Decision decide(const Moment& moment) = 0;
   virtual Decision at_goal(const Moment&) { return hold(NavigatorState::arrived); }
@@ -63,6 +61,13 @@ class SteeringNavigator : public Navigator {
     (void)seen;
     return decision;
   }
+
+  /// From now on the pose is that of an estimate with this memory [s]; see SwarmEstimate. A swarm
+  /// that frames miss is taken to have moved as commanded, until it has not been seen for the age
+  /// above which a frame is too old. For a constructor.
+  void estimate_swarm(double memory) { estimate_.emplace(memory); }
+  /// The estimate; null without it.
+  const SwarmEstimate* estimate() const { return estimate_ ? &*estimate_ : nullptr; }
 
   /// Chooses the aim, at least `least` and if possible `wanted` [µm] away from the map's walls; see
   /// aim_at. For prepare(); without it the aim is the goal.
@@ -97,7 +102,7 @@ class SteeringNavigator : public Navigator {
 
  private:
   Decision decision_for(const Observation& seen, const Stop& stop);
-  Decision decision_at(const Moment& moment);
+  Decision decision_at(const Observation& seen, const Stop& stop);
   bool misses_briefly(const Observation& seen) const;
   void record(double now, const Command& command);
 
@@ -110,7 +115,7 @@ class SteeringNavigator : public Navigator {
   DelayCompensator compensator_;
   double delay_ = 0;
   std::optional<double> last_command_;
-  std::optional<PoseStamped> last_seen_;  ///< the swarm in the last frame that showed it
+  std::optional<SwarmEstimate> estimate_;
   Pose2 pose_;
   NavigatorView view_;
 };

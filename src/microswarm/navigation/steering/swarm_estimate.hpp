@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+#include "microswarm/contracts/observation.hpp"
+#include "microswarm/geometry/vec2.hpp"
+#include "microswarm/navigation/steering/delay_compensator.hpp"
+
+namespace microswarm::navigation {
+
+/// Position of a single-body swarm from frames with noise: where its commands take it from the last
+/// estimate, corrected by a share of what the frame differs (Kalman filters of constant gain). Of
+/// several gains it takes the one whose predictions have lately been nearest to the frames: a
+/// small one where frames are noisy, 1 where the swarm strays from its commands. Without noise the
+/// estimate is the observed position. Does not allocate.
+class SwarmEstimate {
+ public:
+  /// `memory` is the time constant with which past differences are forgotten [s].
+  explicit SwarmEstimate(double memory) : memory_(memory) {}
+
+  /// Takes the swarm of a frame at the time `t` [s], and returns it at the estimated position.
+  /// A frame that is not newer than the last changes nothing.
+  SwarmPose update(const SwarmPose& seen, double t, const DelayCompensator& commands);
+  /// The swarm in a frame at the time `t` [s] that does not show it; not before the first that
+  /// does.
+  SwarmPose bridge(double t, const DelayCompensator& commands);
+  /// Time of the last frame that showed it [s]; nothing before the first.
+  const std::optional<double>& shown() const { return shown_; }
+  /// Variance of a coordinate of the swarm about the estimate, before the frame counts [µm²].
+  double variance() const { return gains[best_] * squares_[best_]; }
+
+ private:
+  static constexpr std::array<double, 4> gains{1, 0.5, 0.25, 0.125};
+
+  void correct(Vec2 seen, double share);
+  SwarmPose current() const { return {{positions_[best_], heading_}, radius_}; }
+
+  double memory_;
+  std::optional<double> shown_;
+  double t_ = 0;  ///< of the positions [s]
+  double heading_ = 0;
+  double radius_ = 0;  ///< [µm]
+  std::array<Vec2, gains.size()> positions_{};
+  std::array<double, gains.size()> squares_{};  ///< mean squares of a coordinate's difference [µm²]
+  std::size_t best_ = 0;
+};
+
+}  // namespace microswarm::navigation
