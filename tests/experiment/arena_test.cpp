@@ -80,17 +80,31 @@ TEST(Arena, StillScenesHaveAWay) {
   });
 }
 
+Status crossing(std::string_view name, std::uint64_t seed,
+                const navigation::NavigatorParams& navigator) {
+  const auto& kinds = scenes::arena_kinds();
+  const auto kind = std::ranges::find(kinds, name, &scenes::ArenaKind::name);
+  Scenario s = scenes::arena_scenario(static_cast<std::size_t>(kind - kinds.begin()), seed);
+  s.navigator = navigator;
+  return simulate(s, build_world({s, formats::read_map_parts(s.map)})).status;
+}
+
 // Among walls that close in the swarm leaves in time, though it would rather wait for its way.
 TEST(Arena, NoWaitWhereAChannelClosesIn) {
-  const auto& kinds = scenes::arena_kinds();
-  const auto kind = std::ranges::find(kinds, "channel_narrow", &scenes::ArenaKind::name);
-  ASSERT_NE(kind, kinds.end());
-  for (std::uint64_t seed = 300; seed < 310; ++seed) {
-    Scenario s = scenes::arena_scenario(static_cast<std::size_t>(kind - kinds.begin()), seed);
-    s.navigator = navigation::SafeIntervalParams{};
-    const World world = build_world({s, formats::read_map_parts(s.map)});
-    const RunResult result = simulate(s, world);
-    EXPECT_EQ(result.status, Status::solved) << seed;
+  for (std::uint64_t seed = 300; seed < 310; ++seed)
+    EXPECT_EQ(crossing("channel_narrow", seed, navigation::SafeIntervalParams{}), Status::solved)
+        << seed;
+}
+
+// Discs that rest or swing stand in the way among walls: the hierarchy comes no nearer.
+TEST(Arena, TheHierarchyIsLedRoundWhatItCannotPass) {
+  navigation::HierarchicalParams led, alone;
+  led.speed = alone.speed = 80;
+  led.clearance = alone.clearance = 46;
+  alone.tuning.patience = 1e9;
+  for (const std::string_view kind : {"gap_among_discs", "lane_oscillator"}) {
+    EXPECT_EQ(crossing(kind, 301, led), Status::solved) << kind;
+    EXPECT_NE(crossing(kind, 301, alone), Status::solved) << kind;
   }
 }
 

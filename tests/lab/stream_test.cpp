@@ -117,8 +117,10 @@ TEST(Stream, DecisionsAreWholeInAFrame) {
   EXPECT_EQ(numbers<float>(predicted["corners"]), (std::vector<float>{3, 9, 10, 3, 11, 12}));
 
   HierarchicalDiagnostics decision{.towards = {1, 2}, .path_clearance = 3, .in_time = true};
-  EXPECT_EQ(decoded(frame_message(view, decision))["hierarchical"],
-            (Json{{"towards", {1.0, 2.0}}, {"path_clearance", 3.0}, {"in_time", true}}));
+  EXPECT_EQ(
+      decoded(frame_message(view, decision))["hierarchical"],
+      (Json{
+          {"towards", {1.0, 2.0}}, {"path_clearance", 3.0}, {"in_time", true}, {"is_led", false}}));
   decision.wait_at = Vec2{4, 5};
   decision.wait_since = 6;
   const Json waits = decoded(frame_message(view, decision))["hierarchical"];

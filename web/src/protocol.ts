@@ -90,6 +90,7 @@ export interface Hierarchical {
   towards: Point;
   path_clearance: number;
   in_time: boolean;
+  is_led: boolean;
   wait?: Point;
   wait_since?: number;
 }

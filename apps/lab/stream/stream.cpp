@@ -137,7 +137,8 @@ Json gathering(const AggregationDiagnostics& plan) {
 Json hierarchical(const HierarchicalDiagnostics& decision) {
   Json json{{"towards", point(decision.towards)},
             {"path_clearance", decision.path_clearance},
-            {"in_time", decision.in_time}};
+            {"in_time", decision.in_time},
+            {"is_led", decision.is_led}};
   if (decision.wait_at) json["wait"] = point(*decision.wait_at);
   if (decision.wait_since) json["wait_since"] = *decision.wait_since;
   return json;

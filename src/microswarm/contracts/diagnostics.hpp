@@ -219,6 +219,7 @@ struct HierarchicalDiagnostics {
   Vec2 towards{};                      ///< goal, or point of the route, that targets lead to [µm]
   double path_clearance = 0;           ///< with which the path was planned [µm]
   bool in_time = false;                ///< whether the path was chosen among predicted obstacles
+  bool is_led = false;                 ///< whether the safe-interval navigator leads
   std::optional<double> wait_since{};  ///< time since which it waits for an obstacle to pass [s]
   std::optional<Vec2> wait_at{};       ///< where [µm]
   bool operator==(const HierarchicalDiagnostics&) const = default;
@@ -227,6 +228,7 @@ struct HierarchicalDiagnostics {
     visit(self.towards, um("towards", "Goal or point of the route that targets lead to."));
     visit(self.path_clearance, um("path_clearance", "Clearance with which the path was planned."));
     visit(self.in_time, plain("in_time", "1 if chosen among predicted obstacles, else 0."));
+    visit(self.is_led, plain("is_led", "1 if the safe-interval navigator leads, else 0."));
     visit(self.wait_since, s("wait_since", "Start of the wait for an obstacle to pass."));
     visit(self.wait_at, um("wait", "Position of the wait."));
   }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "microswarm/core/fields/published.hpp"
 #include "microswarm/core/maths/angles.hpp"
@@ -51,11 +52,14 @@ Issues validate(const HierarchicalParams& params, const IsGiven& is_given) {
 HierarchicalNavigator::HierarchicalNavigator(const HierarchicalParams& params, const Task& task,
                                              Rng rng)
     : SteeringNavigator(task, params.speed),
+      task_(task),
       params_(with_speed(params.in_effect(), speed())),
       rng_(rng),
       safety_(params_, swarm()),
       obstacles_(params.tracker, params.tuning.prediction),
-      follower_(params.follower, swarm()) {}
+      follower_(params.follower, swarm()),
+      impasse_(params.as_published ? infinity : params.tuning.patience,
+               params.target.base_distance) {}
 
 void HierarchicalNavigator::prepare(const Snapshot& world, const Stop&) {
   choose_aim(world, params_.clearance, params_.clearance + params_.extra_clearance);
@@ -72,7 +76,13 @@ void HierarchicalNavigator::prepare(const Snapshot& world, const Stop&) {
   }
 }
 
+void HierarchicalNavigator::overruled(double now, const Command& command) {
+  SteeringNavigator::overruled(now, command);
+  if (leader_) leader_->overruled(now, command);
+}
+
 void HierarchicalNavigator::update(const Observation& seen, const Stop& stop) {
+  decides_led_ = false;
   route_.stop_with(stop);
   for (WallRoute& w : wall_routes_) w.route.stop_with(stop);
   obstacles_.update(seen);
@@ -82,6 +92,7 @@ void HierarchicalNavigator::update(const Observation& seen, const Stop& stop) {
 Decision HierarchicalNavigator::finish(const Decision& decision, const Observation& seen) {
   if (last_command())
     safety_.set_period(std::clamp(seen.now - *last_command(), params_.tuning.check_step, 1.0));
+  if (leader_ && !decides_led_) leader_->overruled(seen.now, decision.command);
   NavigatorView& view = step_view();
   view.local_target = target_;
   if (params_.guide == Guide::route && seen.world) view.phased_goal = towards();
@@ -91,19 +102,64 @@ Decision HierarchicalNavigator::finish(const Decision& decision, const Observati
 }
 
 Diagnostics HierarchicalNavigator::diagnostics() const {
-  if (!plan_ && !wait_) return {};
+  if (!plan_ && !wait_ && !decides_led_) return {};
   HierarchicalDiagnostics out{.towards = via_.value_or(aim().position),
                               .path_clearance = path_clearance_,
-                              .in_time = path_in_time_};
+                              .in_time = path_in_time_,
+                              .is_led = decides_led_};
   if (wait_) out.wait_since = wait_->since, out.wait_at = wait_->at;
   return out;
 }
 
-// Algorithm 4 [drrt], one pass of its loop
 Decision HierarchicalNavigator::decide(const Moment& moment) {
-  const Snapshot& seen = moment.world();
   pose_ = moment.pose;
   via_.reset();
+  if (const auto decision = led(moment)) return *decision;
+  return go_on(moment);
+}
+
+/// Command of the other navigator in an impasse. From the first one on it sees every frame.
+std::optional<Decision> HierarchicalNavigator::led(const Moment& moment) {
+  const bool is_alone =
+      moment.world().moving().is_free(pose_.position, params_.target.base_distance);
+  const bool was_led =
+      std::exchange(is_led_, impasse_.update(moment.seen.now, way_left(), is_alone));
+  if (was_led && !is_led_) path_.clear();
+  if (is_led_ && !leader_) {
+    SafeIntervalParams params;
+    params.speed = params_.speed;
+    const double gap = std::max(0.0, params_.clearance - swarm().radius);
+    params.gap = params.wall_gap = gap;
+    params.tuning.imminent.gap = params.tuning.imminent.wall_gap = gap;
+    params.max_gap = std::max(params.max_gap, gap);
+    leader_ = std::make_unique<SafeIntervalNavigator>(params, task_, rng_);
+    leader_->prepare(moment.world(), moment.stop);
+  }
+  if (!leader_) return std::nullopt;
+  const Command command = leader_->step(moment.seen, moment.stop);
+  if (!is_led_) return std::nullopt;
+  const NavigatorView& view = leader_->view();
+  decides_led_ = true;
+  path_.assign(view.path.begin(), view.path.end());
+  position_ = {};
+  path_is_route_ = false;
+  plan_.reset();
+  target_.reset();
+  step_view().planned = view.planned;
+  return Decision{command, view.state};
+}
+
+/// Way to the aim among walls [µm].
+double HierarchicalNavigator::way_left() {
+  const double straight = distance(pose_.position, aim().position);
+  if (params_.guide == Guide::straight) return straight;
+  const double left = route_.from(pose_.position);
+  return std::isfinite(left) ? left : straight;
+}
+
+// Algorithm 4 [drrt], one pass of its loop
+Decision HierarchicalNavigator::go_on(const Moment& moment) {
+  const Snapshot& seen = moment.world();
   const bool is_lost = path_is_route_ && !is_alone(seen, path_, position_);
   if (is_lost || is_used_up() || !path_holds(seen)) replan(seen, moment.stop);  // lines 4–11
   auto decision = keep_path(seen);

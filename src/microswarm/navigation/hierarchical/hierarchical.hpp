@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -11,10 +12,12 @@
 #include "microswarm/core/maths/rng.hpp"
 #include "microswarm/navigation/following/path_follower.hpp"
 #include "microswarm/navigation/hierarchical/hierarchical_params.hpp"
+#include "microswarm/navigation/hierarchical/impasse.hpp"
 #include "microswarm/navigation/hierarchical/local_target.hpp"
 #include "microswarm/navigation/hierarchical/predicted_target.hpp"
 #include "microswarm/navigation/hierarchical/safety_lookahead.hpp"
 #include "microswarm/navigation/prediction/obstacle_predictor.hpp"
+#include "microswarm/navigation/safe_interval/safe_interval.hpp"
 #include "microswarm/navigation/steering/steering_navigator.hpp"
 #include "microswarm/planning/exact/distance_field.hpp"
 #include "microswarm/planning/exact/route.hpp"
@@ -22,14 +25,17 @@
 
 namespace microswarm::navigation {
 
-/// Hierarchical D-RRT* navigator; see HierarchicalParams. States: follow, fallback (pure pursuit
-/// instead of the learned follower), hold, escape, arrived, blind.
+/// Hierarchical D-RRT* navigator; see HierarchicalParams. If it comes no nearer to the goal for
+/// some time, a SafeIntervalNavigator leads round what is in the way. States: follow, fallback
+/// (pure pursuit instead of the learned follower), hold, escape, arrived, blind, and those of that
+/// navigator.
 class HierarchicalNavigator : public SteeringNavigator {
  public:
   using Params = HierarchicalParams;
   HierarchicalNavigator(const HierarchicalParams& params, const Task& task, Rng rng);
 
   void prepare(const Snapshot& world, const Stop& stop) override;
+  void overruled(double now, const Command& command) override;
   Diagnostics diagnostics() const override;
 
  private:
@@ -41,6 +47,9 @@ class HierarchicalNavigator : public SteeringNavigator {
   SafetyLookahead::Start situation(const Snapshot& seen) const {
     return {seen, obstacles_, aim(), pose_, delay()};
   }
+  std::optional<Decision> led(const Moment& moment);
+  Decision go_on(const Moment& moment);
+  double way_left();
   std::optional<Decision> keep_path(const Snapshot& seen);
   bool has_path() const { return path_.size() >= 2; }
   bool path_holds(const Snapshot& world) const;
@@ -79,6 +88,7 @@ class HierarchicalNavigator : public SteeringNavigator {
     Vec2 at;
   };
 
+  Task task_;
   HierarchicalParams params_;
   Rng rng_;
   planning::DistanceField route_;
@@ -98,6 +108,10 @@ class HierarchicalNavigator : public SteeringNavigator {
   std::optional<Vec2> target_;
   std::optional<Wait> wait_;  ///< latest wait, until the swarm has left that position
   std::optional<Plan> plan_;
+  Impasse impasse_;
+  std::unique_ptr<SafeIntervalNavigator> leader_;  ///< from the first impasse on
+  bool is_led_ = false;                            ///< whether it leads
+  bool decides_led_ = false;                       ///< whether it decided in this step
 };
 
 }  // namespace microswarm::navigation

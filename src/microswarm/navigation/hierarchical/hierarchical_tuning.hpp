@@ -19,6 +19,7 @@ struct HierarchicalTuning {
   std::vector<double> wait_times{0, 1, 2, 4, 8};
   double wait_weight = 2;
   double contact_weight = 3;
+  double patience = 15;
   ObstaclePredictorTuning prediction{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
@@ -37,6 +38,8 @@ struct HierarchicalTuning {
           plain("wait_weight", 0, 1e3, "Cost of a wait, per distance not driven."));
     visit(self.contact_weight,
           plain("contact_weight", 0, 1e3, "Cost of a contact, per distance left in the horizon."));
+    visit(self.patience,
+          s("patience", 0.5, 1e9, "Time without progress after which a safe interval leads."));
     visit(self.prediction, plain("prediction", "Prediction of obstacles."));
   }
 };

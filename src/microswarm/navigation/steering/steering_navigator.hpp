@@ -28,7 +28,7 @@ class SteeringNavigator : public Navigator {
   static std::string_view unsupported_reason(const Task& task);
 
   Command step(const Observation& seen, const Stop& stop) final;
-  void overruled(double now, const Command& command) final { record(now, command); }
+  void overruled(double now, const Command& command) override { record(now, command); }
   NavigatorView view() const final { return view_; }
 
  protected:

@@ -13,7 +13,7 @@ namespace microswarm::planning {
 namespace {
 
 constexpr double max_space_cells = 1 << 24;
-constexpr int lattice = 16;
+constexpr int samples_along = 16;
 
 class Cells {
  public:
@@ -43,9 +43,9 @@ class Cells {
     const auto row = index / columns_;
     const Vec2 low =
         map_.bounds().lo + cell_ * Vec2{static_cast<double>(column), static_cast<double>(row)};
-    for (int j = 0; j < lattice; ++j)
-      for (int i = 0; i < lattice; ++i)
-        if (map_.is_free(low + cell_ / lattice * Vec2{i + 0.5, j + 0.5}, 0)) return true;
+    for (int j = 0; j < samples_along; ++j)
+      for (int i = 0; i < samples_along; ++i)
+        if (map_.is_free(low + cell_ / samples_along * Vec2{i + 0.5, j + 0.5}, 0)) return true;
     return false;
   }
 
