@@ -12,25 +12,7 @@ class Repelled : public Navigator {
  public:
   explicit Repelled(Vec2 goal) : goal_(goal) {}
 
-  Command step(const Observation& seen, const Stop&) override {
-    if (!seen.swarm) {  // never drive on when unsure
-      state_ = NavigatorState::blind;
-      return {};
-    }
-    const Vec2 here = seen.swarm->pose.position;
-    Vec2 towards = goal_ - here;
-    towards = (1 / norm(towards)) * towards;
-    for (const Body& body : seen.world->moving().bodies()) {
-      const auto* disc = std::get_if<Disc>(&body.shape);
-      if (!disc) continue;
-      const Vec2 away = here - disc->centre;
-      const double gap = norm(away) - disc->radius - seen.swarm->radius;
-      if (gap < 200) towards += (100 / (gap + 20) / norm(away)) * away;
-    }
-    state_ = NavigatorState::follow;
-    return {std::atan2(towards.y, towards.x), 60};
-  }
-
+  Command step(const Observation& seen, const Stop&) override;
   NavigatorView view() const override {
     return {.state = state_, .local_target = goal_, .path = {}};
   }
@@ -39,6 +21,25 @@ class Repelled : public Navigator {
   Vec2 goal_;
   NavigatorState state_ = NavigatorState::hold;
 };
+
+Command Repelled::step(const Observation& seen, const Stop&) {
+  if (!seen.swarm) {  // never drive on when unsure
+    state_ = NavigatorState::blind;
+    return {};
+  }
+  const Vec2 here = seen.swarm->pose.position;
+  Vec2 towards = goal_ - here;
+  towards = (1 / norm(towards)) * towards;
+  for (const Body& body : seen.world->moving().bodies()) {
+    const auto* disc = std::get_if<Disc>(&body.shape);
+    if (!disc) continue;
+    const Vec2 away = here - disc->centre;
+    const double gap = norm(away) - disc->radius - seen.swarm->radius;
+    if (gap < 200) towards += (100 / (gap + 20) / norm(away)) * away;
+  }
+  state_ = NavigatorState::follow;
+  return {std::atan2(towards.y, towards.x), 60};
+}
 
 int main() {
   experiment::Scenario scenario;

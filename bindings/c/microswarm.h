@@ -25,7 +25,7 @@ extern "C" {
 #endif
 
 /* Version of this header. ms_interface is that of the library: at least this one, if it fits. */
-enum { MS_INTERFACE = 2 };
+enum { MS_INTERFACE = 3 };
 
 /* Return codes. */
 typedef enum ms_code {
@@ -223,6 +223,11 @@ int32_t ms_map_notes(uint64_t map, const char** notes);
  * wall is refused, one without walls is noted. */
 int32_t ms_map_from_pixels(const uint8_t* pixels, size_t width, size_t height, double um_per_px,
                            uint64_t* map);
+/* The same with keys of `map` in a scenario, of a picture: "map.threshold=90", "map.free=dark",
+ * "map.simplify_um=2". A mask too is compared with a threshold that is given. */
+int32_t ms_map_from_pixels_with(const uint8_t* pixels, size_t width, size_t height,
+                                double um_per_px, const char* const* settings, size_t count,
+                                uint64_t* map);
 /* Extent of a map, and the distance of a position to its walls, 0 inside one. */
 int32_t ms_map_bounds(uint64_t map, double* x_lo, double* y_lo, double* x_hi, double* y_hi);
 int32_t ms_map_clearance(uint64_t map, double x_um, double y_um, double* clearance_um);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Maps, and paths in them.
 #include "handles.hpp"
+#include "microswarm/config/yaml.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/formats/pixel_map.hpp"
 
@@ -52,10 +53,18 @@ int32_t ms_map_notes(uint64_t handle, const char** notes) {
 
 int32_t ms_map_from_pixels(const uint8_t* pixels, size_t width, size_t height, double um_per_px,
                            uint64_t* map) {
+  return ms_map_from_pixels_with(pixels, width, height, um_per_px, nullptr, 0, map);
+}
+
+int32_t ms_map_from_pixels_with(const uint8_t* pixels, size_t width, size_t height,
+                                double um_per_px, const char* const* settings, size_t count,
+                                uint64_t* map) {
   return c::guarded([&]() -> int32_t {
     c::require(pixels, "pixels"), c::require(map, "map");
+    formats::PixelMapKey key;
+    set_values(key, c::to_settings(settings, count));
     formats::PixelMap made =
-        formats::map_of_pixels({pixels, width * height}, width, height, um_per_px);
+        formats::map_of_pixels({pixels, width * height}, width, height, um_per_px, key.map);
     auto object = of(std::make_shared<const Map>(std::move(made.map)), "map");
     add_lines(object->map->notes_of_reading, made.notes);
     object->map->notes = object->map->notes_of_reading;

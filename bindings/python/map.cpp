@@ -61,7 +61,8 @@ NamedMap from_pixels(const py::array_t<std::uint8_t, py::array::c_style>& pixels
   const std::span<const std::uint8_t> all{pixels.data(), width * height};
   Notes notes;
   NamedMap made = interruptible([&](const Stop&) {
-    formats::PixelMap read = formats::map_of_pixels(all, width, height, um_per_px, simplify);
+    formats::PixelMap read =
+        formats::map_of_pixels(all, width, height, um_per_px, {.simplify = simplify});
     notes = std::move(read.notes);
     return map_in_memory(std::move(read.map));
   });

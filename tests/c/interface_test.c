@@ -277,6 +277,7 @@ static void paths(void) {
   FILE* file;
   uint64_t map = 0;
   ms_query query;
+  const char* values[] = {"map.threshold=90", "map.free=dark", "map.threshold=256", "map.wall=one"};
   ms_path path;
   double lo = -1, hi = -1, y = 0, free = 0;
   int row, column;
@@ -312,6 +313,20 @@ static void paths(void) {
   memset(pixels, 2, sizeof pixels);
   EXPECT_ERROR(ms_map_from_pixels(pixels, 40, 40, 10, &map), MS_BAD_INPUT,
                "its largest value is 2");
+  for (row = 0; row < 40 * 40; ++row) pixels[row] = row % 40 < 20 ? 90 : 89;
+  EXPECT(ms_map_from_pixels_with(pixels, 40, 40, 10, values, 1, &map) == MS_OK);
+  EXPECT(ms_map_clearance(map, 195, 200, &free) == MS_OK && free == 5);
+  EXPECT(ms_map_clearance(map, 205, 200, &free) == MS_OK && free == 0);
+  EXPECT(ms_close(map) == MS_OK);
+  EXPECT(ms_map_from_pixels_with(pixels, 40, 40, 10, values, 2, &map) == MS_OK);
+  EXPECT(ms_map_clearance(map, 195, 200, &free) == MS_OK && free == 0);
+  EXPECT(ms_map_clearance(map, 205, 200, &free) == MS_OK && free == 5);
+  EXPECT(ms_close(map) == MS_OK);
+  EXPECT_ERROR(ms_map_from_pixels_with(pixels, 40, 40, 10, values + 2, 1, &map), MS_BAD_INPUT,
+               "threshold is 256, allowed 0..255");
+  EXPECT_ERROR(ms_map_from_pixels_with(pixels, 40, 40, 10, values + 3, 1, &map), MS_BAD_INPUT,
+               "unknown key 'wall'");
+  EXPECT_ERROR(ms_map_from_pixels_with(pixels, 40, 40, 10, NULL, 1, &map), MS_BAD_CALL, "settings");
   memset(pixels, 1, sizeof pixels);
   EXPECT(ms_map_from_pixels(pixels, 40, 40, 10, &map) == MS_OK);
   EXPECT(ms_map_notes(map, &notes) == MS_OK && strstr(notes, "no walls"));

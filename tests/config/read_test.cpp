@@ -238,9 +238,9 @@ TEST(Read, PartsOfYamlWithoutAPlaceHere) {
       {"name: !!str 3", "s.yaml:1:7: tags (!name) are not supported"},
       {"[a, b]: 3", "s.yaml:1:1: a key must be a word"},
       {"? {a: b}\n: 3", "s.yaml:1:3: a key must be a word"},
-      {"<<: {seed: 3}",
-       "s.yaml:1:1: unknown key '<<', allowed: name, seed, noisy, start, goal_um, planner, tip, "
-       "limit_s, second, note, times_s, rings_um, obstacles, kinds, count"}};
+      {"<<: {seed: 3}", "s.yaml:1:1: merge keys (<<) are not supported: write the keys out"},
+      {"planner:\n  <<: {step_um: 3}",
+       "s.yaml:2:3: merge keys (<<) are not supported: write the keys out"}};
   for (const auto& [text, message] : cases) EXPECT_EQ(complaint(text), message);
 }
 

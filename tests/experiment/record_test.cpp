@@ -112,6 +112,9 @@ TEST(Record, ForeignBytesAreOneLine) {
   };
   EXPECT_EQ(message(""), "x.h5: no HDF5 file, or a damaged one");
   EXPECT_TRUE(test::is_one_line_naming(message("hello"), "x.h5", {"HDF5", "damaged"}));
+  EXPECT_EQ(message(std::string("SQLite format 3\0", 16)),
+            "x.h5: the database of a sweep, no record: `microswarm export` writes its trials as a "
+            "table, with --csv FILE");
   const auto made = io::write_hdf5();
   io::Hdf5Writer& other = *made;
   other.attribute("/", "format", "something else");

@@ -255,6 +255,19 @@ TEST(MapFile, AScaleIsGivenOnce) {
       (folder / "a.pgm").string(), {"--um-per-px", "map.um_per_px"}));
 }
 
+TEST(MapFile, WhatMakesAMapOfAFileIsTold) {
+  const Folder folder;
+  const auto ends_with = [&](const char* file, const std::string& advice) {
+    folder.with(file, "");
+    const std::string said = error_of([&] { choose_map_spec(folder / file, {}); });
+    EXPECT_TRUE(said.ends_with(" or SVG" + advice)) << said;
+  };
+  ends_with("a.docx", "");
+  ends_with("a.dxf", "; export the drawing as SVG");
+  ends_with("a.svgz", "; unpack it: gunzip < a.svgz > a.svg");
+  ends_with("a.geojson.gz", "; unpack it: gunzip < a.geojson.gz > a.geojson");
+}
+
 /// Walls beyond stated bounds are told; those that only reach beyond them are not.
 TEST(MapFile, WallsOutsideOfTheirBoundsAreTold) {
   const Folder folder;

@@ -12,8 +12,9 @@ namespace microswarm::formats {
 namespace {
 
 /// Which pixels of a row, between two bright ones, are free.
-std::vector<bool> free_pixels(const std::vector<std::uint8_t>& row) {
-  const Map map = map_of_pixels(row, row.size(), 1, 10).map;
+std::vector<bool> free_pixels(const std::vector<std::uint8_t>& row,
+                              const PixelMapParams& params = {}) {
+  const Map map = map_of_pixels(row, row.size(), 1, 10, params).map;
   std::vector<bool> free;
   for (std::size_t i = 0; i < row.size(); ++i)
     free.push_back(map.clearance({10 * static_cast<double>(i) + 5, 5}) > 0);
@@ -27,6 +28,22 @@ TEST(PixelMap, AMaskIsFreeWhereItIsOne) {
 TEST(PixelMap, AGreyPictureIsFreeFromTheThresholdOfPictures) {
   EXPECT_EQ(free_pixels({200, 20, 127, 128, 1, 0, 255}),
             (std::vector{true, false, false, true, false, false, true}));
+}
+
+TEST(PixelMap, AThresholdAndDarkChannelsMayBeGiven) {
+  EXPECT_EQ(free_pixels({200, 89, 90}, {.threshold = 90}), (std::vector{true, false, true}));
+  EXPECT_EQ(free_pixels({200, 89, 90}, {.threshold = 90, .free = FreePixels::dark}),
+            (std::vector{false, true, false}));
+  EXPECT_EQ(free_pixels({1, 0}, {.free = FreePixels::dark}), (std::vector{false, true}));
+  EXPECT_EQ(test::error_of([] {
+              map_of_pixels(std::vector<std::uint8_t>{1, 0}, 2, 1, 10, {.threshold = 2});
+            }),
+            "all of the image is wall: its largest value is 1, free are pixels of at least 2");
+  EXPECT_EQ(
+      test::error_of([] {
+        map_of_pixels(std::vector<std::uint8_t>{200, 130}, 2, 1, 10, {.free = FreePixels::dark});
+      }),
+      "all of the image is wall: its smallest value is 130, free are pixels below 128");
 }
 
 /// As a picture's file that is all wall, or has no walls.

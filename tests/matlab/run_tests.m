@@ -9,6 +9,8 @@ function run_tests()
   here = fileparts(mfilename('fullpath'));
   root = fileparts(fileparts(here));
   addpath(here, fullfile(root, 'examples', 'matlab'));
+  folders = strsplit(path(), pathsep());  % found from other folders, too
+  path(strjoin([folders(1), cellfun(@make_absolute_filename, folders(2:end), 'UniformOutput', false)], pathsep()));
   world.scenarios = fullfile(root, 'scenarios');
   world.flight = fullfile(world.scenarios, 'first_flight.yaml');
   world.program = getenv('MICROSWARM');

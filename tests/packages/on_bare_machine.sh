@@ -76,7 +76,8 @@ fi
 install "$packages"/libmicroswarm-dev_*.deb g++ cmake make
 # shellcheck disable=SC2016 # back quotes of Markdown
 sed -n '/^```cpp$/,/^```$/p' "$project/README.md" | sed '1d;$d' >readme.cpp
-cmake -S "$project/tests/install/consumer" -B consumer -D CMAKE_BUILD_TYPE=Release -D PROGRAM="$PWD/readme.cpp" >cmake.log ||
+cmake -S "$project/tests/install/consumer" -B consumer -D CMAKE_BUILD_TYPE=Release -D README="$PWD/readme.cpp" \
+  -D RECORDED="$project/examples/02_run.cpp" >cmake.log ||
   { cat cmake.log && exit 1; }
 cmake --build consumer
 consumer/some_floors

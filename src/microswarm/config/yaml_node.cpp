@@ -111,6 +111,8 @@ class TreeBuilder : public YAML::EventHandler {
     for (std::size_t i = 0; i < map.items.size(); i += 2) {
       const YamlNode& key = map.items[i];
       if (key.kind != YamlNode::Kind::scalar) fail(key.line, key.column, "a key must be a word");
+      if (key.text == "<<")
+        fail(key.line, key.column, "merge keys (<<) are not supported: write the keys out");
       keys.push_back(&key);
     }
     std::stable_sort(keys.begin(), keys.end(),

@@ -60,4 +60,13 @@ std::string map_extension(const std::filesystem::path& file) {
   return extension_of({begin.data(), static_cast<std::size_t>(in.gcount())});
 }
 
+std::string advice_on_no_map(const std::filesystem::path& file) {
+  constexpr std::string_view cad[] = {".dxf", ".dwg", ".step", ".stp", ".stl"};
+  const std::string extension = lower_extension(file);
+  if (std::ranges::find(cad, extension) != std::end(cad)) return "; export the drawing as SVG";
+  if (extension != ".svgz" && extension != ".gz") return "";
+  const std::string unpacked = file.stem().string() + (extension == ".svgz" ? ".svg" : "");
+  return "; unpack it: gunzip < " + file.filename().string() + " > " + unpacked;
+}
+
 }  // namespace microswarm::formats

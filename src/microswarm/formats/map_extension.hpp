@@ -10,4 +10,8 @@ namespace microswarm::formats {
 /// one, such as standard input, that of the format of its content, or none.
 std::string map_extension(const std::filesystem::path& file);
 
+/// Advice on a file that is no map, by its extension, behind "; ": one of a CAD program is
+/// exported, a compressed one unpacked. Empty for others.
+std::string advice_on_no_map(const std::filesystem::path& file);
+
 }  // namespace microswarm::formats

@@ -332,12 +332,6 @@ void set_scale(MapSpec& spec, const MapChoice& choice, Fail&& fail) {
       spec);
 }
 
-/// Whether a file is named as one of a CAD program.
-bool is_cad_drawing(const fs::path& path) {
-  constexpr std::string_view cad[] = {".dxf", ".dwg", ".step", ".stp", ".stl"};
-  return std::ranges::find(cad, lower_extension(path)) != std::end(cad);
-}
-
 /// The kind of map by the extension and content of a file.
 std::optional<MapSpec> kind_of_file(const fs::path& path) {
   const std::string extension = map_extension(path);
@@ -423,7 +417,7 @@ MapSpec choose_map_spec(const fs::path& path, const MapChoice& choice) {
   std::optional<MapSpec> kind = kind_of_file(path);
   if (!kind && !chooses_type(choice.settings))
     throw InputError(fmt::format("{}: no map that is known, expected: {}{}", file, map_formats(),
-                                 is_cad_drawing(path) ? "; export the drawing as SVG" : ""));
+                                 advice_on_no_map(path)));
   for (const Setting& setting : choice.settings.list)
     if (setting.key == "map.file")
       throw InputError(setting_location(choice.settings.option, setting.key) +

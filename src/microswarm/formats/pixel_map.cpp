@@ -8,7 +8,6 @@
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/formats/images/mask.hpp"
-#include "microswarm/formats/map_spec.hpp"
 
 namespace microswarm::formats {
 namespace {
@@ -16,25 +15,31 @@ namespace {
 /// A map of this size takes some seconds and a few GB.
 constexpr std::size_t max_corners = 5'000'000;
 
-/// The value from which a pixel is free.
-int least_free(std::span<const std::uint8_t> pixels) {
+/// The value from which a pixel is bright.
+int least_bright(std::span<const std::uint8_t> pixels, const PixelMapParams& params) {
+  if (params.threshold) return *params.threshold;
   const bool is_mask = std::ranges::all_of(pixels, [](std::uint8_t v) { return v <= 1; });
   return is_mask ? 1 : ImageMap{}.threshold;
 }
 
-[[noreturn]] void fail_all_wall(std::span<const std::uint8_t> pixels, int least) {
-  const int most = *std::ranges::max_element(pixels);
-  throw InputError(most == 0
+[[noreturn]] void fail_all_wall(std::span<const std::uint8_t> pixels, int least,
+                                bool dark_is_free) {
+  const auto [darkest, brightest] = std::ranges::minmax_element(pixels);
+  if (dark_is_free)
+    throw InputError(
+        fmt::format("all of the image is wall: its smallest value is {}, free are pixels below {}",
+                    *darkest, least));
+  throw InputError(*brightest == 0
                        ? "all of the image is wall: no pixel is free"
                        : fmt::format("all of the image is wall: its largest value is {}, free "
                                      "are pixels of at least {}",
-                                     most, least));
+                                     *brightest, least));
 }
 
 }  // namespace
 
 PixelMap map_of_pixels(std::span<const std::uint8_t> pixels, std::size_t width, std::size_t height,
-                       double um_per_px, double tolerance) {
+                       double um_per_px, const PixelMapParams& params) {
   constexpr std::size_t most = 65'535;
   for (const std::size_t side : {width, height})
     if (side < 1 || side > most)
@@ -45,14 +50,17 @@ PixelMap map_of_pixels(std::span<const std::uint8_t> pixels, std::size_t width, 
         fmt::format("{} pixels for an image of {} × {}", pixels.size(), width, height));
   if (!(um_per_px >= 1e-6 && um_per_px <= 1e6))
     throw InputError(fmt::format("um_per_px is {}, must be 1e-6 to 1e6", um_per_px));
-  if (!(tolerance >= 0 && tolerance <= 1e6))
-    throw InputError(fmt::format("simplify is {}, must be 0 to 1e6 µm", tolerance));
+  if (!(params.simplify >= 0 && params.simplify <= 1e6))
+    throw InputError(fmt::format("simplify is {}, must be 0 to 1e6 µm", params.simplify));
   Mask blocked(static_cast<int>(width), static_cast<int>(height));
-  const int least = least_free(pixels);
-  std::ranges::transform(pixels, blocked.cells.begin(), [&](std::uint8_t v) { return v < least; });
-  if (std::ranges::find(blocked.cells, 0) == blocked.cells.end()) fail_all_wall(pixels, least);
+  const int least = least_bright(pixels, params);
+  const bool dark_is_free = params.free == FreePixels::dark;
+  std::ranges::transform(pixels, blocked.cells.begin(),
+                         [&](std::uint8_t v) { return (v < least) != dark_is_free; });
+  if (std::ranges::find(blocked.cells, 0) == blocked.cells.end())
+    fail_all_wall(pixels, least, dark_is_free);
   std::vector<Polygon> walls = mask_walls(blocked, um_per_px);
-  simplify(walls, tolerance);
+  simplify(walls, params.simplify);
   std::size_t corners = 0;
   for (const Polygon& wall : walls) {
     corners += wall.outer.size();

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <string>
+#include <utility>
 
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
@@ -137,7 +139,12 @@ void write_record(const Record& record, const std::filesystem::path& file) {
 }
 
 Record read_record(const std::filesystem::path& file) {
-  const auto opened = io::read_hdf5(read_file(file), file.string());
+  std::string bytes = read_file(file);
+  if (bytes.starts_with("SQLite format 3"))
+    throw InputError(file.string() +
+                     ": the database of a sweep, no record: `microswarm export` writes its trials "
+                     "as a table, with --csv FILE");
+  const auto opened = io::read_hdf5(std::move(bytes), file.string());
   const io::Hdf5Reader& in = *opened;
   const std::int64_t format = check_format(in);
   Record record;

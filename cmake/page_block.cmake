@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: Apache-2.0
+# page_block(PAGE LANGUAGE NUMBER OUT): OUT is the text of a fenced block, the first of its language is number 1.
+function(page_block page language number out)
+  file(READ ${page} text)
+  set(fence "\n```${language}\n")
+  string(LENGTH "${fence}" skip)
+  foreach(k RANGE 1 ${number})
+    string(FIND "${text}" "${fence}" at)
+    if(at EQUAL -1)
+      message(FATAL_ERROR "${page}: no block ${number} of ${language}")
+    endif()
+    math(EXPR at "${at} + ${skip}")
+    string(SUBSTRING "${text}" ${at} -1 text)
+  endforeach()
+  string(FIND "${text}" "\n```" end)
+  string(SUBSTRING "${text}" 0 ${end} text)
+  set(${out} "${text}\n" PARENT_SCOPE)
+endfunction()
