@@ -40,6 +40,8 @@ endif()
 # Code that calls what is fast: less optimised, compiled in two thirds of the time, and with a
 # sanitizer in half of it.
 set(microswarm_glue_options $<$<CONFIG:Release>:-O1> $<$<CONFIG:RelWithDebInfo>:-O0>)
+# Code of the floors in which little time is spent: a sanitizer takes half of the time to compile it.
+set(microswarm_calm_options $<$<CONFIG:RelWithDebInfo>:-O0>)
 # Loops over pixels can be vectorised where no comparison may trap. The values are the same.
 set(microswarm_pixel_options -fno-trapping-math)
 if(MICROSWARM_FUZZ)
