@@ -36,10 +36,11 @@ constexpr double faintest = 0.25;        // of the mean contrast, locally
 constexpr double spot_share = 1.0 / 12;  // of the smaller side: spread of the means of light ...
 constexpr double spot_depths = 6;        // ... and at least so many mean depths of the narrow level
 constexpr int spot_rounds = 3;
-constexpr double local_share = 1.0 / 8;  // the same, before any set is known
-constexpr double fine_spread = 6;        // [px] of a wide blur after downsampling
-constexpr double structure_blur = 1.5;   // [px] of what the levels leave
-constexpr double clear_share = 0.97;     // explained, and levels of ...
+constexpr double local_share = 1.0 / 8;     // the same, before any set is known
+constexpr double fine_spread = 6;           // [px] of a wide blur after downsampling
+constexpr double structure_blur = 1.5;      // [px] of what the levels leave
+constexpr double noisy_structure_blur = 3;  // [px] the same in noise above its contrast
+constexpr double clear_share = 0.97;        // explained, and levels of ...
 constexpr double clear_of_noise = 20;    // ... times the variance of noise: no other set is tried
 constexpr double noise_doubt = 1.3;      // times the variance of noise may be noise
 constexpr double steps_per_noise = 160;  // of the final denoising, per noise in contrasts
@@ -117,6 +118,7 @@ std::optional<double> otsu(const std::vector<float>& values) {
 struct LevelSample {
   cv::Mat grey, view, clean;
   double noise = 0;
+  double blur = structure_blur;  ///< [px] under which noise is no structure
 };
 
 LevelSample sampled(const cv::Mat& grey, const cv::Mat& view, const Stop& stop) {
@@ -142,11 +144,13 @@ void average_along_lines(LevelSample& s, const Stop& stop) {
   const double left = s.noise / std::sqrt(4 * std::numbers::pi * across_lines * sample_along);
   s.clean =
       without_noise(averaged_along(s.grey, across_lines, sample_along), left, fit_steps, stop);
+  s.blur = noisy_structure_blur;
 }
 
 struct LevelCandidate {
   LightFit fit;
   cv::Mat set;       ///< of the sample, 0 to 1
+  cv::Mat model;     ///< light and levels
   cv::Mat residual;  ///< light beyond the polynomial
   double contrast = 0;
   /// Mean square that light and levels leave of the picture, and the price of the set's border: as
@@ -183,18 +187,18 @@ double light_spread(const LevelSample& s, const cv::Mat& set) {
 
 /// Mean square of what a model leaves, without fine noise.
 double structure_left(const LevelSample& s, const cv::Mat& model) {
-  const cv::Mat rest = blurred(s.grey - model, structure_blur);
+  const cv::Mat rest = blurred(s.grey - model, s.blur);
   return mean_in(rest.mul(rest), s.view);
 }
 
 /// Finds the share of the variance that levels explain, of what can be neither noise nor light:
 /// the same light is fitted without levels.
-void explain(const LevelSample& s, const cv::Mat& model, LevelCandidate& c) {
-  const double noise = s.noise * s.noise / (4 * std::numbers::pi * structure_blur * structure_blur);
+void explain(const LevelSample& s, LevelCandidate& c) {
+  const double noise = s.noise * s.noise / (4 * std::numbers::pi * s.blur * s.blur);
   cv::Mat light = fit_light(s.grey, {}, s.view, late_degree, 0).light.over(s.grey.size());
   light += widely_blurred(s.grey - light, s.view, light_spread(s, c.set));
   const double without = structure_left(s, light) - noise_doubt * noise;
-  const double with = structure_left(s, model) - noise_doubt * noise;
+  const double with = structure_left(s, c.model) - noise_doubt * noise;
   if (without > 0) c.explained = std::clamp(1 - with / without, 0.0, 1.0);
   c.is_clear = c.explained > clear_share && without > clear_of_noise * noise;
 }
@@ -240,10 +244,10 @@ LevelCandidate settle(const LevelSample& s, const cv::Mat& first, bool spot) {
     if (!early && moved < settled_share * static_cast<double>(c.set.total()))
       last = std::min(last, k + 1 + (spot ? 0 : spot_rounds));
   }
-  const cv::Mat model = light + c.residual + contrast.mul(c.set);
-  const cv::Mat rest = s.grey - model;
+  c.model = light + c.residual + contrast.mul(c.set);
+  const cv::Mat rest = s.grey - c.model;
   c.left = mean_in(rest.mul(rest), s.view) + 2 * s.noise * c.contrast * border_share(c.set, s.view);
-  explain(s, model, c);
+  explain(s, c);
   return c;
 }
 
@@ -300,6 +304,7 @@ TwoLevels fit_two_levels(const cv::Mat& grey, const cv::Mat& view, const Stop& s
   if (!stop() && !best.is_clear && s.noise > noisy_sample * best.contrast) {
     average_along_lines(s, stop);
     best = best_of(s, best, tried, stop);
+    if (!best.set.empty()) explain(s, best);
   }
   if (best.set.empty()) return {};
   cv::Mat whole;
