@@ -18,8 +18,8 @@ namespace {
 
 constexpr int orientations = 16;
 constexpr double bell_ends = 2.5;      // standard deviations
-constexpr double ground_spread = 2;    // of the standard deviation along: what is no line
-constexpr double energy_spread = 3;    // [px] around a pixel; wider, a line covers its branches
+constexpr double line_ground = 2;      // of the standard deviation along: what is no line
+constexpr double line_energy = 3;      // [px] around a pixel; wider, a line covers its branches
 constexpr float least_energy = 1e-6F;  // of a flat picture
 
 struct BellPoint {
@@ -69,7 +69,7 @@ cv::Mat averaged_along(const cv::Mat& picture, double across, double along) {
   const int pad = cvCeil(bell_ends * spread) + 1;
   cv::Mat wide;
   cv::copyMakeBorder(smooth, wide, pad, pad, pad, pad, cv::BORDER_REFLECT_101);
-  const cv::Mat ground = blurred(picture, ground_spread * along);
+  const cv::Mat ground = blurred(picture, line_ground * along);
   cv::Mat sums = cv::Mat::zeros(picture.size(), CV_32F);
   cv::Mat weights = cv::Mat::zeros(picture.size(), CV_32F);
   for (int i = 0; i < orientations; ++i) {
@@ -80,7 +80,7 @@ cv::Mat averaged_along(const cv::Mat& picture, double across, double along) {
         add_weighted(wide.ptr<float>(y + pad + p.y) + pad + p.x, p.weight, means.cols,
                      means.ptr<float>(y));
     const cv::Mat lines = means - ground;
-    const cv::Mat energies = blurred(lines.mul(lines), energy_spread);
+    const cv::Mat energies = blurred(lines.mul(lines), line_energy);
     for (int y = 0; y < means.rows; ++y)
       add_means(means.ptr<float>(y), energies.ptr<float>(y), means.cols, sums.ptr<float>(y),
                 weights.ptr<float>(y));
