@@ -37,6 +37,8 @@ py::dict segment(const py::object& photo, double um_per_px, double smooth, const
     found = vision::segment_vessels(image, params, stop);
     return vision::vessel_map(found, um_per_px, smooth, name, stop);
   });
+  if (std::string faint = vision::note_on_noise(found); !faint.empty())
+    notes.push_back(name + ": " + faint);
   warn(notes);
   py::dict out;
   out["map"] = map_in_memory(std::move(map));

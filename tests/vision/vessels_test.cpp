@@ -123,7 +123,12 @@ TEST(Vessels, RetinasAgreeWithTheirObservers) {
   VesselParams params;
   params.keep = KeepPieces::all;
   int left = test::cases(4);
-  for (const char* name : {"CHASE_01L", "CHASE_05R", "CHASE_09L", "CHASE_12R"}) {
+  struct Measured {
+    const char* name;
+    double dice;
+  };
+  for (const auto& [name, dice] : {Measured{"CHASE_01L", 0.779}, Measured{"CHASE_05R", 0.817},
+                                   Measured{"CHASE_09L", 0.719}, Measured{"CHASE_12R", 0.759}}) {
     if (left-- == 0) break;
     const auto read = [&](const char* what) {
       return formats::threshold(formats::read_image(retinas() / (std::string(name) + what)), 128,
@@ -141,8 +146,9 @@ TEST(Vessels, RetinasAgreeWithTheirObservers) {
         name, *ours.sensitivity(), *ours.specificity(), *ours.dice(), *theirs.sensitivity(),
         *theirs.specificity(), *theirs.dice(),
         *compare(second, found.vessels, &found.field_of_view).dice());
-    EXPECT_GT(*ours.dice(), 0.65) << name;
+    EXPECT_GT(*ours.dice(), dice - 0.01) << name;
     EXPECT_GT(*ours.specificity(), 0.95) << name;
+    EXPECT_EQ(note_on_noise(found), "") << name;
   }
 }
 

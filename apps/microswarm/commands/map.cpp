@@ -6,6 +6,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
@@ -203,6 +205,10 @@ int segment(const SegmentOptions& o, const Context& context) {
   if (interrupted()) return not_reached;
   const Map map = vision::vessel_map(found, cell, o.smooth, o.photo, context.stop);
   if (interrupted()) return not_reached;
+  std::vector<std::string> notes;
+  if (const std::string faint = vision::note_on_noise(found); !faint.empty())
+    notes.push_back(o.photo + ": " + faint);
+  note_each(notes);
   const std::filesystem::path out = o.out;
   std::filesystem::path picture = out;
   picture.replace_filename(out.stem().string() + "-overlay.png");
@@ -220,7 +226,8 @@ int segment(const SegmentOptions& o, const Context& context) {
             {"bridges", found.bridges},
             {"wide_width_um", found.wide_width_px * cell},
             {"map", out.string()},
-            {"overlay", picture.string()}};
+            {"overlay", picture.string()},
+            {"notes", notes}};
   std::string text = fmt::format(
       "method: {}\nvessels cover {:.1f} % of the view, wide ones {:.0f} µm; {} gaps bridged; kept "
       "{:.0f} % of {} pieces\n",

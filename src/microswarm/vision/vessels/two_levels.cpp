@@ -12,6 +12,7 @@
 
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/core/maths/statistics.hpp"
+#include "microswarm/vision/image/along_lines.hpp"
 #include "microswarm/vision/image/blur.hpp"
 #include "microswarm/vision/image/mask_ops.hpp"
 #include "microswarm/vision/image/total_variation.hpp"
@@ -35,13 +36,24 @@ constexpr double faintest = 0.25;        // of the mean contrast, locally
 constexpr double spot_share = 1.0 / 12;  // of the smaller side: spread of the means of light ...
 constexpr double spot_depths = 6;        // ... and at least so many mean depths of the narrow level
 constexpr int spot_rounds = 3;
-constexpr double local_share = 1.0 / 8;  // the same, before any set is known
-constexpr double fine_spread = 6;        // [px] of a wide blur after downsampling
-constexpr double structure_blur = 1.5;   // [px] of what the levels leave
-constexpr double clear_share = 0.97;     // explained, and levels of ...
+constexpr double local_share = 1.0 / 8;     // the same, before any set is known
+constexpr double fine_spread = 6;           // [px] of a wide blur after downsampling
+constexpr double structure_blur = 1.5;      // [px] of what the levels leave
+constexpr double noisy_structure_blur = 3;  // [px] the same in noise above its contrast
+constexpr double clear_share = 0.97;        // explained, and levels of ...
 constexpr double clear_of_noise = 20;    // ... times the variance of noise: no other set is tried
 constexpr double noise_doubt = 1.3;      // times the variance of noise may be noise
 constexpr double steps_per_noise = 160;  // of the final denoising, per noise in contrasts
+// A line of a few pixels that is fainter than its noise is nearly as far from 0 as its borders cost
+// the denoising; so noise is averaged along lines first.
+constexpr double noisy = 0.63;        // noise in contrasts
+constexpr double noise_left = 0.125;  // the same, averaged along lines: walls stay within 0.4 px
+constexpr double across_lines = 0.7;  // [px] standard deviation across lines ...
+constexpr double min_along = 5;       // [px] ... and along them: as the noise requires ...
+constexpr double max_along = 12;      // [px] ... up to what bends of channels allow
+constexpr double noisy_sample = 0.3;  // the same on the smaller picture
+constexpr double sample_along = 6;    // [px]
+constexpr double level_depth = 1.5;   // [px] from walls, where levels are measured
 constexpr int min_level_steps = 15;
 constexpr int max_level_steps = 100;
 
@@ -106,6 +118,7 @@ std::optional<double> otsu(const std::vector<float>& values) {
 struct LevelSample {
   cv::Mat grey, view, clean;
   double noise = 0;
+  double blur = structure_blur;  ///< [px] under which noise is no structure
 };
 
 LevelSample sampled(const cv::Mat& grey, const cv::Mat& view, const Stop& stop) {
@@ -126,12 +139,23 @@ LevelSample sampled(const cv::Mat& grey, const cv::Mat& view, const Stop& stop) 
   return s;
 }
 
+/// Denoises the sample so that lines fainter than its noise stay.
+void average_along_lines(LevelSample& s, const Stop& stop) {
+  const double left = s.noise / std::sqrt(4 * std::numbers::pi * across_lines * sample_along);
+  s.clean =
+      without_noise(averaged_along(s.grey, across_lines, sample_along), left, fit_steps, stop);
+  s.blur = noisy_structure_blur;
+}
+
 struct LevelCandidate {
   LightFit fit;
   cv::Mat set;       ///< of the sample, 0 to 1
+  cv::Mat model;     ///< light and levels
   cv::Mat residual;  ///< light beyond the polynomial
   double contrast = 0;
-  double left = infinity;  ///< mean square that light and levels leave of the denoised picture
+  /// Mean square that light and levels leave of the picture, and the price of the set's border: as
+  /// much as in the denoising, so sets that follow noise are dear.
+  double left = infinity;
   double explained = 0;
   bool is_clear = false;  ///< nothing else can explain the picture
 };
@@ -163,20 +187,32 @@ double light_spread(const LevelSample& s, const cv::Mat& set) {
 
 /// Mean square of what a model leaves, without fine noise.
 double structure_left(const LevelSample& s, const cv::Mat& model) {
-  const cv::Mat rest = blurred(s.grey - model, structure_blur);
+  const cv::Mat rest = blurred(s.grey - model, s.blur);
   return mean_in(rest.mul(rest), s.view);
 }
 
 /// Finds the share of the variance that levels explain, of what can be neither noise nor light:
 /// the same light is fitted without levels.
-void explain(const LevelSample& s, const cv::Mat& model, LevelCandidate& c) {
-  const double noise = s.noise * s.noise / (4 * std::numbers::pi * structure_blur * structure_blur);
+void explain(const LevelSample& s, LevelCandidate& c) {
+  const double noise = s.noise * s.noise / (4 * std::numbers::pi * s.blur * s.blur);
   cv::Mat light = fit_light(s.grey, {}, s.view, late_degree, 0).light.over(s.grey.size());
   light += widely_blurred(s.grey - light, s.view, light_spread(s, c.set));
   const double without = structure_left(s, light) - noise_doubt * noise;
-  const double with = structure_left(s, model) - noise_doubt * noise;
+  const double with = structure_left(s, c.model) - noise_doubt * noise;
   if (without > 0) c.explained = std::clamp(1 - with / without, 0.0, 1.0);
   c.is_clear = c.explained > clear_share && without > clear_of_noise * noise;
+}
+
+/// Length of the set's border per pixel of the view.
+double border_share(const cv::Mat& set, const cv::Mat& view) {
+  double steps = 0;
+  for (int y = 0; y + 1 < set.rows; ++y)
+    for (int x = 0; x + 1 < set.cols; ++x) {
+      if (!view.at<std::uint8_t>(y, x)) continue;
+      const float here = set.at<float>(y, x);
+      steps += (set.at<float>(y, x + 1) != here) + (set.at<float>(y + 1, x) != here);
+    }
+  return 0.25 * std::numbers::pi * steps / std::max(1, cv::countNonZero(view));
 }
 
 /// Fits light and levels and assigns pixels in turn, from a first set on. Light that no polynomial
@@ -208,10 +244,10 @@ LevelCandidate settle(const LevelSample& s, const cv::Mat& first, bool spot) {
     if (!early && moved < settled_share * static_cast<double>(c.set.total()))
       last = std::min(last, k + 1 + (spot ? 0 : spot_rounds));
   }
-  const cv::Mat model = light + c.residual + contrast.mul(c.set);
-  const cv::Mat rest = s.clean - model;
-  c.left = mean_in(rest.mul(rest), s.view);
-  explain(s, model, c);
+  c.model = light + c.residual + contrast.mul(c.set);
+  const cv::Mat rest = s.grey - c.model;
+  c.left = mean_in(rest.mul(rest), s.view) + 2 * s.noise * c.contrast * border_share(c.set, s.view);
+  explain(s, c);
   return c;
 }
 
@@ -228,15 +264,22 @@ std::vector<cv::Mat> first_sets(const cv::Mat& flat, const cv::Mat& view) {
   return sets;
 }
 
-}  // namespace
+/// `averaged` scaled so that its sides have the levels 0 and 1, which are measured in the middle of
+/// the sides: on the smaller picture noise and soft edges have moved them.
+cv::Mat with_levels_of(const cv::Mat& unit, const cv::Mat& averaged) {
+  const cv::Mat upper = averaged > 0.5;
+  const cv::Mat high = depth_in(upper) > level_depth;
+  const cv::Mat low = depth_in(~upper) > level_depth;
+  if (std::min(cv::countNonZero(high), cv::countNonZero(low)) < min_pixels) return averaged;
+  const double zero = mean_in(unit, low);
+  const double one = mean_in(unit, high);
+  return (averaged - zero) / std::max(faintest, one - zero);
+}
 
-TwoLevels fit_two_levels(const cv::Mat& grey, const cv::Mat& view, const Stop& stop) {
-  const LevelSample s = sampled(grey, view, stop);
-  if (cv::countNonZero(s.view) < min_pixels || stop()) return {};
+/// The best of `best` and what settles from the first sets.
+LevelCandidate best_of(const LevelSample& s, LevelCandidate best, int& tried, const Stop& stop) {
   const LightFit first = fit_light(s.clean, {}, s.view, early_degree, 0);
   const double wide = local_share * std::min(s.clean.rows, s.clean.cols);
-  LevelCandidate best;
-  int tried = 0;
   for (const bool spot : {false, true}) {
     const cv::Mat light =
         spot ? widely_blurred(s.clean, s.view, wide) : first.light.over(s.clean.size());
@@ -245,9 +288,23 @@ TwoLevels fit_two_levels(const cv::Mat& grey, const cv::Mat& view, const Stop& s
       const LevelCandidate c = settle(s, set, spot);
       ++tried;
       if (c.left < best.left) best = c;
-      if (best.is_clear) break;
+      if (best.is_clear) return best;
     }
-    if (best.is_clear) break;
+  }
+  return best;
+}
+
+}  // namespace
+
+TwoLevels fit_two_levels(const cv::Mat& grey, const cv::Mat& view, const Stop& stop) {
+  LevelSample s = sampled(grey, view, stop);
+  if (cv::countNonZero(s.view) < min_pixels || stop()) return {};
+  int tried = 0;
+  LevelCandidate best = best_of(s, {}, tried, stop);
+  if (!stop() && !best.is_clear && s.noise > noisy_sample * best.contrast) {
+    average_along_lines(s, stop);
+    best = best_of(s, best, tried, stop);
+    if (!best.set.empty()) explain(s, best);
   }
   if (best.set.empty()) return {};
   cv::Mat whole;
@@ -263,7 +320,14 @@ cv::Mat level_picture(const cv::Mat& grey, const TwoLevels& levels, const Stop& 
   cv::resize(levels.residual, residual, grey.size(), 0, 0, cv::INTER_LINEAR);
   unit -= levels.fit.light.over(grey.size()) + residual;
   unit /= cv::max(levels.fit.contrast.over(grey.size()), faintest * levels.contrast);
-  const double noise = levels.noise / levels.contrast;
+  double noise = levels.noise / levels.contrast;
+  if (noise > noisy) {
+    const double along = noise * noise / (4 * std::numbers::pi * noise_left * noise_left);
+    const cv::Mat averaged =
+        averaged_along(unit, across_lines, std::clamp(along, min_along, max_along));
+    unit = with_levels_of(unit, averaged);
+    noise = noise_left;
+  }
   const int steps = std::clamp(cvRound(steps_per_noise * noise), min_level_steps, max_level_steps);
   return without_noise(unit, noise, steps, stop);
 }

@@ -17,9 +17,11 @@
 namespace microswarm::vision {
 namespace {
 
-constexpr double clearly_two = 0.9;   // share explained above which a picture is of two levels
-constexpr double close_share = 0.05;  // on either side of it, the choice is close
-constexpr double close_odds = 1.25;   // of polarities
+constexpr double clearly_two = 0.9;     // share explained above which a picture is of two levels
+constexpr double close_share = 0.05;    // on either side of it, the choice is close
+constexpr double doubtful_noise = 0.6;  // in contrasts, of levels that do not explain the picture
+constexpr double hiding_noise = 1.55;   // the same if they do: measured on drawn channels of 6 px
+constexpr double close_odds = 1.25;     // of polarities
 
 void require_picture(const formats::Image& image) {
   if (image.width < 1 || image.height < 1) throw InputError("picture to segment: no pixels");
@@ -47,11 +49,20 @@ bool is_bright(const VesselParams& params, VesselSegmentation& result, double od
   return bright;
 }
 
+/// Whether noise hides what there is: two levels explain nothing beyond noise, or only such that
+/// are no clearer than it, or their difference is too small for narrow channels.
+bool is_hidden(const TwoLevels& levels) {
+  if (levels.explained <= 0) return levels.contrast > 0;
+  const double noise = levels.noise / levels.contrast;
+  return noise > (levels.explained < clearly_two ? doubtful_noise : hiding_noise);
+}
+
 /// Finds vessels; notes method and polarity in `result`.
 FoundVessels found_in(const cv::Mat& grey, const cv::Mat& view, const VesselParams& params,
                       VesselSegmentation& result, const Stop& stop) {
   TwoLevels levels;
   if (params.method != VesselMethod::lines) levels = fit_two_levels(grey, view, stop);
+  if (params.method != VesselMethod::lines) result.is_faint = is_hidden(levels);
   result.method = params.method;
   if (params.method == VesselMethod::automatic) {
     result.two_level_share = levels.explained;
@@ -87,6 +98,13 @@ std::string describe_choice(const VesselSegmentation& found) {
               " to 1)",
           dark ? "polarity=bright" : "polarity=dark");
   return text;
+}
+
+std::string note_on_noise(const VesselSegmentation& found) {
+  if (!found.is_faint) return {};
+  return "the vessels are fainter than the noise allows: check the overlay; average several "
+         "frames, or "
+         "take a larger magnification";
 }
 
 VesselSegmentation segment_vessels(const formats::Image& image, const VesselParams& params,

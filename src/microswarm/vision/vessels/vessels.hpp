@@ -90,6 +90,7 @@ struct VesselSegmentation {
   std::optional<double> two_level_share{};
   /// Evidence for the polarity over that for the other one, at least 1; without it if it was set.
   std::optional<double> polarity_odds{};
+  bool is_faint = false;     ///< noise hides vessels; not known if the method was set to lines
   double wide_width_px = 0;  ///< measured, or as set
   double scale = 1;          ///< working pixels per picture pixel
   int bridges = 0;           ///< number of closed gaps
@@ -101,6 +102,9 @@ struct VesselSegmentation {
 /// Method and polarity in a line: "lines, dark". What was chosen by itself and nearly
 /// otherwise is said.
 std::string describe_choice(const VesselSegmentation& found);
+
+/// What to do about vessels that are fainter than the noise allows; empty if they are not.
+std::string note_on_noise(const VesselSegmentation& found);
 
 /// Segments vessels in a fundus or microscope picture (green channel of colour pictures). The
 /// methods are deterministic and untrained. Regions: two levels under uneven light are fitted,
