@@ -103,7 +103,7 @@ struct VesselSegmentation {
 /// otherwise is said.
 std::string describe_choice(const VesselSegmentation& found);
 
-/// What to do about vessels that are fainter than the noise allows; empty if they are not.
+/// Note about vessels that are fainter than the noise allows, with advice; empty if they are not.
 std::string note_on_noise(const VesselSegmentation& found);
 
 /// Segments vessels in a fundus or microscope picture (green channel of colour pictures). The
