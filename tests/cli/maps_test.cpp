@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Maps and paths through files: read, checked, converted there and back, drawn.
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 
 #include "inputs.hpp"
@@ -229,6 +231,34 @@ TEST_F(Maps, Segment) {
   EXPECT_NE(told.find("method: regions, dark"), std::string::npos) << told;
   refused({"map", "segment", "photo.pgm", "--um-per-px", "5", "--set", "min_widt_px=6"},
           naming("--set min_widt_px", {"min_widt_px", "min_width_px"}));
+}
+
+/// Noise of standard deviation 25, from a hash of the pixel's number.
+int noise_at(int x, int y) {
+  auto n = static_cast<std::uint32_t>(400 * y + x);
+  n = (n ^ 61) ^ (n >> 16);
+  n *= 9;
+  n ^= n >> 4;
+  n *= 0x27d4eb2d;
+  n ^= n >> 15;
+  int sum = -510;
+  for (int k = 0; k < 4; ++k) sum += static_cast<int>((n >> (8 * k)) & 255);
+  return sum * 25 / 148;
+}
+
+TEST_F(Maps, VesselsFainterThanTheNoiseAreTold) {
+  const auto photo = [&](int contrast) {
+    write("photo.pgm", pgm(400, 300, [&](int x, int y) {
+            return std::clamp(130 - (in_vessel(x, y) ? contrast : 0) + noise_at(x, y), 0, 255);
+          }));
+    return Json::parse(
+        good({"map", "segment", "photo.pgm", "--um-per-px", "5", "--out", "v.geojson", "--json"}));
+  };
+  const Json faint = photo(14);
+  ASSERT_EQ(faint.at("notes").size(), 1U);
+  EXPECT_NE(faint.at("notes")[0].get<std::string>().find("fainter than the noise"),
+            std::string::npos);
+  EXPECT_TRUE(photo(60).at("notes").empty());
 }
 
 TEST_F(Maps, Graph) {
