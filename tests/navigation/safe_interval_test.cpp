@@ -145,6 +145,22 @@ TEST(SafeInterval, FindsALaneHardlyWiderThanTheSwarm) {
   }
 }
 
+// Of a large map a cell may be wider than its passages: the way among walls is known all the same,
+// and what comes through the passage passes first.
+TEST(SafeInterval, FindsAPassageNarrowerThanItsCells) {
+  SafeIntervalParams params;
+  params.tuning.max_cells = 300;
+  for (const bool comes : {false, true}) {
+    std::vector<Obstacle> obstacles;
+    if (comes) obstacles = {{DiscShape{30}, Straight{{1700, 900}, {-40, -7}}}};
+    LateDrive<SafeIntervalNavigator> drive{
+        .walls = wall_with_gap(750, 860), .obstacles = obstacles, .params = params};
+    drive.run(60);
+    EXPECT_TRUE(drive.arrived) << comes;
+    EXPECT_GT(drive.min_gap, 0) << comes;
+  }
+}
+
 TEST(SafeInterval, ArrivesAmongWhatSwings) {
   LateDrive<SafeIntervalNavigator> drive{
       .obstacles = {{DiscShape{80}, HarmonicLine{{900, 500}, {100, 300}, 9, 0}},

@@ -168,6 +168,25 @@ struct CellWorld {
 
 // Brute force waits at each arrival for the next tick and takes no path at any angle: the search is
 // never later, and not much earlier.
+// A move through cells that stand never becomes possible, though the swarm may wait for ever.
+TEST(SafeIntervalSearch, NothingIsReachedThroughWhatStands) {
+  SpaceTimeGrid grid({{0, 0}, {40, 20}}, 10, 1, 20);
+  for (int row = 0; row < 3; ++row) grid.let_stand(grid.at(2, row));
+  grid.clear();
+  std::vector<float> lengths(grid.size());
+  for (Cell c = 0; c < grid.size(); ++c)
+    lengths[c] = static_cast<float>(distance(grid.position(c), grid.position(grid.at(4, 1))));
+  SafeIntervalSearch search;
+  const std::vector<Cell> entries{grid.at(3, 1)};
+  const Status status = search.find(grid, {.from = grid.position(grid.at(0, 1)),
+                                           .stay_until = infinity,
+                                           .entries = entries,
+                                           .speed = 10,
+                                           .lengths = lengths});
+  EXPECT_EQ(status, Status::no_path);
+  EXPECT_TRUE(search.path().empty());
+}
+
 TEST(SafeIntervalSearch, ArrivesAsEarlyAsBruteForce) {
   int solved = 0;
   double sum = 0;

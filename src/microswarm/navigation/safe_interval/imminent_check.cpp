@@ -23,6 +23,7 @@ ImminentCheck::ImminentCheck(const ImminentTuning& tuning, const SwarmLimits& sw
     : tuning_(tuning),
       turn_rate_(swarm.max_turn_rate),
       speed_(speed),
+      tick_(tick),
       committed_time_(std::max(tuning.commitment, tick)) {
   choices_.reserve(2 * static_cast<std::size_t>(tuning.directions) + 1);
 }
@@ -34,6 +35,7 @@ void ImminentCheck::begin(const Situation& situation) {
                       static_cast<int>(std::ceil(tuning_.horizon / forecast.step())));
   committed_ =
       std::clamp(static_cast<int>(std::ceil(committed_time_ / forecast.step())), 1, samples_);
+  commanded_ = std::clamp(static_cast<int>(std::ceil(tick_ / forecast.step())), 1, committed_);
   present_hollow_gap_ =
       forecast.hollow_clearance(now_.pose.position, now_.radius + counted_gap) - now_.radius;
   near_.clear();
@@ -63,16 +65,22 @@ ImminentCheck::Outcome ImminentCheck::roll(Pose2 from, const Command& command, i
                                            bool in_contact_only) const {
   const ObstacleForecast& forecast = *now_.forecast;
   Outcome out{first, counted_gap, from};
+  bool stands = false;
   for (int s = first; s < last; ++s) {
     // The commitment ends at the goal; what comes near there later can be escaped from.
     const bool has_arrived =
         first == 0 && distance(out.end.position, now_.goal.centre) <= now_.goal.radius;
-    const Pose2 next =
-        has_arrived ? out.end : unicycle_step(out.end, command, turn_rate_, forecast.step());
-    const Segment move{out.end.position, next.position};
-    if (command.speed > 0 && !now_.map->is_free(move, now_.wall_clearance)) {
+    Pose2 next = has_arrived || stands
+                     ? out.end
+                     : unicycle_step(out.end, command, turn_rate_, forecast.step());
+    Segment move{out.end.position, next.position};
+    if (!stands && command.speed > 0 && !now_.map->is_free(move, now_.wall_clearance)) {
       if (s == first) out.least = -infinity;  // no start at all
-      return out;
+      if (first > 0 || s < commanded_) return out;
+      // The next command stops it before the wall.
+      stands = true;
+      next = out.end;
+      move.b = move.a;
     }
     if (!forecast.hollow().empty()) {
       const double away = forecast.hollow_clearance(next.position, now_.radius + counted_gap);

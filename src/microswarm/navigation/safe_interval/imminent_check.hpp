@@ -66,9 +66,11 @@ class ImminentCheck {
   ImminentTuning tuning_;
   double turn_rate_;
   double speed_;
+  double tick_;
   double committed_time_;
   Situation now_;
   int samples_ = 0;                ///< of the horizon
+  int commanded_ = 0;              ///< until the next command
   int committed_ = 0;              ///< of the commitment
   double present_hollow_gap_ = 0;  ///< [µm]
   std::vector<Near> near_;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/maths.hpp"
@@ -13,8 +15,11 @@ namespace microswarm::navigation {
 namespace {
 
 constexpr double clearance_rounding = 1e-9;
+constexpr double tight_reach = 0.05;  // of the way of a tick: a corner that is not cut
 /// Shares of the gaps with which a plan is searched in turn.
 constexpr std::array<double, 3> gap_shares{1, 0.5, 0.15};
+/// Shares of the gap to walls of routes.
+constexpr std::array<double, 4> route_gap_shares{1, 0.5, 0.2, 0.1};
 
 }  // namespace
 
@@ -41,6 +46,12 @@ void SafeIntervalNavigator::prepare(const Snapshot& world, const Stop&) {
   choose_aim(world, swarm().radius, wanted);
   planner_.prepare(world.map(), {aim().position, params_.tuning.goal_share * aim().tolerance},
                    wall_clearance(wanted, aim().position, 0));
+  routes_.clear();
+  for (const double share : route_gap_shares) {
+    const double clearance = std::min(swarm().radius + share * params_.wall_gap,
+                                      (1 - clearance_rounding) * aim().clearance);
+    routes_.emplace_back(world.shared_map(), aim().position, clearance);
+  }
 }
 
 Diagnostics SafeIntervalNavigator::diagnostics() const {
@@ -78,7 +89,7 @@ Decision SafeIntervalNavigator::decide(const Moment& moment) {
                    radius_,
                    entry_clearance(moment.map(), pose.position),
                    {goal(), goal_tolerance()}});
-  plan_.advance(pose.position, 0.6 * tick_ * speed());
+  plan_.advance(pose.position, (plan_.is_tight() ? tight_reach : 0.6) * tick_ * speed());
   review(moment, now);
   path_.push_back(pose.position);
   for (const KeptPlan::Leg& leg : plan_.legs()) path_.push_back(leg.end);
@@ -123,13 +134,22 @@ bool SafeIntervalNavigator::goes_straight(const Moment& moment, double now) {
                                           distance(position, aim().position));
   if (!moment.map().is_free(way, std::min(clearance, entry_clearance(moment.map(), position))))
     return false;
-  if (!forecast_.hollow().empty() &&
-      !forecast_.hollow().is_free(way, radius_ + params_.gap + forecast_.closing()))
-    return false;
+  return takes(std::array{position, aim().position}, now);
+}
+
+/// Adopts the straight pieces between `points` if nothing is near them that moves, rests or is
+/// hollow.
+bool SafeIntervalNavigator::takes(std::span<const Vec2> points, double now) {
+  tried_.adopt(std::array{planning::TimedPoint{points[0], 0}}, now, 0);
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (!forecast_.hollow().empty() &&
+        !forecast_.hollow().is_free(Segment{points[i - 1], points[i]},
+                                    radius_ + params_.gap + forecast_.closing()))
+      return false;
+    tried_.append(points[i]);
+  }
   forecast_.predict_all(predictor_);
-  tried_.adopt(std::array{planning::TimedPoint{position, 0}}, now, 0);
-  tried_.append(aim().position);
-  if (tried_.conflict(position, now, forecast_, forecast_.samples(), radius_, 1,
+  if (tried_.conflict(points[0], now, forecast_, forecast_.samples(), radius_, 1,
                       params_.tuning.imminent.recovery_rate) < infinity)
     return false;
   plan_ = tried_;
@@ -146,7 +166,9 @@ void SafeIntervalNavigator::replan(const Moment& moment, double now, double conf
                   entry_clearance(moment.map(), pose.position), share, moment.stop);
     if (planner_.path().size() > 1) break;
   }
-  if (planner_.path().size() < 2) {
+  const bool has_path = planner_.path().size() > 1;
+  if ((!has_path || planner_.is_coarse()) && takes_route(moment, now)) return;
+  if (!has_path) {
     if (conflict < params_.tuning.checked_time) plan_.clear();
     return;
   }
@@ -161,6 +183,20 @@ void SafeIntervalNavigator::replan(const Moment& moment, double now, double conf
   plan_.adopt(planner_.path(), now, planner_.ends_at_goal() ? 0 : planner_.left());
   if (planner_.ends_at_goal()) plan_.append(aim().position);
   shorten(moment, now);
+}
+
+/// Adopts the shortest path among walls if nothing is near it: passages may be narrower than the
+/// planner's cells.
+bool SafeIntervalNavigator::takes_route(const Moment& moment, double now) {
+  for (planning::Route& route : routes_) {
+    route.stop_with(moment.stop);
+    const std::vector<Vec2> path = route.path_from(moment.pose.position);
+    if (path.size() < 2) continue;
+    if (!takes(path, now)) return false;
+    plan_.drive_to_corners();
+    return true;
+  }
+  return false;
 }
 
 /// Cuts corners of the plan's next seconds that are due to the grid and to cells occupied for whole
@@ -205,6 +241,7 @@ Command SafeIntervalNavigator::wanted(const Moment& moment, double now) {
 double SafeIntervalNavigator::approach_speed(const Pose2& pose, Vec2 target, bool is_goal) const {
   const double away = distance(pose.position, target);
   double fastest = speed();
+  if (plan_.is_tight()) fastest = std::min(fastest, std::max(away / tick_, tight_reach * speed()));
   if (is_goal) fastest = std::min(fastest, std::max(away, 0.5 * aim().tolerance) / tick_);
   if (!std::isfinite(swarm().max_turn_rate)) return fastest;
   const double turn = turn_between(heading_along(target - pose.position), pose.heading);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "microswarm/core/errors/issue.hpp"
@@ -13,6 +14,7 @@
 #include "microswarm/navigation/safe_interval/safe_interval_params.hpp"
 #include "microswarm/navigation/safe_interval/space_time_planner.hpp"
 #include "microswarm/navigation/steering/steering_navigator.hpp"
+#include "microswarm/planning/exact/route.hpp"
 
 namespace microswarm::navigation {
 
@@ -37,7 +39,9 @@ class SafeIntervalNavigator : public SteeringNavigator {
 
   void review(const Moment& moment, double now);
   bool goes_straight(const Moment& moment, double now);
+  bool takes(std::span<const Vec2> points, double now);
   void replan(const Moment& moment, double now, double conflict);
+  bool takes_route(const Moment& moment, double now);
   void shorten(const Moment& moment, double now);
   double entry_clearance(const Map& map, Vec2 p) const;
   Command wanted(const Moment& moment, double now);
@@ -50,6 +54,7 @@ class SafeIntervalNavigator : public SteeringNavigator {
   MultiModelPredictor predictor_;
   ObstacleForecast forecast_;
   SpaceTimePlanner planner_;
+  std::vector<planning::Route> routes_;  ///< to the goal among walls, by falling clearance
   KeptPlan plan_;
   KeptPlan tried_;  ///< another plan that is tested
   ImminentCheck imminent_;

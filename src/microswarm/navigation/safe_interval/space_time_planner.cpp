@@ -41,6 +41,7 @@ bool SpaceTimePlanner::make_grid(const Map& map, int level) {
   const double wanted = std::ldexp(params_.cell_share * std::max(radius_, start_rounding), -level);
   if (level > 0 && wanted < least) return false;
   level_ = level;
+  is_coarse_ = wanted < least;
   const double cell = std::max(wanted, least);
   grid_ = planning::SpaceTimeGrid(bounds, cell, params_.horizon / ObstacleForecast::slots,
                                   ObstacleForecast::slots);

@@ -42,6 +42,8 @@ class SpaceTimePlanner {
   /// Duration of the plan, with the cost of turning [s].
   double cost() const { return search_.cost(); }
   int expansions() const { return search_.expansions(); }
+  /// Whether the cells are larger than wanted, so that the map takes no more than `max_cells`.
+  bool is_coarse() const { return is_coarse_; }
 
  private:
   bool make_grid(const Map& map, int level);
@@ -58,6 +60,7 @@ class SpaceTimePlanner {
   Disc reached_;
   double goal_clearance_ = 0;
   int level_ = 0;
+  bool is_coarse_ = false;
   planning::SpaceTimeGrid grid_;
   planning::GridDistances distances_;
   planning::SafeIntervalSearch search_;

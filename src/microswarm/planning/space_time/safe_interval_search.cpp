@@ -169,7 +169,7 @@ void SafeIntervalSearch::relax(const SpaceTimeGrid& grid, const Query& query,
   if (move.arrival - move.duration > latest) return;
   const double depart = grid.departure({from.position, state.position}, query.speed,
                                        move.arrival - move.duration, latest);
-  if (depart > latest) return;
+  if (depart > latest || depart == infinity) return;
   state.time = depart + move.duration;
   state.turn_cost = move.turn_cost;
   state.parent = from_number;
