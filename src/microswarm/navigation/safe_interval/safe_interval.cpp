@@ -227,8 +227,15 @@ Command SafeIntervalNavigator::wanted(const Moment& moment, double now) {
     if (next->depart - now > cut_time) break;
     if (distance(pose.position, plan_.leg().end) > cut_time * speed()) break;
     if (plan_.wait(now) > 0.5 * tick_) break;
+    const double arrival = now + distance(pose.position, plan_.leg().end) / speed();
+    if (next->depart > arrival + 0.5 * tick_) break;  // it waits there
     if (!moment.map().is_free(Segment{pose.position, next->end}, clearance)) break;
-    plan_.skip();
+    tried_ = plan_;
+    tried_.cut(pose.position);
+    if (tried_.conflict(pose.position, now, forecast_, forecast_.near_samples(), radius_, 1,
+                        params_.tuning.imminent.recovery_rate) < infinity)
+      break;
+    plan_ = tried_;
   }
   if (plan_.wait(now) > 0.5 * tick_) return {pose.heading, 0};
   const Vec2 target = plan_.leg().end;
