@@ -102,9 +102,8 @@ std::string describe_choice(const VesselSegmentation& found) {
 
 std::string note_on_noise(const VesselSegmentation& found) {
   if (!found.is_faint) return {};
-  return "the vessels are fainter than the noise allows: check the overlay; average several "
-         "frames, or "
-         "take a larger magnification";
+  return "the vessels are fainter than the noise allows: check the overlay, average several frames "
+         "or take a larger magnification";
 }
 
 VesselSegmentation segment_vessels(const formats::Image& image, const VesselParams& params,
