@@ -129,9 +129,10 @@ std::optional<Decision> HierarchicalNavigator::led(const Moment& moment) {
     SafeIntervalParams params;
     params.speed = params_.speed;
     const double gap = std::max(0.0, params_.clearance - swarm().radius);
-    params.gap = params.wall_gap = gap;
-    params.tuning.imminent.gap = params.tuning.imminent.wall_gap = gap;
+    params.gap = std::max(params.gap, gap);
     params.max_gap = std::max(params.max_gap, gap);
+    params.tuning.imminent.gap = std::max(params.tuning.imminent.gap, gap);
+    params.wall_gap = params.tuning.imminent.wall_gap = gap;
     leader_ = std::make_unique<SafeIntervalNavigator>(params, task_, rng_);
     leader_->prepare(moment.world(), moment.stop);
   }
