@@ -66,6 +66,38 @@ struct Results {
   }
 };
 
+/// A table, and the same before columns were added to it.
+struct FormerMove {
+  double t = 0;
+  double turn = 0;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.t, s("t", "When."));
+    visit(self.turn, deg("turn", "Turning."));
+  }
+};
+struct Move {
+  double t = 0;
+  bool is_led = true;
+  std::optional<Vec2> target;
+  double turn = 0;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.t, s("t", "When."));
+    visit(self.is_led, plain("is_led", "Led."));
+    visit(self.target, um("target", "Target."));
+    visit(self.turn, deg("turn", "Turning."));
+  }
+};
+template <class Row>
+struct Moves {
+  std::vector<Row> moves;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.moves, plain("moves", "Moves."));
+  }
+};
+
 Row full_row() {
   return {.t = 2,
           .turn = std::numbers::pi / 2,
@@ -151,6 +183,20 @@ TEST(Tables, ComeBackFromHdf5) {
   EXPECT_TRUE(read.rows[1].points.empty());
   EXPECT_EQ(read.rows[0].parts[0].count, 13);
   EXPECT_TRUE(read.rows[2].parts.empty());
+}
+
+TEST(Tables, ColumnsThatFormerFilesLackHaveTheValuesOfTheirType) {
+  const Moves<FormerMove> former{.moves = {{1, 0.5}, {2, 0.25}}};
+  const auto made = write_hdf5();
+  write_table(*made, type_of<Moves<FormerMove>>().fields[0], &former, "/g");
+  const auto opened = read_hdf5(made->finish(), "x.h5");
+  Moves<Move> read;
+  read_table(*opened, type_of<Moves<Move>>().fields[0], &read, "/g");
+  ASSERT_EQ(read.moves.size(), 2u);
+  EXPECT_EQ(read.moves[1].t, 2);
+  EXPECT_NEAR(read.moves[1].turn, 0.25, 1e-12);
+  EXPECT_TRUE(read.moves[1].is_led);
+  EXPECT_FALSE(read.moves[1].target);
 }
 
 }  // namespace

@@ -81,9 +81,12 @@ struct TableWriter {
 
 struct TableReader {
   const Hdf5Reader& file;
+  /// Whether columns may be absent, except the first: files of former versions lack some. Their
+  /// values stay as they are.
+  bool may_lack_columns = false;
 
   void table(const std::string& group, const ListRef<void*>& list) {
-    read(group, to_columns(list.row_type()), list);
+    read(group, present(group, to_columns(list.row_type())), list);
   }
   void parts(const std::string& group, const ListRef<void*>& outer, const Field& field) {
     const std::vector<std::int64_t> offsets = file.integers(group + "/offset");
@@ -91,7 +94,8 @@ struct TableReader {
         !std::is_sorted(offsets.begin(), offsets.end()))
       file.fail(group + "/offset does not fit its table");
     const Type& row = *field.type->parts[0];
-    const std::vector<Column> columns = to_columns(row, ColumnUnits::held, field.info.unit);
+    const std::vector<Column> columns =
+        present(group, to_columns(row, ColumnUnits::held, field.info.unit));
     std::vector<void*> rows;
     // Checked before memory is allocated for rows that do not exist.
     if (row_bytes(group, columns.front()) != static_cast<std::size_t>(offsets.back()))
@@ -106,6 +110,14 @@ struct TableReader {
   }
 
  private:
+  std::vector<Column> present(const std::string& group, std::vector<Column> columns) const {
+    if (!may_lack_columns || columns.empty()) return columns;
+    const auto absent = [&](const Column& column) {
+      return !file.has_attribute(group + "/" + column.key, "unit");
+    };
+    columns.erase(std::remove_if(columns.begin() + 1, columns.end(), absent), columns.end());
+    return columns;
+  }
   void read(const std::string& group, const std::vector<Column>& columns,
             const ListRef<void*>& list) {
     const std::size_t size = row_bytes(group, columns.front());
@@ -169,7 +181,7 @@ void write_table(Hdf5Writer& out, const Field& field, const void* value, std::st
 }
 
 void read_table(const Hdf5Reader& in, const Field& field, void* value, std::string_view parent) {
-  visit_table(field, value, TableReader{in}, parent);
+  visit_table(field, value, TableReader{in, true}, parent);
 }
 
 void write_attributes(Hdf5Writer& out, const std::string& group, const Type& type,

@@ -19,6 +19,8 @@ void write_tables(Hdf5Writer& out, const Type& type, const void* value);
 void read_tables(const Hdf5Reader& in, const Type& type, void* value);
 
 /// Writes or reads only the table that a field of the described value holds, in the group `parent`.
+/// Columns may be absent, except the first, as in files of former versions: then rows have the
+/// values of their type.
 void write_table(Hdf5Writer& out, const Field& field, const void* value, std::string_view parent);
 void read_table(const Hdf5Reader& in, const Field& field, void* value, std::string_view parent);
 
