@@ -157,6 +157,16 @@ TEST(TiffPixel, InksAndIndicesOf16BitsAreColours) {
   EXPECT_NE(test::error_of([&] { read_image(file); }).find("colours of a kind"), std::string::npos);
 }
 
+TEST(TiffPixel, FewerSamplesThanColoursAreRefused) {
+  const test::Folder folder;
+  for (const int photometric : {PHOTOMETRIC_SEPARATED, PHOTOMETRIC_RGB}) {
+    write_row<std::uint8_t>(folder / "a.tif", {{1}, {2}, {3}}, {.photometric = photometric});
+    EXPECT_NE(test::error_of([&] { read_image(folder / "a.tif"); }), "") << photometric;
+    write_row<std::uint16_t>(folder / "a.tif", {{1, 2}}, {.photometric = photometric});
+    EXPECT_NE(test::error_of([&] { read_image(folder / "a.tif"); }), "") << photometric;
+  }
+}
+
 template <class Sample>
 void expect_channels(const std::filesystem::path& file, int format) {
   for (const int planes : {PLANARCONFIG_CONTIG, PLANARCONFIG_SEPARATE})

@@ -254,6 +254,7 @@ struct TiffPages::File {
   template <class Sample, class Reader>
   bool decode_samples(const tiff::Page& p, Reader reader, int first, int count,
                       std::vector<Sample>& samples) const {
+    if (first < 0 || first + count > p.samples) return false;  // fewer than its colours
     const auto channels = static_cast<std::size_t>(count);
     samples.resize(std::size_t{p.width} * p.height * channels);
     const bool apart = p.planes == PLANARCONFIG_SEPARATE;
