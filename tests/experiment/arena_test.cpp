@@ -96,6 +96,13 @@ TEST(Arena, NoWaitWhereAChannelClosesIn) {
         << seed;
 }
 
+// A corner is cut only where no body that rests is in the way.
+TEST(Arena, NoCornerIsCutInAForestOfDiscs) {
+  for (std::uint64_t seed = 100; seed < 116; ++seed)
+    EXPECT_EQ(crossing("forest_of_discs", seed, navigation::SafeIntervalParams{}), Status::solved)
+        << seed;
+}
+
 // Discs that rest or swing stand in the way among walls: the hierarchy comes no nearer.
 TEST(Arena, TheHierarchyIsLedRoundWhatItCannotPass) {
   navigation::HierarchicalParams led, alone;

@@ -161,6 +161,25 @@ TEST(SafeInterval, FindsAPassageNarrowerThanItsCells) {
   }
 }
 
+// A swarm that makes more than its radius in a tick turns in doors hardly wider than itself: what
+// the next command can still avoid forbids no move.
+TEST(SafeInterval, ASmallSwarmPassesDoorsInTurn) {
+  std::vector<Polygon> walls;
+  for (int k = 0; k < 4; ++k) {
+    const double x = 500.0 + 200 * k, door = k % 2 == 0 ? 300 : 700;
+    walls.push_back({{{x, 0}, {x + 20, 0}, {x + 20, door - 10}, {x, door - 10}}, {}});
+    walls.push_back({{{x, door + 10}, {x + 20, door + 10}, {x + 20, 1000}, {x, 1000}}, {}});
+  }
+  SafeIntervalParams params;
+  params.speed = 80;
+  LateDrive<SafeIntervalNavigator> drive{
+      .walls = walls,
+      .swarm = {.radius = 7, .max_speed = 80, .max_turn_rate = infinity},
+      .params = params};
+  drive.run(60);
+  EXPECT_TRUE(drive.arrived);
+}
+
 TEST(SafeInterval, ArrivesAmongWhatSwings) {
   LateDrive<SafeIntervalNavigator> drive{
       .obstacles = {{DiscShape{80}, HarmonicLine{{900, 500}, {100, 300}, 9, 0}},

@@ -168,7 +168,7 @@ struct CellWorld {
 
 // Brute force waits at each arrival for the next tick and takes no path at any angle: the search is
 // never later, and not much earlier.
-// A move through cells that stand never becomes possible, though the swarm may wait for ever.
+// A move through cells that stand stays impossible, however long the swarm waits.
 TEST(SafeIntervalSearch, NothingIsReachedThroughWhatStands) {
   SpaceTimeGrid grid({{0, 0}, {40, 20}}, 10, 1, 20);
   for (int row = 0; row < 3; ++row) grid.let_stand(grid.at(2, row));

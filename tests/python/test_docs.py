@@ -258,7 +258,7 @@ def test_pages_are_walked():
 
 
 def test_declarations_are_those_of_the_headers():
-    """C++ that an explanation shows stands in a header, but for blanks."""
+    """C++ that an explanation shows is in a header, except for blanks."""
     headers = [" ".join(header.read_text(encoding="utf-8").split()) for header in (ROOT / "src").rglob("*.hpp")]
     for page in PAGES:
         if page.startswith("docs/explanation/"):

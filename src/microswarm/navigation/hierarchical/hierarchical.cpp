@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <utility>
 
 #include "microswarm/core/fields/published.hpp"
 #include "microswarm/core/maths/angles.hpp"
@@ -31,6 +30,7 @@ HierarchicalParams HierarchicalParams::in_effect() const {
   p.guide = Guide::straight;
   p.follower.kind = FollowerKind::pure_pursuit;
   p.follower.correct_flow = false;
+  p.tuning.patience = infinity;
   p.planner.as_published = true;
   p.planner = p.planner.in_effect();
   return p;
@@ -58,8 +58,7 @@ HierarchicalNavigator::HierarchicalNavigator(const HierarchicalParams& params, c
       safety_(params_, swarm()),
       obstacles_(params.tracker, params.tuning.prediction),
       follower_(params.follower, swarm()),
-      impasse_(params.as_published ? infinity : params.tuning.patience,
-               params.target.base_distance) {}
+      impasse_(params_.tuning.patience, params_.target.base_distance) {}
 
 void HierarchicalNavigator::prepare(const Snapshot& world, const Stop&) {
   choose_aim(world, params_.clearance, params_.clearance + params_.extra_clearance);
@@ -82,7 +81,7 @@ void HierarchicalNavigator::overruled(double now, const Command& command) {
 }
 
 void HierarchicalNavigator::update(const Observation& seen, const Stop& stop) {
-  decides_led_ = false;
+  is_led_ = false;
   route_.stop_with(stop);
   for (WallRoute& w : wall_routes_) w.route.stop_with(stop);
   obstacles_.update(seen);
@@ -92,21 +91,21 @@ void HierarchicalNavigator::update(const Observation& seen, const Stop& stop) {
 Decision HierarchicalNavigator::finish(const Decision& decision, const Observation& seen) {
   if (last_command())
     safety_.set_period(std::clamp(seen.now - *last_command(), params_.tuning.check_step, 1.0));
-  if (leader_ && !decides_led_) leader_->overruled(seen.now, decision.command);
+  if (leader_ && !is_led_) leader_->overruled(seen.now, decision.command);
   NavigatorView& view = step_view();
   view.local_target = target_;
   if (params_.guide == Guide::route && seen.world) view.phased_goal = towards();
-  view.path = path_;
+  view.path = is_led_ ? leader_->view().path : path_;
   view.plan = plan_ ? &*plan_ : nullptr;
   return decision;
 }
 
 Diagnostics HierarchicalNavigator::diagnostics() const {
-  if (!plan_ && !wait_ && !decides_led_) return {};
+  if (!plan_ && !wait_ && !is_led_) return {};
   HierarchicalDiagnostics out{.towards = via_.value_or(aim().position),
                               .path_clearance = path_clearance_,
                               .in_time = path_in_time_,
-                              .is_led = decides_led_};
+                              .is_led = is_led_};
   if (wait_) out.wait_since = wait_->since, out.wait_at = wait_->at;
   return out;
 }
@@ -122,32 +121,32 @@ Decision HierarchicalNavigator::decide(const Moment& moment) {
 std::optional<Decision> HierarchicalNavigator::led(const Moment& moment) {
   const bool is_alone =
       moment.world().moving().is_free(pose_.position, params_.target.base_distance);
-  const bool was_led =
-      std::exchange(is_led_, impasse_.update(moment.seen.now, way_left(), is_alone));
-  if (was_led && !is_led_) path_.clear();
+  is_led_ = impasse_.update(moment.seen.now, way_left(), is_alone);
   if (is_led_ && !leader_) {
-    SafeIntervalParams params;
-    params.speed = params_.speed;
-    const double gap = std::max(0.0, params_.clearance - swarm().radius);
-    params.gap = std::max(params.gap, gap);
-    params.max_gap = std::max(params.max_gap, gap);
-    params.tuning.imminent.gap = std::max(params.tuning.imminent.gap, gap);
-    params.wall_gap = params.tuning.imminent.wall_gap = gap;
-    leader_ = std::make_unique<SafeIntervalNavigator>(params, task_, rng_);
+    leader_ = std::make_unique<SafeIntervalNavigator>(leader_params(), task_, rng_);
     leader_->prepare(moment.world(), moment.stop);
   }
   if (!leader_) return std::nullopt;
   const Command command = leader_->step(moment.seen, moment.stop);
   if (!is_led_) return std::nullopt;
-  const NavigatorView& view = leader_->view();
-  decides_led_ = true;
-  path_.assign(view.path.begin(), view.path.end());
-  position_ = {};
+  path_.clear();
   path_is_route_ = false;
   plan_.reset();
   target_.reset();
-  step_view().planned = view.planned;
-  return Decision{command, view.state};
+  step_view().planned = leader_->view().planned;
+  return Decision{command, leader_->view().state};
+}
+
+/// Those of a navigator that keeps at least the clearance of this one.
+SafeIntervalParams HierarchicalNavigator::leader_params() const {
+  const double gap = std::max(0.0, params_.clearance - swarm().radius);
+  SafeIntervalParams params;
+  params.speed = params_.speed;
+  params.gap = std::max(params.gap, gap);
+  params.max_gap = std::max(params.max_gap, gap);
+  params.tuning.imminent.gap = std::max(params.tuning.imminent.gap, gap);
+  params.wall_gap = params.tuning.imminent.wall_gap = gap;
+  return params;
 }
 
 /// Way to the aim among walls [µm].

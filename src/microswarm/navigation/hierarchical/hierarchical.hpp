@@ -48,6 +48,7 @@ class HierarchicalNavigator : public SteeringNavigator {
     return {seen, obstacles_, aim(), pose_, delay()};
   }
   std::optional<Decision> led(const Moment& moment);
+  SafeIntervalParams leader_params() const;
   Decision go_on(const Moment& moment);
   double way_left();
   std::optional<Decision> keep_path(const Snapshot& seen);
@@ -110,8 +111,7 @@ class HierarchicalNavigator : public SteeringNavigator {
   std::optional<Plan> plan_;
   Impasse impasse_;
   std::unique_ptr<SafeIntervalNavigator> leader_;  ///< from the first impasse on
-  bool is_led_ = false;                            ///< whether it leads
-  bool decides_led_ = false;                       ///< whether it decided in this step
+  bool is_led_ = false;                            ///< whether it decided in this step
 };
 
 }  // namespace microswarm::navigation

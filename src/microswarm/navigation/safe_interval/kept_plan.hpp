@@ -41,8 +41,6 @@ class KeptPlan {
   /// Continues with the next leg when the swarm is within `reach` [µm] of the end of one or has
   /// passed it.
   void advance(Vec2 position, double reach);
-  /// Leaves out the current leg.
-  void skip() { from_ = legs_[next_++].end; }
   /// Leaves out the current leg and its wait: the next one departs at once from `from`.
   void cut(Vec2 from) {
     legs_[++next_].depart = -infinity;
@@ -69,6 +67,8 @@ class KeptPlan {
                   double radius, double share, double recovery) const;
 
  private:
+  void skip() { from_ = legs_[next_++].end; }
+
   double speed_;
   std::vector<Leg> legs_;
   std::size_t next_ = 0;
