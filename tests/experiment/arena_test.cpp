@@ -113,6 +113,9 @@ TEST(Arena, TheHierarchyIsLedRoundWhatItCannotPass) {
     EXPECT_EQ(crossing(kind, 301, led), Status::solved) << kind;
     EXPECT_NE(crossing(kind, 301, alone), Status::solved) << kind;
   }
+  // It leads on while discs that breathe are near.
+  for (std::uint64_t seed = 100; seed < 104; ++seed)
+    EXPECT_EQ(crossing("breathing_field", seed, led), Status::solved) << seed;
 }
 
 /// A scenario with the samples of its tracks.

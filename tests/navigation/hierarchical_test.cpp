@@ -210,6 +210,7 @@ TEST(Hierarchical, AsPublishedSwitchesOffEveryAdditionOfOurs) {
   EXPECT_FALSE(published.follower.correct_flow);
   EXPECT_FALSE(published.planner.straighten);
   EXPECT_FALSE(published.planner.arcs);
+  EXPECT_EQ(published.tuning.patience, infinity);
 }
 
 /// Corridors between the cells of a grid, one way from each cell to each, or more.

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "microswarm/core/maths/infinity.hpp"
+#include "microswarm/navigation/hierarchical/hierarchical.hpp"
+#include "tests/navigation/late_drive.hpp"
 
 namespace microswarm::navigation {
 namespace {
@@ -39,6 +41,22 @@ TEST(Impasse, EndsWhereTheWayIsShorterByADistanceThatDoubles) {
 TEST(Impasse, NeverBeginsWithoutALimit) {
   Impasse impasse(infinity, 300);
   for (int k = 0; k < 100; ++k) EXPECT_FALSE(impasse.update(1e6 * k, 1000, true));
+}
+
+// A column of discs that rest leaves one gap, aside of the way: it is passed with the hierarchy's
+// clearance.
+TEST(Impasse, WhoLeadsKeepsTheClearance) {
+  std::vector<Obstacle> column;
+  for (int k = 0; k < 8; ++k)
+    if (k != 6) column.push_back({DiscShape{50}, Still{{1000, 65.0 + 125 * k}, 0}});
+  HierarchicalParams params;
+  params.speed = 70;
+  params.clearance = 62;
+  params.extra_clearance = 0;
+  LateDrive<HierarchicalNavigator> drive{.obstacles = column, .params = params};
+  drive.run(120);
+  EXPECT_TRUE(drive.arrived);
+  EXPECT_GT(drive.min_gap, 11);
 }
 
 }  // namespace

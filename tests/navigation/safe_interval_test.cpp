@@ -161,12 +161,12 @@ TEST(SafeInterval, FindsAPassageNarrowerThanItsCells) {
   }
 }
 
-// A swarm that makes more than its radius in a tick turns in doors hardly wider than itself: what
-// the next command can still avoid forbids no move.
-TEST(SafeInterval, ASmallSwarmPassesDoorsInTurn) {
+// A swarm that makes more than its radius in a tick turns in lanes hardly wider than itself: what
+// the next command can still avoid forbids no move, and corners are driven to.
+TEST(SafeInterval, ASmallSwarmTurnsInNarrowLanes) {
   std::vector<Polygon> walls;
-  for (int k = 0; k < 4; ++k) {
-    const double x = 500.0 + 200 * k, door = k % 2 == 0 ? 300 : 700;
+  for (int k = 0; k < 6; ++k) {
+    const double x = 500.0 + 40 * k, door = k % 2 == 0 ? 480 : 520;
     walls.push_back({{{x, 0}, {x + 20, 0}, {x + 20, door - 10}, {x, door - 10}}, {}});
     walls.push_back({{{x, door + 10}, {x + 20, door + 10}, {x + 20, 1000}, {x, 1000}}, {}});
   }
