@@ -162,7 +162,7 @@ TEST(SafeInterval, FindsAPassageNarrowerThanItsCells) {
 }
 
 // A swarm that makes more than its radius in a tick turns in lanes hardly wider than itself: what
-// the next command can still avoid forbids no move, and corners are driven to.
+// the next command can still avoid forbids no move.
 TEST(SafeInterval, ASmallSwarmTurnsInNarrowLanes) {
   std::vector<Polygon> walls;
   for (int k = 0; k < 6; ++k) {

@@ -9,7 +9,6 @@ void KeptPlan::adopt(std::span<const planning::TimedPoint> path, double begin, d
   legs_.clear();
   next_ = 0;
   left_ = left;
-  is_tight_ = false;
   if (path.empty()) return;
   from_ = path.front().position;
   for (std::size_t i = 1; i < path.size(); ++i) {

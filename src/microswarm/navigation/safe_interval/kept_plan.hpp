@@ -33,9 +33,6 @@ class KeptPlan {
   /// Takes a path whose times are relative to `begin` [s] and whose first point is the swarm's;
   /// `left` is the time to the goal from its end [s].
   void adopt(std::span<const planning::TimedPoint> path, double begin, double left);
-  /// Makes the swarm drive to the end of each leg, where walls leave no room to cut a corner.
-  void drive_to_corners() { is_tight_ = true; }
-  bool is_tight() const { return is_tight_; }
   /// Appends a leg without a wait.
   void append(Vec2 end) { legs_.push_back({end, -infinity}); }
   /// Continues with the next leg when the swarm is within `reach` [µm] of the end of one or has
@@ -74,7 +71,6 @@ class KeptPlan {
   std::size_t next_ = 0;
   Vec2 from_;  ///< begin of the current leg
   double left_ = 0;
-  bool is_tight_ = false;
 };
 
 }  // namespace microswarm::navigation

@@ -15,7 +15,6 @@ namespace microswarm::navigation {
 namespace {
 
 constexpr double clearance_rounding = 1e-9;
-constexpr double tight_reach = 0.05;  // of the way of a tick: a corner that is not cut
 /// Shares of the gaps with which a plan is searched in turn.
 constexpr std::array<double, 3> gap_shares{1, 0.5, 0.15};
 /// Shares of the gap to walls of routes.
@@ -89,7 +88,7 @@ Decision SafeIntervalNavigator::decide(const Moment& moment) {
                    radius_,
                    entry_clearance(moment.map(), pose.position),
                    {goal(), goal_tolerance()}});
-  plan_.advance(pose.position, (plan_.is_tight() ? tight_reach : 0.6) * tick_ * speed());
+  plan_.advance(pose.position, 0.6 * tick_ * speed());
   review(moment, now);
   path_.push_back(pose.position);
   for (const KeptPlan::Leg& leg : plan_.legs()) path_.push_back(leg.end);
@@ -191,10 +190,7 @@ bool SafeIntervalNavigator::takes_route(const Moment& moment, double now) {
   for (planning::Route& route : routes_) {
     route.stop_with(moment.stop);
     const std::vector<Vec2> path = route.path_from(moment.pose.position);
-    if (path.size() < 2) continue;
-    if (!takes(path, now)) return false;
-    plan_.drive_to_corners();
-    return true;
+    if (path.size() > 1) return takes(path, now);
   }
   return false;
 }
@@ -248,7 +244,6 @@ Command SafeIntervalNavigator::wanted(const Moment& moment, double now) {
 double SafeIntervalNavigator::approach_speed(const Pose2& pose, Vec2 target, bool is_goal) const {
   const double away = distance(pose.position, target);
   double fastest = speed();
-  if (plan_.is_tight()) fastest = std::min(fastest, std::max(away / tick_, tight_reach * speed()));
   if (is_goal) fastest = std::min(fastest, std::max(away, 0.5 * aim().tolerance) / tick_);
   if (!std::isfinite(swarm().max_turn_rate)) return fastest;
   const double turn = turn_between(heading_along(target - pose.position), pose.heading);
