@@ -180,7 +180,7 @@ std::vector<report::ReproduceRow> global_vascular(const ReproduceOptions& option
 // Trees of four robots in Env 3 are queried for two sets of goals.
 std::vector<report::ReproduceRow> global_reuse(const ReproduceOptions& options, const Stop& stop) {
   const formats::LoadedMap map{std::make_shared<const Map>(scenes::global_world(3)), 3};
-  const std::size_t seeds = options.quick ? 2 : 20;
+  const std::size_t seeds = options.quick ? 1 : 20;
   std::vector<report::ReproduceRow> rows;
   std::array<TreeAnswer, 2> best;
   std::array<const char*, 2> best_setting{};

@@ -169,10 +169,10 @@ std::vector<report::ReproduceRow> raced(const std::string& figure, const std::ve
 
 std::vector<Race> slow_races(const ReproduceOptions& options) {
   std::vector<Race> races{
-      {generated("open", scenes::slow_obstacles, false), {10, 5, 3}, {10'000, 500, 100}},
-      {generated("walls", scenes::slow_obstacles, true), {5, 3, 1}, {10'000, 500, 40}}};
+      {generated("open", scenes::slow_obstacles, false), {5, 3, 2}, {10'000, 500, 100}},
+      {generated("walls", scenes::slow_obstacles, true), {3, 2, 1}, {10'000, 500, 40}}};
   if (auto street = recorded("walkers", just_slower, options))
-    races.push_back({*street, {20, 20, 20}, {300, 300, 300}});
+    races.push_back({*street, {6, 6, 6}, {300, 300, 300}});
   return races;
 }
 
@@ -191,9 +191,9 @@ std::vector<report::ReproduceRow> radar_safety_noisy(const ReproduceOptions& opt
 
 std::vector<report::ReproduceRow> radar_fast(const ReproduceOptions& options, const Stop& stop) {
   std::vector<Race> races{
-      {generated("fast", scenes::fast_obstacles, false), {12, 8, 8}, {1000, 1000, 1000}}};
+      {generated("fast", scenes::fast_obstacles, false), {6, 4, 4}, {1000, 1000, 1000}}};
   if (auto street = recorded("fast walkers", as_fast, options))
-    races.push_back({*street, {20, 20, 20}, {300, 300, 300}});
+    races.push_back({*street, {6, 6, 6}, {300, 300, 300}});
   return raced("fast", races, options, stop);
 }
 
