@@ -92,7 +92,7 @@ std::uint64_t whole(double frames) { return static_cast<std::uint64_t>(std::llro
 
 void gather_fig10(const ReproduceOptions& options, const Stop& stop,
                   std::vector<report::ReproduceRow>& rows) {
-  const std::size_t trials = options.quick ? 1 : 10;
+  const std::size_t trials = options.quick ? 2 : 10;
   const std::size_t methods = options.quick ? 2 : rig_methods.size();
   const World world = experiment::build_world(maze(options, navigation::Aggregation::heuristic, 1));
   std::vector<experiment::RunResult> results(methods * trials);
