@@ -139,6 +139,19 @@ TEST(SafeIntervalMargins, InContactItDoesNotRunIntoAWall) {
   }
 }
 
+// In a corridor that the disc fills; it turns round in no time, without notice.
+TEST(SafeIntervalMargins, NothingIsFollowedSoCloselyThatItsTurnHits) {
+  const std::vector<Polygon> walls{{{{300, 0}, {1700, 0}, {1700, 420}, {300, 420}}, {}},
+                                   {{{300, 580}, {1700, 580}, {1700, 1000}, {300, 1000}}, {}}};
+  for (const double speed : {45.0, 50.0, 55.0})
+    for (const double end : {1000.0, 1257.0, 1300.0}) {
+      const Waypoints way{{{450, 500}, {end, 500}, {450, 500}}, speed, AtEnd::stay};
+      LateDrive<SafeIntervalNavigator> drive{.walls = walls, .obstacles = {{DiscShape{45}, way}}};
+      drive.run(end / speed);
+      EXPECT_GT(drive.min_gap, 3) << speed << ", " << end;
+    }
+}
+
 TEST(SafeIntervalMargins, ASwarmThatFramesMissIsWhereItsCommandsTookIt) {
   LateDrive<SafeIntervalNavigator> drive;
   drive.is_missed = [](int frame) { return frame % 4 >= 2; };

@@ -35,6 +35,7 @@ void ImminentCheck::begin(const Situation& situation) {
                       static_cast<int>(std::ceil(tuning_.horizon / forecast.step())));
   committed_ =
       std::clamp(static_cast<int>(std::ceil(committed_time_ / forecast.step())), 1, samples_);
+  turned_ = std::min(samples_, static_cast<int>(std::ceil(tuning_.turn_time / forecast.step())));
   commanded_ = std::clamp(static_cast<int>(std::ceil(tick_ / forecast.step())), 1, committed_);
   present_hollow_gap_ =
       forecast.hollow_clearance(now_.pose.position, now_.radius + counted_gap) - now_.radius;
@@ -47,7 +48,9 @@ void ImminentCheck::begin(const Situation& situation) {
                                        forecast.at(std::min(s + 4, samples_), i).centre));
     const double present = forecast.present_gap(i);
     if (present > own + moved + counted_gap) continue;
-    near_.push_back({i, tuning_.noise_gain * forecast.noise(i), present});
+    const double closing = (speed_ + forecast.speed(i)) * (committed_time_ + forecast.late());
+    near_.push_back({i, tuning_.noise_gain * forecast.noise(i), present,
+                     forecast.speed(i) > 0 && forecast.speed(i) < speed_ && present < closing});
   }
 }
 
@@ -62,7 +65,7 @@ double ImminentCheck::required(const Near& near, int sample) const {
 }
 
 ImminentCheck::Outcome ImminentCheck::roll(Pose2 from, const Command& command, int first, int last,
-                                           bool in_contact_only) const {
+                                           bool in_contact_only, Turned turned) const {
   const ObstacleForecast& forecast = *now_.forecast;
   Outcome out{first, counted_gap, from};
   bool stands = false;
@@ -91,10 +94,15 @@ ImminentCheck::Outcome ImminentCheck::roll(Pose2 from, const Command& command, i
         return out;
       out.least = std::min(out.least, gap);
     }
-    for (const Near& near : near_) {
-      const double gap = forecast.gap_along(move, s, near.index, now_.radius, counted_gap);
+    for (std::size_t k = 0; k < near_.size(); ++k) {
+      const Near& near = near_[k];
+      const bool turns = turned == k;
+      const double gap = turns
+                             ? forecast.gap_if_turned(move, s, near.index, now_.radius, counted_gap)
+                             : forecast.gap_along(move, s, near.index, now_.radius, counted_gap);
       out.least = std::min(out.least, gap);
-      if (gap < (in_contact_only ? std::min(contact_gap, near.present) : required(near, s)))
+      if (gap <
+          (in_contact_only || turns ? std::min(contact_gap, near.present) : required(near, s)))
         return out;
     }
     out.end = next;
@@ -117,12 +125,18 @@ bool ImminentCheck::leaves_escape(const Pose2& from, const Command& command, int
   return false;
 }
 
-bool ImminentCheck::is_safe(const Command& command) {
+bool ImminentCheck::is_safe(const Command& command, Turns turns) {
   const Outcome first = roll(now_.pose, command, 0, committed_, false);
-  return first.until == committed_ && leaves_escape(first.end, command, committed_);
+  if (first.until < committed_) return false;
+  if (turns == Turns::of_any_body)
+    for (std::size_t k = 0; k < near_.size(); ++k)
+      if (near_[k].may_turn && roll(now_.pose, command, 0, turned_, false, k).until < turned_)
+        return false;
+  return leaves_escape(first.end, command, committed_);
 }
 
-std::optional<Command> ImminentCheck::nearest_safe(const Command& wanted, const Command& last) {
+std::optional<Command> ImminentCheck::nearest_safe(const Command& wanted, const Command& last,
+                                                   Turns turns) {
   const double course = last.speed > 0 ? last.heading : wanted.heading;
   choices_.clear();
   const auto add = [&](const Command& command, double extra) {
@@ -140,7 +154,7 @@ std::optional<Command> ImminentCheck::nearest_safe(const Command& wanted, const 
     return a.cost != b.cost ? a.cost < b.cost : a.command.heading < b.command.heading;
   });
   for (const Choice& choice : choices_)
-    if (is_safe(choice.command)) return choice.command;
+    if (is_safe(choice.command, turns)) return choice.command;
   return std::nullopt;
 }
 

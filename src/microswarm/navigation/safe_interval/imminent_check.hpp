@@ -15,7 +15,9 @@ namespace microswarm::navigation {
 /// Exact check of the next seconds. A command is safe if the swarm keeps its gaps for the
 /// commitment and an escape remains after it: to continue, to hold, or another direction. Gaps are
 /// measured along the whole motion, relative to the predicted motion of the bodies, and walls
-/// exactly. Does not allocate once it has seen as many bodies.
+/// exactly. It is safe against turns if it does not meet a slower body that turns round just after
+/// the frame, until this can be seen and answered. Does not allocate once it has seen as many
+/// bodies.
 class ImminentCheck {
  public:
   /// `speed` [µm/s] of the swarm, `tick` [s] between two commands.
@@ -32,10 +34,13 @@ class ImminentCheck {
   };
   void begin(const Situation& situation);
 
-  bool is_safe(const Command& command);
+  /// Turns that a safe command must survive.
+  enum class Turns { none, of_any_body };
+  bool is_safe(const Command& command, Turns turns = Turns::none);
   /// The safe command with the smallest sum of turns from `wanted` and from `last`; nothing if
   /// there is none.
-  std::optional<Command> nearest_safe(const Command& wanted, const Command& last);
+  std::optional<Command> nearest_safe(const Command& wanted, const Command& last,
+                                      Turns turns = Turns::none);
   /// Start of the manoeuvre of two legs that is free of contact for longest, then keeps the largest
   /// gap; one that continues `last` is kept unless another is clearly better.
   Command best_escape(const Command& last);
@@ -50,15 +55,19 @@ class ImminentCheck {
   /// A body that may come near.
   struct Near {
     std::size_t index = 0;
-    double noise_gap = 0;  ///< [µm]
-    double present = 0;    ///< gap now [µm]
+    double noise_gap = 0;   ///< [µm]
+    double present = 0;     ///< gap now [µm]
+    bool may_turn = false;  ///< it would come near if it turned round
   };
+  /// Index of a body in near_ that has turned round.
+  using Turned = std::optional<std::size_t>;
   struct Choice {
     double cost = 0;
     Command command{};
   };
 
-  Outcome roll(Pose2 from, const Command& command, int first, int last, bool in_contact_only) const;
+  Outcome roll(Pose2 from, const Command& command, int first, int last, bool in_contact_only,
+               Turned turned = {}) const;
   bool leaves_escape(const Pose2& from, const Command& command, int first);
   double required(const Near& near, int sample) const;
   Command direction(int k, int count, double share = 1) const;
@@ -71,6 +80,7 @@ class ImminentCheck {
   Situation now_;
   int samples_ = 0;                ///< of the horizon
   int commanded_ = 0;              ///< until the next command
+  int turned_ = 0;                 ///< while a body that turns round is not met
   int committed_ = 0;              ///< of the commitment
   double present_hollow_gap_ = 0;  ///< [µm]
   std::vector<Near> near_;

@@ -80,6 +80,7 @@ ObstacleForecast::ObstacleForecast(const SafeIntervalParams& params, double spee
 void ObstacleForecast::update(const Snapshot& world, const MultiModelPredictor& predictor,
                               double effect, std::span<const Vec2> positions) {
   effect_ = effect;
+  late_ = effect - world.time();
   bodies_.clear();
   hollow_bodies_.clear();
   standing_.clear();
@@ -99,9 +100,10 @@ void ObstacleForecast::update(const Snapshot& world, const MultiModelPredictor& 
     }
     const bool rests = resting_.rests(i);
     if (rests) standing_.push_back({outline.centre, outline.radius});
-    const double late = effect - world.time() + params_.tuning.reaction_time;
+    const double late = late_ + params_.tuning.reaction_time;
     const double reach = late * norm(motion.velocity) + params_.tuning.noisy_turn * motion.noise;
-    bodies_.push_back({i, motion.noise, rests, rests ? 0 : predictor.surprise(i) * reach});
+    bodies_.push_back({i, motion.noise, rests, rests ? 0 : predictor.surprise(i) * reach,
+                       outline.centre, motion.velocity});
   }
   hollow_.assign(hollow_bodies_);
   predict_until(predictor, near_samples_);
@@ -143,10 +145,14 @@ double ObstacleForecast::gap(int sample, std::size_t i) const {
          at(sample, i).uncertainty + params_.tuning.turn_gain * turn_reach(i);
 }
 
-double ObstacleForecast::gap_along(Segment move, int sample, std::size_t i, double radius,
-                                   double near) const {
-  const PredictedBody& a = at(sample, i);
-  const PredictedBody& b = at(sample + 1, i);
+PredictedBody ObstacleForecast::turned_round(int sample, std::size_t i) const {
+  PredictedBody body = at(sample, i);
+  body.centre = bodies_[i].centre - (late_ + sample * step_) * bodies_[i].velocity;
+  return body;
+}
+
+double ObstacleForecast::gap_along(Segment move, const PredictedBody& a, const PredictedBody& b,
+                                   std::size_t i, double radius, double near) const {
   const double grown = radius + std::max(a.growth, b.growth);
   const Vec2 p = move.a - a.centre;
   const Vec2 q = move.b - b.centre;

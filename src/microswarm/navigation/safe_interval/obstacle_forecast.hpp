@@ -39,6 +39,8 @@ class ObstacleForecast {
   double present_gap(std::size_t i) const { return present_gaps_[i]; }
   double least_present_gap() const;
 
+  /// Time from the newest frame to time 0 [s].
+  double late() const { return late_; }
   /// Time between two samples [s].
   double step() const { return step_; }
   /// Number of samples over the horizon, after the one at time 0.
@@ -59,7 +61,15 @@ class ObstacleForecast {
   double gap(int sample, std::size_t i) const;
   /// Gap [µm] between a swarm of a radius [µm] that moves straight during the time after a sample,
   /// and a body; beyond `near` [µm] it may be more.
-  double gap_along(Segment move, int sample, std::size_t i, double radius, double near) const;
+  double gap_along(Segment move, int sample, std::size_t i, double radius, double near) const {
+    return gap_along(move, at(sample, i), at(sample + 1, i), i, radius, near);
+  }
+  /// Observed speed of a body [µm/s]; 0 if it rests.
+  double speed(std::size_t i) const { return bodies_[i].rests ? 0 : norm(bodies_[i].velocity); }
+  /// The same gap if the body has turned round just after the newest frame.
+  double gap_if_turned(Segment move, int sample, std::size_t i, double radius, double near) const {
+    return gap_along(move, turned_round(sample, i), turned_round(sample + 1, i), i, radius, near);
+  }
 
   /// Hollow bodies taken as they are now.
   const BodySet& hollow() const { return hollow_; }
@@ -87,9 +97,14 @@ class ObstacleForecast {
     double noise = 0;       ///< [µm]
     bool rests = false;
     double turn_reach = 0;  ///< [µm]
+    Vec2 centre{};          ///< in the frame
+    Vec2 velocity{};        ///< [µm/s]
   };
 
   void predict_until(const MultiModelPredictor& predictor, int sample);
+  double gap_along(Segment move, const PredictedBody& a, const PredictedBody& b, std::size_t i,
+                   double radius, double near) const;
+  PredictedBody turned_round(int sample, std::size_t i) const;
   void occupy_slot(planning::SpaceTimeGrid& grid, std::size_t i, int slot, double keep) const;
 
   SafeIntervalParams params_;
@@ -100,6 +115,7 @@ class ObstacleForecast {
   ConvexOutliner outliner_;
   RestingBodies resting_;
   double effect_ = 0;
+  double late_ = 0;                      ///< effect_ less the time of the frame [s]
   std::vector<Seen> bodies_;             ///< the predicted ones
   std::vector<ConvexOutline> outlines_;  ///< of the predicted bodies, then unused ones
   std::vector<PredictedBody> ahead_;     ///< by sample, then by body

@@ -102,10 +102,14 @@ Decision SafeIntervalNavigator::decide(const Moment& moment) {
     if (waits) return plan_.empty() ? NavigatorState::hold : NavigatorState::wait;
     return forecast_.least_present_gap() < near ? NavigatorState::avoid : NavigatorState::follow;
   };
-  if (kept.heading != command.heading && imminent_.is_safe(kept)) return {kept, planned_state()};
-  if (imminent_.is_safe(command)) return {command, planned_state()};
-  if (const auto instead = imminent_.nearest_safe(command, last_))
-    return {*instead, instead->speed > 0 ? NavigatorState::avoid : NavigatorState::hold};
+  // At first bodies near the swarm may turn round at any moment; then they move as predicted.
+  for (const auto turns : {ImminentCheck::Turns::of_any_body, ImminentCheck::Turns::none}) {
+    if (kept.heading != command.heading && imminent_.is_safe(kept, turns))
+      return {kept, planned_state()};
+    if (imminent_.is_safe(command, turns)) return {command, planned_state()};
+    if (const auto instead = imminent_.nearest_safe(command, last_, turns))
+      return {*instead, instead->speed > 0 ? NavigatorState::avoid : NavigatorState::hold};
+  }
   return {imminent_.best_escape(last_), NavigatorState::escape};
 }
 

@@ -11,6 +11,7 @@ namespace microswarm::navigation {
 struct ImminentTuning {
   double horizon = 2.5;
   double commitment = 0.4;
+  double turn_time = 0.2;
   double gap = 1.5;
   double gap_rate = 1;
   double noise_gain = 1;
@@ -23,6 +24,8 @@ struct ImminentTuning {
   static void fields(Self& self, V&& visit) {
     visit(self.horizon, s("horizon", 0.2, 30, "Time for which an escape must be free."));
     visit(self.commitment, s("commitment", 0, 10, "Time after which an escape must remain."));
+    visit(self.turn_time,
+          s("turn_time", 0, 10, "Time for which an obstacle that turns round is not met."));
     visit(self.gap, um("gap", 0, 1e4, "Least gap to obstacles now."));
     visit(self.gap_rate, um_per_s("gap_rate", 0, 1e4, "Growth of the gap with prediction time."));
     visit(self.noise_gain,
