@@ -152,6 +152,20 @@ TEST(Vessels, RetinasAgreeWithTheirObservers) {
   }
 }
 
+// 3504 × 2336 pixels; grey levels of the labels tell arteries, veins and crossings.
+TEST(Vessels, RetinasOfHighResolutionAgreeToo) {
+  if (!std::filesystem::exists(retinas())) GTEST_SKIP() << retinas() << " is absent";
+  const formats::Mask labels =
+      formats::threshold(formats::read_image(retinas() / "HRF_09_h_AVlabels.png"), 1, false);
+  VesselParams params;
+  params.keep = KeepPieces::all;
+  const VesselSegmentation found =
+      segment_vessels(formats::read_image(retinas() / "HRF_09_h.jpg"), params);
+  const Agreement agreement = compare(labels, found.vessels, &found.field_of_view);
+  EXPECT_GT(*agreement.dice(), 0.787);  // 0.797
+  EXPECT_GT(*agreement.specificity(), 0.95);
+}
+
 TEST(Outline, WallsReachTheBorderOfTheMap) {
   formats::Mask network(40, 30);
   for (int column = 0; column < 30; ++column)
