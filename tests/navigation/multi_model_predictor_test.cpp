@@ -183,5 +183,34 @@ TEST(MultiModelPredictor, OscillationsAreFoundAmongTunedFrequenciesAndWindows) {
   EXPECT_EQ(selections(motion, tuning, MotionModels::swing, MotionModels::again), 0);
 }
 
+// Leaves that are not seen while they are retracted.
+TEST(MultiModelPredictor, ExpectsBackWhatShrankAway) {
+  const Valve valve{
+      .span = 200, .thickness = 30, .min_gap = 0, .max_gap = 300, .period = 10, .phase = 0};
+  Watched w{.obstacles = {{valve, Still{{0, 0}, 0}}, moving_disc(Straight{{-100, 900}, {60, 0}})}};
+  w.watch(3);
+  while (w.prediction.size() == 3) w.watch(0.1);
+  while (w.prediction.size() == 1) w.watch(0.1);
+  w.watch(3);
+  while (w.prediction.size() == 3) w.watch(0.1);
+  ASSERT_EQ(w.prediction.hidden(), 2u);
+  const double gone = w.now;
+  double back = gone;
+  for (std::vector<Body> bodies; bodies.empty(); back += 0.1)
+    append_bodies(w.obstacles[0], 0, back, bodies);
+  ASSERT_GT(back - gone, 2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(w.prediction.hidden_at(i, gone + 0.5).radius, 0);
+    EXPECT_EQ(w.prediction.hidden_at(i, back - 1).radius, 0);
+    const Disc leaf = w.prediction.hidden_at(i, back + 1);
+    std::vector<Body> bodies;
+    append_bodies(w.obstacles[0], 0, back + 1, bodies);
+    EXPECT_NEAR(distance(leaf.centre, enclosing_disc(bodies.at(i)).centre), 0, 12);
+    EXPECT_GT(leaf.radius, 15);
+  }
+  w.watch(back - gone + 0.1);
+  EXPECT_EQ(w.prediction.hidden(), 0u);
+}
+
 }  // namespace
 }  // namespace microswarm::navigation

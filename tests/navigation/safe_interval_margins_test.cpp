@@ -139,6 +139,27 @@ TEST(SafeIntervalMargins, InContactItDoesNotRunIntoAWall) {
   }
 }
 
+TEST(SafeIntervalMargins, LeavesOfAValveAreExpectedBack) {
+  const Valve valve{
+      .span = 200, .thickness = 30, .min_gap = 0, .max_gap = 300, .period = 10, .phase = 0};
+  Seen seen{.obstacles = {{valve, Still{{1000, 500}, 0}}}};
+  ObstacleForecast forecast(seen.params, 80);
+  int unseen = 0;
+  for (int k = 0; k < 200; ++k) {
+    const Snapshot frame = seen.next();
+    seen.predictor.update(seen.observe(frame));
+    forecast.update(frame, seen.predictor, frame.time(), std::array{Vec2{200, 500}});
+    if (k < 100 || !frame.moving().empty()) continue;
+    ++unseen;
+    ASSERT_EQ(forecast.size(), 2u) << k;
+    forecast.predict_all(seen.predictor);
+    const PredictedBody& later = forecast.at(forecast.samples() / 2, 0);
+    EXPECT_TRUE(is_finite(later.centre));
+    EXPECT_TRUE(forecast.diagnostics(50).bodies.empty());
+  }
+  EXPECT_GT(unseen, 20);
+}
+
 // In a corridor that the disc fills; it turns round in no time, without notice.
 TEST(SafeIntervalMargins, NothingIsFollowedSoCloselyThatItsTurnHits) {
   const std::vector<Polygon> walls{{{{300, 0}, {1700, 0}, {1700, 420}, {300, 420}}, {}},

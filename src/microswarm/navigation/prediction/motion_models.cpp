@@ -126,6 +126,12 @@ void MotionModels::fit_arcs(std::span<const Sighting> seen, double noise, Oscill
   }
 }
 
+std::optional<std::size_t> MotionModels::longest_swing() const {
+  for (std::size_t k = windows; k-- > 0;)
+    if (holds_[swing + k]) return swing + k;
+  return std::nullopt;
+}
+
 Vec2 MotionModels::place(std::size_t model, const MotionTrail& trail, double s) const {
   if (model == again) return trail.after(again_, s).position;
   if (model >= arc) return arcs_[model - arc].at(s);

@@ -47,6 +47,8 @@ class MotionModels {
            OscillationFit& fit);
   /// Whether the model applies and explains the newest sightings.
   bool holds(std::size_t model) const { return holds_[model]; }
+  /// The oscillation on a line or ellipse that applies and is fitted to the longest window.
+  std::optional<std::size_t> longest_swing() const;
   /// Position of the centre `s` seconds after the newest sighting.
   Vec2 place(std::size_t model, const MotionTrail& trail, double s) const;
   /// Rotation of the body [rad] by then since the newest sighting.

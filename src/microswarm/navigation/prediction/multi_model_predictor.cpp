@@ -11,6 +11,12 @@
 namespace microswarm::navigation {
 namespace {
 
+/// Time for which a body that has shrunk away is expected back [s].
+constexpr double hidden_time = 20;
+/// It was larger by this [µm] within this time [s] before.
+constexpr double shrinking = 2;
+constexpr double shrinking_time = 2;
+
 /// Size of the buffer of pending forecasts.
 std::size_t max_open(const MultiModelPredictorTuning& tuning) {
   const double most = std::max(tuning.near_forecast, tuning.far_forecast);
@@ -76,6 +82,24 @@ void MultiModelPredictor::take(const Snapshot& frame) {
     issue_forecasts(history);
     seen_bodies_.push_back(at);
   }
+  find_hidden();
+}
+
+void MultiModelPredictor::find_hidden() {
+  hidden_.clear();
+  for (std::size_t i = 0; i < histories_.size(); ++i)
+    if (is_hidden(histories_[i])) hidden_.push_back(i);
+}
+
+bool MultiModelPredictor::is_hidden(const BodyHistory& history) const {
+  if (history.trail.empty()) return false;
+  const TrailPoint& last = history.trail.back();
+  const double gone = now_ - last.t;
+  if (gone <= 0 || gone > hidden_time || !history.models.longest_swing()) return false;
+  const auto& points = history.trail.points();
+  return std::any_of(points.begin(), points.end(), [&](const TrailPoint& p) {
+    return p.t >= last.t - shrinking_time && p.radius > last.radius + shrinking;
+  });
 }
 
 std::size_t MultiModelPredictor::find_history(std::uint32_t obstacle, std::uint32_t leaf) {
@@ -201,6 +225,17 @@ double MultiModelPredictor::surprise(std::size_t body) const {
   const double expected =
       params_.tuning.straight_prior * norm(history.motion.velocity) * spans_.back();
   return expected > 0 ? std::min(1.0, history.error / expected) : 0;
+}
+
+// The inner end of a leaf moves by twice the way of its centre.
+Disc MultiModelPredictor::hidden_at(std::size_t body, double t) const {
+  const BodyHistory& history = histories_[hidden_[body]];
+  const TrailPoint& last = history.trail.back();
+  const Vec2 centre =
+      history.models.place(*history.models.longest_swing(), history.trail, t - last.t);
+  const double back = -dot(centre - last.position, history.motion.velocity);
+  if (back <= 0) return {last.position, 0};
+  return {centre, last.radius + distance(centre, last.position)};
 }
 
 PredictedBody MultiModelPredictor::at(std::size_t body, double t) const {

@@ -44,6 +44,15 @@ class MultiModelPredictor {
     return histories_[seen_bodies_[body]].motion;
   }
 
+  /// Number of bodies that shrank until they were not seen any more, such as the leaves of a valve,
+  /// and are expected back.
+  std::size_t hidden() const { return hidden_.size(); }
+  /// Standard deviation of an observed coordinate of a hidden body [µm].
+  double hidden_noise(std::size_t body) const { return histories_[hidden_[body]].motion.noise; }
+  /// A hidden body at time `t` [s]: a disc that returns along the swing on which it left, of radius
+  /// 0 before.
+  Disc hidden_at(std::size_t body, double t) const;
+
  private:
   static constexpr std::size_t span_count = 2;
 
@@ -80,6 +89,8 @@ class MultiModelPredictor {
   void update_errors(BodyHistory& history) const;
   void model(BodyHistory& history, const TrackedBody& motion);
   void issue_forecasts(BodyHistory& history) const;
+  void find_hidden();
+  bool is_hidden(const BodyHistory& history) const;
   void select_model(BodyHistory& history, double speed) const;
 
   MultiModelPredictorParams params_;
@@ -89,6 +100,7 @@ class MultiModelPredictor {
   double now_;
   std::vector<BodyHistory> histories_;
   std::vector<std::size_t> seen_bodies_;  ///< index of the history of each body in the frame
+  std::vector<std::size_t> hidden_;       ///< the same for the hidden ones
   std::vector<Sighting> sightings_;
   std::vector<Sighting> radii_;
 };

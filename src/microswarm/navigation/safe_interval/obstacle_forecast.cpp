@@ -105,8 +105,24 @@ void ObstacleForecast::update(const Snapshot& world, const MultiModelPredictor& 
     bodies_.push_back({i, motion.noise, rests, rests ? 0 : predictor.surprise(i) * reach,
                        outline.centre, motion.velocity});
   }
+  for (std::size_t i = 0; i < predictor.hidden(); ++i) {
+    if (outlines_.size() == size()) outlines_.emplace_back();
+    ConvexOutline& outline = outlines_[size()];
+    const Disc disc = predictor.hidden_at(i, world.time());
+    outline.centre = disc.centre;
+    outline.radius = disc.radius;
+    outline.edges.clear();
+    bodies_.push_back({.index = i, .noise = predictor.hidden_noise(i), .hidden = true});
+  }
   hollow_.assign(hollow_bodies_);
   predict_until(predictor, near_samples_);
+}
+
+PredictedBody ObstacleForecast::predicted(const MultiModelPredictor& predictor, std::size_t i,
+                                          double t) const {
+  if (!bodies_[i].hidden) return predictor.at(bodies_[i].index, t);
+  const Disc disc = predictor.hidden_at(bodies_[i].index, t);
+  return {.centre = disc.centre, .growth = disc.radius - outlines_[i].radius};
 }
 
 void ObstacleForecast::predict_until(const MultiModelPredictor& predictor, int sample) {
@@ -119,7 +135,7 @@ void ObstacleForecast::predict_until(const MultiModelPredictor& predictor, int s
         body = ahead_[i];
         continue;
       }
-      body = predictor.at(bodies_[i].index, effect_ + predicted_ * step_);
+      body = predicted(predictor, i, effect_ + predicted_ * step_);
     }
 }
 
@@ -211,6 +227,7 @@ PredictiveDiagnostics ObstacleForecast::diagnostics(double radius) const {
   PredictiveDiagnostics out{.effect = effect_, .radius = radius};
   for (int s = 0; s < predicted_; s += samples_a_moment)
     for (std::size_t i = 0; i < size(); ++i) {
+      if (bodies_[i].hidden) continue;
       const PredictedBody& body = at(s, i);
       out.bodies.push_back({.body = static_cast<std::uint32_t>(bodies_[i].index),
                             .t = effect_ + s * step_,

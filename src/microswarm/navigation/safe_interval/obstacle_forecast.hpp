@@ -99,12 +99,14 @@ class ObstacleForecast {
     double turn_reach = 0;  ///< [µm]
     Vec2 centre{};          ///< in the frame
     Vec2 velocity{};        ///< [µm/s]
+    bool hidden = false;    ///< not in the frame; `index` is the predictor's of the hidden ones
   };
 
   void predict_until(const MultiModelPredictor& predictor, int sample);
   double gap_along(Segment move, const PredictedBody& a, const PredictedBody& b, std::size_t i,
                    double radius, double near) const;
   PredictedBody turned_round(int sample, std::size_t i) const;
+  PredictedBody predicted(const MultiModelPredictor& predictor, std::size_t i, double t) const;
   void occupy_slot(planning::SpaceTimeGrid& grid, std::size_t i, int slot, double keep) const;
 
   SafeIntervalParams params_;
