@@ -94,6 +94,30 @@ TEST(RobotPerception, KnowsEveryRobotWhileTheyAreApart) {
   }
 }
 
+// 10 to 80 pixels wide.
+TEST(RobotPerception, FindsTheCentresOfLargeRobots) {
+  const auto map = channel();
+  for (const double diameter : {10.0, 25.0, 50.0, 80.0}) {
+    MicroscopeParams optics;
+    optics.um_per_px = 2;
+    optics.robot_diameter = diameter;
+    Microscope microscope(optics, *map, 1, 0);
+    std::vector<Vec2> robots{{200.3, 300.7}, {500.9, 500.2}, {900.4, 350.6}};
+    PerceptionParams params = eye_params();
+    params.robots = {.diameter = static_cast<int>(1.15 * diameter) | 1, .min_mass = 60};
+    RobotPerception perception(params, {}, *map, robots, session_view(microscope));
+    for (int frame = 1; frame < 10; ++frame) {
+      for (Vec2& robot : robots) robot += Vec2{2.3, 1.1};
+      const double t = frame / 45.0;
+      const Detections& seen =
+          perception.process(microscope.look(Snapshot(map, t), std::nullopt, robots), t);
+      EXPECT_EQ(seen.unseen, 0) << diameter;
+      for (std::size_t i = 0; i < robots.size(); ++i)
+        EXPECT_LT(distance(seen.robots[i], robots[i]), 0.4) << diameter << " " << frame << " " << i;
+    }
+  }
+}
+
 TEST(RobotPerception, PilesAreSeenAsOneAndComeApartAgain) {
   const auto map = channel();
   MicroscopeParams optics;
