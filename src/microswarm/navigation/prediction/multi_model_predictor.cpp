@@ -59,6 +59,8 @@ void MultiModelPredictor::update(const Observation& observation) {
   if (tracker_.seen() == now_ && tracker_.size() == seen_bodies_.size()) return;
   if (tracker_.seen() < now_) {
     histories_.clear();
+    seen_bodies_.clear();
+    hidden_.clear();
     oscillations_ = OscillationFit(params_.tuning.oscillation);
   }
   if (tracker_.seen() != now_ || histories_.empty()) oscillations_.begin(tracker_.seen());
