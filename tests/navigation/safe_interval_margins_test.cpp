@@ -153,8 +153,9 @@ TEST(SafeIntervalMargins, LeavesOfAValveAreExpectedBack) {
     ++unseen;
     ASSERT_EQ(forecast.size(), 2u) << k;
     forecast.predict_all(seen.predictor);
-    const PredictedBody& later = forecast.at(forecast.samples() / 2, 0);
-    EXPECT_TRUE(is_finite(later.centre));
+    bool comes_back = false;
+    for (int s = 0; s < forecast.samples(); ++s) comes_back |= forecast.at(s, 0).growth > 20;
+    EXPECT_TRUE(comes_back) << k;
     EXPECT_TRUE(forecast.diagnostics(50).bodies.empty());
   }
   EXPECT_GT(unseen, 20);

@@ -32,7 +32,7 @@ formats::Image inverse_of(formats::Image picture) {
 }
 
 TEST(Chips, ChannelsAreFoundWhateverLightNoiseAndTone) {
-  for (int seed = 1; seed <= test::cases(20); ++seed) {
+  for (int seed = 1; seed <= test::cases(40); ++seed) {
     const ChipLooks looks = test::chip_looks(seed);
     const Chip chip = test::draw_chip(looks, seed);
     const VesselSegmentation found = segment_vessels(chip.picture);
@@ -43,18 +43,25 @@ TEST(Chips, ChannelsAreFoundWhateverLightNoiseAndTone) {
   }
 }
 
-// Single pixels tell nothing here; lines do.
+// Single pixels tell nothing here; lines do. At 6 px and noise 25 one in some is lost, and told.
 TEST(Chips, NarrowChannelsFainterThanTheNoiseAreFound) {
+  int right = 0;
   for (const double contrast : {20.0, -20.0})
-    for (const auto& [width, noise] : {std::pair(6.0, 20.0), {8.0, 20.0}, {8.0, 25.0}})
-      for (const std::uint64_t seed : {31, 33}) {
-        ChipLooks looks{.contrast = contrast, .noise = noise, .light = 40};
-        looks.min_width = looks.max_width = width;
-        looks.shape = seed == 31 ? ChipLooks::Shape::curved : ChipLooks::Shape::branching;
-        const Chip chip = test::draw_chip(looks, seed);
-        const VesselSegmentation found = segment_vessels(chip.picture);
-        EXPECT_GE(dice(chip, found), 0.9) << chip.name << ": " << note_on_noise(found);
-      }
+    for (const double width : {6.0, 8.0})
+      for (const double noise : {20.0, 25.0})
+        for (const std::uint64_t seed : {31, 33}) {
+          ChipLooks looks{.contrast = contrast, .noise = noise, .light = 40};
+          looks.width = 640, looks.height = 500;
+          looks.min_width = looks.max_width = width;
+          looks.shape = seed == 31 ? ChipLooks::Shape::curved : ChipLooks::Shape::branching;
+          const Chip chip = test::draw_chip(looks, seed);
+          const VesselSegmentation found = segment_vessels(chip.picture);
+          const bool is_right = dice(chip, found) >= 0.9;
+          right += is_right;
+          EXPECT_TRUE(is_right || !note_on_noise(found).empty()) << chip.name;
+          EXPECT_TRUE(is_right || (width < 8 && noise > 20)) << chip.name;
+        }
+  EXPECT_GE(right, 14);  // of 16
 }
 
 TEST(Chips, WhatNoiseHidesIsTold) {
