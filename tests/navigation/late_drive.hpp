@@ -28,7 +28,9 @@ struct LateDrive {
   Pose2 pose{{200, 500}, 0};
   typename N::Params params{};
   std::function<bool(int frame)> is_missed{};  ///< whether a frame does not show the swarm
-  double min_gap = infinity;                   ///< from edge to edge [µm]
+  double noise = 0;           ///< standard deviation of the positions of discs [µm]
+  std::uint64_t seed = 1;     ///< of the noise
+  double min_gap = infinity;  ///< from edge to edge [µm]
   double time = 0;
   bool arrived = false;
   double turned = 0;  ///< sum of the changes of the commanded heading [rad]
@@ -39,16 +41,26 @@ struct LateDrive {
     return std::find(states.begin(), states.end(), state) != states.end();
   }
 
+  Snapshot seen_as(Snapshot exact, Rng& rng) const {
+    if (noise <= 0) return exact;
+    std::vector<Body> bodies(exact.moving().bodies().begin(), exact.moving().bodies().end());
+    for (Body& body : bodies)
+      if (Disc* disc = std::get_if<Disc>(&body.shape))
+        disc->centre = disc->centre + noise * Vec2{rng.normal(), rng.normal()};
+    return Snapshot(exact.shared_map(), exact.time(), std::move(bodies));
+  }
+
   void run(double seconds) {
     constexpr double substep = 0.01;
     const World world{std::make_shared<const Map>(Box{{0, 0}, {2000, 1000}}, walls), obstacles};
     N navigator(params, body_task(swarm), Rng(1, Purpose::planner));
     navigator.prepare(world.at(0), {});
+    Rng rng(seed, Purpose::obstacle_sensor);
     std::vector<Pose2> was_there(6, pose);
     std::vector<Command> pending(10);
     while (time < seconds && !arrived) {
       const double seen = std::max(0.0, time - 0.05);
-      const Snapshot now = world.at(seen);
+      const Snapshot now = seen_as(world.at(seen), rng);
       std::optional<SwarmPose> swarm_seen = SwarmPose{was_there.front(), swarm.radius};
       if (is_missed && is_missed(static_cast<int>(commands.size()))) swarm_seen.reset();
       const Command command = navigator.step(

@@ -161,16 +161,31 @@ TEST(SafeIntervalMargins, LeavesOfAValveAreExpectedBack) {
   EXPECT_GT(unseen, 20);
 }
 
+const std::vector<Polygon> corridor{{{{300, 0}, {1700, 0}, {1700, 420}, {300, 420}}, {}},
+                                    {{{300, 580}, {1700, 580}, {1700, 1000}, {300, 1000}}, {}}};
+
 // In a corridor that the disc fills; it turns round in no time, without notice.
 TEST(SafeIntervalMargins, NothingIsFollowedSoCloselyThatItsTurnHits) {
-  const std::vector<Polygon> walls{{{{300, 0}, {1700, 0}, {1700, 420}, {300, 420}}, {}},
-                                   {{{300, 580}, {1700, 580}, {1700, 1000}, {300, 1000}}, {}}};
   for (const double speed : {45.0, 50.0, 55.0})
     for (const double end : {1000.0, 1257.0, 1300.0}) {
       const Waypoints way{{{450, 500}, {end, 500}, {450, 500}}, speed, AtEnd::stay};
-      LateDrive<SafeIntervalNavigator> drive{.walls = walls, .obstacles = {{DiscShape{45}, way}}};
+      LateDrive<SafeIntervalNavigator> drive{.walls = corridor,
+                                             .obstacles = {{DiscShape{45}, way}}};
       drive.run(end / speed);
       EXPECT_GT(drive.min_gap, 3) << speed << ", " << end;
+    }
+}
+
+// Noise hides its turn for longer.
+TEST(SafeIntervalMargins, NothingThatIsSeenWithNoiseIsFollowedSoClosely) {
+  for (const double speed : {30.0, 45.0, 60.0})
+    for (std::uint64_t seed = 0; seed < 5; ++seed) {
+      const double end = 1100 + 40.0 * static_cast<double>(seed);
+      const Waypoints way{{{450, 500}, {end, 500}, {450, 500}}, speed, AtEnd::stay};
+      LateDrive<SafeIntervalNavigator> drive{
+          .walls = corridor, .obstacles = {{DiscShape{45}, way}}, .noise = 2, .seed = seed};
+      drive.run((end - 450) / speed + 10);
+      EXPECT_GT(drive.min_gap, 0) << speed << ", " << seed;
     }
 }
 

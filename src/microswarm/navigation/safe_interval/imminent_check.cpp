@@ -35,7 +35,6 @@ void ImminentCheck::begin(const Situation& situation) {
                       static_cast<int>(std::ceil(tuning_.horizon / forecast.step())));
   committed_ =
       std::clamp(static_cast<int>(std::ceil(committed_time_ / forecast.step())), 1, samples_);
-  turned_ = std::min(samples_, static_cast<int>(std::ceil(tuning_.turn_time / forecast.step())));
   commanded_ = std::clamp(static_cast<int>(std::ceil(tick_ / forecast.step())), 1, committed_);
   present_hollow_gap_ =
       forecast.hollow_clearance(now_.pose.position, now_.radius + counted_gap) - now_.radius;
@@ -49,8 +48,13 @@ void ImminentCheck::begin(const Situation& situation) {
     const double present = forecast.present_gap(i);
     if (present > own + moved + counted_gap) continue;
     const double closing = (speed_ + forecast.speed(i)) * (committed_time_ + forecast.late());
-    near_.push_back({i, tuning_.noise_gain * forecast.noise(i), present,
-                     forecast.speed(i) > 0 && forecast.speed(i) < speed_ && present < closing});
+    Near near{i, tuning_.noise_gain * forecast.noise(i), present};
+    if (const double v = forecast.speed(i); v > 0 && v < speed_ && present < closing) {
+      const double unseen = std::min(tuning_.hidden_turn * forecast.noise(i) / v, committed_time_);
+      const double turned = std::ceil((tuning_.turn_time + unseen) / forecast.step());
+      near.turned = std::min(samples_, static_cast<int>(turned));
+    }
+    near_.push_back(near);
   }
 }
 
@@ -101,8 +105,8 @@ ImminentCheck::Outcome ImminentCheck::roll(Pose2 from, const Command& command, i
                              ? forecast.gap_if_turned(move, s, near.index, now_.radius, counted_gap)
                              : forecast.gap_along(move, s, near.index, now_.radius, counted_gap);
       out.least = std::min(out.least, gap);
-      if (gap <
-          (in_contact_only || turns ? std::min(contact_gap, near.present) : required(near, s)))
+      const double touching = contact_gap + (turns ? near.noise_gap : 0);
+      if (gap < (in_contact_only || turns ? std::min(touching, near.present) : required(near, s)))
         return out;
     }
     out.end = next;
@@ -130,7 +134,7 @@ bool ImminentCheck::is_safe(const Command& command, Turns turns) {
   if (first.until < committed_) return false;
   if (turns == Turns::of_any_body)
     for (std::size_t k = 0; k < near_.size(); ++k)
-      if (near_[k].may_turn && roll(now_.pose, command, 0, turned_, false, k).until < turned_)
+      if (const int n = near_[k].turned; roll(now_.pose, command, 0, n, false, k).until < n)
         return false;
   return leaves_escape(first.end, command, committed_);
 }

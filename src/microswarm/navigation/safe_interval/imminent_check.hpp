@@ -16,8 +16,8 @@ namespace microswarm::navigation {
 /// commitment and an escape remains after it: to continue, to hold, or another direction. Gaps are
 /// measured along the whole motion, relative to the predicted motion of the bodies, and walls
 /// exactly. It is safe against turns if it does not meet a slower body that turns round just after
-/// the frame, until this can be seen and answered. Does not allocate once it has seen as many
-/// bodies.
+/// the frame, until this is seen through the noise of its position and answered. Does not allocate
+/// once it has seen as many bodies.
 class ImminentCheck {
  public:
   /// `speed` [µm/s] of the swarm, `tick` [s] between two commands.
@@ -55,9 +55,9 @@ class ImminentCheck {
   /// A body that may come near.
   struct Near {
     std::size_t index = 0;
-    double noise_gap = 0;   ///< [µm]
-    double present = 0;     ///< gap now [µm]
-    bool may_turn = false;  ///< it would come near if it turned round
+    double noise_gap = 0;  ///< [µm]
+    double present = 0;    ///< gap now [µm]
+    int turned = 0;        ///< samples for which it is not met if it turns round
   };
   /// Index of a body in near_ that has turned round.
   using Turned = std::optional<std::size_t>;
@@ -80,7 +80,6 @@ class ImminentCheck {
   Situation now_;
   int samples_ = 0;                ///< of the horizon
   int commanded_ = 0;              ///< until the next command
-  int turned_ = 0;                 ///< while a body that turns round is not met
   int committed_ = 0;              ///< of the commitment
   double present_hollow_gap_ = 0;  ///< [µm]
   std::vector<Near> near_;

@@ -12,6 +12,7 @@ struct ImminentTuning {
   double horizon = 2.5;
   double commitment = 0.4;
   double turn_time = 0.2;
+  double hidden_turn = 2;
   double gap = 1.5;
   double gap_rate = 1;
   double noise_gain = 1;
@@ -26,6 +27,8 @@ struct ImminentTuning {
     visit(self.commitment, s("commitment", 0, 10, "Time after which an escape must remain."));
     visit(self.turn_time,
           s("turn_time", 0, 10, "Time for which an obstacle that turns round is not met."));
+    visit(self.hidden_turn, plain("hidden_turn", 0, 100,
+                                  "Noises of an obstacle's position by which it moves unseen."));
     visit(self.gap, um("gap", 0, 1e4, "Least gap to obstacles now."));
     visit(self.gap_rate, um_per_s("gap_rate", 0, 1e4, "Growth of the gap with prediction time."));
     visit(self.noise_gain,
