@@ -9,8 +9,8 @@ namespace microswarm {
 namespace {
 
 /// A unit's name and its size.
-using Unit = std::pair<std::string_view, double>;
-constexpr std::array<Unit, 25> lengths_um{
+using UnitSize = std::pair<std::string_view, double>;
+constexpr std::array<UnitSize, 25> lengths_um{
     {{"µm", 1},           {"μm", 1},           {"um", 1},
      {"micron", 1},       {"microns", 1},      {"\\u00B5m", 1},
      {"\\u03BCm", 1},     {"micrometer", 1},   {"micrometre", 1},
@@ -20,7 +20,7 @@ constexpr std::array<Unit, 25> lengths_um{
      {"micrometres", 1},  {"nanometre", 1e-3}, {"nanometers", 1e-3},
      {"centimeter", 1e4}, {"cm", 1e4},         {"m", 1e6},
      {"\xB5m", 1}}};
-constexpr std::array<Unit, 22> times_s{{{"s", 1},
+constexpr std::array<UnitSize, 22> times_s{{{"s", 1},
                                         {"sec", 1},
                                         {"second", 1},
                                         {"seconds", 1},
@@ -44,8 +44,8 @@ constexpr std::array<Unit, 22> times_s{{{"s", 1},
                                         {"hour", 3600}}};
 
 template <std::size_t N>
-std::optional<double> size_of_unit(const std::array<Unit, N>& units, std::string_view name) {
-  const auto found = std::ranges::find(units, name, &Unit::first);
+std::optional<double> size_of_unit(const std::array<UnitSize, N>& units, std::string_view name) {
+  const auto found = std::ranges::find(units, name, &UnitSize::first);
   if (found == units.end()) return std::nullopt;
   return found->second;
 }

@@ -14,7 +14,7 @@
 namespace microswarm::navigation {
 namespace {
 
-constexpr double clearance_rounding = 1e-9;
+constexpr double relative_rounding = 1e-9;
 /// Shares of the gaps with which a plan is searched in turn.
 constexpr std::array<double, 3> gap_shares{1, 0.5, 0.15};
 /// Shares of the gap to walls of routes.
@@ -48,7 +48,7 @@ void SafeIntervalNavigator::prepare(const Snapshot& world, const Stop&) {
   routes_.clear();
   for (const double share : route_gap_shares) {
     const double clearance = std::min(swarm().radius + share * params_.wall_gap,
-                                      (1 - clearance_rounding) * aim().clearance);
+                                      (1 - relative_rounding) * aim().clearance);
     routes_.emplace_back(world.shared_map(), aim().position, clearance);
   }
 }
@@ -72,7 +72,7 @@ Decision SafeIntervalNavigator::finish(const Decision& decision, const Observati
 double SafeIntervalNavigator::entry_clearance(const Map& map, Vec2 p) const {
   const double wanted = swarm().radius + params_.tuning.imminent.wall_gap;
   return std::min(wall_clearance(wanted, p, tick_ * speed()),
-                  (1 - clearance_rounding) * map.clearance(p));
+                  (1 - relative_rounding) * map.clearance(p));
 }
 
 Decision SafeIntervalNavigator::decide(const Moment& moment) {

@@ -25,7 +25,7 @@ struct Met {
 using MetBodies = std::pmr::vector<Met>;
 
 /// Stack memory for a survey; larger surveys use the heap.
-struct Scratch {
+struct SurveyMemory {
   std::array<std::byte, 8192> bytes;
   std::pmr::monotonic_buffer_resource memory{bytes.data(), bytes.size()};
 };
@@ -183,7 +183,7 @@ bool may_overlap(const BodySet& walls, const MetBodies& met_walls, const Body& m
 }  // namespace
 
 void BodySet::survey(Disc circle, Survey& survey, const Stop& stop) const {
-  Scratch scratch;
+  SurveyMemory scratch;
   MetBodies met(&scratch.memory);
   find_met(*this, circle, met);
   if (met.empty()) return;
@@ -192,7 +192,7 @@ void BodySet::survey(Disc circle, Survey& survey, const Stop& stop) const {
 }
 
 Survey survey(Disc circle, const BodySet& walls, const BodySet& moving, const Stop& stop) {
-  Scratch scratch;
+  SurveyMemory scratch;
   MetBodies met_walls(&scratch.memory);
   MetBodies met_moving(&scratch.memory);
   find_met(walls, circle, met_walls);

@@ -11,7 +11,7 @@ namespace microswarm {
 namespace {
 
 constexpr double cells_by_default = 260e3;
-constexpr double max_cells = 4 * 1024 * 1024;
+constexpr double max_field_cells = 4 * 1024 * 1024;
 
 }  // namespace
 
@@ -19,7 +19,7 @@ ClearanceField::ClearanceField(const Box& bounds, const BodySet& bodies, double 
   const double area = bounds.width() * bounds.height();
   const double longest = std::max(bounds.width(), bounds.height());
   if (cell <= 0) cell = std::max(std::sqrt(area / cells_by_default), longest / cells_by_default);
-  cell_ = std::max({cell, std::sqrt(area / max_cells), longest / max_cells});
+  cell_ = std::max({cell, std::sqrt(area / max_field_cells), longest / max_field_cells});
   per_cell_ = 1 / cell_;
   origin_ = bounds.lo - Vec2{cell_, cell_};
   columns_ = static_cast<int>((bounds.hi.x - origin_.x) * per_cell_);
