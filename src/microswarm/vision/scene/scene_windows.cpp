@@ -35,7 +35,7 @@ struct Window {
 bool meets(const cv::Rect& box, Vec2 centre, double radius) {
   const double x = std::clamp(centre.x, box.x - 0.5, box.br().x - 0.5);
   const double y = std::clamp(centre.y, box.y - 0.5, box.br().y - 0.5);
-  return distance(centre, {x, y}) <= radius;
+  return distance(centre, Vec2{x, y}) <= radius;
 }
 
 /// Whether a part of the outline is at an edge of its window that is not one of the picture.

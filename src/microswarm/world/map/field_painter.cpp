@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t few_candidates = 1;
 constexpr int few_cells = 4;
 
-double magnitude(Vec2 p) { return std::abs(p.x) + std::abs(p.y); }
+double l1_norm(Vec2 p) { return std::abs(p.x) + std::abs(p.y); }
 
 /// A float certainly below `x`.
 float float_below(double x) {
@@ -25,9 +25,9 @@ float float_below(double x) {
 
 FieldPainter::FieldPainter(const Box& bounds, const BodySet& bodies, ClearanceField& field)
     : bounds_(bounds), bodies_(bodies), field_(field) {
-  double largest = magnitude(bounds.lo) + magnitude(bounds.hi);
+  double largest = l1_norm(bounds.lo) + l1_norm(bounds.hi);
   const auto add = [&](WallCandidates& candidates, const Segment& core, double radius) {
-    largest = std::max(largest, magnitude(core.a) + radius);
+    largest = std::max(largest, l1_norm(core.a) + radius);
     candidates.push(core, radius, static_cast<std::uint32_t>(field.walls_.size()));
     field.walls_.push_back({core, radius});
   };
