@@ -13,12 +13,6 @@ constexpr double same_time = 1e-9;     // rounding of times [s]
 constexpr double no_rotation = 1e-6;   // half angle below which the quotients' limit is exact
 constexpr std::size_t extra_rows = 4;  // for the newest frames, besides those at the spacing
 
-/// Coefficients of the three terms, and the residual of Σ |position|².
-struct Terms {
-  std::array<Vec2, 3> c{};
-  double residual = 0;
-};
-
 }  // namespace
 
 Vec2 Oscillation::at(double t) const {
@@ -29,55 +23,59 @@ Vec2 Oscillation::at(double t) const {
          (2 * sine * sine / (frequency * frequency)) * curve;
 }
 
-/// Normal equations for every frequency: matrix and right-hand side.
+/// Right-hand sides of the normal equations, for every frequency.
 struct OscillationFit::Sums {
-  int count = 0;
   double squares = 0;
   Vec2 positions;
-  std::array<double, rungs> s{}, c{}, ss{}, sc{}, cc{};
   std::array<double, rungs> sx{}, sy{}, cx{}, cy{};
 
   void add(const Row& row, Vec2 position) {
-    ++count;
     squares += squared_norm(position);
     positions += position;
     for (std::size_t k = 0; k < rungs; ++k) {
-      const double sine = row.sine[k];
-      const double cosine = row.cosine[k];
-      s[k] += sine;
-      c[k] += cosine;
-      ss[k] += sine * sine;
-      sc[k] += sine * cosine;
-      cc[k] += cosine * cosine;
-      sx[k] += sine * position.x;
-      sy[k] += sine * position.y;
-      cx[k] += cosine * position.x;
-      cy[k] += cosine * position.y;
+      sx[k] += row.sine[k] * position.x;
+      sy[k] += row.sine[k] * position.y;
+      cx[k] += row.cosine[k] * position.x;
+      cy[k] += row.cosine[k] * position.y;
     }
   }
-
-  /// Solves by the cofactors of the symmetric matrix; nothing if it is singular.
-  std::optional<Terms> solve(std::size_t k) const {
-    const double n = count;
-    const double a = ss[k] * cc[k] - sc[k] * sc[k];
-    const double b = c[k] * sc[k] - s[k] * cc[k];
-    const double d = s[k] * sc[k] - c[k] * ss[k];
-    const double e = n * cc[k] - c[k] * c[k];
-    const double f = s[k] * c[k] - n * sc[k];
-    const double g = n * ss[k] - s[k] * s[k];
-    const double determinant = n * a + s[k] * b + c[k] * d;
-    if (!(determinant > 0)) return std::nullopt;
-    const Vec2 by_sine{sx[k], sy[k]};
-    const Vec2 by_cosine{cx[k], cy[k]};
-    Terms out;
-    out.c[0] = (a * positions + b * by_sine + d * by_cosine) / determinant;
-    out.c[1] = (b * positions + e * by_sine + f * by_cosine) / determinant;
-    out.c[2] = (d * positions + f * by_sine + g * by_cosine) / determinant;
-    out.residual =
-        squares - dot(out.c[0], positions) - dot(out.c[1], by_sine) - dot(out.c[2], by_cosine);
-    return out;
-  }
 };
+
+void OscillationFit::Matrix::add(const Row& row) {
+  ++count;
+  for (std::size_t k = 0; k < rungs; ++k) {
+    const double sine = row.sine[k];
+    const double cosine = row.cosine[k];
+    s[k] += sine;
+    c[k] += cosine;
+    ss[k] += sine * sine;
+    sc[k] += sine * cosine;
+    cc[k] += cosine * cosine;
+  }
+}
+
+/// Solves by the cofactors of the symmetric matrix; nothing if it is singular.
+std::optional<OscillationFit::Terms> OscillationFit::solve(const Matrix& m, const Sums& sums,
+                                                           std::size_t k) {
+  const double n = m.count;
+  const double a = m.ss[k] * m.cc[k] - m.sc[k] * m.sc[k];
+  const double b = m.c[k] * m.sc[k] - m.s[k] * m.cc[k];
+  const double d = m.s[k] * m.sc[k] - m.c[k] * m.ss[k];
+  const double e = n * m.cc[k] - m.c[k] * m.c[k];
+  const double f = m.s[k] * m.c[k] - n * m.sc[k];
+  const double g = n * m.ss[k] - m.s[k] * m.s[k];
+  const double determinant = n * a + m.s[k] * b + m.c[k] * d;
+  if (!(determinant > 0)) return std::nullopt;
+  const Vec2 by_sine{sums.sx[k], sums.sy[k]};
+  const Vec2 by_cosine{sums.cx[k], sums.cy[k]};
+  Terms out;
+  out.c[0] = (a * sums.positions + b * by_sine + d * by_cosine) / determinant;
+  out.c[1] = (b * sums.positions + e * by_sine + f * by_cosine) / determinant;
+  out.c[2] = (d * sums.positions + f * by_sine + g * by_cosine) / determinant;
+  out.residual = sums.squares - dot(out.c[0], sums.positions) - dot(out.c[1], by_sine) -
+                 dot(out.c[2], by_cosine);
+  return out;
+}
 
 OscillationFit::OscillationFit(const OscillationTuning& tuning)
     : tuning_(tuning),
@@ -88,6 +86,7 @@ OscillationFit::OscillationFit(const OscillationTuning& tuning)
   for (std::size_t k = 0; k < rungs; ++k)
     frequencies_[k] = tuning.min_frequency * maths::exp(step * static_cast<double>(k));
   rows_.reserve(max_rows_);
+  used_.reserve(max_rows_);
 }
 
 void OscillationFit::begin(double now) {
@@ -98,6 +97,7 @@ void OscillationFit::begin(double now) {
   if (rows_.size() == max_rows_) rows_.erase(rows_.begin());
   rows_.emplace_back().t = now;
   for (Row& row : rows_) fill(row);
+  for (Matrix& matrix : newest_) matrix.count = 0;
 }
 
 void OscillationFit::fill(Row& row) const {
@@ -115,6 +115,7 @@ OscillationFit::Fits OscillationFit::fit(std::span<const Sighting> sightings) {
   if (sightings.empty() || rows_.empty()) return out;
   const Vec2 origin = sightings.back().position;
   Sums sums;
+  used_.clear();
   std::size_t window = 0;
   std::size_t row = rows_.size();
   for (std::size_t i = sightings.size(); i-- > 0;) {
@@ -123,20 +124,33 @@ OscillationFit::Fits OscillationFit::fit(std::span<const Sighting> sightings) {
     if (row == 0) break;
     if (rows_[row - 1].t < seen.t - same_time) continue;
     for (; window < window_count && now_ - seen.t > windows_[window]; ++window)
-      out[window] = best_fit(sums, origin);
+      out[window] = best_fit(window, sums, origin);
     if (window == window_count) return out;
     sums.add(rows_[row - 1], seen.position - origin);
+    used_.push_back(row - 1);
   }
-  if (window < window_count) out[window] = best_fit(sums, origin);
+  if (window < window_count) out[window] = best_fit(window, sums, origin);
   return out;
 }
 
-std::optional<Oscillation> OscillationFit::best_fit(const Sums& sums, Vec2 origin) const {
-  if (sums.count < tuning_.min_sightings) return std::nullopt;
+/// Matrix of the rows that are used. Bodies that are seen in all of the newest frames share it.
+const OscillationFit::Matrix& OscillationFit::matrix(std::size_t window) {
+  const bool are_newest = used_.back() + used_.size() == rows_.size();
+  Matrix& out = are_newest ? newest_[window] : others_;
+  if (are_newest && static_cast<std::size_t>(out.count) == used_.size()) return out;
+  out = {};
+  for (const std::size_t i : used_) out.add(rows_[i]);
+  return out;
+}
+
+std::optional<Oscillation> OscillationFit::best_fit(std::size_t window, const Sums& sums,
+                                                    Vec2 origin) {
+  if (used_.size() < static_cast<std::size_t>(tuning_.min_sightings)) return std::nullopt;
+  const Matrix& normal = matrix(window);
   std::array<std::optional<Terms>, rungs> terms;
   std::size_t best = rungs;
   for (std::size_t k = 0; k < rungs; ++k) {
-    terms[k] = sums.solve(k);
+    terms[k] = solve(normal, sums, k);
     if (terms[k] && (best == rungs || terms[k]->residual < terms[best]->residual)) best = k;
   }
   if (best == rungs) return std::nullopt;

@@ -49,17 +49,33 @@ class OscillationFit {
     std::array<double, rungs> sine;    ///< sin(ωt) / ω
     std::array<double, rungs> cosine;  ///< (1 − cos ωt) / ω²
   };
+  /// Matrices of the normal equations, for every frequency.
+  struct Matrix {
+    int count = 0;  ///< rows
+    std::array<double, rungs> s{}, c{}, ss{}, sc{}, cc{};
+    void add(const Row& row);
+  };
+  /// Coefficients of the three terms, and the residual of Σ |position|².
+  struct Terms {
+    std::array<Vec2, 3> c{};
+    double residual = 0;
+  };
   struct Sums;
 
   void fill(Row& row) const;
-  std::optional<Oscillation> best_fit(const Sums& sums, Vec2 origin) const;
+  const Matrix& matrix(std::size_t window);
+  static std::optional<Terms> solve(const Matrix& matrix, const Sums& sums, std::size_t k);
+  std::optional<Oscillation> best_fit(std::size_t window, const Sums& sums, Vec2 origin);
 
   OscillationTuning tuning_;
   std::array<double, window_count> windows_;
   std::size_t max_rows_;  ///< frames in the longest window
   std::array<double, rungs> frequencies_{};
   double now_ = 0;
-  std::vector<Row> rows_;  ///< ascending in time
+  std::vector<Row> rows_;          ///< ascending in time
+  std::vector<std::size_t> used_;  ///< rows of the body that is fitted, from the newest on
+  std::array<Matrix, window_count> newest_{};  ///< of the newest rows
+  Matrix others_{};
 };
 
 }  // namespace microswarm::navigation

@@ -14,16 +14,16 @@ namespace {
 /// Difference of times that does not count [s].
 constexpr double time_rounding = 1e-9;
 
-/// Cost of the turn from a heading into the direction `course`: proportional to small angles, and
-/// to the chord of large ones [s].
-double cost_of_turn(const SafeIntervalSearch::Query& query, Vec2 course) {
+}  // namespace
+
+/// Cost of the turn from the query's heading into the direction `course`: proportional to small
+/// angles, and to the chord of large ones [s].
+double SafeIntervalSearch::cost_of_turn(const Query& query, Vec2 course) const {
   const double length = norm(course);
   if (!query.heading || length == 0) return 0;
-  const double cosine = dot(course, unit_vector(*query.heading)) / length;
+  const double cosine = dot(course, ahead_) / length;
   return query.turn_cost * std::sqrt(std::max(0.0, 2 * (1 - cosine)));
 }
-
-}  // namespace
 
 void SafeIntervalSearch::reserve(const SpaceTimeGrid& grid, std::size_t states) {
   states_.reserve(states);
@@ -84,12 +84,13 @@ void SafeIntervalSearch::begin(const SpaceTimeGrid& grid, const Query& query) {
   path_.clear();
   expansions_ = 0;
   arrival_ = cost_ = infinity;
+  ahead_ = unit_vector(query.heading.value_or(0));
   State start;
   start.position = query.from;
   start.until = query.stay_until;
   start.closed = true;
   states_.push_back(start);
-  for (const Cell cell : query.entries) connect(grid, query, 0, cell, false);
+  for (const Cell cell : query.entries) connect(grid, query, 0, {cell, grid.position(cell)}, false);
 }
 
 void SafeIntervalSearch::expand(const SpaceTimeGrid& grid, const Query& query,
@@ -102,24 +103,39 @@ void SafeIntervalSearch::expand(const SpaceTimeGrid& grid, const Query& query,
     if (!grid.holds(column + step.column, row + step.row)) continue;
     const Cell next = grid.at(column + step.column, row + step.row);
     if (grid.stands(next) || !std::isfinite(query.lengths[next])) continue;
-    connect(grid, query, number, next, false);
-    connect(grid, query, parent, next, true);
+    const Place place{next, grid.position(column + step.column, row + step.row)};
+    if (!is_useless(grid, number, next, false)) connect(grid, query, number, place, false);
+    if (!is_useless(grid, parent, next, true)) connect(grid, query, parent, place, true);
   }
+}
+
+// Tells without a square root that connect() to a cell with a single interval would change nothing.
+bool SafeIntervalSearch::is_useless(const SpaceTimeGrid& grid, std::uint32_t from_number, Cell to,
+                                    bool is_shortcut) const {
+  if (search_[to] != number_ || first_[to] == none || !grid.is_always_free(to)) return false;
+  const State& state = states_[first_[to]];
+  if (is_shortcut && state.parent == from_number) return true;
+  const State& from = states_[from_number];
+  return from.parent != none && from.time + from.turn_cost >= state.time + state.turn_cost;
 }
 
 // A cell is entered half a step before the arrival at its centre.
 void SafeIntervalSearch::connect(const SpaceTimeGrid& grid, const Query& query,
-                                 std::uint32_t from_number, Cell to, bool is_shortcut) {
-  const State from = states_[from_number];
-  const Vec2 there = grid.position(to);
-  const Vec2 move = there - from.position;
+                                 std::uint32_t from_number, const Place& to, bool is_shortcut) {
+  const State& start = states_[from_number];
+  const struct {
+    Vec2 position;
+    double time, turn_cost, until;
+    std::uint32_t parent;
+  } from{start.position, start.time, start.turn_cost, start.until, start.parent};
+  const Vec2 move = to.position - from.position;
   const double duration = norm(move) / query.speed;
   const double extent = std::max(std::abs(move.x), std::abs(move.y));
   const double half = extent > 0 ? 0.5 * duration * std::min(1.0, grid.cell() / extent) : 0;
   const double turn_cost = from.parent == none ? cost_of_turn(query, move) : from.turn_cost;
   const double earliest = from.time + duration;
   for (int slot = grid.slot_at(earliest - half);;) {
-    const SpaceTimeGrid::Interval safe = grid.safe_interval(to, slot);
+    const SpaceTimeGrid::Interval safe = grid.safe_interval(to.cell, slot);
     if (safe.begin == SpaceTimeGrid::forever) return;
     const double first =
         safe.begin > slot ? std::max(earliest, safe.begin * grid.slot() + half) : earliest;
@@ -184,7 +200,8 @@ void SafeIntervalSearch::push(const Query& query, std::uint32_t number, double c
   std::push_heap(open_.begin(), open_.end());
 }
 
-std::uint32_t SafeIntervalSearch::state_of(Cell cell, const SpaceTimeGrid& grid, int end) {
+std::uint32_t SafeIntervalSearch::state_of(const Place& place, const SpaceTimeGrid& grid, int end) {
+  const Cell cell = place.cell;
   if (search_[cell] != number_) {
     search_[cell] = number_;
     first_[cell] = none;
@@ -192,7 +209,7 @@ std::uint32_t SafeIntervalSearch::state_of(Cell cell, const SpaceTimeGrid& grid,
   for (std::uint32_t i = first_[cell]; i != none; i = states_[i].next)
     if (states_[i].end == end) return i;
   State state;
-  state.position = grid.position(cell);
+  state.position = place.position;
   state.time = infinity;
   state.until = end == SpaceTimeGrid::forever ? infinity : end * grid.slot();
   state.cell = cell;

@@ -91,14 +91,21 @@ class SafeIntervalSearch {
     double turn_cost = 0;  ///< of the path [s]
     double duration = 0;   ///< [s]
   };
-  void connect(const SpaceTimeGrid& grid, const Query& query, std::uint32_t from, Cell to,
+  /// A cell and its centre.
+  struct Place {
+    Cell cell = 0;
+    Vec2 position{};
+  };
+  void connect(const SpaceTimeGrid& grid, const Query& query, std::uint32_t from, const Place& to,
                bool is_shortcut);
+  bool is_useless(const SpaceTimeGrid& grid, std::uint32_t from, Cell to, bool is_shortcut) const;
+  double cost_of_turn(const Query& query, Vec2 course) const;
   void note_shortcut(const Query& query, std::uint32_t from, std::uint32_t to, const Move& move);
   void relax(const SpaceTimeGrid& grid, const Query& query, std::uint32_t from, std::uint32_t to,
              const Move& move);
   void test_shortcut(const SpaceTimeGrid& grid, const Query& query, std::uint32_t state);
   void push(const Query& query, std::uint32_t state, double cost, bool is_shortcut);
-  std::uint32_t state_of(Cell cell, const SpaceTimeGrid& grid, int end);
+  std::uint32_t state_of(const Place& place, const SpaceTimeGrid& grid, int end);
   void finish(const Query& query, std::uint32_t last);
 
   std::vector<State> states_;          ///< the start is first
@@ -106,6 +113,7 @@ class SafeIntervalSearch {
   std::vector<std::uint32_t> first_;   ///< state of each cell that was reached
   std::vector<std::uint32_t> search_;  ///< number of the search that reached each cell last
   std::uint32_t number_ = 0;
+  Vec2 ahead_{};  ///< direction of the query's heading
   std::vector<TimedPoint> path_;
   double arrival_ = 0;
   double cost_ = 0;

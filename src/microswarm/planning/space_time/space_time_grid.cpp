@@ -13,8 +13,25 @@ namespace {
 /// Deviation from a cell's centre that does not count [cells].
 constexpr double grid_rounding = 1e-6;
 
+// std::floor and std::ceil are calls where the processor is not known to have an instruction.
+int floor_to_int(double x) {
+  const int i = static_cast<int>(x);
+  return i - static_cast<int>(x < i);
+}
+
+int ceil_to_int(double x) {
+  const int i = static_cast<int>(x);
+  return i + static_cast<int>(x > i);
+}
+
 int cells_along(double length, double cell) {
   return std::max(1, static_cast<int>(std::floor(length / cell + grid_rounding)) + 1);
+}
+
+/// Indices from `low` to `high` among 0 to `count` - 1.
+SpaceTimeGrid::Interval indices_between(double low, double high, int count) {
+  return {ceil_to_int(std::clamp(low, 0.0, static_cast<double>(count))),
+          floor_to_int(std::clamp(high, -1.0, static_cast<double>(count - 1)))};
 }
 
 }  // namespace
@@ -51,17 +68,11 @@ void SpaceTimeGrid::clear() {
 }
 
 SpaceTimeGrid::Interval SpaceTimeGrid::rows_between(double low, double high) const {
-  const double first = std::ceil((low - low_.y) / cell_);
-  const double last = std::floor((high - low_.y) / cell_);
-  return {static_cast<int>(std::clamp(first, 0.0, static_cast<double>(rows_))),
-          static_cast<int>(std::clamp(last, -1.0, static_cast<double>(rows_ - 1)))};
+  return indices_between((low - low_.y) / cell_, (high - low_.y) / cell_, rows_);
 }
 
 SpaceTimeGrid::Interval SpaceTimeGrid::columns_between(double left, double right) const {
-  const double first = std::ceil((left - low_.x) / cell_);
-  const double last = std::floor((right - low_.x) / cell_);
-  return {static_cast<int>(std::clamp(first, 0.0, static_cast<double>(columns_))),
-          static_cast<int>(std::clamp(last, -1.0, static_cast<double>(columns_ - 1)))};
+  return indices_between((left - low_.x) / cell_, (right - low_.x) / cell_, columns_);
 }
 
 void SpaceTimeGrid::occupy_row(int row, double left, double right, int slot) {
@@ -112,7 +123,7 @@ SpaceTimeGrid::Interval SpaceTimeGrid::safe_interval(Cell c, int slot) const {
 }
 
 // Calls use(share, cell, cell) for the two cells next to the move in each column that it crosses,
-// or in each row if that is its longer extent, until one returns false. The share of the move runs
+// or in each row if that is its longer extent, until one returns false. share() of the move runs
 // from 0 to 1.
 template <class Use>
 bool SpaceTimeGrid::for_each_pair(Segment move, Use&& use) const {
@@ -135,10 +146,10 @@ bool SpaceTimeGrid::for_each_pair(Segment move, Use&& use) const {
   for (int i = static_cast<int>(first); direction * (end - i) >= 0; i += direction) {
     if (i < 0 || i > along) continue;
     const double beside = a.y + slope * (i - a.x);
-    const int low = std::clamp(static_cast<int>(std::floor(beside + grid_rounding)), 0, across);
-    const int high = std::clamp(static_cast<int>(std::ceil(beside - grid_rounding)), 0, across);
-    const double share = (i - a.x) / extent;
-    if (!use(share, steep ? at(low, i) : at(i, low), steep ? at(high, i) : at(i, high)))
+    const int low = std::clamp(floor_to_int(beside + grid_rounding), 0, across);
+    const int high = std::clamp(ceil_to_int(beside - grid_rounding), 0, across);
+    if (!use([&] { return (i - a.x) / extent; }, steep ? at(low, i) : at(i, low),
+             steep ? at(high, i) : at(i, high)))
       return false;
   }
   return true;
@@ -146,7 +157,7 @@ bool SpaceTimeGrid::for_each_pair(Segment move, Use&& use) const {
 
 bool SpaceTimeGrid::is_open(Segment move) const {
   return for_each_pair(move,
-                       [&](double, Cell low, Cell high) { return !stands(low) && !stands(high); });
+                       [&](auto&&, Cell low, Cell high) { return !stands(low) && !stands(high); });
 }
 
 // After a conflict in a slot the point must leave so late that it gets there after the slot.
@@ -156,7 +167,9 @@ double SpaceTimeGrid::departure(Segment move, double speed, double depart, doubl
   const double half = 0.5 * cell_ / std::max(std::abs(extent.x), std::abs(extent.y));
   while (depart <= latest && depart < infinity) {
     double later = depart;
-    const bool free = for_each_pair(move, [&](double share, Cell low, Cell high) {
+    const bool free = for_each_pair(move, [&](auto&& share_of_pair, Cell low, Cell high) {
+      if (is_always_free(low) && is_always_free(high)) return true;
+      const double share = share_of_pair();
       const double since = std::max(0.0, share - half) * duration;
       const int first = slot_at(depart + since);
       if (first >= slots_) {

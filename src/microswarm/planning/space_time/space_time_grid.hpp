@@ -52,8 +52,9 @@ class SpaceTimeGrid {
     return column >= 0 && row >= 0 && column < columns_ && row < rows_;
   }
   /// Centre of a cell [µm].
-  Vec2 position(Cell c) const {
-    return low_ + cell_ * Vec2{static_cast<double>(column_of(c)), static_cast<double>(row_of(c))};
+  Vec2 position(Cell c) const { return position(column_of(c), row_of(c)); }
+  Vec2 position(int column, int row) const {
+    return low_ + cell_ * Vec2{static_cast<double>(column), static_cast<double>(row)};
   }
   /// Cell whose centre is nearest to `p`.
   Cell nearest(Vec2 p) const;
@@ -79,6 +80,12 @@ class SpaceTimeGrid {
 
   bool is_free(Cell c, int slot) const {
     return slot >= slots_ ? !stands(c) : (word(c, slot) & bit(slot)) == 0;
+  }
+  /// Whether the cell is occupied in no slot and does not stand.
+  bool is_always_free(Cell c) const {
+    for (std::size_t i = c; i < occupied_.size(); i += size())
+      if (occupied_[i] != 0) return false;
+    return true;
   }
   /// The first safe interval of `c` that ends after `slot`; `begin` is at least `slot`. Empty
   /// (begin = end = forever) if there is none.
