@@ -402,7 +402,7 @@ class SafetyPage(unittest.TestCase):
         self.assertEqual(["fast"], safety_page.printed(page, [self.row()])[1])
 
     def test_taken_rows_replace_those_of_their_name(self):
-        rows = safety_page.taken([self.row(), self.row(navigator="predictive")],
+        rows = safety_page.taken([self.row(), self.row(navigator="safe_interval")],
                                  [self.row(avoidable="3")])
         self.assertEqual(["3", "1"], [row["worlds_avoidable"] for row in rows])
 

@@ -108,10 +108,9 @@ TEST_F(BadScenarios, Settings) {
   set("swarm", naming("--set 'swarm'", {"KEY", "VALUE"}));
   set("swarm.radius_um=", naming("--set swarm.radius_um", {"radius_um", "empty"}));
   set("navigator.type=pilot",
-      naming("--set navigator.type",
-             {"pilot", "hierarchical_drrt_star", "plan_player", "aggregation", "radar",
-              "straight_stop", "potential_field", "velocity_obstacle", "predictive", "follow_path",
-              "safe_interval"}));
+      naming("--set navigator.type", {"pilot", "hierarchical_drrt_star", "plan_player",
+                                      "aggregation", "radar", "straight_stop", "potential_field",
+                                      "velocity_obstacle", "follow_path", "safe_interval"}));
   set("goal_um=[1]", naming("--set goal_um", {"goal_um", "[x, y]", "1"}));
 }
 

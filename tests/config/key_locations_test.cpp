@@ -51,7 +51,7 @@ TEST(KeyLocations, WhatWasSetStandsThere) {
   EXPECT_EQ(said(set, "navigator"), "--set navigator.waypoints_um: no");  // is a part of it
   EXPECT_EQ(said(set, "navigator.none"), "a.yaml:3:3: no");
   // Another type brings its own defaults; the same one changes nothing.
-  EXPECT_EQ(said(keys({"navigator.type=predictive"}), "navigator.speed_um_per_s"),
+  EXPECT_EQ(said(keys({"navigator.type=safe_interval"}), "navigator.speed_um_per_s"),
             "--set navigator.type: no");
   EXPECT_EQ(said(keys({"navigator.type=radar"}), "navigator.speed_um_per_s"), "a.yaml:4:19: no");
 }
@@ -62,7 +62,7 @@ TEST(KeyLocations, GivenIsWhatIsWrittenItself) {
   EXPECT_FALSE(keys().given("navigator.retreat"));
   EXPECT_TRUE(keys({"navigator.retreat=true"}).given("navigator.retreat"));
   // Another type brings its own values.
-  EXPECT_FALSE(keys({"navigator.type=predictive"}).given("navigator.speed_um_per_s"));
+  EXPECT_FALSE(keys({"navigator.type=safe_interval"}).given("navigator.speed_um_per_s"));
   EXPECT_TRUE(keys({"navigator.type=radar"}).given("navigator.speed_um_per_s"));
   EXPECT_FALSE(KeyLocations("a").given("x"));
   // A map brings the keys that it holds.

@@ -101,13 +101,13 @@ INSTANTIATE_TEST_SUITE_P(
                         "papers/gather/t_junction.yaml",
                         {"time_limit_s=2", "navigator.method=rollout"},
                         2},
-        DiagnosticsCase{"Predictive",
+        DiagnosticsCase{"SafeInterval",
                         "papers/radar/twelve.yaml",
-                        {"time_limit_s=3", "navigator.type=predictive"},
+                        {"time_limit_s=3", "navigator.type=safe_interval"},
                         3},
-        DiagnosticsCase{"PredictiveAmongPolygons",
+        DiagnosticsCase{"SafeIntervalAmongPolygons",
                         "papers/drrt/moving_obstacles.yaml",
-                        {"time_limit_s=3", "navigator.type=predictive"},
+                        {"time_limit_s=3", "navigator.type=safe_interval"},
                         3},
         DiagnosticsCase{
             "Hierarchical", "papers/drrt/moving_obstacles.yaml", {"time_limit_s=6"}, 4}),
@@ -198,7 +198,7 @@ TEST(Diagnostics, OfAnotherNavigatorFollowItsFirstStep) {
   for (int i = 0; i < 10; ++i) ASSERT_TRUE(session->step());
   const Diagnostics before = session->diagnostics();
   EXPECT_EQ(before.index(), 1u);
-  ASSERT_TRUE(session->set("navigator.type", "predictive").empty());
+  ASSERT_TRUE(session->set("navigator.type", "safe_interval").empty());
   EXPECT_EQ(session->diagnostics(), before);
   ASSERT_TRUE(session->step());
   EXPECT_EQ(session->diagnostics().index(), 3u);

@@ -171,7 +171,7 @@ TEST(Operation, EveryNavigatorHoldsAtTheGoalAndComesBack) {
         navigation::NavigatorParams{navigation::StraightParams{}},
         navigation::NavigatorParams{navigation::PotentialFieldParams{}},
         navigation::NavigatorParams{navigation::VelocityObstacleParams{}},
-        navigation::NavigatorParams{navigation::PredictiveParams{}}}) {
+        navigation::NavigatorParams{navigation::SafeIntervalParams{}}}) {
     Scenario scenario = open_room();
     scenario.navigator = navigator;
     scenario.goal = Vec2{500, 500};

@@ -9,6 +9,7 @@
 
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
+#include "microswarm/experiment/session/replay.hpp"
 #include "microswarm/io/columns.hpp"
 #include "microswarm/io/hdf5_image.hpp"
 #include "microswarm/planning/common/detection.hpp"
@@ -155,6 +156,19 @@ TEST(Record, DamagedBytesAreErrorsOrRecordsNeverCrashes) {
   }
   EXPECT_GT(refused, 5);
   EXPECT_LT(refused, 60);
+}
+
+// Made by the last version that had the navigator `predictive`.
+TEST(Record, OfANavigatorThatIsGoneIsReadAndRepeated) {
+  const auto source = std::filesystem::path(MICROSWARM_SOURCE_DIR);
+  const Record record = read_record(source / "tests/experiment/predictive.h5");
+  EXPECT_EQ(record.navigator, "predictive");
+  EXPECT_EQ(record.hash(), record.stated_hash);
+  EXPECT_EQ(replay(record).difference, "");
+  const auto again = empty_folder("record_gone") / "again.h5";
+  write_record(record, again);
+  EXPECT_EQ(read_record(again).navigator, "predictive");
+  EXPECT_EQ(replay(read_record(again)).difference, "");
 }
 
 TEST(Record, UnwritableFoldersAreOneLineAndLeaveNothing) {

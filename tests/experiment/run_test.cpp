@@ -61,7 +61,7 @@ TEST(Run, ASwarmThatTurnsSlowlyTouchesNoWall) {
   scenario.hold_limit = 2;
   navigation::HierarchicalParams drrt;
   drrt.clearance = 40;
-  navigation::PredictiveParams predictive;
+  const navigation::SafeIntervalParams safe_interval;
   Rng rng(3, Purpose::scene, 0);
   for (int trial = 0; trial < 24; ++trial) {
     swarm.max_turn_rate = radians(trial % 2 == 0 ? 20 : 60);
@@ -70,7 +70,7 @@ TEST(Run, ASwarmThatTurnsSlowlyTouchesNoWall) {
     scenario.goal = Vec2{scenario.start->position.x + rng.uniform(-150, 150),
                          rng.uniform(0, 1) < 0.5 ? 466.0 : 534.0};
     for (const navigation::NavigatorParams& navigator :
-         {navigation::NavigatorParams{drrt}, navigation::NavigatorParams{predictive}}) {
+         {navigation::NavigatorParams{drrt}, navigation::NavigatorParams{safe_interval}}) {
       scenario.navigator = navigator;
       const RunResult result = simulate(scenario, world_of(scenario));
       EXPECT_NE(result.status, Status::collided)

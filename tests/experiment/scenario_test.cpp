@@ -309,23 +309,19 @@ TEST(ScenarioCheck, ListsWithoutWhichNothingCanBeChosen) {
   drrt.tuning.wait_times = {8, 0};
   scenario.navigator = drrt;
   EXPECT_EQ(check_error(scenario), "s.yaml: tuning.wait_times_s must ascend from 0");
-  navigation::PredictiveParams predictive;
-  predictive.tuning.speed_shares.clear();
-  scenario.navigator = predictive;
-  EXPECT_EQ(check_error(scenario), "s.yaml: tuning.speed_shares is empty, must have a value");
 }
 
 TEST(ScenarioCheck, TuningOfThePredictionMustAscend) {
   Scenario scenario = open_room();
-  navigation::PredictiveParams predictive;
-  predictive.prediction.tuning.oscillation.medium_window = 10;
-  scenario.navigator = predictive;
+  navigation::SafeIntervalParams params;
+  params.prediction.tuning.oscillation.medium_window = 10;
+  scenario.navigator = params;
   EXPECT_TRUE(test::is_one_line_naming(
       check_error(scenario), "s.yaml",
       {"prediction.tuning.oscillation.medium_window_s", "oscillation.long_window_s"}));
-  predictive = {};
-  predictive.prediction.tuning.recurrence.min_age = 0.1;
-  scenario.navigator = predictive;
+  params = {};
+  params.prediction.tuning.recurrence.min_age = 0.1;
+  scenario.navigator = params;
   EXPECT_TRUE(test::is_one_line_naming(check_error(scenario), "s.yaml",
                                        {"recurrence.max_time_offset_s", "recurrence.min_age_s"}));
 }
@@ -388,7 +384,7 @@ TEST(ScenarioCheck, AStartBesideAFaceIsAllowedAtEveryDistance) {
     for (int gap = 41; gap <= 101; gap += angle == 0 && gap < 60 ? 1 : 10) {
       Scenario s = start_beside_block(gap, angle);
       EXPECT_EQ(check_error(s), "") << angle << ' ' << gap;
-      s.navigator = navigation::PredictiveParams{};
+      s.navigator = navigation::SafeIntervalParams{};
       EXPECT_EQ(check_error(s), "") << angle << ' ' << gap;
     }
 }
@@ -399,7 +395,7 @@ TEST(ScenarioCheck, ASwarmThatTouchesAFaceMayStart) {
     while (!world_of(s).map->is_free(s.start->position, 40))
       s.start->position -= 1e-13 * unit_vector(angle);
     EXPECT_EQ(check_error(s), "") << angle;
-    s.navigator = navigation::PredictiveParams{};
+    s.navigator = navigation::SafeIntervalParams{};
     EXPECT_EQ(check_error(s), "") << angle;
     std::swap(s.start->position, *s.goal);
     s.goal_tolerance = 1e-3;

@@ -129,7 +129,7 @@ TEST(Session, AnotherNavigatorMovesTheDetectionRangeInTheReplayToo) {
   for (const int before : {0, 15}) {
     const auto session = open_session(scenarios / "papers/radar/single.yaml");
     for (int i = 0; i < before; ++i) session->step();
-    ASSERT_TRUE(session->set("navigator.type", "predictive").empty());
+    ASSERT_TRUE(session->set("navigator.type", "safe_interval").empty());
     ASSERT_TRUE(session->set("time_limit_s", "30").empty());
     session->finish();
     EXPECT_EQ(replay(session->record()).difference, "");

@@ -87,7 +87,8 @@ TEST(Stream, AFrameIsWhatTheSessionShows) {
 TEST(Stream, ARecordShowsTheDiagnosticsThatItKeeps) {
   const auto file =
       std::filesystem::path(MICROSWARM_SOURCE_DIR) / "scenarios/papers/radar/twelve.yaml";
-  for (const auto& [navigator, key] : {std::pair{"radar", "radar"}, {"predictive", "predicted"}}) {
+  for (const auto& [navigator, key] :
+       {std::pair{"radar", "radar"}, {"safe_interval", "predicted"}}) {
     const auto live = experiment::open_session(file, {"record.diagnostics=true", "time_limit_s=1",
                                                       std::string("navigator.type=") + navigator});
     std::vector<Json> shown;

@@ -9,7 +9,6 @@
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/navigation/baselines/potential_field.hpp"
 #include "microswarm/navigation/hierarchical/hierarchical.hpp"
-#include "microswarm/navigation/predictive/predictive.hpp"
 #include "microswarm/navigation/radar/radar.hpp"
 #include "microswarm/swarm/body/unicycle.hpp"
 #include "tests/navigation/discs.hpp"
@@ -176,27 +175,6 @@ TEST(Margins, HierarchicalWaitsNoLongerThanItsHorizon) {
     EXPECT_GT(longest, 1) << apart << " µm apart";
     EXPECT_LE(longest, params.target_horizon + 0.15) << apart << " µm apart";
   }
-}
-
-// At a sample it is still on one side of the path, at the next one on the other.
-TEST(Margins, PredictiveSeesWhatCrossesItsPathBetweenTwoSamples) {
-  PredictiveParams params;
-  params.guide = Guide::straight;
-  for (const double speed : {600.0, 1200.0})
-    for (const double meets_at : {1.0, 1.25, 1.5, 1.6, 1.75, 1.9}) {
-      PredictiveNavigator navigator(params, body_task(late_vortex), Rng(1, Purpose::planner));
-      const Vec2 at{600, 500};
-      const Vec2 meets = at + Vec2{80 * meets_at, 0};
-      for (int k = 0; k <= 10; ++k) {
-        const double t = 0.05 * (k - 10);
-        const Snapshot world =
-            room_with({}, {disc_body(meets + Vec2{0, (meets_at - t) * speed}, 10)});
-        if (k == 0) navigator.prepare(world, {});
-        navigator.step(frame_of(world, {at, 0}, t, 0), {});
-        navigator.overruled(t, {0, 0});
-      }
-      EXPECT_TRUE(navigator.view().planned) << speed << " µm/s, after " << meets_at << " s";
-    }
 }
 
 }  // namespace

@@ -8,9 +8,9 @@ namespace microswarm::navigation {
 namespace {
 
 const std::vector<NavigatorParams> one_of_each{
-    HierarchicalParams{},  PlanExecutorParams{},   AggregationParams{},      RadarParams{},
-    StraightParams{},      PotentialFieldParams{}, VelocityObstacleParams{}, PredictiveParams{},
-    PathNavigatorParams{}, SafeIntervalParams{}};
+    HierarchicalParams{}, PlanExecutorParams{},   AggregationParams{},      RadarParams{},
+    StraightParams{},     PotentialFieldParams{}, VelocityObstacleParams{}, PathNavigatorParams{},
+    SafeIntervalParams{}};
 
 TEST(NavigatorParams, ClearanceRangeAndFollowerAreTheNavigators) {
   ASSERT_EQ(one_of_each.size(), std::variant_size_v<NavigatorParams>);

@@ -164,7 +164,7 @@ def test_the_list_of_settings_does_not_grow_with_sets_of_the_same_key(flight):
 
 
 def test_a_type_may_be_chosen_again(flight):
-    for kind in ("radar", "predictive", "hierarchical_drrt_star", "hierarchical_drrt_star", "radar"):
+    for kind in ("radar", "safe_interval", "hierarchical_drrt_star", "hierarchical_drrt_star", "radar"):
         flight.navigator.speed_um_per_s = 33
         flight.set("navigator.type", kind)
     flight.navigator.speed_um_per_s = 44
@@ -178,7 +178,7 @@ def test_a_type_may_be_chosen_again(flight):
 def test_settings_give_the_values_in_any_order(flight, seed):
     rng = random.Random(seed)
     sets = [
-        lambda: ("navigator.type", rng.choice(["radar", "predictive", "hierarchical_drrt_star"])),
+        lambda: ("navigator.type", rng.choice(["radar", "safe_interval", "hierarchical_drrt_star"])),
         lambda: ("navigator.speed_um_per_s", rng.randint(10, 12)),
         lambda: ("navigator.clearance_um", rng.randint(41, 43)),
         lambda: ("navigator", {"type": "radar", "speed_um_per_s": rng.randint(10, 12)}),

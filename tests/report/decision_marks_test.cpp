@@ -142,7 +142,7 @@ experiment::Record kept(const char* file, std::vector<std::string> settings) {
 TEST(Decisions, AreInThePictureOfARunThatKeepsThem) {
   for (const auto& [file, settings] :
        {std::pair{"papers/radar/twelve.yaml", std::vector<std::string>{"time_limit_s=4"}},
-        {"papers/radar/twelve.yaml", {"time_limit_s=2", "navigator.type=predictive"}},
+        {"papers/radar/twelve.yaml", {"time_limit_s=2", "navigator.type=safe_interval"}},
         {"papers/gather/t_junction.yaml", {"time_limit_s=2"}}}) {
     experiment::Record record = kept(file, settings);
     ASSERT_FALSE(record.diagnostics.empty());

@@ -98,7 +98,7 @@ function textsOf(run) {
 const near = ([ax, ay], [bx, by], px) => Math.hypot(ax - bx, ay - by) <= px;
 
 test('predicted obstacles have the turned and grown outlines of their bodies', async (t) => {
-  const options = ['--set', 'navigator.type=predictive'];
+  const options = ['--set', 'navigator.type=safe_interval'];
   const run = await playTo(t, 'scenarios/papers/drrt/moving_obstacles.yaml', 8, { speed: 20, options });
   await run.picture('scene-outlines');
   const [predicted, corners] = await run.page.evaluate(() => [window.predicted, window.corners]);
@@ -223,8 +223,8 @@ test('a gathering shows its leader, its team and its state in words', async (t) 
   await run.close();
 });
 
-test('obstacles as the predictive navigator expects them', async (t) => {
-  const options = ['--set', 'navigator.type=predictive'];
+test('obstacles as the safe-interval navigator expects them', async (t) => {
+  const options = ['--set', 'navigator.type=safe_interval'];
   const run = await playTo(t, 'scenarios/papers/radar/twelve.yaml', 20, { speed: 20, options });
   await run.picture('scene-predictions');
   await run.scene((scene) => scene.follow(true));

@@ -70,7 +70,7 @@ class Session(Drawable):
 
     @property
     def diagnostics(self) -> Optional[dict[str, Any]]:
-        """Data behind the last command: `type` (radar, aggregation, predictive, hierarchical_drrt_star), numbers, and a dictionary
+        """Data behind the last command: `type` (radar, aggregation, predictive (of `safe_interval`), hierarchical_drrt_star), numbers, and a dictionary
         of columns for each list, such as `beams`. An index without a value is -1. None if the navigator has none."""
         return self._core.diagnostics()
 

@@ -196,7 +196,7 @@ struct PredictedCorner {
   }
 };
 
-/// Bodies as the predictive navigator expects them over its horizon.
+/// Bodies as the safe-interval navigator predicts them over its horizon.
 struct PredictiveDiagnostics {
   static constexpr std::string_view type_name = "predictive";
   double effect = 0;                       ///< time at which the command takes effect [s]

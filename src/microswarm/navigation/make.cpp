@@ -9,7 +9,6 @@
 #include "microswarm/navigation/gathering/aggregation_navigator.hpp"
 #include "microswarm/navigation/global_input/plan_executor.hpp"
 #include "microswarm/navigation/hierarchical/hierarchical.hpp"
-#include "microswarm/navigation/predictive/predictive.hpp"
 #include "microswarm/navigation/radar/radar.hpp"
 #include "microswarm/navigation/safe_interval/safe_interval.hpp"
 
@@ -32,7 +31,7 @@ struct NavigatorKinds {
 using AllNavigators =
     NavigatorKinds<HierarchicalNavigator, PlanExecutor, AggregationNavigator, RadarNavigator,
                    StraightNavigator, PotentialFieldNavigator, VelocityObstacleNavigator,
-                   PredictiveNavigator, PathNavigator, SafeIntervalNavigator>;
+                   PathNavigator, SafeIntervalNavigator>;
 
 }  // namespace
 
@@ -47,9 +46,7 @@ Issues validate(const NavigatorParams& params, const Task& task, const Map& map,
       Overloaded{
           [&](const HierarchicalParams& p) { return validate(p, is_given); },
           [&](const RadarParams& p) { return validate(p, task.swarm, map, is_given); },
-          [](const OneOf<AggregationParams, PredictiveParams, SafeIntervalParams> auto& p) {
-            return validate(p);
-          },
+          [](const OneOf<AggregationParams, SafeIntervalParams> auto& p) { return validate(p); },
           [](const OneOf<PlanExecutorParams, StraightParams, PotentialFieldParams,
                          VelocityObstacleParams, PathNavigatorParams> auto&) { return Issues(); }},
       params);

@@ -16,9 +16,8 @@ NavigatorParams in_effect(const NavigatorParams& params) {
                    return p.in_effect();
                  },
                  [](const OneOf<PlanExecutorParams, AggregationParams, StraightParams,
-                                PotentialFieldParams, VelocityObstacleParams, PredictiveParams,
-                                PathNavigatorParams, SafeIntervalParams> auto& p)
-                     -> NavigatorParams { return p; }},
+                                PotentialFieldParams, VelocityObstacleParams, PathNavigatorParams,
+                                SafeIntervalParams> auto& p) -> NavigatorParams { return p; }},
       params);
 }
 
@@ -26,19 +25,18 @@ double required_clearance(const NavigatorParams& params) {
   return std::visit(
       Overloaded{[](const HierarchicalParams& p) { return p.clearance; },
                  [](const OneOf<PlanExecutorParams, AggregationParams, RadarParams, StraightParams,
-                                PotentialFieldParams, VelocityObstacleParams, PredictiveParams,
-                                PathNavigatorParams, SafeIntervalParams> auto&) { return 0.0; }},
+                                PotentialFieldParams, VelocityObstacleParams, PathNavigatorParams,
+                                SafeIntervalParams> auto&) { return 0.0; }},
       params);
 }
 
 double required_detection_range(const NavigatorParams& params) {
   return std::visit(
-      Overloaded{[](const RadarParams& p) { return p.detection_range; },
-                 [](const OneOf<HierarchicalParams, PlanExecutorParams, AggregationParams,
-                                StraightParams, PotentialFieldParams, VelocityObstacleParams,
-                                PredictiveParams, PathNavigatorParams, SafeIntervalParams> auto&) {
-                   return range_of_others;
-                 }},
+      Overloaded{
+          [](const RadarParams& p) { return p.detection_range; },
+          [](const OneOf<HierarchicalParams, PlanExecutorParams, AggregationParams, StraightParams,
+                         PotentialFieldParams, VelocityObstacleParams, PathNavigatorParams,
+                         SafeIntervalParams> auto&) { return range_of_others; }},
       params);
 }
 
@@ -46,8 +44,8 @@ FollowerParams* find_follower(NavigatorParams& params) {
   return std::visit(
       Overloaded{[](OneOf<HierarchicalParams, PathNavigatorParams> auto& p) { return &p.follower; },
                  [](OneOf<PlanExecutorParams, AggregationParams, RadarParams, StraightParams,
-                          PotentialFieldParams, VelocityObstacleParams, PredictiveParams,
-                          SafeIntervalParams> auto&) -> FollowerParams* { return nullptr; }},
+                          PotentialFieldParams, VelocityObstacleParams, SafeIntervalParams> auto&)
+                     -> FollowerParams* { return nullptr; }},
       params);
 }
 

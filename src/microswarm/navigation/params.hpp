@@ -10,7 +10,6 @@
 #include "microswarm/navigation/gathering/policies/aggregation_params.hpp"
 #include "microswarm/navigation/global_input/plan_executor_params.hpp"
 #include "microswarm/navigation/hierarchical/hierarchical_params.hpp"
-#include "microswarm/navigation/predictive/predictive_params.hpp"
 #include "microswarm/navigation/radar/radar_params.hpp"
 #include "microswarm/navigation/safe_interval/safe_interval_params.hpp"
 
@@ -19,8 +18,8 @@ namespace microswarm::navigation {
 /// Any navigator, selected at run time by its `type`.
 using NavigatorParams =
     std::variant<HierarchicalParams, PlanExecutorParams, AggregationParams, RadarParams,
-                 StraightParams, PotentialFieldParams, VelocityObstacleParams, PredictiveParams,
-                 PathNavigatorParams, SafeIntervalParams>;
+                 StraightParams, PotentialFieldParams, VelocityObstacleParams, PathNavigatorParams,
+                 SafeIntervalParams>;
 
 /// Parameters with our additions disabled where `as_published` is set; they can be read back
 /// without a contradiction.

@@ -29,7 +29,7 @@ struct Series {
 /// published values alike.
 namespace method_colours {
 inline constexpr std::size_t drrt_star = 0, rrt_star = 1, a_star = 2, uniform_rrt_star = 3,
-                             radar = 4, predictive = 5, other = 6;  // [drrt], [radar]
+                             radar = 4, safe_interval = 5, other = 6;  // [drrt], [radar]
 inline constexpr std::size_t straight_stop = 1, potential_field = 2, velocity_obstacle = 3,
                              follow_path = 6, radar_as_published = 7;  // besides the navigators
 inline constexpr std::size_t divide_and_conquer = 0, heuristic = 1, heuristic_plain_tree = 2,

@@ -33,7 +33,8 @@ struct DiagnosticsLog {
   static void fields(Self& self, V&& visit) {
     visit(self.radar, plain("radar", "Decisions of the hierarchical radar."));
     visit(self.aggregation, plain("aggregation", "Plan and state of an aggregation."));
-    visit(self.predictive, plain("predictive", "Bodies predicted by the predictive navigator."));
+    visit(self.predictive,
+          plain("predictive", "Bodies as the safe-interval navigator predicts them."));
     visit(self.hierarchical, plain("hierarchical", "Decisions of hierarchical D-RRT*."));
   }
 

@@ -20,7 +20,8 @@ struct Record {
   Scene scene{};          ///< includes the world, so that a record needs no other file
   std::uint32_t trial = 0;
   std::string rig{};  ///< name of the rig; empty for a simulation. Runs on a rig have no replay
-  /// "external" if the run's navigator was not the scenario's; a replay repeats its commands.
+  /// "external" if the run's navigator was not the scenario's, or the name of one that is gone
+  /// since the version that made the record; a replay repeats its commands.
   std::string navigator{};
   RunResult result{};
   std::vector<Frame> frames{};  ///< one per tick, and one for the end with state "end"

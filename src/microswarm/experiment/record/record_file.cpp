@@ -154,7 +154,9 @@ Record read_record(const std::filesystem::path& file) {
   record.trial = static_cast<std::uint32_t>(trial);
   if (in.has_attribute("/", "rig")) record.rig = in.text_attribute("/", "rig");
   if (in.has_attribute("/", "navigator")) record.navigator = in.text_attribute("/", "navigator");
-  record.scene = read_scene(in);
+  std::string gone;
+  record.scene = read_scene(in, gone);
+  if (!gone.empty()) record.navigator = gone;
   io::read_tables(in, type_of<Record>(), &record);
   record.phased_goals = read_phased_goals(in);
   record.diagnostics = read_diagnostics(in);

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/experiment/record/record_scene.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <memory>
+#include <string_view>
 
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
@@ -13,6 +16,21 @@ namespace microswarm::experiment {
 namespace {
 
 using Offsets = std::vector<std::int64_t>;
+
+/// Navigator of 0.2.0.
+constexpr std::string_view gone_navigator = "predictive";
+
+/// Takes a navigator that is gone out of a scenario as the program writes it, and returns its name.
+std::string take_gone_navigator(std::string& scenario) {
+  const std::string head = fmt::format("\nnavigator:\n  type: {}\n", gone_navigator);
+  const std::size_t begin = scenario.find(head);
+  if (begin == std::string::npos) return {};
+  std::size_t end = begin + head.size();
+  while (scenario.compare(end, 2, "  ") == 0)
+    end = std::min(scenario.find('\n', end), scenario.size() - 1) + 1;
+  scenario.replace(begin, end - begin, "\nnavigator:\n  type: safe_interval\n");
+  return std::string(gone_navigator);
+}
 
 void number_column(io::Hdf5Writer& out, const std::string& path, const std::vector<double>& values,
                    std::string_view unit) {
@@ -152,9 +170,11 @@ void write_scene(io::Hdf5Writer& out, const Scene& scene) {
     out.text("/follower_model", navigation::follower_model_text(*follower->loaded));
 }
 
-Scene read_scene(const io::Hdf5Reader& in) {
+Scene read_scene(const io::Hdf5Reader& in, std::string& gone) {
   Scene scene;
-  scene.scenario = read_yaml_text<Scenario>(in.text("/scenario"), in.name() + ":/scenario");
+  std::string scenario = in.text("/scenario");
+  gone = take_gone_navigator(scenario);
+  scene.scenario = read_yaml_text<Scenario>(scenario, in.name() + ":/scenario");
   const std::vector<double> bounds = in.numbers("/map/bounds_um");
   if (bounds.size() != 4) in.fail("/map/bounds_um has not 4 values");
   scene.map.bounds = {{bounds[0], bounds[1]}, {bounds[2], bounds[3]}};

@@ -109,7 +109,7 @@ void SafeIntervalSearch::expand(const SpaceTimeGrid& grid, const Query& query,
   }
 }
 
-// Tells without a square root that connect() to a cell with a single interval would change nothing.
+// Whether connect() to a cell with a single interval would change nothing, without a square root.
 bool SafeIntervalSearch::is_useless(const SpaceTimeGrid& grid, std::uint32_t from_number, Cell to,
                                     bool is_shortcut) const {
   if (search_[to] != number_ || first_[to] == none || !grid.is_always_free(to)) return false;

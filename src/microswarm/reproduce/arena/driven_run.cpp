@@ -44,7 +44,6 @@ navigation::NavigatorParams driven_radar(const DrivenSwarm& swarm) {
 
 std::vector<DrivenNavigator> driven_navigators() {
   return {{"safe interval", at_speed<navigation::SafeIntervalParams>, true},
-          {"predictive", at_speed<navigation::PredictiveParams>},
           {"D-RRT*, ours", driven_drrt<false>},
           {"D-RRT*, as published", driven_drrt<true>},
           {"radar, ours", driven_radar<false>},

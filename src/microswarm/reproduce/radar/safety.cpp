@@ -19,18 +19,17 @@ namespace {
 
 constexpr double just_slower = 8;  // for recorded pedestrians: the fastest moves at 50 of 60 µm/s
 constexpr double as_fast = 2.9;    // a typical pedestrian is as fast as the swarm
-constexpr double aimed_share = 0.2;  // of the radar's contacts, for predictive navigators
+constexpr double aimed_share = 0.2;  // of the radar's contacts
 
-/// Number of worlds per navigator, larger for those with fast decisions.
+/// Number of worlds per navigator.
 struct Counts {
-  int radar;
+  int recommended;  ///< safe interval and radar
   int baseline;
-  int planner;  ///< D-RRT* and the predictive navigator
+  int slow;  ///< D-RRT*, whose decisions take longest
 
   int of(std::string_view navigator) const {
-    if (navigator == navigation::RadarParams::type_name) return radar;
-    const bool is_baseline = !is_ours(navigator);
-    return is_baseline ? baseline : planner;
+    if (navigator == navigation::HierarchicalParams::type_name) return slow;
+    return is_ours(navigator) ? recommended : baseline;
   }
 };
 
@@ -142,12 +141,13 @@ std::optional<double> contact_ratio(const CourseResult& result, std::string_view
 void add_ratios(const std::string& figure, const CourseResult& result,
                 const ReproduceOptions& options, std::vector<report::ReproduceRow>& rows) {
   for (const char* other : {"radar", "radar_as_published", "hierarchical_drrt_star"}) {
-    const auto ratio = contact_ratio(result, "predictive", other);
+    const auto ratio = contact_ratio(result, "safe_interval", other);
     if (!ratio) continue;
     const bool is_aim = other == std::string_view("radar");
     report::ReproduceRow row = make_row(
-        figure, fmt::format("{}: contacts of predictive ÷ those of {}", result.course.name, other),
-        "1", {}, *ratio, is_aim ? std::optional(aimed_share) : std::nullopt);
+        figure,
+        fmt::format("{}: contacts of safe_interval ÷ those of {}", result.course.name, other), "1",
+        {}, *ratio, is_aim ? std::optional(aimed_share) : std::nullopt);
     rows.push_back(is_aim ? unjudged_if_quick(noted(std::move(row), "the aim is ours"), options)
                           : std::move(row));
   }

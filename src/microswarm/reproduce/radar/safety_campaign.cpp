@@ -27,23 +27,20 @@ navigation::NavigatorParams suited(navigation::NavigatorParams params,
   const SwarmLimits swarm = swarm_limits(scenario.swarm);
   const double margin = swarm.radius + 0.8 * scenes::avoidance_passage_gap;
   std::visit(
-      Overloaded{
-          [&](navigation::HierarchicalParams& p) {
-            p.speed = swarm.max_speed;
-            p.clearance = margin;
-          },
-          [&](navigation::RadarParams& p) {
-            p.speed = swarm.max_speed;
-            if (walls) p.safety_distance = std::min(p.safety_distance, 40.0);
-            p.global_plan = walls;
-            p.planner.clearance = margin;
-          },
-          [&](OneOf<navigation::StraightParams, navigation::PotentialFieldParams,
-                    navigation::VelocityObstacleParams, navigation::PredictiveParams,
-                    navigation::PathNavigatorParams, navigation::SafeIntervalParams> auto& p) {
-            p.speed = swarm.max_speed;
-          },
-          [](OneOf<navigation::PlanExecutorParams, navigation::AggregationParams> auto&) {}},
+      Overloaded{[&](navigation::HierarchicalParams& p) {
+                   p.speed = swarm.max_speed;
+                   p.clearance = margin;
+                 },
+                 [&](navigation::RadarParams& p) {
+                   p.speed = swarm.max_speed;
+                   if (walls) p.safety_distance = std::min(p.safety_distance, 40.0);
+                   p.global_plan = walls;
+                   p.planner.clearance = margin;
+                 },
+                 [&](OneOf<navigation::StraightParams, navigation::PotentialFieldParams,
+                           navigation::VelocityObstacleParams, navigation::PathNavigatorParams,
+                           navigation::SafeIntervalParams> auto& p) { p.speed = swarm.max_speed; },
+                 [](OneOf<navigation::PlanExecutorParams, navigation::AggregationParams> auto&) {}},
       params);
   return params;
 }

@@ -33,7 +33,7 @@ std::size_t navigator_colour(std::string_view navigator) {
       {{"hierarchical_drrt_star", drrt_star},
        {"radar", report::method_colours::radar},
        {"radar_as_published", radar_as_published},
-       {"predictive", report::method_colours::predictive},
+       {"safe_interval", report::method_colours::safe_interval},
        {"straight_stop", straight_stop},
        {"potential_field", potential_field},
        {"velocity_obstacle", velocity_obstacle},
@@ -398,7 +398,8 @@ Tally count_tally(std::span<const Crossing> crossings) {
 }
 
 bool is_ours(std::string_view navigator) {
-  constexpr std::array<std::string_view, 3> ours{"hierarchical_drrt_star", "radar", "predictive"};
+  constexpr std::array<std::string_view, 3> ours{"hierarchical_drrt_star", "radar",
+                                                 "safe_interval"};
   return std::find(ours.begin(), ours.end(), navigator) != ours.end();
 }
 

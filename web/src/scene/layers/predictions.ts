@@ -5,7 +5,7 @@ import { type Drawing, Layer } from '../layer';
 
 const columns = 8; // body, time, x, y, radius, uncertainty, turn, growth
 
-/** Obstacles as the predictive navigator expects them: an outline for each step, paler with time. */
+/** Obstacles as the navigator expects them: an outline for each step, paler with time. */
 export class Predictions extends Layer {
   readonly name = 'predictions';
   readonly label = 'Predicted obstacles';
