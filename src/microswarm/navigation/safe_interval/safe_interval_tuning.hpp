@@ -27,9 +27,8 @@ struct ImminentTuning {
     visit(self.commitment, s("commitment", 0, 10, "Time after which an escape must remain."));
     visit(self.turn_time,
           s("turn_time", 0, 10, "Time for which an obstacle that turns round is not met."));
-    visit(self.hidden_turn,
-          plain("hidden_turn", 0, 100,
-                "Noise deviations an obstacle moves before its turn is seen."));
+    visit(self.hidden_turn, plain("hidden_turn", 0, 100,
+                                  "Noise deviations an obstacle moves before its turn is seen."));
     visit(self.gap, um("gap", 0, 1e4, "Least gap to obstacles now."));
     visit(self.gap_rate, um_per_s("gap_rate", 0, 1e4, "Growth of the gap with prediction time."));
     visit(self.noise_gain,
