@@ -61,7 +61,7 @@ struct SafeIntervalTuning {
   double turn_gain = 0.7;
   double straying_gain = 1.5;
   double straying_time = 3;
-  int max_expansions = 2000;
+  int max_expansions = 5000;
   int max_cells = 400'000;
   ImminentTuning imminent{};
   ConvexOutlineTuning outline{};
