@@ -16,7 +16,7 @@ UNITS = 7  # in one: the processors share four or five of them
 
 
 def options(command):
-    """What a command gives the compiler but for its input and output, as groups of words."""
+    """The options in a command, without its input and output, as groups of words."""
     words = iter(shlex.split(command)[1:])
     for word in words:
         if word in ("-c", "-o"):

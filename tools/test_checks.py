@@ -16,8 +16,24 @@ import check_rows
 import check_version
 import figures_page
 import man_pages
+import merge_units
 import reference
 import safety_page
+
+
+class MergedUnits(unittest.TestCase):
+    def test_libraries_are_merged_with_the_options_of_all(self):
+        def command(file, options):
+            return {"directory": "/b", "file": file, "command": f"c++ {options} -o x.o -c {file}"}
+
+        library = [command("/b/a.cxx", "-fPIC -DA -isystem /x"), command("/b/b.cxx", "-fPIC -isystem /y -DA")]
+        others = [command("/b/p.cxx", "-fPIE"), command("/b/m.cxx", "-fPIC -Dm_EXPORTS"), command("/s/c.cpp", "-fPIC")]
+        self.assertEqual(library, [c for c in library + others if merge_units.is_library(c)])
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "units_0.cpp"
+            merged = merge_units.merge(library, file)
+            self.assertEqual('#include "/b/a.cxx"\n#include "/b/b.cxx"\n', file.read_text(encoding="utf-8"))
+        self.assertEqual(f"c++ -fPIC -DA -isystem /x -isystem /y -c {file}", merged["command"])
 
 
 class Includes(unittest.TestCase):

@@ -93,6 +93,23 @@ TEST(SafeIntervalMargins, NoiseHidesATurnForLonger) {
   EXPECT_NEAR(forecast.turn_reach(0), way + 2 * forecast.noise(0), 1);
 }
 
+// At a sample the disc is on one side of the swarm, at the next one on the other.
+TEST(SafeIntervalMargins, WhatCrossesBetweenTwoSamplesIsMet) {
+  constexpr int sample = 4;
+  constexpr Vec2 swarm{600, 500};
+  Seen seen{.obstacles = {{DiscShape{10}, Straight{{600, -775}, {0, 1200}}}}};
+  ObstacleForecast forecast(seen.params, 80);
+  for (int k = 0; k < 6; ++k) {
+    const Snapshot frame = seen.next();
+    seen.predictor.update(seen.observe(frame));
+    forecast.update(frame, seen.predictor, frame.time(), std::array{Vec2{200, 500}});
+  }
+  forecast.predict_all(seen.predictor);
+  EXPECT_LT(forecast.at(sample, 0).centre.y, swarm.y - 70);
+  EXPECT_GT(forecast.at(sample + 1, 0).centre.y, swarm.y + 70);
+  EXPECT_LT(forecast.gap_along({swarm, swarm}, sample, 0, 20, 1e3), 0);
+}
+
 TEST(SafeIntervalMargins, ANewObstacleMayTurn) {
   Seen seen{.obstacles = {{DiscShape{40}, Straight{{200, 200}, {60, 0}}}}};
   for (int k = 0; k < 3; ++k) {

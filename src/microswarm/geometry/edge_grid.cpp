@@ -5,6 +5,7 @@
 
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/geometry/distance.hpp"
+#include "microswarm/geometry/l1_norm.hpp"
 #include "microswarm/geometry/predicates.hpp"
 
 namespace microswarm {
@@ -15,8 +16,6 @@ constexpr double rounding = 1e-12;
 /// Bounds that keep the number of cells far from memory limits and their size far from rounding.
 constexpr int max_cells = 1 << 22;
 constexpr double min_cell_in_slacks = 1e3;
-
-double magnitude(Vec2 p) { return std::abs(p.x) + std::abs(p.y); }
 
 /// Capsule tested against many edges, most of which pass beside it.
 class Capsule {
@@ -75,10 +74,10 @@ void EdgeGrid::assign(std::span<const Segment> edges, std::span<const std::uint3
 
 double EdgeGrid::choose_cell(const Box& box, double cell) {
   const double count = static_cast<double>(size());
-  slack_ = rounding * std::max(magnitude(box.lo), magnitude(box.hi));
+  slack_ = rounding * std::max(l1_norm(box.lo), l1_norm(box.hi));
   if (cell <= 0) {
     double length = 0;
-    for (const Segment& e : edges_) length += magnitude(e.b - e.a);
+    for (const Segment& e : edges_) length += l1_norm(e.b - e.a);
     const double wide = std::max(box.width(), box.height());
     const double area = std::max(box.width(), wide / count) * std::max(box.height(), wide / count);
     cell = std::max(std::sqrt(area / (2 * count)), length / (4 * count));
@@ -166,7 +165,7 @@ void EdgeGrid::scan(Vec2 p, int row, Run columns, Found& best) const {
 EdgeGrid::Found EdgeGrid::search(Vec2 p, double squared_limit) const {
   Found best{squared_limit, size()};
   if (empty()) return best;
-  const double slack = slack_ + rounding * magnitude(p);
+  const double slack = slack_ + rounding * l1_norm(p);
   auto squared = [&](double gap) {
     gap = std::max(gap - slack, 0.0);
     return gap * gap;
@@ -202,7 +201,7 @@ std::size_t EdgeGrid::nearest(Vec2 p, double limit) const { return search(p, lim
 
 /// r plus more than any rounding error in the coordinates.
 double EdgeGrid::padded_reach(Segment s, double r) const {
-  return r + slack_ + rounding * (r + magnitude(s.a) + magnitude(s.b));
+  return r + slack_ + rounding * (r + l1_norm(s.a) + l1_norm(s.b));
 }
 
 /// The same answers, to the bit, as for the capsule whose two ends are `p`: the tests of a segment

@@ -156,7 +156,7 @@ Record read_record(const std::filesystem::path& file) {
   if (in.has_attribute("/", "navigator")) record.navigator = in.text_attribute("/", "navigator");
   std::string gone;
   record.scene = read_scene(in, gone);
-  if (!gone.empty()) record.navigator = gone;
+  if (record.navigator.empty()) record.navigator = gone;
   io::read_tables(in, type_of<Record>(), &record);
   record.phased_goals = read_phased_goals(in);
   record.diagnostics = read_diagnostics(in);

@@ -122,12 +122,7 @@ bool SafeIntervalSearch::is_useless(const SpaceTimeGrid& grid, std::uint32_t fro
 // A cell is entered half a step before the arrival at its centre.
 void SafeIntervalSearch::connect(const SpaceTimeGrid& grid, const Query& query,
                                  std::uint32_t from_number, const Place& to, bool is_shortcut) {
-  const State& start = states_[from_number];
-  const struct {
-    Vec2 position;
-    double time, turn_cost, until;
-    std::uint32_t parent;
-  } from{start.position, start.time, start.turn_cost, start.until, start.parent};
+  const State from = states_[from_number];
   const Vec2 move = to.position - from.position;
   const double duration = norm(move) / query.speed;
   const double extent = std::max(std::abs(move.x), std::abs(move.y));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/world/map/field_painter.hpp"
 #include "microswarm/core/fields/overloaded.hpp"
+#include "microswarm/geometry/l1_norm.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +14,6 @@ namespace {
 /// Blocks with this many candidates or cells are not divided further.
 constexpr std::size_t few_candidates = 1;
 constexpr int few_cells = 4;
-
-double l1_norm(Vec2 p) { return std::abs(p.x) + std::abs(p.y); }
 
 /// A float certainly below `x`.
 float float_below(double x) {
