@@ -57,6 +57,7 @@ Params grown() {
 planning::DrrtStarParams plain_drrt_star() {
   planning::DrrtStarParams params = small<planning::DrrtStarParams>();
   params.straighten = false;
+  params.exact_route = false;
   return params;
 }
 
@@ -342,9 +343,9 @@ std::vector<Case> cases() {
       {"RrtStar", small<planning::RrtStarParams>(), 0xd25316c5a33d98bc},
       {"RrtStarGrown", grown<planning::RrtStarParams>(), 0xd80bf708bf2299f3},
       {"UniformRrtStar", small<planning::UniformRrtStarParams>(), 0xcceb0429de52032e},
-      {"DrrtStar", small<planning::DrrtStarParams>(), 0xc0f2b090f8193bce},
+      {"DrrtStar", small<planning::DrrtStarParams>(), 0x2a9212bcba8ee150},
       {"DrrtStarPlain", plain_drrt_star(), 0xfa289e518101ea98},
-      {"DrrtStarGrown", grown<planning::DrrtStarParams>(), 0xdc86aaf9732ff715},
+      {"DrrtStarGrown", grown<planning::DrrtStarParams>(), 0x3ed0a5e535d1efde},
       {"DrrtStarArcs", arcs_drrt_star(), 0xfdc2a87441338c5f},
       {"FmtStar", small<planning::FmtStarParams>(), 0x2c9f62bc94e4eeba},
   };

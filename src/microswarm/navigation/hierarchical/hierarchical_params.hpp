@@ -55,6 +55,7 @@ struct HierarchicalParams {
     p.goal_bias = 0.5;
     p.max_nodes = 200;
     p.max_iterations = 50;
+    p.exact_route = false;  // the navigator follows its own
     return p;
   }
 

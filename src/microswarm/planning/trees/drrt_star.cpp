@@ -6,7 +6,9 @@
 
 #include "microswarm/core/fields/published.hpp"
 #include "microswarm/core/maths/angles.hpp"
+#include "microswarm/geometry/distance.hpp"
 #include "microswarm/planning/common/detection.hpp"
+#include "microswarm/planning/exact/exact.hpp"
 #include "microswarm/planning/trees/straighten.hpp"
 #include "microswarm/planning/trees/tree_growth.hpp"
 #include "microswarm/planning/trees/turn_edge.hpp"
@@ -95,12 +97,25 @@ std::vector<Vec2> turned_path(const Snapshot& world, Pose2 start, std::span<cons
   return !shorter.chords.empty() && shorter.cost < path.cost ? shorter.chords : path.chords;
 }
 
+/// Ends the path where it comes within `tolerance` [µm] of the goal.
+void end_within(double tolerance, Vec2 goal, std::vector<Vec2>& path) {
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const double share = first_contact({path[i - 1], path[i]}, tolerance, Disc{goal, 0});
+    if (share > 1) continue;
+    path[i] = path[i - 1] + share * (path[i] - path[i - 1]);
+    path.resize(i + 1);
+    return;
+  }
+}
+
 class DrrtStar {
  public:
   DrrtStar(const Snapshot& world, Pose2 start, Vec2 goal, const DrrtStarParams& params, Rng& rng,
            const Stop& stop)
       : world_(world),
         start_(start),
+        goal_(goal),
+        rng_(rng),
         params_(params.in_effect()),
         stop_(stop),
         arcs_(params_.arcs),
@@ -182,6 +197,38 @@ class DrrtStar {
     append_chords(from, edge, params_.turn_radius, std::min(step, edge.length), arc_);
   }
 
+  /// Whether the edges keep the clearance, and everything that moves is clear of the detection
+  /// circles along them.
+  bool is_undisturbed(std::span<const Vec2> path) const {
+    const double near = params_.clearance + 0.5 * params_.detection_diameter;
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      const Segment edge{path[i - 1], path[i]};
+      if (!world_.is_free(edge, params_.clearance) || !world_.moving().is_free(edge, near))
+        return false;
+    }
+    return true;
+  }
+
+  /// Beyond the paper: ends on the shortest path, straightened, if that costs less.
+  void take_exact_route(Plan& plan) {
+    // The exact planner keeps a clearance to a relative 1e-7; a point at the tolerance is rounded.
+    constexpr double rounding = 2e-7;
+    Plan route = planning::plan(
+        world_, start_, goal_,
+        ExactParams{(1 + rounding) * params_.clearance, params_.goal_tolerance}, rng_, stop_);
+    plan.counts.edge_checks += route.counts.edge_checks;
+    if (route.status != Status::solved) return;
+    end_within((1 - rounding) * params_.goal_tolerance, goal_, route.path);
+    if (!is_undisturbed(route.path)) return;
+    straighten(world_, params_.clearance, start_.heading, cost_, 0, route.path,
+               plan.counts.edge_checks);
+    if (plan.status == Status::solved &&
+        cost_.of(plan.path, start_.heading) <= cost_.of(route.path, start_.heading))
+      return;
+    plan.status = Status::solved;
+    plan.path = std::move(route.path);
+  }
+
   Plan finish() {
     Plan plan = growth_.finish();
     plan.detections = std::move(detections_);
@@ -191,11 +238,14 @@ class DrrtStar {
       straighten(world_, params_.clearance, start_.heading, cost_, straighten_rounds, plan.path,
                  plan.counts.edge_checks);
     }
+    if (params_.exact_route && !arcs_) take_exact_route(plan);
     return plan;
   }
 
   const Snapshot& world_;
   Pose2 start_;
+  Vec2 goal_;
+  Rng& rng_;
   DrrtStarParams params_;
   const Stop& stop_;
   bool arcs_;
@@ -211,6 +261,7 @@ DrrtStarParams DrrtStarParams::in_effect() const {
   DrrtStarParams p = *this;
   if (!as_published) return p;
   p.straighten = false;
+  p.exact_route = false;
   p.arcs = false;
   return p;
 }

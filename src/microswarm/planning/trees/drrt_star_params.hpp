@@ -11,9 +11,11 @@ namespace microswarm::planning {
 
 /// Local planner D-RRT*: Algorithms 2–3, Eq 1–3 and 5–10 [drrt]. Costs are λ_s · turning + λ_l ·
 /// length, including the turn out of the start's heading. Beyond the paper: `straighten` shortens
-/// the path found under the same cost and the same exact checks; `arcs` makes every edge a turn of
-/// at least `turn_radius` followed by a straight line, so that a unicycle can follow the path from
-/// the start's heading. `as_published` disables both (docs/explanation/drrt-star.md).
+/// the path found under the same cost and the same exact checks; `exact_route` replaces it by the
+/// shortest path where that costs less or none was found, unless something that moves is near;
+/// `arcs` makes every edge a turn of at least `turn_radius` followed by a straight line, so that a
+/// unicycle can follow the path from the start's heading, and takes no route. `as_published`
+/// disables the three (docs/explanation/drrt-star.md).
 struct DrrtStarParams : RrtStarParams {
   static constexpr std::string_view type_name = "drrt_star";
   double detection_diameter = 300;  // D_dec
@@ -26,6 +28,7 @@ struct DrrtStarParams : RrtStarParams {
   double smoothness_weight = 100;  // λ_s
   double length_weight = 1;        // λ_l
   bool straighten = true;
+  bool exact_route = true;
   bool arcs = false;
   double turn_radius = 20;
   bool as_published = false;
@@ -49,10 +52,11 @@ struct DrrtStarParams : RrtStarParams {
           plain("smoothness_weight", 0, 1e6, "Cost of turning, µm per rad (λ_s)."));
     visit(self.length_weight, plain("length_weight", 0, 1e6, "Cost per µm (λ_l)."));
     visit(self.straighten, plain("straighten", "Straighten the path found (beyond the paper)."));
+    visit(self.exact_route,
+          plain("exact_route", "End on the shortest path if cheaper (beyond the paper)."));
     visit(self.arcs, plain("arcs", "Edges of bounded curvature (beyond the paper)."));
     visit(self.turn_radius, um("turn_radius", 1e-3, 1e6, "Minimum radius of a turn, with arcs."));
-    visit(self.as_published,
-          plain("as_published", "The paper's method: no straightening, no arcs."));
+    visit(self.as_published, plain("as_published", "The paper's method, without our additions."));
   }
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "microswarm/contracts/plan.hpp"
@@ -29,6 +30,10 @@ struct PathCost {
     if (turn_radius > 0) return turned_edge(node, p);
     const double length = per_length * distance(node.position, p);
     return per_turn == 0 ? length : length + per_turn * turn_between(node.heading, heading);
+  }
+  /// Cost of a path of straight edges [µm], with the turn out of the start's heading [rad].
+  double of(std::span<const Vec2> path, double start_heading) const {
+    return per_length * path_length(path) + per_turn * path_turning(path, start_heading);
   }
   /// Heading [rad] at `p` on the edge from `node`.
   double heading_at_end(const TreeNode& node, Vec2 p) const;

@@ -27,10 +27,7 @@ class Straightener {
         cost_(cost),
         checks_(checks) {}
 
-  double cost(std::span<const Vec2> path) const {
-    return cost_.per_length * path_length(path) +
-           cost_.per_turn * path_turning(path, start_heading_);
-  }
+  double cost(std::span<const Vec2> path) const { return cost_.of(path, start_heading_); }
   bool is_free(Vec2 a, Vec2 b) const { return world_.is_free(Segment{a, b}, clearance_); }
 
   /// Replaces the path by the cheapest chain of free edges through `points`: the path's vertices,
