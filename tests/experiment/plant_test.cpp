@@ -106,6 +106,66 @@ TEST(KinematicPlant, NoiseAndMissedFramesAreThoseAskedFor) {
   EXPECT_NEAR(std::sqrt(squares / found / 2), 5, 0.2);
 }
 
+TEST(KinematicPlant, AHiddenDelayMakesFramesOlderThanTheySay) {
+  Scenario scenario = delayed(0.05);
+  scenario.sensing.hidden_delay = 0.2;
+  KinematicPlant plant(scenario, world_of(scenario));
+  for (int i = 0; i < 20; ++i) plant.apply({0, 40}, 0.1);
+  const Observation seen = plant.observe();
+  EXPECT_NEAR(seen.age(), 0.05, 1e-9);
+  EXPECT_NEAR(seen.swarm->pose.position.x, 200 + 40 * 1.75, 1e-6);
+  const Body& body = seen.world->moving().bodies()[0];
+  EXPECT_NEAR(std::get<Disc>(body.shape).centre.x, 500 + 30 * 1.75, 1e-6);
+}
+
+TEST(KinematicPlant, SightIsLostForTheTimeAskedForAndInTheShareAskedFor) {
+  Scenario scenario = delayed(0);
+  scenario.sensing.missed_share = scenario.sensing.obstacle_missed_share = 0.2;
+  scenario.sensing.missed_time = 0.7;
+  KinematicPlant plant(scenario, world_of(scenario));
+  constexpr int frames = 20'000;
+  constexpr double dt = 0.1;
+  struct {
+    int missed = 0, bursts = 0;
+    bool is_missed = false;
+    void take(bool missing) {
+      missed += missing;
+      bursts += missing && !is_missed;
+      is_missed = missing;
+    }
+  } swarm, obstacle;
+  for (int k = 0; k < frames; ++k) {
+    const Observation seen = plant.observe();
+    swarm.take(!seen.swarm);
+    obstacle.take(seen.world->moving().empty());
+    plant.apply({0, 0}, dt);
+  }
+  for (const auto& sight : {swarm, obstacle}) {
+    EXPECT_NEAR(1.0 * sight.missed / frames, 0.2, 0.02);
+    EXPECT_NEAR(dt * sight.missed / sight.bursts, 0.7, 0.07);
+  }
+}
+
+TEST(KinematicPlant, OnlyObstaclesThatAreNearAreMistakenInTheShareAskedFor) {
+  Scenario scenario = delayed(0);
+  scenario.obstacles = {disc(50, Still{{500, 700}, 0}), disc(50, Still{{500, 400}, 0}),
+                        disc(60, Still{{500, 550}, 0}), disc(50, Still{{900, 100}, 0})};
+  scenario.sensing.swapped_share = 0.3;
+  KinematicPlant plant(scenario, world_of(scenario));
+  constexpr int frames = 3000;
+  int mistaken = 0;
+  for (int k = 0; k < frames; ++k) {
+    const Observation seen = plant.observe();
+    const auto bodies = seen.world->moving().bodies();
+    ASSERT_EQ(bodies.size(), 4u);
+    for (std::uint32_t i = 0; i < 4; ++i) ASSERT_EQ(bodies[i].obstacle, i);
+    EXPECT_EQ(std::get<Disc>(bodies[3].shape).centre, (Vec2{900, 100}));
+    mistaken += std::get<Disc>(bodies[2].shape).radius != 60;
+  }
+  // The first two discs are not near each other: each mistake concerns the third.
+  EXPECT_NEAR(1.0 * mistaken / frames, 0.3, 0.03);
+}
+
 TEST(KinematicPlant, TrialsDifferAndRepeat) {
   Scenario scenario = delayed(0);
   std::get<RibbonParams>(scenario.swarm).position_noise = 5;

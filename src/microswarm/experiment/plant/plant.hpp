@@ -5,14 +5,15 @@
 #include <vector>
 
 #include "microswarm/contracts/plant.hpp"
+#include "microswarm/experiment/plant/obstacle_detection.hpp"
 #include "microswarm/experiment/scenario/scenario.hpp"
 #include "microswarm/swarm/body/swarm_body.hpp"
 #include "microswarm/swarm/robots/robot_swarm.hpp"
 
 namespace microswarm::experiment {
 
-/// Kinematic simulation of a swarm in a world. The camera shows both as they were
-/// `observation_delay` ago, at first as they were at t = 0. Walls do not stop or deflect the swarm;
+/// Kinematic simulation of a swarm in a world. The camera shows both as they were when the frame
+/// was taken, at first as they were at t = 0. Walls do not stop or deflect the swarm;
 /// the caller checks for contact.
 class KinematicPlant : public Plant {
  public:
@@ -25,16 +26,16 @@ class KinematicPlant : public Plant {
   std::optional<GroundTruth> ground_truth() const override;
 
  private:
-  Snapshot frame_at(double t);
-
   World world_;
   SensingParams sensing_;
   SwarmBody swarm_;
   Rng drift_;
   Rng noise_;
-  Rng obstacle_noise_;
+  Dropouts dropouts_;
+  ObstacleDetection obstacles_;
   double now_ = 0;
-  std::vector<PoseStamped> history_;  // covers the observation delay
+  double observed_ = 0;               ///< time of the latest observation [s]
+  std::vector<PoseStamped> history_;  // covers the age of a frame
 };
 
 }  // namespace microswarm::experiment

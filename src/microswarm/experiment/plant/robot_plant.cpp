@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/geometry/uniform_in.hpp"
@@ -46,16 +47,19 @@ RobotPlant::RobotPlant(const Scenario& scenario, World world, std::uint32_t tria
       sensing_(scenario.sensing),
       motion_(scenario.seed, Purpose::plant, trial),
       noise_(scenario.seed, Purpose::sensor, trial),
+      dropouts_(sensing_.missed_share, sensing_.missed_time),
       swarm_(make_swarm(scenario, *world_.map, trial, motion_)) {
   history_.push_back({0, swarm_.robots().positions()});
 }
 
 Observation RobotPlant::observe() {
-  const double seen = std::max(0.0, now_ - sensing_.observation_delay);
-  Observation observation{.now = now_, .seen = seen, .swarm = {}, .robots = {}, .world = walls_};
-  const bool missed = noise_.uniform() < sensing_.missed_share;
-  if (missed) return observation;
-  seen_ = robots_at(seen);
+  Observation observation{.now = now_,
+                          .seen = std::max(0.0, now_ - sensing_.observation_delay),
+                          .swarm = {},
+                          .robots = {},
+                          .world = walls_};
+  if (dropouts_.miss(0, now_ - std::exchange(observed_, now_), noise_)) return observation;
+  seen_ = robots_at(std::max(0.0, now_ - sensing_.age()));
   if (sensing_.position_noise > 0)
     for (Vec2& p : seen_) {
       const double dx = noise_.normal();
@@ -71,8 +75,7 @@ void RobotPlant::apply(const Command& command, double dt) {
   command_ = command;
   now_ += dt;
   history_.push_back({now_, swarm_.robots().positions()});
-  while (history_.size() > 1 && history_[1].t <= now_ - sensing_.observation_delay)
-    history_.pop_front();
+  while (history_.size() > 1 && history_[1].t <= now_ - sensing_.age()) history_.pop_front();
 }
 
 std::optional<GroundTruth> RobotPlant::ground_truth() const {

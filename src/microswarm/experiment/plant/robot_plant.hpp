@@ -6,14 +6,15 @@
 #include <vector>
 
 #include "microswarm/contracts/plant.hpp"
+#include "microswarm/experiment/plant/dropouts.hpp"
 #include "microswarm/experiment/scenario/scenario.hpp"
 #include "microswarm/swarm/robots/robot_swarm.hpp"
 #include "microswarm/world/world.hpp"
 
 namespace microswarm::experiment {
 
-/// Simulation of individually tracked robots. The camera shows them as they were
-/// `observation_delay` ago. The swarm's pose is their centroid, its radius their root-mean-square
+/// Simulation of individually tracked robots. The camera shows them as they were when the frame was
+/// taken. The swarm's pose is their centroid, its radius their root-mean-square
 /// distance from it.
 class RobotPlant : public Plant {
  public:
@@ -38,9 +39,11 @@ class RobotPlant : public Plant {
   SensingParams sensing_;
   Rng motion_;
   Rng noise_;
+  Dropouts dropouts_;
   double now_ = 0;
+  double observed_ = 0;  ///< time of the latest observation [s]
   Command command_;
-  std::deque<Moment> history_;  // covers the observation delay
+  std::deque<Moment> history_;  // covers the age of a frame
   RobotSwarm swarm_;
   std::vector<Vec2> seen_;
 };

@@ -126,7 +126,7 @@ class Judge {
   ContactVerdict operator()(const RunEvent& contact, const std::vector<State>& states) const {
     ContactVerdict verdict{.contact = contact, .manoeuvre = {}};
     const double latest =
-        contact.t - limits_.response_lag - scenario_.sensing.observation_delay + 1e-9;
+        contact.t - limits_.response_lag - scenario_.sensing.age() + 1e-9;
     for (auto state = states.rbegin(); state != states.rend() && !verdict.avoidable; ++state) {
       if (state->t > latest || state->t < contact.t - params_.lookback) continue;
       if (!is_seen(contact, state->t) || touches(world_, *state)) continue;
@@ -144,7 +144,7 @@ class Judge {
   /// be avoided.
   bool is_seen(const RunEvent& contact, double t) const {
     if (contact.kind != EventKind::contact_obstacle) return true;
-    const double seen = t - scenario_.sensing.observation_delay;
+    const double seen = t - scenario_.sensing.age();
     return placement(world_.obstacles[contact.body].motion, seen).present;
   }
 

@@ -23,20 +23,28 @@ struct Settings;
 
 namespace microswarm::experiment {
 
-/// Model of the camera and the image processing: delay, noise and missed detections.
+/// Model of the camera and the image processing: delay, noise, missed and mistaken detections.
 struct SensingParams {
   double observation_delay = 0.05;
+  double hidden_delay = 0;
   double position_noise = 0;
   double heading_noise = 0;
   double missed_share = 0;
   double obstacle_noise = 0;
   double obstacle_missed_share = 0;
+  double missed_time = 0;
+  double swapped_share = 0;
   double obstacle_memory = 0.5;
   double frame_timeout = 0.5;
+
+  /// True age of a frame when the navigator receives it [s].
+  double age() const { return observation_delay + hidden_delay; }
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.observation_delay,
           s("observation_delay", 0, 10, "Age of a frame when the navigator receives it."));
+    visit(self.hidden_delay,
+          s("hidden_delay", 0, 10, "Further age of a frame, hidden from navigators."));
     visit(self.position_noise,
           um("position_noise", 0, 1e4, "Standard deviation of the swarm's position."));
     visit(self.heading_noise,
@@ -47,6 +55,10 @@ struct SensingParams {
           um("obstacle_noise", 0, 1e4, "Standard deviation of an obstacle's position."));
     visit(self.obstacle_missed_share, plain("obstacle_missed_share", 0, 1,
                                             "Share of frames in which an obstacle is not found."));
+    visit(self.missed_time,
+          s("missed_time", 0, 60, "Mean time for which sight stays lost; 0: one frame."));
+    visit(self.swapped_share,
+          plain("swapped_share", 0, 1, "Share of frames with two near obstacles mistaken."));
     visit(self.obstacle_memory,
           s("obstacle_memory", 0, 60, "Time for which an obstacle that is not found is kept."));
     visit(self.frame_timeout,

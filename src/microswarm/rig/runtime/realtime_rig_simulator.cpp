@@ -17,7 +17,7 @@ namespace {
 constexpr double longest_step = 0.005;  // [s]
 
 experiment::Scenario without_delay(experiment::Scenario scenario) {
-  scenario.sensing.observation_delay = 0;
+  scenario.sensing.observation_delay = scenario.sensing.hidden_delay = 0;
   return scenario;
 }
 
