@@ -43,7 +43,7 @@ TEST_P(AvoidanceWorlds, AreScenariosThatTheProgramTakes) {
   for_each_world(GetParam(), [](Scenario s, const World& world) {
     for (const Obstacle& obstacle : s.obstacles) EXPECT_TRUE(validate(obstacle).empty());
     navigation::HierarchicalParams navigator;
-    navigator.clearance = radius_of(s) + 0.8 * scenes::avoidance_passage_gap;
+    navigator.clearance = radius_of(s) + 0.8 * scenes::passage_gap(GetParam().hardship);
     s.navigator = navigator;
     EXPECT_TRUE(validate(s, world).empty());
   });
@@ -124,9 +124,15 @@ TEST_P(AvoidanceWorlds, AreAPureFunctionOfTheirArguments) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, AvoidanceWorlds,
-                         testing::Values(scenes::slow_obstacles, with_walls(scenes::slow_obstacles),
-                                         scenes::fast_obstacles));
+std::vector<AvoidanceOptions> all_options() {
+  std::vector<AvoidanceOptions> all{scenes::slow_obstacles, with_walls(scenes::slow_obstacles),
+                                    scenes::fast_obstacles};
+  for (const auto& [hardship, name] : enum_names(scenes::Hardship()))
+    for (const std::uint64_t seed : {0, 1}) all.push_back(scenes::hardship_options(hardship, seed));
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, AvoidanceWorlds, testing::ValuesIn(all_options()));
 
 TEST(AvoidanceWorlds, HaveAllShapesAndMotions) {
   std::set<std::string_view> kinds;

@@ -123,7 +123,8 @@ std::vector<report::ReproduceRow> gather_figures(const std::string& figure,
 /// Figures of [radar]: fig1 (avoidance cost), fig5-6 (three cases of one obstacle), fig7 (series of
 /// radii), fig8 (twelve obstacles), fig10 (the cases as an experiment), fig11-12 (twelve obstacles
 /// as an experiment), fig13 (micromaze), safety (generated worlds), safety-noisy (noisy
-/// detections), fast (obstacles faster than the swarm), or all if empty.
+/// detections), fast (obstacles faster than the swarm), hardships (ribbons, flow, dead ends and
+/// more), or all if empty.
 std::vector<report::ReproduceRow> radar_figures(const std::string& figure,
                                                 const ReproduceOptions& options, const Stop& stop);
 

@@ -41,30 +41,61 @@ std::vector<Vec2> star(Vec2 centre, double radius, Rng& rng) {
 
 void add_wall(Ground& ground, const Polygon& wall) { ground.map.walls.push_back(wall.outer); }
 
-/// Adds a vertical wall from x to x + thickness with two gates, some with a valve. A valve is open
-/// to the swarm for about half of its period.
-void add_gates(Ground& ground, const Crosser& swarm, double x, double speed, Rng& rng) {
-  constexpr double thickness = 60;
+/// Adds a vertical wall from x to x + thickness with two gates: `width()` draws the width of each,
+/// and `fit(low, width)` adds what is in it.
+template <class Width, class Fit>
+void add_barrier(Ground& ground, double x, double thickness, Rng& rng, Width&& width, Fit&& fit) {
   const double height = ground.map.hi.y;
-  const double gate = 2 * swarm.half_passage;
   double from = 0;
   for (int k = 0; k < 2; ++k) {
-    const double width = rng.uniform(1.1, 1.6) * gate;
+    const double gate = width();
     const double least = 0.1 * height + 0.45 * height * k;
-    const double low = rng.uniform(least, least + 0.35 * height - width);
+    const double low = rng.uniform(least, least + 0.35 * height - gate);
     add_wall(ground, rectangle({{x, from}, {x + thickness, low}}));
-    from = low + width;
-    if (rng.below(2) == 0) continue;
-    Valve valve{.span = width,
+    from = low + gate;
+    fit(low, gate);
+  }
+  add_wall(ground, rectangle({{x, from}, {x + thickness, height}}));
+}
+
+constexpr double barrier = 60;  // thickness [µm]
+
+/// Adds a barrier with gates of which some have a valve. A valve is open to the swarm for about
+/// half of its period.
+void add_gates(Ground& ground, const Crosser& swarm, double x, double speed, Rng& rng) {
+  const double gate = 2 * swarm.half_passage;
+  const auto width = [&] { return rng.uniform(1.1, 1.6) * gate; };
+  const auto fit = [&](double low, double span) {
+    if (rng.below(2) == 0) return;
+    Valve valve{.span = span,
                 .thickness = 30,
                 .min_gap = rng.uniform(0, 40),
                 .max_gap = rng.uniform(2, 2.4) * gate,
                 .phase = rng.uniform()};
     valve.period = pi / 2 * (valve.max_gap - valve.min_gap) / speed;
-    const Obstacle gate_valve{valve, Still{{x + thickness / 2, low + width / 2}, 0}};
+    const Obstacle gate_valve{valve, Still{{x + barrier / 2, low + span / 2}, 0}};
     ground.fixtures.push_back(gate_valve);
-  }
-  add_wall(ground, rectangle({{x, from}, {x + thickness, height}}));
+  };
+  add_barrier(ground, x, barrier, rng, width, fit);
+}
+
+/// An area for barriers.
+Ground barrier_ground() {
+  Ground ground;
+  ground.map.hi = {2400, 2000};
+  ground.extent = 70;
+  return ground;
+}
+
+/// Places start and goal at the two sides of the barriers.
+void place_beside_barriers(Ground& ground, const Crosser& swarm, Rng& rng) {
+  const double gate = 2 * swarm.half_passage;
+  ground.start = {rng.uniform(gate, 350), rng.uniform(gate, 2000 - gate)};
+  ground.goal = {2400 - rng.uniform(gate, 350), rng.uniform(gate, 2000 - gate)};
+}
+
+void maybe_swap_ends(Ground& ground, Rng& rng) {
+  if (rng.below(2) == 1) std::swap(ground.start, ground.goal);
 }
 
 }  // namespace
@@ -110,18 +141,67 @@ Ground scattered_ground(const Crosser& swarm, int obstacles, Rng& rng) {
 }
 
 Ground gated_ground(const Crosser& swarm, double speed_ratio, Rng& rng) {
-  Ground ground;
-  const double gate = 2 * swarm.half_passage;
-  ground.map.hi = {2400, 2000};
+  Ground ground = barrier_ground();
   const int walls = 1 + static_cast<int>(rng.below(2));
   for (int k = 0; k < walls; ++k) {
     const double x = walls == 1 ? rng.uniform(1000, 1400) : rng.uniform(650, 850) + 850 * k;
     add_gates(ground, swarm, x, speed_ratio * swarm.speed, rng);
   }
-  ground.extent = 70;
-  ground.start = {rng.uniform(gate, 350), rng.uniform(gate, 2000 - gate)};
-  ground.goal = {2400 - rng.uniform(gate, 350), rng.uniform(gate, 2000 - gate)};
-  if (rng.below(2) == 1) std::swap(ground.start, ground.goal);
+  place_beside_barriers(ground, swarm, rng);
+  maybe_swap_ends(ground, rng);
+  return ground;
+}
+
+Ground narrow_ground(const Crosser& swarm, double half_width, Rng& rng) {
+  Ground ground = barrier_ground();
+  const double x = rng.uniform(800, 1100);
+  const auto nothing = [](double, double) {};
+  add_barrier(
+      ground, x, rng.uniform(100, 500), rng, [&] { return 2 * half_width; }, nothing);
+  place_beside_barriers(ground, swarm, rng);
+  maybe_swap_ends(ground, rng);
+  return ground;
+}
+
+Ground blocked_ground(const Crosser& swarm, Rng& rng) {
+  Ground ground = barrier_ground();
+  const double x = rng.uniform(1000, 1400);
+  bool shut = rng.below(2) == 0;  // the first gate
+  const auto width = [&] { return rng.uniform(1.1, 1.6) * 2 * swarm.half_passage; };
+  const auto fit = [&](double low, double span) {
+    if (shut) {
+      const Obstacle plug{DiscShape{span / 2}, Still{{x + barrier / 2, low + span / 2}, 0}};
+      ground.fixtures.push_back(plug);
+    }
+    shut = !shut;
+  };
+  add_barrier(ground, x, barrier, rng, width, fit);
+  place_beside_barriers(ground, swarm, rng);
+  maybe_swap_ends(ground, rng);
+  return ground;
+}
+
+Ground dead_end_ground(const Crosser& swarm, Rng& rng) {
+  constexpr double thickness = 40;
+  Ground ground = barrier_ground();
+  place_beside_barriers(ground, swarm, rng);
+  const bool back = rng.below(2) == 1;  // the swarm comes from the right
+  const int pockets = 1 + static_cast<int>(rng.below(2));
+  for (int k = 0; k < pockets; ++k) {
+    const double x = pockets == 1 ? rng.uniform(1000, 1400) : 825 + 750.0 * k;
+    const double half = rng.uniform(250, 500), depth = rng.uniform(200, 450);
+    const double off = 2 * swarm.half_passage + half;
+    const double share = (x - ground.start.x) / (ground.goal.x - ground.start.x);
+    const double y = std::clamp(
+        ground.start.y + share * (ground.goal.y - ground.start.y) + rng.uniform(-0.5, 0.5) * half,
+        off, ground.map.hi.y - off);
+    const double left = x - depth / 2, right = x + depth / 2;
+    const double end = back ? left : right;  // of the pocket
+    add_wall(ground, rectangle({{end - thickness / 2, y - half}, {end + thickness / 2, y + half}}));
+    for (const double arm : {y - half, y + half - thickness})
+      add_wall(ground, rectangle({{left, arm}, {right, arm + thickness}}));
+  }
+  if (back) std::swap(ground.start, ground.goal);
   return ground;
 }
 

@@ -33,6 +33,12 @@ Ground open_ground(const Crosser& swarm, int obstacles, Rng& rng);
 Ground scattered_ground(const Crosser& swarm, int obstacles, Rng& rng);
 /// Transverse walls with two gates each, some of them closed at times by valves.
 Ground gated_ground(const Crosser& swarm, double speed_ratio, Rng& rng);
+/// A thick wall across with two lanes through it, `half_width` [µm].
+Ground narrow_ground(const Crosser& swarm, double half_width, Rng& rng);
+/// A wall across with two gates, one of them shut by a disc that rests in it.
+Ground blocked_ground(const Crosser& swarm, Rng& rng);
+/// One or two pockets, about on the straight way, that open towards the start.
+Ground dead_end_ground(const Crosser& swarm, Rng& rng);
 /// Vessels as drawn by scenes/vascular.
 Ground vessel_ground(const Crosser& swarm, Rng& rng);
 /// A channel with moving walls.

@@ -95,6 +95,12 @@ Straight random_passage(const Ground& ground, const Crosser& swarm, double speed
   return {.start = ground.start + share * line + aside - arrival * velocity, .velocity = velocity};
 }
 
+Track track_of(Samples samples) {
+  Track track;
+  track.samples = std::make_shared<const Samples>(std::move(samples));
+  return track;
+}
+
 /// Random walk with a varying heading that turns back at the border.
 Track random_walk(const Ground& ground, double speed, double time_limit, Rng& rng) {
   constexpr double step = 0.5;  // [s]
@@ -113,9 +119,31 @@ Track random_walk(const Ground& ground, double speed, double time_limit, Rng& rn
     }
     position += step * speed * unit_vector(heading);
   }
-  Track track;
-  track.samples = std::make_shared<const Samples>(std::move(samples));
-  return track;
+  return track_of(std::move(samples));
+}
+
+/// Heads for one point after the other, as fast as the waypoints.
+Track turning_track(const Waypoints& way, double time_limit) {
+  constexpr double step = 0.25, turn_rate = 1.5;  // [s, rad/s]
+  const double near = 1.5 * way.speed / turn_rate;
+  const std::size_t count = way.points.size();
+  Samples samples;
+  Vec2 position = way.points[0];
+  double heading = heading_along(way.points[1] - position);
+  std::size_t next = 1;
+  bool back = false;
+  for (double t = -1; t < time_limit + 2; t += step) {
+    samples.times.push_back(t);
+    samples.points.push_back(position);
+    if (distance(position, way.points[next]) < near) {
+      if (way.at_end == AtEnd::back && next == (back ? 0 : count - 1)) back = !back;
+      next = (next + (back ? count - 1 : 1)) % count;
+    }
+    const double turn = wrap(heading_along(way.points[next] - position) - heading);
+    heading += std::clamp(turn, -step * turn_rate, step * turn_rate);
+    position += step * way.speed * unit_vector(heading);
+  }
+  return track_of(std::move(samples));
 }
 
 /// Speeds up a shape or a motion by `factor`, if it has its own pace.
@@ -173,6 +201,11 @@ Mover random_mover(const Ground& ground, const Crosser& swarm, double speed_rati
   }
   set_pace(mover.obstacle, own, carried);
   return mover;
+}
+
+void limit_turns(Mover& mover, double time_limit) {
+  const auto* way = std::get_if<Waypoints>(&mover.obstacle.motion);
+  if (way && way->points.size() > 1) mover.obstacle.motion = turning_track(*way, time_limit);
 }
 
 }  // namespace microswarm::scenes

@@ -17,5 +17,8 @@ struct Mover {
 /// may rest only if `may_rest`. Tracks extend to `time_limit` [s].
 Mover random_mover(const Ground& ground, const Crosser& swarm, double speed_ratio, bool may_rest,
                    double time_limit, Rng& rng);
+/// Lets a mover on waypoints turn at 1.5 rad/s at most: it becomes a track that extends to
+/// `time_limit` [s] and passes the points at some distance.
+void limit_turns(Mover& mover, double time_limit);
 
 }  // namespace microswarm::scenes

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/scenes/avoidance_worlds.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
-#include "microswarm/swarm/body/vortex.hpp"
+#include "microswarm/swarm/body/swarm_body.hpp"
 #include "microswarm/world/world.hpp"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ constexpr double off_walls = 5;        // clearance of crossing obstacles [µm]
 constexpr int tries_each = 15;         // attempts per fair obstacle
 constexpr double goal_tolerance = 30;  // [µm]
 
-VortexParams random_swarm(Rng& rng) {
+VortexParams random_vortex(Rng& rng) {
   VortexParams swarm;
   swarm.radius = rng.uniform(35, 55);
   swarm.moving_radius = swarm.radius * rng.uniform(0.85, 1.15);
@@ -29,6 +29,36 @@ VortexParams random_swarm(Rng& rng) {
   swarm.max_speed = rng.uniform(60, 100);
   swarm.position_noise = rng.uniform(0, 1.5);
   return swarm;
+}
+
+SwarmParams random_swarm(Hardship hardship, Rng& rng) {
+  const VortexParams vortex = random_vortex(rng);
+  if (hardship != Hardship::turn_limit && hardship != Hardship::drift) return vortex;
+  RibbonParams ribbon{.radius = vortex.radius,
+                      .max_speed = vortex.max_speed,
+                      .position_noise = vortex.position_noise};
+  if (hardship == Hardship::turn_limit) {
+    ribbon.max_turn_rate = rng.uniform(1.5, 4);
+  } else {
+    ribbon.max_turn_rate = 2 * pi;
+    ribbon.drift = rng.uniform(5, 15) * unit_vector(rng.uniform(-pi, pi));
+    ribbon.speed_factor = rng.uniform(0.85, 1);
+  }
+  return ribbon;
+}
+
+/// Makes the sight worse, if that is the hardship.
+void worsen(Hardship hardship, experiment::SensingParams& sensing, Rng& rng) {
+  if (hardship == Hardship::lost_sight) {
+    sensing.missed_share = rng.uniform(0.02, 0.1);
+    sensing.obstacle_missed_share = rng.uniform(0.05, 0.2);
+    sensing.missed_time = rng.uniform(0.2, 0.8);
+  } else if (hardship == Hardship::mistaken_identity) {
+    sensing.obstacle_noise = rng.uniform(0, 2);
+    sensing.swapped_share = rng.uniform(0.05, 0.3);
+  } else if (hardship == Hardship::hidden_delay) {
+    sensing.hidden_delay = rng.uniform(0.05, 0.25);
+  }
 }
 
 experiment::SensingParams random_sensing(Rng& rng) {
@@ -120,6 +150,11 @@ class Referee {
 
 Ground random_ground(const AvoidanceOptions& options, const Crosser& swarm, int obstacles,
                      Rng& rng) {
+  if (options.hardship == Hardship::dead_ends) return dead_end_ground(swarm, rng);
+  if (options.hardship == Hardship::blocked_gates) return blocked_ground(swarm, rng);
+  if (options.hardship == Hardship::narrow_lanes)
+    return narrow_ground(
+        swarm, swarm.half_passage - avoidance_passage_gap + passage_gap(options.hardship), rng);
   if (!options.walls) return open_ground(swarm, obstacles, rng);
   const double slow = std::min(0.9, options.max_speed_ratio);
   const std::uint64_t kind = rng.below(20);
@@ -134,11 +169,12 @@ Ground random_ground(const AvoidanceOptions& options, const Crosser& swarm, int 
 experiment::Scenario avoidance_scenario(std::uint64_t seed, const AvoidanceOptions& options) {
   Rng rng(seed, Purpose::scene);
   experiment::Scenario s;
-  const VortexParams swarm = random_swarm(rng);
-  s.swarm = swarm;
+  s.swarm = random_swarm(options.hardship, rng);
   s.sensing = random_sensing(rng);
+  worsen(options.hardship, s.sensing, rng);
   s.seed = seed;
-  const double radius = max_radius(swarm);
+  const SwarmLimits swarm = swarm_limits(s.swarm);
+  const double radius = swarm.radius;
   const Crosser crosser{radius + avoidance_passage_gap, swarm.max_speed};
   const auto most = static_cast<std::uint64_t>(options.max_obstacles);
   const int asked = 1 + static_cast<int>(rng.below(most));
@@ -163,12 +199,17 @@ experiment::Scenario avoidance_scenario(std::uint64_t seed, const AvoidanceOptio
       const double ratio = rng.uniform(options.min_speed_ratio, options.max_speed_ratio);
       Mover mover =
           random_mover(ground, crosser, ratio, options.min_speed_ratio < 1, s.time_limit, rng);
+      if (!options.turn_at_once) limit_turns(mover, s.time_limit);
       if (!referee.accepts(mover)) continue;
       s.obstacles.push_back(std::move(mover.obstacle));
       break;
     }
   }
   return s;
+}
+
+AvoidanceOptions hardship_options(Hardship hardship, std::uint64_t seed) {
+  return {.walls = seed % 2 == 1, .turn_at_once = false, .hardship = hardship};
 }
 
 void see_obstacles_with_noise(experiment::Scenario& scenario) {

@@ -42,7 +42,7 @@ RadarSetting load_radar(const ReproduceOptions& options, const char* name,
 
 std::vector<report::ReproduceRow> radar_figures(const std::string& figure,
                                                 const ReproduceOptions& options, const Stop& stop) {
-  constexpr std::array<Figure, 10> figures{{{"fig1", radar_cost},
+  constexpr std::array<Figure, 11> figures{{{"fig1", radar_cost},
                                             {"fig5-6", radar_single},
                                             {"fig7", radar_series},
                                             {"fig8", radar_twelve},
@@ -51,7 +51,8 @@ std::vector<report::ReproduceRow> radar_figures(const std::string& figure,
                                             {"fig13", radar_micromaze},
                                             {"safety", radar_safety},
                                             {"safety-noisy", radar_safety_noisy},
-                                            {"fast", radar_fast}}};
+                                            {"fast", radar_fast},
+                                            {"hardships", radar_hardships}}};
   return reproduce_figures("radar", figures, figure, options, stop);
 }
 

@@ -24,8 +24,8 @@ constexpr double aimed_share = 0.2;  // of the radar's contacts
 /// Number of worlds per navigator.
 struct Counts {
   int recommended;  ///< safe interval and radar
-  int baseline;
-  int slow;  ///< D-RRT*, whose decisions take longest
+  int baseline;     ///< 0: these do not take part
+  int slow;         ///< D-RRT*, whose decisions take longest
 
   int of(std::string_view navigator) const {
     if (navigator == navigation::HierarchicalParams::type_name) return slow;
@@ -43,9 +43,19 @@ struct Race {
 Course generated(std::string name, scenes::AvoidanceOptions options, bool walls) {
   options.walls = walls;
   return {.name = std::move(name),
-          .walls = walls,
           .scenario =
               [options](std::uint64_t seed) { return scenes::avoidance_scenario(seed, options); },
+          .world = scenes::avoidance_world};
+}
+
+/// Worlds with a hardship and with obstacles that do not turn in no time.
+Course hard(scenes::Hardship hardship) {
+  return {.name = std::string(enum_name(hardship)),
+          .passage_gap = scenes::passage_gap(hardship),
+          .scenario =
+              [hardship](std::uint64_t seed) {
+                return scenes::avoidance_scenario(seed, scenes::hardship_options(hardship, seed));
+              },
           .world = scenes::avoidance_world};
 }
 
@@ -56,7 +66,6 @@ std::optional<Course> recorded(std::string name, double slower, const ReproduceO
   const auto street = std::make_shared<const scenes::Street>(scenes::read_street(*file, slower));
   return Course{
       .name = std::move(name),
-      .walls = false,
       .scenario = [street](std::uint64_t seed) { return scenes::street_scenario(*street, seed); },
       .world = scenes::avoidance_world};
 }
@@ -77,6 +86,7 @@ CourseResult crossed(const Race& race, const ReproduceOptions& options, const St
   const Counts& counts = options.quick ? race.quick : race.full;
   CourseResult out{.course = course, .who = contestants(course.scenario(0)), .crossings = {}};
   std::vector<int> worlds;
+  std::erase_if(out.who, [&](const Contestant& who) { return counts.of(who.name) == 0; });
   for (const Contestant& who : out.who) worlds.push_back(counts.of(who.name));
   const Progress bar(options.progress, course.name);
   const auto progress = [&](double share) { bar.update(share); };
@@ -104,13 +114,15 @@ void add_rows(const std::string& figure, const CourseResult& result,
       rows.push_back(aim ? unjudged_if_quick(noted(std::move(out), "the aim is ours"), options)
                          : std::move(out));
     };
+    const bool has_aim = figure == "safety" || figure == "hardships";
     row("contacts a run", "1", tally.contacts);
     row("avoidable contacts a run", "1", tally.avoidable,
-        figure == "safety" && is_ours(result.who[k].name) ? std::optional(0.0) : std::nullopt);
+        has_aim && is_ours(result.who[k].name) ? std::optional(0.0) : std::nullopt);
     row("worlds with an avoidable contact", "%", 100.0 * tally.runs_avoidable / tally.runs, {},
         tally.runs_avoidable);
     row("arrived", "%", 100 * tally.arrived, {}, tally.runs_arrived);
     row("time ÷ straight at full speed, median", "1", tally.slowness);
+    if (figure == "hardships") continue;
     row("avoidance cost δ, mean", "1", tally.delta);
     row("turning, median", "°", tally.turning);
   }
@@ -187,6 +199,15 @@ std::vector<report::ReproduceRow> radar_safety_noisy(const ReproduceOptions& opt
   std::vector<Race> races;
   for (Race& race : slow_races(options)) races.push_back(noisy(std::move(race)));
   return raced("safety-noisy", races, options, stop);
+}
+
+std::vector<report::ReproduceRow> radar_hardships(const ReproduceOptions& options,
+                                                  const Stop& stop) {
+  std::vector<Race> races;
+  for (const auto& [hardship, name] : enum_names(scenes::Hardship()))
+    if (hardship != scenes::Hardship::none)
+      races.push_back({hard(hardship), {1, 0, 1}, {1250, 0, 100}});
+  return raced("hardships", races, options, stop);
 }
 
 std::vector<report::ReproduceRow> radar_fast(const ReproduceOptions& options, const Stop& stop) {

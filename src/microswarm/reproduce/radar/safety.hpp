@@ -20,4 +20,8 @@ std::vector<report::ReproduceRow> radar_safety_noisy(const ReproduceOptions& opt
 /// The same with obstacles at 1 to 3 times the swarm's speed, and pedestrians as fast as the swarm.
 std::vector<report::ReproduceRow> radar_fast(const ReproduceOptions& options, const Stop& stop);
 
+/// The recommended navigators in worlds of every hardship, where obstacles do not turn in no time.
+std::vector<report::ReproduceRow> radar_hardships(const ReproduceOptions& options,
+                                                  const Stop& stop);
+
 }  // namespace microswarm::reproduce

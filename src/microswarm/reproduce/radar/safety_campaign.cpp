@@ -16,16 +16,24 @@
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/experiment/session/session.hpp"
 #include "microswarm/io/columns.hpp"
-#include "microswarm/scenes/avoidance_worlds.hpp"
 
 namespace microswarm::reproduce {
 namespace {
 
-/// Sets what a navigator must know of the swarm, and of a world with walls.
+bool has_walls(const experiment::Scenario& scenario) {
+  const auto* map = std::get_if<formats::PolygonsMap>(&scenario.map);
+  return (map && (!map->walls.empty() || !map->discs.empty())) ||
+         std::ranges::any_of(scenario.obstacles, [](const Obstacle& obstacle) {
+           return std::holds_alternative<DeformingChannel>(obstacle.shape);
+         });
+}
+
+/// Sets what a navigator must know of the swarm, and of a world with walls whose passages leave
+/// `passage_gap` [µm] beside the swarm.
 navigation::NavigatorParams suited(navigation::NavigatorParams params,
-                                   const experiment::Scenario& scenario, bool walls) {
+                                   const experiment::Scenario& scenario, double passage_gap) {
   const SwarmLimits swarm = swarm_limits(scenario.swarm);
-  const double margin = swarm.radius + 0.8 * scenes::avoidance_passage_gap;
+  const double margin = swarm.radius + 0.8 * passage_gap;
   std::visit(
       Overloaded{[&](navigation::HierarchicalParams& p) {
                    p.speed = swarm.max_speed;
@@ -33,8 +41,7 @@ navigation::NavigatorParams suited(navigation::NavigatorParams params,
                  },
                  [&](navigation::RadarParams& p) {
                    p.speed = swarm.max_speed;
-                   if (walls) p.safety_distance = std::min(p.safety_distance, 40.0);
-                   p.global_plan = walls;
+                   p.global_plan = has_walls(scenario);
                    p.planner.clearance = margin;
                  },
                  [&](OneOf<navigation::StraightParams, navigation::PotentialFieldParams,
@@ -46,8 +53,8 @@ navigation::NavigatorParams suited(navigation::NavigatorParams params,
 }
 
 Contestant contestant(std::string name, const navigation::NavigatorParams& params) {
-  return {std::move(name), [params](const experiment::Scenario& scenario, bool walls) {
-            return suited(params, scenario, walls);
+  return {std::move(name), [params](const experiment::Scenario& scenario, double passage_gap) {
+            return suited(params, scenario, passage_gap);
           }};
 }
 
@@ -64,14 +71,6 @@ struct SampleRow {
   }
 };
 
-/// Circles that leave time to decide; the published ones suit obstacles much slower than the swarm.
-navigation::RadarParams wide_radar() {
-  navigation::RadarParams params;
-  params.safety_distance = 100;
-  params.detection_range = 170;
-  return params;
-}
-
 navigation::RadarParams published_radar() {
   navigation::RadarParams params;
   params.as_published = true;
@@ -83,12 +82,9 @@ template <class Params>
 void add(const navigation::Task& task, std::vector<Contestant>& out) {
   if (!navigation::unsupported_reason(navigation::NavigatorParams(Params{}), task).empty()) return;
   const std::string name(Params::type_name);
-  if constexpr (std::same_as<Params, navigation::RadarParams>) {
-    out.push_back(contestant(name, wide_radar()));
+  out.push_back(contestant(name, Params{}));
+  if constexpr (std::same_as<Params, navigation::RadarParams>)
     out.push_back(contestant(name + "_as_published", published_radar()));
-  } else {
-    out.push_back(contestant(name, Params{}));
-  }
 }
 
 template <std::size_t... I>
@@ -153,7 +149,7 @@ Crossings cross(const Course& course, const std::vector<Contestant>& who,
     int crossings = 0;
     for (std::size_t k = 0; k < who.size() && !stop(); ++k) {
       if (seed >= out[k].size()) continue;
-      scenario.navigator = who[k].params(scenario, course.walls);
+      scenario.navigator = who[k].params(scenario, course.passage_gap);
       out[k][seed] = crossed(scenario, world, stop);
       ++crossings;
     }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "microswarm/experiment/run/contact_judge.hpp"
+#include "microswarm/scenes/avoidance_worlds.hpp"
 #include "microswarm/world/world.hpp"
 
 namespace microswarm::reproduce {
@@ -15,7 +16,7 @@ namespace microswarm::reproduce {
 /// Worlds to cross, by seed. Both functions must be pure and thread-safe.
 struct Course {
   std::string name{};
-  bool walls = false;
+  double passage_gap = scenes::avoidance_passage_gap;  ///< beside the swarm, between walls [µm]
   std::function<experiment::Scenario(std::uint64_t seed)> scenario{};
   std::function<World(const experiment::Scenario&)> world{};
 };
@@ -23,13 +24,13 @@ struct Course {
 /// A navigator and its parameters for a scenario.
 struct Contestant {
   std::string name{};
-  std::function<navigation::NavigatorParams(const experiment::Scenario&, bool walls)> params{};
+  std::function<navigation::NavigatorParams(const experiment::Scenario&, double passage_gap)>
+      params{};
 };
 
 /// Every navigator that supports such a swarm, in the order of NavigatorParams. All use the swarm's
 /// speed. D-RRT* has a margin that fits every passage; navigators with waypoints plan them where
-/// there are walls. The radar appears with circles suited to such obstacles and as published. Other
-/// parameters are defaults.
+/// there are walls. The radar appears once more as published. Other parameters are defaults.
 std::vector<Contestant> contestants(const experiment::Scenario& example);
 
 /// Result of one run.

@@ -230,7 +230,7 @@ void write_worlds(const std::vector<CourseResult>& results, const fs::path& fold
         if (c.avoidable() == 0 || written == worlds_written) return;
         ++written;
         experiment::Scenario scenario = result.course.scenario(seed);
-        scenario.navigator = result.who[k].params(scenario, result.course.walls);
+        scenario.navigator = result.who[k].params(scenario, result.course.passage_gap);
         std::string stem = fmt::format("{}-{}-{}", result.course.name, result.who[k].name, seed);
         std::erase(stem, ',');
         std::replace(stem.begin(), stem.end(), ' ', '-');
