@@ -9,6 +9,7 @@
 #include "bench/global.hpp"
 #include "bench/growth.hpp"
 #include "bench/lab.hpp"
+#include "bench/navigators.hpp"
 #include "bench/planning.hpp"
 #include "bench/radar.hpp"
 #include "bench/rig.hpp"
@@ -89,6 +90,8 @@ int main(int argc, char** argv) {
       {"swarm", "Stepping of robots under one input", bench::swarm},
       {"global", "Planning for several robots under one input", bench::global},
       {"gather", "Steps that gather robots, by each method", bench::gather},
+      {"navigators", "Every navigator in scenes of the arena, beside the earliest arrival",
+       bench::navigators},
       {"radar", "Decisions of the radar", bench::radar},
       {"growth", "How times grow with robots, obstacles, vertices and shapes", bench::growth},
 #ifdef MICROSWARM_BENCH_BINDINGS

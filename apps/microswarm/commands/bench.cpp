@@ -18,8 +18,9 @@ struct BenchOptions {
   bool json = false;
 };
 
-constexpr std::string_view groups[] = {"planning", "sweep",  "swarm", "global", "gather",  "radar",
-                                       "growth",   "vision", "lab",   "rig",    "bindings"};
+constexpr std::string_view groups[] = {"planning", "sweep",      "swarm", "global",
+                                       "gather",   "navigators", "radar", "growth",
+                                       "vision",   "lab",        "rig",   "bindings"};
 
 int measure(const BenchOptions& o) {
   if (std::find(std::begin(groups), std::end(groups), o.group) == std::end(groups))

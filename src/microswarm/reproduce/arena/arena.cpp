@@ -129,13 +129,6 @@ struct ArenaRunRow {
   }
 };
 
-template <class Enum>
-std::string name_of(Enum value) {
-  for (const auto& [known, name] : enum_names(value))
-    if (known == value) return std::string(name);
-  return {};
-}
-
 std::string arena_csv(const std::vector<ArenaScene>& scenes,
                       const std::vector<DrivenNavigator>& who) {
   std::vector<ArenaRunRow> rows;
@@ -144,20 +137,21 @@ std::string arena_csv(const std::vector<ArenaScene>& scenes,
     const scenes::ArenaKind& kind = scenes::arena_kinds()[scene.kind];
     for (std::size_t k = 0; k < who.size(); ++k) {
       const DrivenRun& run = scene.runs[k];
-      rows.push_back({.kind = std::string(kind.name),
-                      .group = name_of(kind.group),
-                      .seed = scene.seed,
-                      .navigator = who[k].name,
-                      .result = run.refusal.empty() ? name_of(run.status) : "refused",
-                      .time = run.time,
-                      .optimum = scene.optimum,
-                      .length = run.length,
-                      .shortest = scene.shortest,
-                      .turning = run.turning,
-                      .contacts = run.contacts,
-                      .avoidable = run.avoidable,
-                      .step_p50 = run.step_p50,
-                      .step_p99 = run.step_p99});
+      rows.push_back(
+          {.kind = std::string(kind.name),
+           .group = std::string(enum_name(kind.group)),
+           .seed = scene.seed,
+           .navigator = who[k].name,
+           .result = run.refusal.empty() ? std::string(enum_name(run.status)) : "refused",
+           .time = run.time,
+           .optimum = scene.optimum,
+           .length = run.length,
+           .shortest = scene.shortest,
+           .turning = run.turning,
+           .contacts = run.contacts,
+           .avoidable = run.avoidable,
+           .step_p50 = run.step_p50,
+           .step_p99 = run.step_p99});
     }
   }
   return io::csv_table(rows);
