@@ -1,27 +1,33 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes docs/results/figures.md, the papers' values beside ours, from the rows in tests/golden.
+"""Writes docs/results/figures.md, the papers' values beside ours, from the rows in docs/results/figures.json.
 
-    tools/figures_page.py            writes it
-    tools/figures_page.py --check    complains where it says something else
+    tools/figures_page.py                              writes it
+    tools/figures_page.py --check                      complains where it says something else
+    tools/figures_page.py --measure PROGRAM [KEY...]   measures the rows anew, in full, and writes it
 
-Rows for which a paper gives no value, and those that vary from run to run, are left out.
+Rows for which a paper gives no value, and those that vary from run to run, are left out: the rows in tests/golden
+tell which.
 """
 
 import json
 import pathlib
+import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 GOLDEN = ROOT / "tests" / "golden"
+STORED = ROOT / "docs" / "results" / "figures.json"
+KEPT = ("figure", "quantity", "unit", "paper", "aim", "ok", "ours")
 PAGE = ROOT / "docs" / "results" / "figures.md"
 PAPERS = {"drrt": "drrt.md", "radar": "radar.md", "global": "global.md", "gather": "gather.md"}
+FIGURES = {"drrt": "fig3 fig5a fig5b", "radar": "fig1 fig5-6 fig7 fig8 fig10 fig11-12 fig13",
+           "global": "fig3-5 fig9-10 fig12", "gather": "fig3-6 fig9 fig10"}
 HEAD = """# The papers' figures beside ours
 
-Written by `tools/figures_page.py` from the rows that the tests compare with: `microswarm reproduce KEY --quick`, renewed by
-`./dev rows KEY`. Shown are all rows for which the [paper](../reference/papers.md) gives a value, but for times of computation.
-An aim is the paper's value with a tolerance, which `reproduce` prints. A dash is no aim, or too few trials to judge it.
-Full runs, without `--quick`, are discussed on the pages linked below.
+Written by `tools/figures_page.py` from full runs, `microswarm reproduce KEY/FIGURE`, kept in [figures.json](figures.json).
+Shown are all rows for which the [paper](../reference/papers.md) gives a value, but for times of computation.
+An aim is the paper's value with a tolerance, which `reproduce` prints. A dash is no aim.
 """
 
 
@@ -49,24 +55,57 @@ def table(rows):
 
 def section(key, rows):
     """The section of one paper."""
-    shown = [row for row in rows if row["paper"] is not None and not row.get("varies")]
-    judged = [row["ok"] for row in shown if row["ok"] is not None]
-    about = f"{len(shown)} rows; of {len(judged)} that can be judged, {sum(judged)} are met. [More]({PAPERS[key]})."
-    return f"\n## [{key}]\n\n{about}\n\n{table(shown)}"
+    judged = [row["ok"] for row in rows if row["ok"] is not None]
+    about = f"{len(rows)} rows; of {len(judged)} that can be judged, {sum(judged)} are met. [More]({PAPERS[key]})."
+    return f"\n## [{key}]\n\n{about}\n\n{table(rows)}"
 
 
-def written(golden):
+def written(stored):
     """The page."""
-    rows = {key: json.loads((golden / f"{key}.json").read_text(encoding="utf-8")) for key in PAPERS}
-    return HEAD + "".join(section(key, rows[key]) for key in PAPERS)
+    return HEAD + "".join(section(key, stored[key]) for key in PAPERS)
+
+
+def name(row):
+    return row["figure"], row["quantity"]
+
+
+def published(rows, golden):
+    """Those for which the paper gives a value, and which do not vary from run to run."""
+    varying = {name(row) for row in golden if row.get("varies")}
+    return [{field: row[field] for field in KEPT} for row in rows if row["paper"] is not None and name(row) not in varying]
+
+
+def measured(program, key):
+    """The rows of a paper, in full."""
+    golden = json.loads((GOLDEN / f"{key}.json").read_text(encoding="utf-8"))
+    rows = []
+    for figure in FIGURES[key].split():
+        print(f"{key}/{figure}", file=sys.stderr)
+        done = subprocess.run([program, "reproduce", f"{key}/{figure}", "--json"], stdout=subprocess.PIPE, check=False)
+        if done.returncode not in (0, 3):
+            sys.exit(f"{program} reproduce {key}/{figure}: exit code {done.returncode}")
+        rows += published(json.loads(done.stdout)["rows"], golden)
+    return rows
+
+
+def renew(program, keys):
+    """Stores the rows of some papers anew."""
+    stored = json.loads(STORED.read_text(encoding="utf-8")) if STORED.exists() else {}
+    for key in keys or PAPERS:
+        stored[key] = measured(program, key)
+        lines = (f'"{paper}": [\n' + ",\n".join(json.dumps(row, ensure_ascii=False) for row in stored[paper]) + "\n]"
+                 for paper in PAPERS if paper in stored)
+        STORED.write_text("{" + ",\n".join(lines) + "}\n", encoding="utf-8")
 
 
 def main():
-    text = written(GOLDEN)
+    if sys.argv[1:2] == ["--measure"]:
+        renew(sys.argv[2], sys.argv[3:])
+    text = written(json.loads(STORED.read_text(encoding="utf-8")))
     if "--check" not in sys.argv[1:]:
         PAGE.write_text(text, encoding="utf-8")
     elif not PAGE.exists() or PAGE.read_text(encoding="utf-8") != text:
-        sys.exit(f"{PAGE}: not as tests/golden has it; run tools/figures_page.py")
+        sys.exit(f"{PAGE}: not as {STORED.name} has it; run tools/figures_page.py")
 
 
 if __name__ == "__main__":

@@ -325,9 +325,10 @@ class FiguresPage(unittest.TestCase):
     def test_rows_with_a_published_value(self):
         row = {"figure": "fig1", "quantity": "|q|", "unit": "µm", "paper": 2.0, "aim": 2.2, "ok": True,
                "ours": 12345.6}
-        text = figures_page.section("drrt", [
-            row, row | {"paper": None}, row | {"varies": True, "ours": None},
-            row | {"unit": "1", "aim": None, "ok": None, "ours": 0.123456}])
+        time = row | {"quantity": "time"}
+        text = figures_page.section("drrt", figures_page.published(
+            [row, row | {"paper": None}, time, row | {"unit": "1", "aim": None, "ok": None, "ours": 0.123456}],
+            [row, time | {"varies": True, "ours": None}]))
         self.assertIn("2 rows; of 1 that can be judged, 1 are met.", text)
         self.assertTrue(text.endswith(
             "| --- |\n| fig1 | \\|q\\| | 2 µm | 12,346 µm | 2.2 | yes |\n"
