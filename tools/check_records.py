@@ -10,7 +10,7 @@ Each line there is a hash and the arguments of `microswarm run` that it belongs 
 scenario, and every navigator. Renewing keeps the arguments, adds scenarios that are missing and
 stores what is measured; the commit says why the hashes changed. Masked, the C library and
 OpenCV are told that the CPU has neither FMA nor AVX2: then they compute other last bits, and nothing
-may depend on them. Then it is every third line, and a sweep and some figures beside those of the CPU as it is.
+may depend on them. Every third line is compared so, and a sweep and some figures with those of the CPU as it is.
 """
 
 import argparse

@@ -146,5 +146,76 @@ TEST(AvoidanceWorlds, HaveAllShapesAndMotions) {
   EXPECT_EQ(kinds.size(), std::variant_size_v<Shape> + std::variant_size_v<Motion>);
 }
 
+template <class Check>
+void for_each_hard_world(scenes::Hardship hardship, Check&& check_one) {
+  for (std::uint64_t seed = 0; seed < drawn_worlds; ++seed) {
+    SCOPED_TRACE(std::string(enum_name(hardship)) + ", seed " + std::to_string(seed));
+    check_one(scenes::avoidance_scenario(seed, scenes::hardship_options(hardship, seed)));
+  }
+}
+
+/// Gaps between the pieces of a barrier across, from below [µm].
+std::vector<std::pair<double, double>> gates(const Scenario& s) {
+  std::vector<Box> pieces;
+  for (const std::vector<Vec2>& wall : std::get<formats::PolygonsMap>(s.map).walls)
+    pieces.push_back(bounding_box(wall));
+  std::ranges::sort(pieces, {}, [](const Box& box) { return box.lo.y; });
+  std::vector<std::pair<double, double>> gates;
+  for (std::size_t i = 1; i < pieces.size(); ++i)
+    gates.emplace_back(pieces[i - 1].hi.y, pieces[i].lo.y);
+  return gates;
+}
+
+TEST(Hardships, SwarmsTurnSlowlyOrDrift) {
+  for_each_hard_world(scenes::Hardship::turn_limit, [](const Scenario& s) {
+    const auto& ribbon = std::get<RibbonParams>(s.swarm);
+    EXPECT_TRUE(ribbon.max_turn_rate >= 1.5 && ribbon.max_turn_rate <= 4);
+    EXPECT_EQ(ribbon.drift, Vec2{});
+  });
+  for_each_hard_world(scenes::Hardship::drift, [](const Scenario& s) {
+    const auto& ribbon = std::get<RibbonParams>(s.swarm);
+    EXPECT_TRUE(norm(ribbon.drift) >= 5 && norm(ribbon.drift) <= 15);
+    EXPECT_TRUE(ribbon.speed_factor >= 0.85 && ribbon.speed_factor <= 1);
+  });
+}
+
+TEST(Hardships, WallsStandInTheWay) {
+  int in_the_way = 0;
+  for_each_hard_world(scenes::Hardship::dead_ends, [&](const Scenario& s) {
+    const auto walls = std::get<formats::PolygonsMap>(s.map).walls.size();
+    EXPECT_TRUE(walls == 3 || walls == 6);
+    const World world = scenes::avoidance_world(s);
+    in_the_way += !world.map->is_free(Segment{s.start->position, *s.goal}, 1);
+  });
+  EXPECT_GE(in_the_way, drawn_worlds - 1);
+  for_each_hard_world(scenes::Hardship::narrow_lanes, [](const Scenario& s) {
+    ASSERT_EQ(gates(s).size(), 2u);
+    for (const auto& [low, high] : gates(s)) EXPECT_NEAR(high - low, 2 * radius_of(s) + 15, 1e-9);
+  });
+  for_each_hard_world(scenes::Hardship::blocked_gates, [](const Scenario& s) {
+    int shut = 0;
+    for (const auto& [low, high] : gates(s))
+      for (const Obstacle& obstacle : s.obstacles) {
+        const auto* disc = std::get_if<DiscShape>(&obstacle.shape);
+        const auto* still = std::get_if<Still>(&obstacle.motion);
+        shut += disc && still && still->position.y - disc->radius <= low + 1e-9 &&
+                still->position.y + disc->radius >= high - 1e-9;
+      }
+    EXPECT_EQ(shut, 1);
+  });
+}
+
+TEST(Hardships, SightIsWorse) {
+  for_each_hard_world(scenes::Hardship::lost_sight, [](const Scenario& s) {
+    EXPECT_GE(s.sensing.missed_share, 0.02);
+    EXPECT_GE(s.sensing.obstacle_missed_share, 0.05);
+    EXPECT_TRUE(s.sensing.missed_time >= 0.1 && s.sensing.missed_time <= 0.3);
+  });
+  for_each_hard_world(scenes::Hardship::mistaken_identity,
+                      [](const Scenario& s) { EXPECT_GE(s.sensing.swapped_share, 0.05); });
+  for_each_hard_world(scenes::Hardship::hidden_delay,
+                      [](const Scenario& s) { EXPECT_GE(s.sensing.hidden_delay, 0.05); });
+}
+
 }  // namespace
 }  // namespace microswarm::experiment

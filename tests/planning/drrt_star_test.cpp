@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "microswarm/planning/exact/exact.hpp"
 #include "microswarm/planning/trees/search_tree.hpp"
 #include "microswarm/scenes/worlds.hpp"
@@ -23,6 +25,11 @@ DrrtStarParams params_for(double clearance) {
 Plan plan_once(const Snapshot& world, Pose2 start, Vec2 goal, const DrrtStarParams& params) {
   Rng rng(1, Purpose::planner);
   return plan(world, start, goal, params, rng);
+}
+
+Plan plan_exactly(const Snapshot& world, Pose2 start, Vec2 goal, double clearance) {
+  Rng rng(1, Purpose::planner);
+  return plan(world, start, goal, ExactParams{clearance, 30}, rng);
 }
 
 Plan without_route(const Snapshot& world, Pose2 start, Vec2 goal, DrrtStarParams params) {
@@ -50,7 +57,7 @@ TEST(DrrtStarRoute, CostsNoMoreThanWithoutItAndHardlyMoreThanTheShortestPath) {
     const Snapshot world = raw.snapshot();
     const Plan with = plan_once(world, start, goal, params);
     const Plan without = without_route(world, start, goal, params);
-    const Plan shortest = plan(world, start, goal, ExactParams{clearance, 30}, rng);
+    const Plan shortest = plan_exactly(world, start, goal, clearance);
     ASSERT_EQ(with.status, shortest.status) << "trial " << trial;
     if (with.status != Status::solved || with.path.size() < 2) continue;
     ++asked;
@@ -88,18 +95,36 @@ TEST(DrrtStarRoute, StaysWithTheTreeWhereSomethingThatMovesIsNear) {
     EXPECT_EQ(with.status, Status::solved);
     return with.path != without_route(world.snapshot(), at_left, at_right, params).path;
   };
-  // The route ends at the height of the goal, 30 µm before it.
+  // The route ends 30 µm before the goal.
   EXPECT_TRUE(takes_route({{at_right.x + 200, 690}, 5}));
   EXPECT_FALSE(takes_route({{at_right.x + near - 20, at_right.y}, 5}));
 }
 
-TEST(DrrtStarRoute, AStartAtTheClearanceIsPlannedByTheTreeAlone) {
+TEST(DrrtStarRoute, AStartOrAGoalAtTheClearanceIsNoHindrance) {
   const DrrtStarParams params = params_for(10);
-  const scenes::RawWorld world = world_with_door();
-  const Pose2 pressed{{470, 300}, pi};
-  const Plan with = plan_once(world.snapshot(), pressed, {100, 300}, params);
-  EXPECT_EQ(with.status, Status::solved);
-  EXPECT_TRUE(world.snapshot().is_free(with.path, params.clearance));
+  const Snapshot world = world_with_door().snapshot();
+  for (const double heading : {0.0, 3.0})
+    for (const auto& [start, goal] :
+         {std::pair{Vec2{470, 300}, at_right}, {at_right, Vec2{470, 300}}}) {
+      const Plan with = plan_once(world, {start, heading}, goal, params);
+      ASSERT_EQ(with.status, Status::solved);
+      EXPECT_TRUE(world.is_free(with.path, params.clearance));
+      const Plan shortest = plan_exactly(world, {start, heading}, goal, params.clearance);
+      EXPECT_LE(path_length(with.path), 1.0001 * path_length(shortest));
+    }
+}
+
+TEST(DrrtStarRoute, ThatThereIsNoPathIsProvenAtOnceAndAFoundOneLimitsTheTree) {
+  DrrtStarParams params = params_for(16);  // the door is 30 µm wide
+  params.max_nodes = params.max_iterations = 10'000'000;
+  const Snapshot world = world_with_door().snapshot();
+  const Plan none = plan_once(world, at_left, at_right, params);
+  EXPECT_EQ(none.status, Status::no_path);
+  EXPECT_LE(none.tree.size(), 2u);
+  params.clearance = 14.999;
+  const Plan found = plan_once(world, at_left, at_right, params);
+  EXPECT_EQ(found.status, Status::solved);
+  EXPECT_LE(found.tree.size(), static_cast<std::size_t>(DrrtStarParams{}.max_nodes) + 1);
 }
 
 }  // namespace

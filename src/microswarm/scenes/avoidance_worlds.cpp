@@ -52,7 +52,7 @@ void worsen(Hardship hardship, experiment::SensingParams& sensing, Rng& rng) {
   if (hardship == Hardship::lost_sight) {
     sensing.missed_share = rng.uniform(0.02, 0.1);
     sensing.obstacle_missed_share = rng.uniform(0.05, 0.2);
-    sensing.missed_time = rng.uniform(0.2, 0.8);
+    sensing.missed_time = rng.uniform(0.1, 0.3);
   } else if (hardship == Hardship::mistaken_identity) {
     sensing.obstacle_noise = rng.uniform(0, 2);
     sensing.swapped_share = rng.uniform(0.05, 0.3);

@@ -17,7 +17,7 @@ enum class Hardship {
   turn_limit,    ///< the swarm is a ribbon, which turns at a limited rate
   drift,         ///< a flow carries it, and it is slower than commanded; navigators know of neither
   dead_ends,     ///< walls form pockets that open towards the start
-  narrow_lanes,  ///< the only passages leave 15 µm beside the swarm
+  narrow_lanes,  ///< the only passages are 15 µm wider than the swarm
   blocked_gates,      ///< one of two gates is shut by something that rests in it
   lost_sight,         ///< swarm and obstacles stay unseen for a time
   mistaken_identity,  ///< obstacles that are near each other are mistaken in some frames

@@ -17,11 +17,13 @@ class Dropouts {
   Dropouts(double share, double mean_time) : share_(share), mean_time_(mean_time) {}
 
   /// Whether the thing of this index is missed in a frame that comes `dt` [s] after the one before.
+  /// No burst begins in a first frame, with dt = 0.
   bool miss(std::size_t index, double dt, Rng& rng) {
     const double u = rng.uniform();
     if (mean_time_ <= 0 || share_ <= 0 || share_ >= 1) return u < share_;
     if (index >= is_missed_.size()) is_missed_.resize(index + 1, false);
-    const double ends = std::min(1.0, dt / mean_time_);
+    // A burst of a great share ends late, since the next begins in the next frame at the earliest.
+    const double ends = std::min({1.0, dt / mean_time_, (1 - share_) / share_});
     const double begins = ends * share_ / (1 - share_);
     is_missed_[index] = is_missed_[index] ? u >= ends : u < begins;
     return is_missed_[index];

@@ -18,10 +18,10 @@ bool are_near(const Body& a, const Body& b) {
 
 }  // namespace
 
-Snapshot ObstacleDetection::frame(const World& world, double t, double dt) {
-  Snapshot exact = world.at(t);
+Snapshot ObstacleDetection::frame(const World& world, double taken, double told, double dt) {
+  Snapshot exact = world.at(taken);
   if (params_.obstacle_noise == 0 && params_.obstacle_missed_share == 0 &&
-      params_.swapped_share == 0)
+      params_.swapped_share == 0 && taken == told)
     return exact;
   std::vector<Body> found;
   std::optional<std::uint32_t> obstacle;
@@ -38,17 +38,22 @@ Snapshot ObstacleDetection::frame(const World& world, double t, double dt) {
     found.push_back(body);
     shift(found.back(), error);
   }
-  if (params_.swapped_share > 0) swap_identities(found);
-  return Snapshot(exact.shared_map(), t, std::move(found));
+  if (params_.swapped_share > 0) swap_identities(world, found);
+  return Snapshot(exact.shared_map(), told, std::move(found));
 }
 
 /// In a share of the frames two obstacles that are near each other exchange identities.
-void ObstacleDetection::swap_identities(std::vector<Body>& bodies) {
+void ObstacleDetection::swap_identities(const World& world, std::vector<Body>& bodies) {
   if (rng_.uniform() >= params_.swapped_share) return;
+  // Walls that move are not taken for an obstacle.
+  const auto is_wall = [&](const Body& body) {
+    return std::holds_alternative<DeformingChannel>(world.obstacles[body.obstacle].shape);
+  };
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
   for (const Body& a : bodies)
     for (const Body& b : bodies)
-      if (a.obstacle < b.obstacle && are_near(a, b)) pairs.emplace_back(a.obstacle, b.obstacle);
+      if (a.obstacle < b.obstacle && !is_wall(a) && !is_wall(b) && are_near(a, b))
+        pairs.emplace_back(a.obstacle, b.obstacle);
   if (pairs.empty()) return;
   const auto [one, other] = pairs[rng_.below(pairs.size())];
   for (Body& body : bodies) {

@@ -14,12 +14,12 @@ class ObstacleDetection {
   ObstacleDetection(const SensingParams& params, Rng rng)
       : params_(params), rng_(rng), dropouts_(params.obstacle_missed_share, params.missed_time) {}
 
-  /// The world at time `t`, `dt` [s] after the frame before. Bodies of one obstacle share noise,
-  /// misses and identity.
-  Snapshot frame(const World& world, double t, double dt);
+  /// The world at time `taken`, which the frame states as `told` [s], `dt` [s] after the frame
+  /// before. Bodies of one obstacle share noise, misses and identity.
+  Snapshot frame(const World& world, double taken, double told, double dt);
 
  private:
-  void swap_identities(std::vector<Body>& bodies);
+  void swap_identities(const World& world, std::vector<Body>& bodies);
 
   SensingParams params_;
   Rng rng_;

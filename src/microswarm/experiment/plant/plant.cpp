@@ -22,12 +22,13 @@ KinematicPlant::KinematicPlant(const Scenario& scenario, World world, std::uint3
 Observation KinematicPlant::observe() {
   const double taken = std::max(0.0, now_ - sensing_.age());
   const double dt = now_ - std::exchange(observed_, now_);
+  const double told = std::max(0.0, now_ - sensing_.observation_delay);
   Observation observation{
       .now = now_,
-      .seen = std::max(0.0, now_ - sensing_.observation_delay),
+      .seen = told,
       .swarm = {},
       .robots = {},
-      .world = std::make_shared<const Snapshot>(obstacles_.frame(world_, taken, dt))};
+      .world = std::make_shared<const Snapshot>(obstacles_.frame(world_, taken, told, dt))};
   // Always draw the same count, so a missed frame does not change the noise of the next.
   const bool missed = dropouts_.miss(0, dt, noise_);
   const double dx = noise_.normal(), dy = noise_.normal(), turn = noise_.normal();

@@ -83,15 +83,24 @@ bool touches(const World& world, const State& state) {
   return !world.at(state.t).is_free(swarm.pose.position, swarm.radius);
 }
 
-/// The world without the obstacles that cannot reach the swarm between two times for any command.
-World within_reach(const World& world, const State& from, double until, const SwarmLimits& swarm) {
+/// Top speed of a swarm with what it does beyond its commands [µm/s].
+double true_top_speed(const SwarmParams& params) {
+  const double commanded = swarm_limits(params).max_speed;
+  const auto* ribbon = std::get_if<RibbonParams>(&params);
+  return ribbon ? std::max(1.0, ribbon->speed_factor) * commanded + norm(ribbon->drift) : commanded;
+}
+
+/// The world without the obstacles that cannot reach a swarm of this radius and top speed between
+/// two times for any command.
+World within_reach(const World& world, const State& from, double until, double radius,
+                   double speed) {
   World near{world.map, {}};
   const double time = until - from.t;
   std::vector<Body> bodies;
   for (const Obstacle& obstacle : world.obstacles) {
     bodies.clear();
     append_bodies(obstacle, 0, from.t, bodies);
-    const double reach = swarm.radius + time * (swarm.max_speed + top_speed(obstacle)) + 10;
+    const double reach = radius + time * (speed + top_speed(obstacle)) + 10;
     const bool may_touch = std::any_of(bodies.begin(), bodies.end(), [&](const Body& body) {
       return depth_in(body, from.body.pose().pose.position) > -reach;
     });
@@ -121,12 +130,12 @@ class Judge {
         world_(world),
         params_(params),
         limits_(swarm_limits(scenario.swarm)),
+        top_speed_(true_top_speed(scenario.swarm)),
         answers_(answers(limits_.max_speed, params.directions)) {}
 
   ContactVerdict operator()(const RunEvent& contact, const std::vector<State>& states) const {
     ContactVerdict verdict{.contact = contact, .manoeuvre = {}};
-    const double latest =
-        contact.t - limits_.response_lag - scenario_.sensing.age() + 1e-9;
+    const double latest = contact.t - limits_.response_lag - scenario_.sensing.age() + 1e-9;
     for (auto state = states.rbegin(); state != states.rend() && !verdict.avoidable; ++state) {
       if (state->t > latest || state->t < contact.t - params_.lookback) continue;
       if (!is_seen(contact, state->t) || touches(world_, *state)) continue;
@@ -149,7 +158,7 @@ class Judge {
   }
 
   const Answer* find(const State& state, double until) const {
-    const World near = within_reach(world_, state, until, limits_);
+    const World near = within_reach(world_, state, until, limits_.radius, top_speed_);
     const ContactMonitor fresh(near);
     const auto answer = std::find_if(answers_.begin(), answers_.end(), [&](const Answer& a) {
       return stays_free(fresh, state, a, until, scenario_.tick);
@@ -161,6 +170,7 @@ class Judge {
   const World& world_;
   JudgeParams params_;
   SwarmLimits limits_;
+  double top_speed_;
   std::vector<Answer> answers_;
 };
 

@@ -58,7 +58,7 @@ struct SensingParams {
     visit(self.missed_time,
           s("missed_time", 0, 60, "Mean time for which sight stays lost; 0: one frame."));
     visit(self.swapped_share,
-          plain("swapped_share", 0, 1, "Share of frames with two near obstacles mistaken."));
+          plain("swapped_share", 0, 1, "Share of frames in which two obstacles swap identities."));
     visit(self.obstacle_memory,
           s("obstacle_memory", 0, 60, "Time for which an obstacle that is not found is kept."));
     visit(self.frame_timeout,

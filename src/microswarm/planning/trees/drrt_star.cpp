@@ -108,15 +108,41 @@ void end_within(double tolerance, Vec2 goal, std::vector<Vec2>& path) {
   }
 }
 
+/// Whether the edges keep the clearance, and all bodies that are no walls are clear of the
+/// detection circles along them.
+bool is_undisturbed(const Snapshot& world, std::span<const Vec2> path,
+                    const DrrtStarParams& params) {
+  const double near = params.clearance + 0.5 * params.detection_diameter;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const Segment edge{path[i - 1], path[i]};
+    if (!world.is_free(edge, params.clearance) || !world.moving().is_free(edge, near)) return false;
+  }
+  return true;
+}
+
+/// The shortest path, cut at the goal tolerance, or why there is none. Beyond the paper.
+Plan find_route(const Snapshot& world, Pose2 start, Vec2 goal, const DrrtStarParams& params,
+                Rng& rng, const Stop& stop) {
+  // The exact planner keeps a clearance to a relative 1e-7, and a point at the tolerance is
+  // rounded.
+  constexpr double rounding = 2e-7;
+  const auto search = [&](double clearance) {
+    return plan(world, start, goal, ExactParams{clearance, params.goal_tolerance}, rng, stop);
+  };
+  Plan route = search((1 + rounding) * params.clearance);
+  if (route.status != Status::solved) route = search(params.clearance);
+  if (route.status == Status::solved)
+    end_within((1 - rounding) * params.goal_tolerance, goal, route.path);
+  return route;
+}
+
 class DrrtStar {
  public:
   DrrtStar(const Snapshot& world, Pose2 start, Vec2 goal, const DrrtStarParams& params, Rng& rng,
            const Stop& stop)
       : world_(world),
         start_(start),
-        goal_(goal),
-        rng_(rng),
-        params_(params.in_effect()),
+        params_(params),
         stop_(stop),
         arcs_(params_.arcs),
         cost_{params.length_weight, params.smoothness_weight, arcs_ ? params.turn_radius : 0},
@@ -197,38 +223,6 @@ class DrrtStar {
     append_chords(from, edge, params_.turn_radius, std::min(step, edge.length), arc_);
   }
 
-  /// Whether the edges keep the clearance, and everything that moves is clear of the detection
-  /// circles along them.
-  bool is_undisturbed(std::span<const Vec2> path) const {
-    const double near = params_.clearance + 0.5 * params_.detection_diameter;
-    for (std::size_t i = 1; i < path.size(); ++i) {
-      const Segment edge{path[i - 1], path[i]};
-      if (!world_.is_free(edge, params_.clearance) || !world_.moving().is_free(edge, near))
-        return false;
-    }
-    return true;
-  }
-
-  /// Beyond the paper: ends on the shortest path, straightened, if that costs less.
-  void take_exact_route(Plan& plan) {
-    // The exact planner keeps a clearance to a relative 1e-7; a point at the tolerance is rounded.
-    constexpr double rounding = 2e-7;
-    Plan route = planning::plan(
-        world_, start_, goal_,
-        ExactParams{(1 + rounding) * params_.clearance, params_.goal_tolerance}, rng_, stop_);
-    plan.counts.edge_checks += route.counts.edge_checks;
-    if (route.status != Status::solved) return;
-    end_within((1 - rounding) * params_.goal_tolerance, goal_, route.path);
-    if (!is_undisturbed(route.path)) return;
-    straighten(world_, params_.clearance, start_.heading, cost_, 0, route.path,
-               plan.counts.edge_checks);
-    if (plan.status == Status::solved &&
-        cost_.of(plan.path, start_.heading) <= cost_.of(route.path, start_.heading))
-      return;
-    plan.status = Status::solved;
-    plan.path = std::move(route.path);
-  }
-
   Plan finish() {
     Plan plan = growth_.finish();
     plan.detections = std::move(detections_);
@@ -238,14 +232,11 @@ class DrrtStar {
       straighten(world_, params_.clearance, start_.heading, cost_, straighten_rounds, plan.path,
                  plan.counts.edge_checks);
     }
-    if (params_.exact_route && !arcs_) take_exact_route(plan);
     return plan;
   }
 
   const Snapshot& world_;
   Pose2 start_;
-  Vec2 goal_;
-  Rng& rng_;
   DrrtStarParams params_;
   const Stop& stop_;
   bool arcs_;
@@ -271,9 +262,50 @@ Issues validate(const DrrtStarParams& params, const IsGiven& is_given) {
   return validate_published(is_given, params, params.in_effect(), DrrtStarParams{});
 }
 
-Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const DrrtStarParams& params, Rng& rng,
+namespace {
+
+Plan grow(const Snapshot& world, Pose2 start, Vec2 goal, const DrrtStarParams& params, Rng& rng,
           const Stop& stop) {
   return DrrtStar(world, start, goal, params, rng, stop).run();
+}
+
+/// Grows the tree, and takes the shortest path instead where that costs less.
+Plan grow_beside_route(const Snapshot& world, Pose2 start, Vec2 goal, DrrtStarParams params,
+                       Rng& rng, const Stop& stop) {
+  Plan route = find_route(world, start, goal, params, rng, stop);
+  const bool is_usable =
+      route.status == Status::solved && is_undisturbed(world, route.path, params);
+  // A tree that need not find the way, or cannot, is not grown to limits that suit a large map.
+  const DrrtStarParams usual;
+  const int iterations = route.status == Status::no_path ? 1 : usual.max_iterations;
+  if (is_usable || route.status == Status::no_path) {
+    params.max_nodes = std::min(params.max_nodes, usual.max_nodes);
+    params.max_iterations = std::min(params.max_iterations, iterations);
+  }
+  Plan made = grow(world, start, goal, params, rng, stop);
+  made.counts.edge_checks += route.counts.edge_checks;
+  if (route.status == Status::no_path && made.status == Status::node_limit) {
+    made.status = Status::no_path;
+    made.path = std::move(route.path);
+  }
+  if (!is_usable) return made;
+  const PathCost cost{params.length_weight, params.smoothness_weight};
+  straighten(world, params.clearance, start.heading, cost, 0, route.path, made.counts.edge_checks);
+  if (made.status == Status::solved &&
+      cost.of(made.path, start.heading) <= cost.of(route.path, start.heading))
+    return made;
+  made.status = Status::solved;
+  made.path = std::move(route.path);
+  return made;
+}
+
+}  // namespace
+
+Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const DrrtStarParams& params, Rng& rng,
+          const Stop& stop) {
+  const DrrtStarParams used = params.in_effect();
+  return used.exact_route && !used.arcs ? grow_beside_route(world, start, goal, used, rng, stop)
+                                        : grow(world, start, goal, used, rng, stop);
 }
 
 }  // namespace microswarm::planning

@@ -12,7 +12,7 @@ namespace microswarm::planning {
 /// Local planner D-RRT*: Algorithms 2–3, Eq 1–3 and 5–10 [drrt]. Costs are λ_s · turning + λ_l ·
 /// length, including the turn out of the start's heading. Beyond the paper: `straighten` shortens
 /// the path found under the same cost and the same exact checks; `exact_route` replaces it by the
-/// shortest path where that costs less or none was found, unless something that moves is near;
+/// shortest path where that costs less or none was found, unless a body that is no wall is near;
 /// `arcs` makes every edge a turn of at least `turn_radius` followed by a straight line, so that a
 /// unicycle can follow the path from the start's heading, and takes no route. `as_published`
 /// disables the three (docs/explanation/drrt-star.md).

@@ -17,7 +17,7 @@ std::vector<ArenaScene> run_arena(const std::vector<DrivenNavigator>& who,
   std::vector<ArenaScene> out(kinds * extent.seeds);
   std::size_t done = 0;
   std::mutex mutex;
-  for_each_index(out.size(), 0, [&](std::size_t i) {
+  for_each_index(out.size(), extent.threads, [&](std::size_t i) {
     if (stop()) return;
     ArenaScene& scene = out[i];
     scene.kind = extent.every * (i % kinds);

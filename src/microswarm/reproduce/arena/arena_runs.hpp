@@ -26,6 +26,7 @@ struct ArenaExtent {
   std::uint64_t first = 1;
   std::size_t seeds = 5;
   std::size_t every = 1;
+  int threads = 0;  ///< 0: as many as there are processors
 };
 
 /// Runs every navigator through the scenes, in parallel; the results, apart from wall-clock times,
