@@ -181,7 +181,8 @@ def test_every_planner_finds_the_way_around(room, planner):
     assert path.planner["type"] == planner and path.planner["clearance_um"] == 15
     assert path.points_um[0].tolist() == [50, 50]
     shortest = ms.plan(room, (50, 50), (350, 50), clearance_um=15).length_um
-    assert path.length_um >= (1 - 1e-9) * shortest
+    # All but the exact planner end within the tolerance.
+    assert path.length_um + path.planner["goal_tolerance_um"] >= (1 - 1e-9) * shortest
     assert room.is_free(path.points_um, 14.9).all()
 
 
