@@ -221,7 +221,7 @@ test('two equal runs that are paused stand at one time', () =>
     for (let i = 0; i < 4; ++i) {
       await page.keyboard.press('Space');
       const goesOn = (before) =>
-        Number(document.querySelector('tr[data-metric="time_s"] td').textContent) > before + 0.5;
+        Number(document.querySelector('tr[data-metric="time_s"] td')?.textContent) > before + 0.5; // no table at first
       await until(page, goesOn, { wanted: before });
       await page.keyboard.press('Space');
       await until(page, () => {
