@@ -26,7 +26,7 @@ FIGURES = {"drrt": "fig3 fig5a fig5b", "radar": "fig1 fig5-6 fig7 fig8 fig10 fig
 HEAD = """# The papers' figures beside ours
 
 Written by `tools/figures_page.py` from full runs, `microswarm reproduce KEY/FIGURE`, kept in [figures.json](figures.json).
-Shown are all rows for which the [paper](../reference/papers.md) gives a value, but for times of computation.
+The tables have all rows for which the [paper](../reference/papers.md) gives a value, but for times of computation.
 An aim is the paper's value with a tolerance, which `reproduce` prints. A dash is no aim.
 """
 
