@@ -21,11 +21,13 @@ Observation sighting(const Snapshot& world, Vec2 at, double now, double age) {
 /// Gives a command and keeps what it is given.
 class Probe final : public SteeringNavigator {
  public:
-  explicit Probe(double lag = 0, double speed = 50)
+  explicit Probe(double lag = 0, double speed = 50, double turn_rate = 3)
       : SteeringNavigator(
-            body_task({.radius = 40, .max_speed = 70, .max_turn_rate = 3, .response_lag = lag}),
+            body_task(
+                {.radius = 40, .max_speed = 70, .max_turn_rate = turn_rate, .response_lag = lag}),
             speed) {}
   using SteeringNavigator::delay;
+  using SteeringNavigator::estimate_swarm;
   using SteeringNavigator::last_command;
   using SteeringNavigator::speed;
 
@@ -81,6 +83,48 @@ TEST(SteeringNavigator, ACommandGivenInItsPlaceCountsAsItsOwn) {
   probe.overruled(1.3, {0, 0});
   probe.step(sighting(world, {314, 500}, 1.6, 0), {});
   EXPECT_NEAR(probe.pose->position.x, 314, 1e-9);
+}
+
+/// The last tick of a swarm that a flow carries for 6 s, while `wanted` is commanded along +x. A
+/// frame is a tick old, and a command takes effect a tick late.
+struct InFlow {
+  Vec2 velocity;    ///< of the swarm [µm/s]
+  Vec2 error;       ///< of the pose at effect [µm]
+  Command command;  ///< given
+};
+
+InFlow drive_in(Vec2 flow, double wanted) {
+  constexpr double tick = 0.1;
+  const Snapshot world = room_with();
+  Probe probe(tick, 60, infinity);
+  probe.estimate_swarm(3);
+  probe.command = {0, wanted};
+  InFlow last;
+  Vec2 at{300, 500}, before = at;
+  Command in_effect{0, 0};
+  for (int k = 0; k < 60; ++k) {
+    probe.state_after(sighting(world, before, tick * k, tick));
+    before = at;
+    last.velocity = in_effect.speed * unit_vector(in_effect.heading) + flow;
+    at += tick * last.velocity;
+    last.error = probe.pose->position - at;
+    last.command = in_effect = probe.given;
+  }
+  return last;
+}
+
+TEST(SteeringNavigator, AnEstimatedFlowIsMetByTheCommands) {
+  for (const Vec2 flow : {Vec2{0, 15}, Vec2{-15, 0}, Vec2{10, -10}}) {
+    const InFlow met = drive_in(flow, 40);
+    EXPECT_NEAR(met.velocity.x, 40, 1e-6) << flow.x << ", " << flow.y;
+    EXPECT_NEAR(met.velocity.y, 0, 1e-6) << flow.x << ", " << flow.y;
+    EXPECT_NEAR(norm(met.error), 0, 1e-6) << flow.x << ", " << flow.y;
+  }
+  const InFlow strong = drive_in({-30, 0}, 40);
+  EXPECT_NEAR(strong.command.speed, 60, 1e-6) << "the limit of its speed";
+  EXPECT_NEAR(strong.command.heading, 0, 1e-6);
+  EXPECT_EQ(drive_in({0, 15}, 0).command.speed, 0) << "to hold stays to hold";
+  EXPECT_EQ(drive_in({40, 0}, 40).command.speed, 40) << "what is wanted is what the flow does";
 }
 
 TEST(SteeringNavigator, HoldsAtTheGoalAndWithoutASwarm) {

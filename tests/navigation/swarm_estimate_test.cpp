@@ -96,6 +96,49 @@ TEST(SwarmEstimate, ASwarmThatIsCarriedAwayIsFoundInSomeFrames) {
   EXPECT_LT(distance(estimated, Vec2{700, 500}), 12);
 }
 
+// The commanded path is a circle, so a flow is neither a speed nor a turn that was not commanded.
+TEST(SwarmEstimate, AFlowIsLearntAndTakenOut) {
+  const Vec2 flow{15, -8};
+  for (const double noise : {0.0, 2.0, 6.0}) {
+    Rng rng(5, Purpose::test);
+    DelayCompensator commands(round_swarm);
+    SwarmEstimate estimate(3);
+    Pose2 pose{{500, 500}, 0};
+    double squares = 0, flows = 0;
+    const int first = 60, last = 260;
+    for (int k = 0; k < last; ++k) {
+      const double t = tick * k;
+      const Vec2 seen = pose.position + noise * Vec2{rng.normal(), rng.normal()};
+      const SwarmPose frame{{seen, pose.heading}, 40};
+      commands.at_effect({.now = t, .seen = t, .swarm = frame});
+      const Vec2 estimated = estimate.update(frame, t, commands).pose.position;
+      if (k >= first) {
+        squares += squared_norm(estimated - pose.position);
+        flows += squared_norm(estimate.flow() - flow);
+      }
+      const Command command{0.1 * k, speed};
+      commands.note(t, command);
+      pose = unicycle_step(pose, command, round_swarm.max_turn_rate, tick);
+      pose.position += tick * flow;
+    }
+    const double off = std::sqrt(squares / (2 * (last - first)));
+    EXPECT_LT(off, 0.75 * noise + 1e-6) << noise;
+    EXPECT_LT(std::sqrt(flows / (last - first)), 1.5 * noise + 1e-6) << noise;
+    // A frame that misses it: the flow carries on.
+    const double t = tick * last;
+    const Vec2 before = pose.position;
+    EXPECT_LT(distance(estimate.bridge(t, commands).pose.position, before), 3 * noise + 1e-6);
+  }
+}
+
+TEST(SwarmEstimate, WithoutAFlowNoneIsTaken) {
+  for (const std::uint64_t seed : {1, 2, 3}) EXPECT_LT(errors(8, 0, seed).estimates, 3.6);
+  DelayCompensator commands(round_swarm);
+  SwarmEstimate estimate(3);
+  for (int k = 0; k < 5; ++k) estimate.update({{{500, 500}, 0}, 40}, tick * k, commands);
+  EXPECT_EQ(estimate.flow(), Vec2{});
+}
+
 TEST(SwarmEstimate, FramesThatMissItAreBridgedByCommands) {
   DelayCompensator commands(round_swarm);
   SwarmEstimate estimate(3);

@@ -104,6 +104,9 @@ class SteeringNavigator : public Navigator {
   Decision decision_for(const Observation& seen, const Stop& stop);
   Decision decision_at(const Observation& seen, const Stop& stop);
   bool misses_briefly(const Observation& seen) const;
+  /// The command that moves the swarm as `wanted` in the estimated flow, as far as its speed
+  /// allows.
+  Command against_flow(const Command& wanted) const;
   void record(double now, const Command& command);
 
   SwarmLimits swarm_;

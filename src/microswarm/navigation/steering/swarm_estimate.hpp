@@ -14,8 +14,9 @@ namespace microswarm::navigation {
 /// Position of a single-body swarm from frames with noise: where its commands take it from the last
 /// estimate, corrected by a share of what the frame differs (Kalman filters of constant gain). Of
 /// several gains it takes the one whose predictions have lately been nearest to the frames: a
-/// small one where frames are noisy, 1 where the swarm strays from its commands. Without noise the
-/// estimate is the observed position. Does not allocate.
+/// small one where frames are noisy, 1 where the swarm strays from its commands. Each gain stands
+/// twice: also with an estimated flow. Without noise and flow the estimate is the observed
+/// position. Does not allocate.
 class SwarmEstimate {
  public:
   /// `memory` is the time constant with which past differences are forgotten [s].
@@ -30,12 +31,15 @@ class SwarmEstimate {
   /// Time of the last frame that showed it [s]; nothing before the first.
   const std::optional<double>& shown() const { return shown_; }
   /// Variance of a coordinate of the swarm about the estimate, before the frame counts [µm²].
-  double variance() const { return gains[best_] * squares_[best_]; }
+  double variance() const { return gains[best_ % gains.size()] * squares_[best_]; }
+  /// Velocity at which the swarm moves beyond its commands, a flow for example [µm/s].
+  Vec2 flow() const { return flows_[best_]; }
 
  private:
   static constexpr std::array<double, 4> gains{1, 0.5, 0.25, 0.125};
+  static constexpr std::size_t count = 2 * gains.size();  ///< first those without a flow
 
-  void correct(Vec2 seen, double share);
+  void correct(Vec2 seen, double share, double dt);
   SwarmPose current() const { return {{positions_[best_], heading_}, radius_}; }
 
   double memory_;
@@ -43,8 +47,9 @@ class SwarmEstimate {
   double t_ = 0;  ///< of the positions [s]
   double heading_ = 0;
   double radius_ = 0;  ///< [µm]
-  std::array<Vec2, gains.size()> positions_{};
-  std::array<double, gains.size()> squares_{};  ///< mean squares of a coordinate's difference [µm²]
+  std::array<Vec2, count> positions_{};
+  std::array<Vec2, count> flows_{};      ///< [µm/s]
+  std::array<double, count> squares_{};  ///< mean squares of a coordinate's difference [µm²]
   std::size_t best_ = 0;
 };
 
