@@ -52,38 +52,26 @@ Issues validate(const HierarchicalParams& params, const IsGiven& is_given) {
 HierarchicalNavigator::HierarchicalNavigator(const HierarchicalParams& params, const Task& task,
                                              Rng rng)
     : SteeringNavigator(task, params.speed),
-      task_(task),
       params_(with_speed(params.in_effect(), speed())),
       rng_(rng),
       safety_(params_, swarm()),
       obstacles_(params.tracker, params.tuning.prediction),
       follower_(params.follower, swarm()),
-      impasse_(params_.tuning.patience, params_.target.base_distance) {}
+      leader_(params_, task) {}
 
 void HierarchicalNavigator::prepare(const Snapshot& world, const Stop&) {
   choose_aim(world, params_.clearance, params_.clearance + params_.extra_clearance);
-  wall_routes_.clear();
-  if (params_.guide != Guide::route) return;
-  route_ = planning::DistanceField::to_goal(world.shared_map(), aim().position, params_.clearance,
-                                            params_.route_cell);
-  // With room for what the follower cuts off at corners, if possible.
-  for (const double share : {1.0, 0.5, 0.25, 0.125, 0.0}) {
-    const double clearance =
-        std::min(params_.clearance + share * params_.extra_clearance, (1 - 1e-9) * aim().clearance);
-    wall_routes_.push_back(
-        {clearance, planning::Route(world.shared_map(), aim().position, clearance)});
-  }
+  guide_.prepare(world.shared_map(), aim(), params_);
 }
 
 void HierarchicalNavigator::overruled(double now, const Command& command) {
   SteeringNavigator::overruled(now, command);
-  if (leader_) leader_->overruled(now, command);
+  leader_.overruled(now, command);
 }
 
 void HierarchicalNavigator::update(const Observation& seen, const Stop& stop) {
-  is_led_ = false;
-  route_.stop_with(stop);
-  for (WallRoute& w : wall_routes_) w.route.stop_with(stop);
+  leader_.begin_step();
+  guide_.stop_with(stop);
   obstacles_.update(seen);
   if (sees_swarm(seen)) follower_.update(seen, compensator());
 }
@@ -91,102 +79,74 @@ void HierarchicalNavigator::update(const Observation& seen, const Stop& stop) {
 Decision HierarchicalNavigator::finish(const Decision& decision, const Observation& seen) {
   if (last_command())
     safety_.set_period(std::clamp(seen.now - *last_command(), params_.tuning.check_step, 1.0));
-  if (leader_ && !is_led_) leader_->overruled(seen.now, decision.command);
+  if (!leader_.leads()) leader_.overruled(seen.now, decision.command);
   NavigatorView& view = step_view();
   view.local_target = target_;
-  if (params_.guide == Guide::route && seen.world) view.phased_goal = towards();
-  view.path = is_led_ ? leader_->view().path : path_;
+  if (guide_.has_routes() && seen.world) view.phased_goal = guide_.towards(pose_.position);
+  view.path = leader_.leads() ? leader_.view().path : path_.points;
   view.plan = plan_ ? &*plan_ : nullptr;
   return decision;
 }
 
 Diagnostics HierarchicalNavigator::diagnostics() const {
-  if (!plan_ && !wait_ && !is_led_) return {};
-  HierarchicalDiagnostics out{.towards = via_.value_or(aim().position),
-                              .path_clearance = path_clearance_,
-                              .in_time = path_in_time_,
-                              .is_led = is_led_};
+  if (!plan_ && !wait_ && !leader_.leads()) return {};
+  HierarchicalDiagnostics out{.towards = view().phased_goal.value_or(aim().position),
+                              .path_clearance = path_.clearance,
+                              .in_time = path_.kind == FollowedPath::Kind::in_time,
+                              .is_led = leader_.leads()};
   if (wait_) out.wait_since = wait_->since, out.wait_at = wait_->at;
   return out;
 }
 
 Decision HierarchicalNavigator::decide(const Moment& moment) {
   pose_ = moment.pose;
-  via_.reset();
   if (const auto decision = led(moment)) return *decision;
-  return go_on(moment);
+  return decide_alone(moment);
 }
 
-/// Command of the other navigator in an impasse. From the first one on it sees every frame.
+/// The leader's decision in an impasse.
 std::optional<Decision> HierarchicalNavigator::led(const Moment& moment) {
   const bool is_alone =
       moment.world().moving().is_free(pose_.position, params_.target.base_distance);
-  is_led_ = impasse_.update(moment.seen.now, way_left(), is_alone);
-  if (is_led_ && !leader_) {
-    leader_ = std::make_unique<SafeIntervalNavigator>(leader_params(), task_, rng_);
-    leader_->prepare(moment.world(), moment.stop);
-  }
-  if (!leader_) return std::nullopt;
-  const Command command = leader_->step(moment.seen, moment.stop);
-  if (!is_led_) return std::nullopt;
-  path_.clear();
-  path_is_route_ = false;
+  const auto decision =
+      leader_.decide(moment.seen, guide_.length_from(pose_.position), is_alone, moment.stop);
+  if (!decision) return std::nullopt;
+  path_ = {};
   plan_.reset();
   target_.reset();
-  step_view().planned = leader_->view().planned;
-  return Decision{command, leader_->view().state};
-}
-
-/// Those of a navigator that keeps at least the clearance of this one.
-SafeIntervalParams HierarchicalNavigator::leader_params() const {
-  const double gap = std::max(0.0, params_.clearance - swarm().radius);
-  SafeIntervalParams params;
-  params.speed = params_.speed;
-  params.gap = std::max(params.gap, gap);
-  params.max_gap = std::max(params.max_gap, gap);
-  params.tuning.imminent.gap = std::max(params.tuning.imminent.gap, gap);
-  params.wall_gap = params.tuning.imminent.wall_gap = gap;
-  return params;
-}
-
-/// Way to the aim among walls [µm].
-double HierarchicalNavigator::way_left() {
-  const double straight = distance(pose_.position, aim().position);
-  if (params_.guide == Guide::straight) return straight;
-  const double left = route_.from(pose_.position);
-  return std::isfinite(left) ? left : straight;
+  step_view().planned = leader_.view().planned;
+  return decision;
 }
 
 // Algorithm 4 [drrt], one pass of its loop
-Decision HierarchicalNavigator::go_on(const Moment& moment) {
+Decision HierarchicalNavigator::decide_alone(const Moment& moment) {
   const Snapshot& seen = moment.world();
-  const bool is_lost = path_is_route_ && !is_alone(seen, path_, position_);
+  const bool is_lost = path_.is_route() && !is_alone(seen, path_.points, path_.position);
   if (is_lost || is_used_up() || !path_holds(seen)) replan(seen, moment.stop);  // lines 4–11
   auto decision = keep_path(seen);
-  if (!decision && has_path()) {
-    replan(seen, moment.stop, !path_is_route_);
+  if (!decision && path_) {
+    replan(seen, moment.stop, !path_.is_route());
     decision = keep_path(seen);
   }
   if (decision) return *decision;
   const auto hold_heading = [&](const Pose2&, double) { return hold().command; };
   if (params_.as_published || safety_.is_safe(situation(seen), std::ref(hold_heading)))
     return hold();
-  path_.clear();
+  path_ = {};
   const Command command = safety_.escape(situation(seen));
   return {command, command.speed > 0 ? NavigatorState::escape : NavigatorState::hold};
 }
 
 Decision HierarchicalNavigator::at_goal(const Moment& moment) {  // line 2
   pose_ = moment.pose;
-  via_.reset();
-  path_.clear();
+  path_ = {};
   return hold(NavigatorState::arrived);
 }
 
 // Follows the path, more slowly if only that is safe.
 std::optional<Decision> HierarchicalNavigator::keep_path(const Snapshot& seen) {
-  if (!has_path()) return std::nullopt;
-  if (path_is_route_) return keep_route(seen);
+  if (!path_) return std::nullopt;
+  if (path_.is_route()) return keep_route(seen);
   for (const double ease : params_.tuning.speed_shares) {
     const double speed = ease * params_.speed;
     if (!params_.as_published && !path_is_safe(seen, speed)) continue;
@@ -204,10 +164,10 @@ std::optional<Decision> HierarchicalNavigator::keep_route(const Snapshot& seen) 
   const double here = (1 - rounding) * seen.map().clearance(pose_.position);
   const double least = swarm().radius + slack;
   const double kept = std::min(params_.clearance, here);
-  const double wanted = std::min(0.5 * (params_.clearance + route_clearance_), here);
+  const double wanted = std::min(0.5 * (params_.clearance + path_.route_clearance), here);
   const auto tried = [&](double ease, double from_walls) -> std::optional<Decision> {
     for (const double share : {1.0, 0.5, 0.25, 0.125}) {
-      lookahead_share_ = share;
+      path_.lookahead_share = share;
       if (path_is_safe(seen, ease * params_.speed, std::max(from_walls, least)))
         return follow_path(ease * params_.speed);
     }
@@ -222,39 +182,34 @@ std::optional<Decision> HierarchicalNavigator::keep_route(const Snapshot& seen) 
 }
 
 Decision HierarchicalNavigator::follow_path(double speed) {
-  const auto next = follow(position_, pose_, speed);
+  const auto next = follow(path_.position, pose_, speed);
   return {next.command, next.handed_over ? NavigatorState::fallback : NavigatorState::follow};
 }
 
 // A path to a local target is replaced before its end, the one to the aim at its end.
 bool HierarchicalNavigator::is_used_up() {
-  if (!has_path() || !target_) return false;
-  if (!(*target_ == aim().position)) return remaining(path_, position_) < used_up();
+  if (!path_ || !target_) return false;
+  if (!(*target_ == aim().position)) return remaining(path_.points, path_.position) < used_up();
   if (params_.as_published) return false;
-  position_ = nearest_position(path_, pose_.position, position_);
-  return remaining(path_, position_) < path_end();
+  path_.position = nearest_position(path_.points, pose_.position, path_.position);
+  return remaining(path_.points, path_.position) < path_end();
 }
 
 // Path Safety, P_clt Unsafe: tests the rest of the path against the current observation.
 bool HierarchicalNavigator::path_holds(const Snapshot& world) const {
-  if (!has_path()) return false;
-  std::vector<Vec2> rest{point_ahead(path_, position_, 0)};
-  rest.insert(rest.end(), path_.begin() + static_cast<std::ptrdiff_t>(position_.piece) + 1,
-              path_.end());
-  const double clearance = std::min(params_.clearance, path_clearance_);
-  return path_in_time_ ? is_free_in_time(world, obstacles_, rest, params_.speed, delay(),
-                                         params_.target_horizon, clearance)
-                       : world.is_free(rest, clearance);
+  if (!path_) return false;
+  const double clearance = std::min(params_.clearance, path_.clearance);
+  return path_.kind == FollowedPath::Kind::in_time
+             ? is_free_in_time(world, obstacles_, path_.rest(), params_.speed, delay(),
+                               params_.target_horizon, clearance)
+             : world.is_free(path_.rest(), clearance);
 }
 
 void HierarchicalNavigator::replan(const Snapshot& seen, const Stop& stop, bool may_take_route) {
-  path_.clear();
-  position_ = {};
-  path_is_route_ = false;
-  lookahead_share_ = 1;
+  path_ = {};
   const double here = seen.clearance(pose_.position);
   double wanted = params_.clearance + params_.extra_clearance;
-  if (distance(pose_.position, aim().position) <= ahead())  // it may have less
+  if (distance(pose_.position, aim().position) <= guide_.reach())  // it may have less
     wanted = std::clamp(aim().clearance, params_.clearance, wanted);
   if (may_take_route && replan_along_route(seen, here, stop)) return;
   if (here < params_.clearance) {
@@ -270,13 +225,6 @@ void HierarchicalNavigator::replan(const Snapshot& seen, const Stop& stop, bool 
     if (replan_with(ahead, clearance, stop) || replan_with(seen, clearance, stop)) return;
   }
   target_.reset();
-}
-
-// Direction of the goal: straight, or along the route.
-Vec2 HierarchicalNavigator::towards() {
-  if (params_.guide == Guide::straight) return aim().position;
-  if (!via_) via_ = route_.ahead(pose_.position, ahead());
-  return *via_ == pose_.position ? aim().position : *via_;
 }
 
 // Everything beyond the horizon looks free, so without a limit waiting would always look better.
@@ -307,19 +255,18 @@ bool HierarchicalNavigator::is_alone(const Snapshot& seen, std::span<const Vec2>
 bool HierarchicalNavigator::replan_along_route(const Snapshot& seen, double here,
                                                const Stop& stop) {
   constexpr double rounding = 1e-9;
-  for (WallRoute& w : wall_routes_) {
+  for (AimGuide::WallRoute& one : guide_.routes()) {
     if (stop()) return false;
-    std::vector<Vec2> path = w.route.path_from(pose_.position);
-    const double clearance = std::min({params_.clearance, w.clearance, (1 - rounding) * here});
+    std::vector<Vec2> path = one.route.path_from(pose_.position);
+    const double clearance = std::min({params_.clearance, one.clearance, (1 - rounding) * here});
     if (path.size() < 2 || !seen.is_free(Segment{path[0], path[1]}, clearance)) continue;
     if (!is_alone(seen, path, {})) return false;
     step_view().planned = true;
     plan_ = Plan{.status = Status::solved, .path = path};
-    path_ = std::move(path);
-    path_clearance_ = clearance;
-    route_clearance_ = w.clearance;
-    path_in_time_ = false;
-    path_is_route_ = true;
+    path_ = {.points = std::move(path),
+             .kind = FollowedPath::Kind::route,
+             .clearance = clearance,
+             .route_clearance = one.clearance};
     target_ = aim().position;
     return true;
   }
@@ -330,17 +277,13 @@ bool HierarchicalNavigator::replan_in_time(const Snapshot& seen, double clearanc
                                            const Stop& stop) {
   if (params_.target_horizon <= 0 || obstacles_.all_rest()) return false;
   const Vec2 from = pose_.position;
-  const auto length_from = [&](Vec2 p) {
-    const double length =
-        params_.guide == Guide::route ? route_.from(p) : distance(p, aim().position);
-    return std::isfinite(length) ? length : distance(p, aim().position) + params_.tuning.detour;
-  };
+  const auto length_from = [&](Vec2 p) { return guide_.length_from(p, params_.tuning.detour); };
   const auto target = select_predicted_target(seen, obstacles_,
                                               {.swarm = pose_,
                                                .delay = delay(),
                                                .speed = params_.speed,
                                                .goal = aim().position,
-                                               .towards = towards(),
+                                               .towards = guide_.towards(from),
                                                .reach = params_.target.base_distance,
                                                .min_reach = 2 * used_up(),
                                                .angle_step = params_.target.angle_step,
@@ -358,17 +301,16 @@ bool HierarchicalNavigator::replan_in_time(const Snapshot& seen, double clearanc
     return true;
   }
   plan_to(Snapshot(seen.shared_map(), seen.time()), target->position, clearance, stop);
-  path_in_time_ = true;
-  if (!path_holds(seen)) path_ = {from, target->position};
+  path_.kind = FollowedPath::Kind::in_time;
+  if (!path_holds(seen)) path_.points = {from, target->position};
   return true;
 }
 
 bool HierarchicalNavigator::replan_with(const Snapshot& world, double clearance, const Stop& stop) {
   const Vec2 from = pose_.position;
   if (!world.is_free(from, clearance)) return false;
-  path_in_time_ = false;
   const LocalTargetQuery query{.swarm = pose_,
-                               .goal_heading = heading_along(towards() - from),
+                               .goal_heading = heading_along(guide_.towards(from) - from),
                                .goal_distance = distance(from, aim().position),
                                .previous_target = target_,
                                .clearance = clearance,
@@ -376,7 +318,7 @@ bool HierarchicalNavigator::replan_with(const Snapshot& world, double clearance,
   const bool near_goal =  // line 6
       params_.as_published
           ? query.goal_distance <= target_distance(world, query, params_.target, stop)
-          : query.goal_distance <= ahead() &&
+          : query.goal_distance <= guide_.reach() &&
                 world.is_free(Segment{from, aim().position}, clearance);
   std::optional<Vec2> target;
   if (near_goal) {
@@ -399,10 +341,10 @@ void HierarchicalNavigator::plan_to(const Snapshot& world, Vec2 target, double c
       std::min({local.goal_tolerance, aim().tolerance, 0.25 * distance(from, target)});
   plan_ = planning::plan(world, pose_, target, local, rng_, stop);  // line 11
   if (plan_->status == Status::solved)
-    path_ = plan_->path;
+    path_.points = plan_->path;
   else if (!params_.as_published)
-    path_ = {from, target};  // free: checked by target selection
-  path_clearance_ = clearance;
+    path_.points = {from, target};  // free: checked by target selection
+  path_.clearance = clearance;
   target_ = target;
 }
 
@@ -415,10 +357,10 @@ PathFollower::Answer HierarchicalNavigator::follow(PathPosition& position, const
   const bool last_bit =
       *target_ == aim().position && distance(pose.position, aim().position) < lookahead;
   PathFollower::Answer answer =
-      last_bit ? PathFollower::Answer{pursue(path_, position, pose, lookahead, speed)}
-               : follower_.command(path_, position, pose, lookahead, speed);
+      last_bit ? PathFollower::Answer{pursue(path_.points, position, pose, lookahead, speed)}
+               : follower_.command(path_.points, position, pose, lookahead, speed);
   if (params_.as_published) return answer;
-  const double left = remaining(path_, position);
+  const double left = remaining(path_.points, position);
   if (left < path_end() || arrives(pose.position)) return {{pose.heading, 0}};
   if (last_bit) answer.command.speed = std::min(answer.command.speed, left / safety_.period());
   return answer;
@@ -426,7 +368,7 @@ PathFollower::Answer HierarchicalNavigator::follow(PathPosition& position, const
 
 bool HierarchicalNavigator::path_is_safe(const Snapshot& seen, double speed,
                                          std::optional<double> from_walls) const {
-  PathPosition position = position_;
+  PathPosition position = path_.position;
   const auto steer = [&](const Pose2& pose, double) {
     return follow(position, pose, speed).command;
   };
