@@ -51,7 +51,7 @@ inline std::vector<BodyNavigator> body_navigators() {
           {"StraightStop", navigation::StraightParams{}, 0xdb787b10f3972ee0},
           {"PotentialField", navigation::PotentialFieldParams{}, 0xb25c0dc003a24249},
           {"VelocityObstacle", navigation::VelocityObstacleParams{}, 0x3cdda3d52bc4c9f6},
-          {"SafeInterval", navigation::SafeIntervalParams{}, 0x3204d0443f472536}};
+          {"SafeInterval", navigation::SafeIntervalParams{}, 0xfb1c6e0386a9195e}};
 }
 
 }  // namespace microswarm

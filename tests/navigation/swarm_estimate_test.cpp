@@ -114,7 +114,7 @@ TEST(SwarmEstimate, AFlowIsLearntAndTakenOut) {
       const Vec2 estimated = estimate.update(frame, t, commands).pose.position;
       if (k >= first) {
         squares += squared_norm(estimated - pose.position);
-        flows += squared_norm(estimate.flow() - flow);
+        flows += squared_norm(estimate.response().flow - flow);
       }
       const Command command{0.1 * k, speed};
       commands.note(t, command);
@@ -136,7 +136,7 @@ TEST(SwarmEstimate, WithoutAFlowNoneIsTaken) {
   DelayCompensator commands(round_swarm);
   SwarmEstimate estimate(3);
   for (int k = 0; k < 5; ++k) estimate.update({{{500, 500}, 0}, 40}, tick * k, commands);
-  EXPECT_EQ(estimate.flow(), Vec2{});
+  EXPECT_EQ(estimate.response(), SwarmResponse{});
 }
 
 TEST(SwarmEstimate, FramesThatMissItAreBridgedByCommands) {

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "microswarm/core/maths/angles.hpp"
-#include "microswarm/swarm/body/unicycle.hpp"
 
 namespace microswarm::navigation {
 namespace {
@@ -72,6 +71,7 @@ ImminentCheck::Outcome ImminentCheck::roll(Pose2 from, const Command& command, i
                                            bool in_contact_only, Turned turned) const {
   const ObstacleForecast& forecast = *now_.forecast;
   Outcome out{first, counted_gap, from};
+  const Command given = now_.response.command_for(command, speed_);
   bool stands = false;
   for (int s = first; s < last; ++s) {
     // The commitment ends at the goal; what comes near there later can be escaped from.
@@ -79,7 +79,7 @@ ImminentCheck::Outcome ImminentCheck::roll(Pose2 from, const Command& command, i
         first == 0 && distance(out.end.position, now_.goal.centre) <= now_.goal.radius;
     Pose2 next = has_arrived || stands
                      ? out.end
-                     : unicycle_step(out.end, command, turn_rate_, forecast.step());
+                     : now_.response.step(out.end, given, turn_rate_, forecast.step());
     Segment move{out.end.position, next.position};
     if (!stands && command.speed > 0 && !now_.map->is_free(move, now_.wall_clearance)) {
       if (s == first) out.least = -infinity;  // no start at all

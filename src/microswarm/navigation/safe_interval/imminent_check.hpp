@@ -8,6 +8,7 @@
 #include "microswarm/contracts/command.hpp"
 #include "microswarm/navigation/safe_interval/obstacle_forecast.hpp"
 #include "microswarm/navigation/safe_interval/safe_interval_tuning.hpp"
+#include "microswarm/navigation/steering/swarm_response.hpp"
 #include "microswarm/swarm/body/swarm_limits.hpp"
 
 namespace microswarm::navigation {
@@ -31,6 +32,7 @@ class ImminentCheck {
     double radius = 0;          ///< [µm]
     double wall_clearance = 0;  ///< [µm]
     Disc goal{};                ///< where the swarm stops
+    SwarmResponse response{};   ///< to the commands
   };
   void begin(const Situation& situation);
 

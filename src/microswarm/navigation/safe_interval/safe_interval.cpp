@@ -70,7 +70,7 @@ Decision SafeIntervalNavigator::finish(const Decision& decision, const Observati
 
 /// Clearance from walls that the next move can keep [µm].
 double SafeIntervalNavigator::entry_clearance(const Map& map, Vec2 p) const {
-  const double wanted = swarm().radius + params_.tuning.imminent.wall_gap;
+  const double wanted = swarm().radius + params_.tuning.imminent.wall_gap + straying_;
   return std::min(wall_clearance(wanted, p, tick_ * speed()),
                   (1 - relative_rounding) * map.clearance(p));
 }
@@ -78,8 +78,8 @@ double SafeIntervalNavigator::entry_clearance(const Map& map, Vec2 p) const {
 Decision SafeIntervalNavigator::decide(const Moment& moment) {
   const Pose2& pose = moment.pose;
   const double now = moment.seen.seen + delay();
-  radius_ = std::max(swarm().radius, moment.seen.swarm->radius) +
-            params_.tuning.straying_gain * std::sqrt(estimate()->variance());
+  straying_ = params_.tuning.straying_gain * std::sqrt(estimate()->variance());
+  radius_ = std::max(swarm().radius, moment.seen.swarm->radius) + straying_;
   forecast_.update(moment.world(), predictor_, now, std::array{pose.position, aim().position});
   forecast_.measure_from(pose.position, radius_);
   imminent_.begin({&moment.map(),
@@ -87,7 +87,8 @@ Decision SafeIntervalNavigator::decide(const Moment& moment) {
                    pose,
                    radius_,
                    entry_clearance(moment.map(), pose.position),
-                   {goal(), goal_tolerance()}});
+                   {goal(), goal_tolerance()},
+                   response()});
   plan_.advance(pose.position, 0.6 * tick_ * speed());
   review(moment, now);
   path_.push_back(pose.position);

@@ -50,7 +50,8 @@ class SafeIntervalNavigator : public SteeringNavigator {
 
   SafeIntervalParams params_;
   double tick_;
-  double radius_;
+  double straying_ = 0;  ///< distance that the swarm may be from its estimate [µm]
+  double radius_;        ///< with it [µm]
   MultiModelPredictor predictor_;
   ObstacleForecast forecast_;
   SpaceTimePlanner planner_;

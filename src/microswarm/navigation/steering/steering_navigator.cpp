@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "microswarm/core/maths/angles.hpp"
-
 namespace microswarm::navigation {
 
 std::string_view SteeringNavigator::unsupported_reason(const Task& task) {
@@ -30,7 +28,9 @@ Command SteeringNavigator::step(const Observation& seen, const Stop& stop) {
   view_ = {};
   update(seen, stop);
   Decision decision = finish(decision_for(seen, stop), seen);
-  if (estimate_) decision.command = against_flow(decision.command);
+  const bool moves =
+      decision.state != NavigatorState::arrived && decision.state != NavigatorState::blind;
+  if (moves) decision.command = response().command_for(decision.command, speed_);
   view_.state = decision.state;
   record(seen.now, decision.command);
   return decision.command;
@@ -52,17 +52,10 @@ Decision SteeringNavigator::decision_for(const Observation& seen, const Stop& st
 Decision SteeringNavigator::decision_at(const Observation& seen, const Stop& stop) {
   delay_ = seen.age() + swarm_.response_lag;
   pose_ = compensator_.at_effect(seen);
-  if (estimate_) pose_.position += delay_ * estimate_->flow();
+  const Vec2 from = seen.swarm->pose.position;
+  if (estimate_) pose_.position = response().moved(from, pose_.position - from, delay_);
   const Moment moment{seen, pose_, stop};
   return arrives(pose_.position) ? at_goal(moment) : decide(moment);
-}
-
-Command SteeringNavigator::against_flow(const Command& wanted) const {
-  const Vec2 flow = estimate_->flow();
-  if (wanted.speed == 0 || flow == Vec2{}) return wanted;
-  const Vec2 own = wanted.speed * unit_vector(wanted.heading) - flow;
-  if (own == Vec2{}) return wanted;
-  return {heading_along(own), std::min(norm(own), speed_)};
 }
 
 bool SteeringNavigator::misses_briefly(const Observation& seen) const {

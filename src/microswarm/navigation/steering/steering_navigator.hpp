@@ -68,6 +68,9 @@ class SteeringNavigator : public Navigator {
   void estimate_swarm(double memory) { estimate_.emplace(memory); }
   /// The estimate; null without it.
   const SwarmEstimate* estimate() const { return estimate_ ? &*estimate_ : nullptr; }
+  /// How the swarm is estimated to follow its commands. A decision says how it should move; the
+  /// command that is given makes it do so.
+  SwarmResponse response() const { return estimate_ ? estimate_->response() : SwarmResponse{}; }
 
   /// Chooses the aim, at least `least` and if possible `wanted` [µm] away from the map's walls; see
   /// aim_at. For prepare(); without it the aim is the goal.
@@ -104,9 +107,6 @@ class SteeringNavigator : public Navigator {
   Decision decision_for(const Observation& seen, const Stop& stop);
   Decision decision_at(const Observation& seen, const Stop& stop);
   bool misses_briefly(const Observation& seen) const;
-  /// The command that moves the swarm as `wanted` in the estimated flow, as far as its speed
-  /// allows.
-  Command against_flow(const Command& wanted) const;
   void record(double now, const Command& command);
 
   SwarmLimits swarm_;

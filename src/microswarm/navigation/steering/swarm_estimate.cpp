@@ -9,6 +9,7 @@ namespace microswarm::navigation {
 namespace {
 
 constexpr double least_noise = 1e-4;  // [µm²]; below it frames are exact
+constexpr double least_gain = 0.9;    // of the squares, for a response that is not as commanded
 
 }  // namespace
 
@@ -17,10 +18,11 @@ SwarmPose SwarmEstimate::update(const SwarmPose& seen, double t, const DelayComp
   if (shown_) {
     const double dt = t - t_;
     bridge(t, commands);
-    correct(seen.pose.position, 1 - maths::exp(-dt / memory_), dt);
+    correct(seen.pose.position, 1 - maths::exp(-dt / memory_));
   } else {
     positions_.fill(seen.pose.position);
   }
+  fit_.add(t, seen.pose.position, commanded_);
   shown_ = t_ = t;
   heading_ = seen.pose.heading;
   radius_ = seen.radius;
@@ -28,27 +30,28 @@ SwarmPose SwarmEstimate::update(const SwarmPose& seen, double t, const DelayComp
 }
 
 SwarmPose SwarmEstimate::bridge(double t, const DelayCompensator& commands) {
-  Pose2 moved{{}, heading_};
-  for (std::size_t i = 0; i < count; ++i) {
-    moved = commands.moved({positions_[i], heading_}, t_, t);
-    positions_[i] = moved.position + std::max(0.0, t - t_) * flows_[i];
-  }
+  const Pose2 moved = commands.moved({{}, heading_}, t_, t);
+  commanded_ += moved.position;
+  for (std::size_t i = 0; i < count; ++i)
+    positions_[i] = response_of(i).moved(positions_[i], moved.position, std::max(0.0, t - t_));
   heading_ = moved.heading;
   t_ = std::max(t_, t);
   return current();
 }
 
-void SwarmEstimate::correct(Vec2 seen, double share, double dt) {
+void SwarmEstimate::correct(Vec2 seen, double share) {
   for (std::size_t i = 0; i < count; ++i) {
     const double gain = gains[i % gains.size()];
     const Vec2 difference = seen - positions_[i];
     squares_[i] += share * (0.5 * squared_norm(difference) - squares_[i]);
     positions_[i] = gain == 1 ? seen : positions_[i] + gain * difference;
-    // Gain of the velocity: Benedict and Bordner, IRE Transactions on Automatic Control 7 (1962).
-    if (i >= gains.size()) flows_[i] += (gain * gain / (2 - gain) / dt) * difference;
   }
-  const auto least = std::min_element(squares_.begin(), squares_.end());
-  best_ = squares_[0] < least_noise ? 0 : static_cast<std::size_t>(least - squares_.begin());
+  best_ = 0;
+  if (squares_[0] < least_noise) return;
+  for (std::size_t i = 1; i < count; ++i) {
+    const double needed = i < gains.size() || best_ >= gains.size() ? 1 : least_gain;
+    if (squares_[i] < needed * squares_[best_]) best_ = i;
+  }
 }
 
 }  // namespace microswarm::navigation

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+
+#include "microswarm/contracts/command.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/geometry/vec2.hpp"
+#include "microswarm/swarm/body/unicycle.hpp"
+
+namespace microswarm::navigation {
+
+/// How a single-body swarm moves when it is commanded: `speed_factor` times as fast, and with a
+/// flow.
+struct SwarmResponse {
+  double speed_factor = 1;
+  Vec2 flow{};  ///< [µm/s]
+
+  bool operator==(const SwarmResponse&) const = default;
+
+  /// The command with which it moves as `wanted`, as far as `max_speed` [µm/s] allows. In a weak
+  /// flow holding stays holding.
+  Command command_for(const Command& wanted, double max_speed) const {
+    constexpr double weak = 0.05;  // share of the speed
+    if (*this == SwarmResponse{}) return wanted;
+    if (wanted.speed == 0 && norm(flow) < weak * max_speed) return wanted;
+    const Vec2 own = (wanted.speed * unit_vector(wanted.heading) - flow) / speed_factor;
+    if (own == Vec2{}) return {wanted.heading, 0};
+    return {heading_along(own), std::min(norm(own), max_speed)};
+  }
+  /// Where it is after `dt` [s] in which commands alone would have moved it by `commanded` [µm].
+  Vec2 moved(Vec2 from, Vec2 commanded, double dt) const {
+    if (*this == SwarmResponse{}) return from + commanded;
+    return from + speed_factor * commanded + dt * flow;
+  }
+  /// Its pose after `dt` [s] with a command, see unicycle_step.
+  Pose2 step(const Pose2& pose, const Command& command, double turn_rate, double dt) const {
+    Pose2 next = unicycle_step(pose, command, turn_rate, dt);
+    if (!(*this == SwarmResponse{}))
+      next.position = moved(pose.position, next.position - pose.position, dt);
+    return next;
+  }
+};
+
+}  // namespace microswarm::navigation
