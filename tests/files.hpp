@@ -62,6 +62,17 @@ std::string error_of(Action&& action) {
   return "nothing was thrown";
 }
 
+/// The issues of the InputError that `action` throws; none if it throws nothing.
+template <class Action>
+Issues issues_of(Action&& action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    return error.issues();
+  }
+  return {};
+}
+
 /// Real input outside the repository: the folder that MICROSWARM_DATA names; empty without one.
 inline std::filesystem::path data_folder() {
   const char* given = std::getenv("MICROSWARM_DATA");

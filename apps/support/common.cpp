@@ -51,7 +51,7 @@ void keep_input(const std::string& out, const std::string& in) {
   if (out.empty() || in.empty() || in == "/dev/stdin") return;
   if (fs::equivalent(out, in, none) ||
       fs::weakly_canonical(out, none) == fs::weakly_canonical(in, none))
-    throw InputError(out + ": is the input, which would be lost");
+    throw InputError(out, "is the input, which would be lost");
 }
 
 OutFolder::OutFolder(const std::string& folder) {
@@ -66,7 +66,7 @@ OutFolder::OutFolder(const std::string& folder) {
   if (::flock(folder_.get(), LOCK_EX | LOCK_NB) == 0)
     clear_staged(folder);
   else if (errno == EWOULDBLOCK)
-    throw InputError(folder + ": another command is writing to it");
+    throw InputError(folder, "another command is writing to it");
 }
 
 OutFolder::~OutFolder() {

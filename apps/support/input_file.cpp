@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const std::string& name, int error) {
-  throw InputError(name + ": cannot read: " + std::generic_category().message(error));
+  throw InputError(name, "cannot read: " + std::generic_category().message(error));
 }
 
 /// The descriptor that "/dev/stdin", "/dev/fd/63" and the like name.
@@ -72,8 +72,7 @@ void keep_in_memory(int pipe, const std::string& name) {
     if (n == 0) break;
     all += static_cast<std::size_t>(n);
     if (all > most)
-      throw InputError(
-          fmt::format("{}: cannot read: larger than the allowed {} bytes", name, most));
+      throw InputError(name, fmt::format("cannot read: larger than the allowed {} bytes", most));
     write_all(memory.get(), buffer.data(), static_cast<std::size_t>(n), name);
   }
   if (::dup2(memory.get(), pipe) < 0) fail(name, errno);
@@ -150,8 +149,8 @@ std::string find_input(const std::string& name, const std::string& kind) {
   const std::optional<fs::path> found = shipped(file, kind);
   if (!found) {
     if (const std::string near = near_file(file, kind); !near.empty())
-      throw InputError(fmt::format("{}: cannot read: No such file or directory, did you mean '{}'?",
-                                   file, near));
+      throw InputError(
+          file, fmt::format("cannot read: No such file or directory, did you mean '{}'?", near));
     return file;
   }
   note("note: {}: is not here, the shipped {} is used\n", file, found->string());

@@ -119,8 +119,7 @@ void add_photo(Command command, PhotoOptions& options) {
 
 report::ReportOptions report_options(const PhotoOptions& options) {
   if (options.file.empty()) return {};
-  if (!options.um_per_px)
-    throw InputError(options.file + ": µm per px is missing: give --um-per-px");
+  if (!options.um_per_px) throw InputError(options.file, "µm per px is missing: give --um-per-px");
   return {read_photo(options.file), *options.um_per_px};
 }
 

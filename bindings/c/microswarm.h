@@ -46,7 +46,7 @@ const char* ms_error_text(void);
 /* One mistake of that call. No text is null; one is empty where it is unknown. */
 typedef struct ms_issue {
   const char* key;   /* the value's, from the top: "obstacles.3.shape.radius_um" */
-  const char* place; /* where it was given: "flight.yaml:12:3", or the key of a setting */
+  const char* place; /* where it was given: "flight.yaml:12:3", a file, or the key of a setting */
   const char* text;  /* what is wrong */
   const char* value; /* as written */
   const char* limit; /* what is allowed: "0..1e5 um", or words */

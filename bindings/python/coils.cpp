@@ -200,7 +200,7 @@ using Centre = std::optional<std::array<double, 3>>;
 
 void save_coils(const Coils& coils, const std::string& file) {
   if (!coils.calibrated)
-    throw InputError(file + ": these coils were read from a file, only calibrated ones are saved");
+    throw InputError(file, "these coils were read from a file, only calibrated ones are saved");
   write_file_atomically(file, to_yaml(*coils.calibrated));
 }
 

@@ -14,6 +14,7 @@ namespace {
 
 TEST(Error, NamesThePlaceAsFarAsItIsKnown) {
   EXPECT_STREQ(InputError("no such coil").what(), "no such coil");
+  EXPECT_STREQ(InputError("a.yaml", "bad").what(), "a.yaml: bad");
   EXPECT_STREQ(InputError("a.yaml", 12, 9, "bad").what(), "a.yaml:12:9: bad");
   EXPECT_STREQ(InputError("a.yaml", 12, 0, "bad").what(), "a.yaml:12: bad");
   EXPECT_STREQ(InputError("a.yaml", 0, 0, "bad").what(), "a.yaml: bad");
@@ -26,6 +27,9 @@ TEST(Error, CarriesItsIssues) {
   EXPECT_EQ(plain.issues()[0].location, "");
   EXPECT_EQ(placed.issues()[0].text, "bad");
   EXPECT_EQ(placed.issues()[0].location, "a.yaml:12:9");
+  const InputError file("a.yaml", "bad");
+  EXPECT_EQ(file.issues()[0].text, "bad");
+  EXPECT_EQ(file.issues()[0].location, "a.yaml");
   const InputError copy = placed;  // shares them
   EXPECT_EQ(&copy.issues(), &placed.issues());
   EXPECT_EQ(to_issues(placed)[0].location, "a.yaml:12:9");

@@ -113,6 +113,9 @@ TEST(Record, ForeignBytesAreOneLine) {
   };
   EXPECT_EQ(message(""), "x.h5: no HDF5 file, or a damaged one");
   EXPECT_TRUE(test::is_one_line_naming(message("hello"), "x.h5", {"HDF5", "damaged"}));
+  const Issues issues = test::issues_of([&] { read_record(folder / "x.h5"); });
+  ASSERT_EQ(issues.size(), 1u);
+  EXPECT_EQ(issues[0].location, (folder / "x.h5").string());
   EXPECT_EQ(message(std::string("SQLite format 3\0", 16)),
             "x.h5: the database of a sweep, no record: `microswarm export` writes its trials as a "
             "table, with --csv FILE");

@@ -56,6 +56,7 @@ TEST(Hdf5Image, WhatIsMissingOrOfAnotherKindIsNamed) {
   const auto opened = read_hdf5(out.finish(), "x.h5");
   const Hdf5Reader& in = *opened;
   EXPECT_EQ(test::error_of([&] { in.numbers("/other"); }), "x.h5: has no dataset /other");
+  EXPECT_EQ(test::issues_of([&] { in.numbers("/other"); })[0].location, "x.h5");
   EXPECT_EQ(test::error_of([&] { in.integers("/numbers"); }),
             "x.h5: /numbers is no column of numbers of its kind");
   EXPECT_EQ(test::error_of([&] { in.text("/numbers"); }),

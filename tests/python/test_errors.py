@@ -67,9 +67,20 @@ def test_the_text_has_twenty_lines_and_the_issues_are_all_there():
 
 def test_a_message_alone_is_one_issue():
     (issue,) = issues_of(lambda: ms.Scenario.load("nowhere.yaml"))
-    assert issue.text == "nowhere.yaml: cannot read: No such file or directory" and issue.key == ""
+    assert issue == ("", "nowhere.yaml", "cannot read: No such file or directory", "", "")
     (issue,) = issues_of(lambda: ms.plan("a map", (0, 0), (1, 1)))  # of the package itself
     assert "must be a Map" in issue.text
+
+
+def test_a_mistake_of_a_file_has_the_file_as_its_place(tmp_path):
+    damaged = tmp_path / "damaged.csv"
+    damaged.write_text("1,2,3\n")
+    for call, file in ((ms.Map.load, tmp_path / "nope.png"), (ms.Map.load, damaged), (ms.read_record, tmp_path / "nope.h5")):
+        with pytest.raises(ms.InputError) as caught:
+            call(str(file))
+        (issue,) = caught.value.issues
+        assert issue.place in (str(file), f"{file}:1") and str(file) not in issue.text
+        assert str(caught.value) == f"{issue.place}: {issue.text}"
 
 
 def test_settings_that_are_planned_with_speak_no_command_line():

@@ -285,7 +285,7 @@ export class Parameters {
     for (const issue of answer.issues) {
       const keys = issue.keys.length > 0 ? issue.keys : asked;
       const found = keys.map((key) => this.fieldFor(key, asked)).find((one) => one !== undefined);
-      if (found) found.setIssue(issue.text);
+      if (found) found.setIssue(issue.keys.length > 0 ? issue.text : said({ ...answer, issues: [issue] }));
       else loose.push(issue);
     }
     this.trouble.hidden = loose.length === 0;

@@ -51,7 +51,7 @@ Download table(const experiment::Session& session, const std::string& name) {
 TemporaryFile::TemporaryFile(std::string_view name) {
   const std::string pattern = std::string(folder_prefix) + "XXXXXX";
   std::string folder = (fs::temp_directory_path() / pattern).string();
-  if (!::mkdtemp(folder.data())) throw InputError(folder + ": cannot make the folder");
+  if (!::mkdtemp(folder.data())) throw InputError(folder, "cannot make the folder");
   path_ = fs::path(folder) / name;
   lock_ = locked(folder);
 }

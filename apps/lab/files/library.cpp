@@ -62,7 +62,7 @@ Library::Library(const std::vector<fs::path>& folders) {
   for (const fs::path& folder : folders) {
     std::error_code error;
     fs::path real = fs::canonical(folder, error);
-    if (error) throw InputError(fmt::format("{}: {}", folder.string(), error.message()));
+    if (error) throw InputError(folder.string(), error.message());
     folders_.push_back(std::move(real));
   }
 }
@@ -98,7 +98,7 @@ fs::path Library::find(std::string_view file) const {
   const fs::path real = fs::canonical(fs::path(file), error);
   for (const fs::path& folder : folders_)
     if (!error && is_within(real, folder) && fs::is_regular_file(real, error)) return real;
-  throw InputError(fmt::format("{}: no such file in the folders of this lab", one_line(file)));
+  throw InputError(one_line(file), "no such file in the folders of this lab");
 }
 
 void Library::check(const fs::path& scenario, const Settings& settings,

@@ -48,7 +48,7 @@ Upload Uploads::keep(std::string_view name, const std::string& bytes, const Libr
   if (extension == ".yml") extension = ".yaml";
   const bool is_picture = formats::has_image_extension(name);
   if (!is_picture && extension != ".yaml" && extension != ".h5")
-    throw InputError(shown + ": neither a photograph, a scenario (.yaml) nor a record (.h5)");
+    throw InputError(shown, "neither a photograph, a scenario (.yaml) nor a record (.h5)");
   if (size_ + bytes.size() > max_total)
     throw InputError("the uploads of this lab are too large together: start it anew");
   const fs::path file = new_file(extension);

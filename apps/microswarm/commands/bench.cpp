@@ -38,8 +38,8 @@ int measure(const BenchOptions& o) {
   arguments.push_back(nullptr);
   flush_output();
   ::execv(program.c_str(), arguments.data());
-  throw InputError(program.string() +
-                   ": cannot start; the benches are built where OMPL is installed (CMake "
+  throw InputError(program.string(),
+                   "cannot start; the benches are built where OMPL is installed (CMake "
                    "MICROSWARM_BENCH)");
 }
 

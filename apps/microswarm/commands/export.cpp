@@ -30,15 +30,15 @@ bool is_hdf5(const std::string& file) {
 }
 
 void export_record(const ExportOptions& o) {
-  if (!o.hdf5.empty()) throw InputError(o.file + ": is already HDF5: give --csv");
-  if (!o.ompl.empty()) throw InputError(o.file + ": --ompl takes the database of a sweep");
+  if (!o.hdf5.empty()) throw InputError(o.file, "is already HDF5: give --csv");
+  if (!o.ompl.empty()) throw InputError(o.file, "--ompl takes the database of a sweep");
   write_file_atomically(o.csv, sweep::record_csv(experiment::read_record(o.file), o.table));
   print("wrote {}\n", o.csv);
 }
 
 void export_sweep(const ExportOptions& o) {
   if (!o.table.empty() && o.table != "frames")
-    throw InputError(o.file + ": --table takes the record of a run");
+    throw InputError(o.file, "--table takes the record of a run");
   const sweep::SweepReader sweep(o.file);
   if (!o.csv.empty()) {
     write_file_atomically(o.csv, sweep::sweep_csv(sweep));

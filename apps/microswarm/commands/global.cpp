@@ -69,9 +69,9 @@ planning::GlobalRrtParams search_parameters(const GlobalOptions& o,
   const auto* set = std::get_if<planning::GlobalRrtParams>(&choice.planner);
   const auto differs = [&](const char* key, const auto& was, const auto& is) {
     if (was != is)
-      throw InputError(fmt::format("{}: was grown with {} {}, not {}", o.tree, key, was, is));
+      throw InputError(o.tree, fmt::format("was grown with {} {}, not {}", key, was, is));
   };
-  if (!set) throw InputError(o.tree + ": a tree is asked by planner.type=global_rrt only");
+  if (!set) throw InputError(o.tree, "a tree is asked by planner.type=global_rrt only");
   differs("robostep_um", grown.robostep, set->robostep);
   differs("directions", grown.directions, set->directions);
   differs("separation_um", grown.separation, set->separation);

@@ -42,7 +42,7 @@ void add_input(Command cmd, const std::shared_ptr<MapOptions>& o) {
 
 formats::LoadedMap load(const MapOptions& o) {
   for (const Setting& setting : Settings(other_settings(o.settings)).list)
-    throw InputError(setting_location("--set", setting.key) + ": only keys within 'map' are set");
+    throw InputError(setting_location("--set", setting.key), "only keys within 'map' are set");
   return load_map(o.map, o.settings);
 }
 
@@ -81,7 +81,7 @@ int info(const MapOptions& o) {
 int check(const MapOptions& o, double resolution) {
   const formats::LoadedMap loaded = load(o);
   const MapReport r = check_map(*loaded.map, resolution);
-  if (r.free_pieces == 0) throw InputError(o.map.file + ": all of the map is blocked");
+  if (r.free_pieces == 0) throw InputError(o.map.file, "all of the map is blocked");
   if (o.json) {
     print("{}\n", Json{{"wall_pieces", r.wall_pieces},
                        {"free_area_um2", r.free_area},
@@ -128,7 +128,7 @@ int graph(const MapOptions& o, const GraphOptions& how, const Context& context) 
     note("interrupted: nothing was written\n");
     return not_reached;
   }
-  if (found.nodes.empty()) throw InputError(o.map.file + ": all of the map is blocked");
+  if (found.nodes.empty()) throw InputError(o.map.file, "all of the map is blocked");
   const std::filesystem::path out = how.out;
   if (!out.parent_path().empty()) make_folder(out.parent_path().string());
   const std::string branches = out.string() + "-branches.csv";
@@ -182,8 +182,8 @@ std::optional<formats::Mask> read_truth(const std::string& file, const formats::
   if (file.empty()) return std::nullopt;
   formats::Mask mask = formats::threshold(read_photo(file), 128, false);
   if (mask.width != photo.width || mask.height != photo.height)
-    throw InputError(fmt::format("{}: {}x{} pixels, the photograph has {}x{}", file, mask.width,
-                                 mask.height, photo.width, photo.height));
+    throw InputError(file, fmt::format("{}x{} pixels, the photograph has {}x{}", mask.width,
+                                       mask.height, photo.width, photo.height));
   return mask;
 }
 
@@ -191,10 +191,10 @@ int segment(const SegmentOptions& o, const Context& context) {
   vision::VesselParams params;
   note_each(set_values(params, o.settings));
   if (!o.um_per_px && is_camera(o.photo))
-    throw InputError(o.photo + ": µm per px is missing: give --um-per-px");
+    throw InputError(o.photo, "µm per px is missing: give --um-per-px");
   std::optional<double> um_per_px = o.um_per_px;
   const formats::Image photo = take_picture(o.photo, find_camera(o.photo, o.rig), um_per_px);
-  if (!um_per_px) throw InputError(o.photo + ": µm per px is missing: give --um-per-px");
+  if (!um_per_px) throw InputError(o.photo, "µm per px is missing: give --um-per-px");
   const std::optional<formats::Mask> truth = read_truth(o.truth, photo);
   const double cell = *um_per_px;
   const auto interrupted = [&] {

@@ -64,7 +64,7 @@ vision::TrackSettings to_settings(const TrackOptions& o) {
   if (o.um_per_px) settings.um_per_px = o.um_per_px;
   if (o.rate) settings.rate = o.rate;
   if (settings.rate && !o.times.empty())
-    throw InputError(o.times + ": times and a rate are both given");
+    throw InputError(o.times, "times and a rate are both given");
   if (!o.region.empty()) settings.region = to_region(o.region);
   if (!o.mask.empty()) {
     constexpr int light = 128;  // as everywhere
@@ -74,7 +74,7 @@ vision::TrackSettings to_settings(const TrackOptions& o) {
 }
 
 [[noreturn]] void fail_without_scale(const std::string& name) {
-  throw InputError(name + ": µm per px is missing: give --um-per-px");
+  throw InputError(name, "µm per px is missing: give --um-per-px");
 }
 
 /// Takes the scale of the source where none is given.
@@ -172,7 +172,7 @@ vision::TrackResult take_table(const std::string& file, vision::TrackSettings se
                                formats::Image& first) {
   constexpr double max_side = 10000;  // [px]
   if (settings.region || !settings.mask.cells.empty())
-    throw InputError(file + ": is a table, --region and --mask need pictures");
+    throw InputError(file, "is a table, --region and --mask need pictures");
   const vision::TrackTable table = vision::read_track_table(file, settings.um_per_px);
   take_units(settings, table, file);
   if (!table.rows.front().id)

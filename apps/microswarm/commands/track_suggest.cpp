@@ -147,7 +147,7 @@ int suggest_tracking(const std::string& source, const vision::TrackSettings& set
   const auto frames = vision::open_frames(source, vision::frame_options(settings));
   const std::vector<formats::Image> pictures = sample(*frames, settings.channel, stop);
   if (stop.requested()) return not_reached;
-  if (pictures.empty()) throw InputError(source + ": has no pictures");
+  if (pictures.empty()) throw InputError(source, "has no pictures");
   const vision::ParticleSuggestion s = vision::suggest_particles(pictures, settings.find);
   std::string wrote;
   if (!out.empty()) {

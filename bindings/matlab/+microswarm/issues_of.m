@@ -10,7 +10,7 @@ function issues = issues_of(problem)
 %   end
 %
 % key     of the value, from the top of the scenario: 'obstacles.3.shape.radius_um'
-% place   where it was given: 'flight.yaml:12:3', or the key of a setting
+% place   where it was given: 'flight.yaml:12:3', 'map.png', or the key of a setting
 % text    what is wrong
 % value   as written
 % limit   what is allowed: '1..1e5 um', or words

@@ -9,7 +9,7 @@ class Issue(NamedTuple):
     """One mistake. What is unknown is empty.
 
     key    of the value, from the top of the scenario: "obstacles.3.shape.radius_um"
-    place  where it was given: "flight.yaml:12:3", or the key of a value that was set
+    place  where it was given: "flight.yaml:12:3", "map.png", or the key of a value that was set
     text   what is wrong
     value  as written
     limit  what is allowed: "1..1e5 µm", or words

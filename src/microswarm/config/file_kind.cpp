@@ -50,8 +50,8 @@ void refuse_other_kind(std::string_view text, std::string_view name, std::string
   };
   const FileKind* const found = std::ranges::find_if(kinds, is_it);
   if (found == std::end(kinds) || found->name == expected) return;
-  throw InputError(
-      fmt::format("{}: this is a {}, not a {}: {}", name, found->name, expected, found->taken_by));
+  throw InputError(std::string(name), fmt::format("this is a {}, not a {}: {}", found->name,
+                                                  expected, found->taken_by));
 }
 
 }  // namespace microswarm

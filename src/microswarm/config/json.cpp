@@ -56,8 +56,8 @@ class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
   }
 
  private:
-  [[noreturn]] void fail(std::string_view what) const {
-    throw InputError(fmt::format("{}: {}", name_, what));
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(std::string(name_), what);
   }
 
   YamlNode& last() { return open_.empty() ? root_ : open_.back()->items.back(); }
@@ -90,8 +90,8 @@ class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
 
 YamlNode parse_json(std::string_view text, std::string_view name, const JsonLimits& limits) {
   if (text.size() > limits.bytes)
-    throw InputError(
-        fmt::format("{}: {} bytes, at most {} are allowed", name, text.size(), limits.bytes));
+    throw InputError(std::string(name),
+                     fmt::format("{} bytes, at most {} are allowed", text.size(), limits.bytes));
   JsonBuilder builder(name, limits.depth);
   nlohmann::json::sax_parse(text, &builder);
   return builder.take_root();
@@ -100,7 +100,7 @@ YamlNode parse_json(std::string_view text, std::string_view name, const JsonLimi
 void read_json(const Type& type, void* value, std::string_view text, std::string_view name,
                Issues& issues, const JsonLimits& limits) {
   const YamlNode node = parse_json(text, name, limits);
-  if (node.kind != YamlNode::Kind::map) throw InputError(fmt::format("{}: not an object", name));
+  if (node.kind != YamlNode::Kind::map) throw InputError(std::string(name), "not an object");
   ValueReader reader(name, false);
   reader.read(type, {}, "", value, node);
   issues.add(reader.issues());

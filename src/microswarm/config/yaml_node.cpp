@@ -172,7 +172,8 @@ void check_characters(std::string_view text, std::string_view name) {
 
 YamlNode parse_yaml(std::string_view text, std::string_view name) {
   if (text.size() > max_yaml_bytes)
-    throw InputError(fmt::format("{}: larger than the allowed {} bytes", name, max_yaml_bytes));
+    throw InputError(std::string(name),
+                     fmt::format("larger than the allowed {} bytes", max_yaml_bytes));
   check_characters(text, name);
   TreeBuilder builder(name);
   try {

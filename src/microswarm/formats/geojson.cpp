@@ -38,7 +38,7 @@ std::string complaint(const Json::exception& error) {
 Json parse(std::string_view text, std::string_view name) {
   const auto shallow = [&](int depth, Json::parse_event_t, Json&) {
     if (depth > max_depth)
-      throw InputError(std::string(name) + ": nested deeper than " + std::to_string(max_depth));
+      throw InputError(std::string(name), "nested deeper than " + std::to_string(max_depth));
     return true;
   };
   try {
@@ -48,7 +48,7 @@ Json parse(std::string_view text, std::string_view name) {
     const auto line = 1 + std::count(before.begin(), before.end(), '\n');
     throw InputError(std::string(name), static_cast<int>(line), 0, "not JSON: " + complaint(error));
   } catch (const Json::exception& error) {
-    throw InputError(std::string(name) + ": not JSON: " + complaint(error));
+    throw InputError(std::string(name), "not JSON: " + complaint(error));
   }
 }
 

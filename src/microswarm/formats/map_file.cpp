@@ -357,22 +357,38 @@ std::string* file_name(MapSpec& spec) {
 
 const std::string* file_name(const MapSpec& spec) { return file_name(const_cast<MapSpec&>(spec)); }
 
-MapParts read_map_parts(const MapSpec& spec, const fs::path& base, Issues& issues) {
+namespace {
+
+bool is_from_file(const MapSpec& spec) {
   const std::string* file = file_name(spec);
-  const bool from_file = file && !file->empty();
+  return file && !file->empty();
+}
+
+/// Key of what the map is read from.
+std::string source_key(const MapSpec& spec) { return is_from_file(spec) ? "map.file" : "map"; }
+
+/// Issues of values go into `issues`; those of a file are thrown.
+MapParts read_checked(const MapSpec& spec, const fs::path& base, Issues& issues) {
+  const std::string* file = file_name(spec);
+  // A map type chosen by --set may have no file.
+  if (file && file->empty() && !std::holds_alternative<RectanglesMap>(spec)) {
+    issues.add("map.file", "missing key map.file");
+    return {};
+  }
+  MapParts parts = std::visit([&](const auto& s) { return read(s, base, issues); }, spec);
+  if (!issues.empty()) return parts;
+  const std::string name = is_from_file(spec) ? (base / *file).string() : "map";
+  check(parts, name);
+  if (auto note = outside_note(parts, name)) parts.notes.push_back(*std::move(note));
+  return parts;
+}
+
+}  // namespace
+
+MapParts read_map_parts(const MapSpec& spec, const fs::path& base, Issues& issues) {
   Issues of_map;
   MapParts parts;
-  // A map type chosen by --set may have no file.
-  if (file && file->empty() && !std::holds_alternative<RectanglesMap>(spec))
-    of_map.add("map.file", "missing key map.file");
-  else
-    attempt(of_map, from_file ? "map.file" : "map", [&] {
-      parts = std::visit([&](const auto& s) { return read(s, base, of_map); }, spec);
-      const std::string name = from_file ? (base / *file).string() : "map";
-      if (!of_map.empty()) return;
-      check(parts, name);
-      if (auto note = outside_note(parts, name)) parts.notes.push_back(*std::move(note));
-    });
+  attempt(of_map, source_key(spec), [&] { parts = read_checked(spec, base, of_map); });
   issues.add(of_map);
   return parts;
 }
@@ -385,7 +401,17 @@ MapParts read_map_parts(const MapSpec& spec, const fs::path& base, const KeyLoca
 }
 
 LoadedMap load_map(const MapSpec& spec, const fs::path& base) {
-  MapParts parts = read_map_parts(spec, base);
+  Issues issues;
+  MapParts parts;
+  try {
+    parts = read_checked(spec, base, issues);
+  } catch (const InputError& error) {
+    for (Issue issue : error.issues()) {
+      issue.keys = {source_key(spec)};
+      issues.add(std::move(issue));
+    }
+  }
+  if (!issues.empty()) throw InputError(std::move(issues));
   const std::uint64_t hash = fingerprint(parts);
   return {std::make_shared<Map>(parts.bounds, std::move(parts.walls), std::move(parts.discs)), hash,
           std::move(parts.notes)};
@@ -404,7 +430,7 @@ bool is_of_map(const Setting& setting) { return is_in_key(setting.key, "map"); }
 
 MapSpec choose_map_spec(const fs::path& path, const MapChoice& choice) {
   const std::string file = path.string();
-  const auto fail = [&](const std::string& why) { throw InputError(file + ": " + why); };
+  const auto fail = [&](const std::string& why) { throw InputError(file, why); };
   std::error_code error;
   if (!fs::exists(path, error)) fail("cannot read: No such file or directory");
   if (choice.um_per_px && !(*choice.um_per_px >= 1e-6 && *choice.um_per_px <= 1e6))
@@ -416,12 +442,12 @@ MapSpec choose_map_spec(const fs::path& path, const MapChoice& choice) {
 
   std::optional<MapSpec> kind = kind_of_file(path);
   if (!kind && !chooses_type(choice.settings))
-    throw InputError(fmt::format("{}: no map that is known, expected: {}{}", file, map_formats(),
-                                 advice_on_no_map(path)));
+    throw InputError(file, fmt::format("no map that is known, expected: {}{}", map_formats(),
+                                       advice_on_no_map(path)));
   for (const Setting& setting : choice.settings.list)
     if (setting.key == "map.file")
-      throw InputError(setting_location(choice.settings.option, setting.key) +
-                       ": the file is given already: " + file);
+      throw InputError(setting_location(choice.settings.option, setting.key),
+                       "the file is given already: " + file);
   MapKey chosen{kind.value_or(MapSpec())};
   set_values(chosen, choice.settings);
   std::string* name = file_name(chosen.map);

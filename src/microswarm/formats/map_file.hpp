@@ -19,7 +19,7 @@
 namespace microswarm::formats {
 
 /// Reads the map given by `spec`; file names are relative to the folder `base`. Mistakes go into
-/// `issues` with the keys of a scenario; a mistake in a file has no key and begins with the file's
+/// `issues` with the keys of a scenario; one in a file is about the file's key and begins with its
 /// name. If there are issues, the parts must not be used.
 MapParts read_map_parts(const MapSpec& spec, const std::filesystem::path& base, Issues& issues);
 /// The same, but throws InputError with a line for each issue.
@@ -33,7 +33,7 @@ struct LoadedMap {
   std::vector<std::string> notes{};  ///< what was assumed or left out, one line each
 };
 
-/// Reads and builds a map. Throws InputError.
+/// Reads and builds a map. Throws InputError; what is wrong with a file has its place there.
 LoadedMap load_map(const MapSpec& spec, const std::filesystem::path& base = {});
 
 /// File of the map; null if its kind has none.

@@ -15,8 +15,8 @@ namespace {
 
 void check_coordinate(double value, const std::string& name, const char* what) {
   if (!(std::abs(value) <= max_coordinate))
-    throw InputError(name + ": " + what + " " + number_text(value) + " µm, at most " +
-                     number_text(max_coordinate));
+    throw InputError(name, std::string(what) + " " + number_text(value) + " µm, at most " +
+                               number_text(max_coordinate));
 }
 
 void check_point(Vec2 p, const std::string& name, const char* what) {
@@ -79,9 +79,9 @@ std::uint64_t fingerprint(const MapParts& parts) {
 void check(const MapParts& parts, const std::string& name) {
   const Box& b = parts.bounds;
   if (!(b.lo.x < b.hi.x && b.lo.y < b.hi.y))
-    throw InputError(name + ": the map's bounds are empty: " + number_text(b.lo.x) + ".." +
-                     number_text(b.hi.x) + " × " + number_text(b.lo.y) + ".." +
-                     number_text(b.hi.y) + " µm");
+    throw InputError(name, "the map's bounds are empty: " + number_text(b.lo.x) + ".." +
+                               number_text(b.hi.x) + " × " + number_text(b.lo.y) + ".." +
+                               number_text(b.hi.y) + " µm");
   check_point(b.lo, name, "bounds at");
   check_point(b.hi, name, "bounds at");
   for (const Polygon& wall : parts.walls) {

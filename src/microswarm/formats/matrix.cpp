@@ -82,7 +82,7 @@ Mask parse_matrix(std::string_view text, std::string_view name) {
                      static_cast<std::int64_t>(all.size() / std::max<std::size_t>(width, 1)), name,
                      "cells");
   }
-  if (width == 0) throw InputError(std::string(name) + ": no rows of 0 and 1");
+  if (width == 0) throw InputError(std::string(name), "no rows of 0 and 1");
   Mask ones(static_cast<int>(width), static_cast<int>(all.size() / width));
   ones.cells = std::move(all);
   return ones;

@@ -24,15 +24,16 @@ Mask picture_walls(const Image& image, int level, FreePixels free, const std::st
   }
   const int extreme = below;
   throw InputError(
+      name,
       free == FreePixels::bright
           ? fmt::format(
-                "{}: all of the picture is wall: its brightest grey is {} of 255, below "
+                "all of the picture is wall: its brightest grey is {} of 255, below "
                 "map.threshold {}: set map.threshold to {}, or map.free to dark where dark is "
                 "free",
-                name, extreme, level, std::max(1, (extreme + 1) / 2))
-          : fmt::format("{}: all of the picture is wall: its darkest grey is {} of 255, not below "
+                extreme, level, std::max(1, (extreme + 1) / 2))
+          : fmt::format("all of the picture is wall: its darkest grey is {} of 255, not below "
                         "map.threshold {}, and map.free is dark: set map.threshold higher",
-                        name, extreme, level));
+                        extreme, level));
 }
 
 std::string no_walls_note(int level, FreePixels free, const std::string& name) {

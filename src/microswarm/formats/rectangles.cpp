@@ -95,12 +95,12 @@ std::optional<double> rectangle_number(std::string_view field) {
 
 Polygon rectangle(std::span<const double> numbers, const std::string& where) {
   if (numbers.size() != 4)
-    throw InputError(where + ": " + std::to_string(numbers.size()) +
-                     " numbers, 4 expected: x, y, width, height");
+    throw InputError(where,
+                     std::to_string(numbers.size()) + " numbers, 4 expected: x, y, width, height");
   const double x = numbers[0], y = numbers[1], width = numbers[2], height = numbers[3];
   if (!(x + width > x && y + height > y))
-    throw InputError(where + ": width " + number_text(width) + " and height " +
-                     number_text(height) + " µm must be above 0");
+    throw InputError(where, "width " + number_text(width) + " and height " + number_text(height) +
+                                " µm must be above 0");
   return {{{x, y}, {x + width, y}, {x + width, y + height}, {x, y + height}}, {}};
 }
 
@@ -139,7 +139,7 @@ std::vector<Polygon> parse_rectangles(std::string_view text, std::string_view na
         rectangle(numbers, std::string(name) + ":" + std::to_string(lines.number())));
   }
   if (rectangles.empty())
-    throw InputError(std::string(name) + ": no rectangles: lines of x,y,width,height expected");
+    throw InputError(std::string(name), "no rectangles: lines of x,y,width,height expected");
   return rectangles;
 }
 

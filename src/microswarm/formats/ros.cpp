@@ -85,9 +85,7 @@ RosHeader parse_ros_header(std::string_view text, std::string_view name) {
   ValueReader reader(name, true);
   reader.read(type_of<RosHeader>(), {}, "", &header, document);
   if (!reader.issues().empty()) throw InputError(reader.issues());
-  const auto fail = [&](const std::string& why) {
-    throw InputError(std::string(name) + ": " + why);
-  };
+  const auto fail = [&](const std::string& why) { throw InputError(std::string(name), why); };
   if (header.origin.size() != 3)
     fail("origin of " + std::to_string(header.origin.size()) + " numbers, 3 expected: x, y, yaw");
   if (header.mode == RosMode::raw && header.negate != 0)

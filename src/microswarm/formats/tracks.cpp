@@ -96,7 +96,7 @@ Tracks parse_tracks(std::string_view text, std::string_view name) {
            {value(x_um, max_coordinate), value(y_um, max_coordinate)});
   }
   if (tracks.empty())
-    throw InputError(std::string(name) + ": no tracks: columns id,t_s,x_um,y_um and rows expected");
+    throw InputError(std::string(name), "no tracks: columns id,t_s,x_um,y_um and rows expected");
   return tracks;
 }
 
@@ -121,7 +121,7 @@ Tracks read_ucy_obsmat(const std::filesystem::path& path, double um_per_m, doubl
     append(lines, tracks, number_text(body), frame * seconds_per_frame * time_scale,
            um_per_m * point);
   }
-  if (tracks.empty()) throw InputError(path.string() + ": no tracks");
+  if (tracks.empty()) throw InputError(path.string(), "no tracks");
   return tracks;
 }
 

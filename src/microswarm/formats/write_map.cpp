@@ -54,8 +54,8 @@ void write_map(const std::filesystem::path& path, const Map& map, double cell) {
   if (extension == ".geojson" || extension == ".json")
     return write_file_atomically(path, geojson_text(to_parts(map)));
   if (extension != ".png" && extension != ".map" && extension != ".yaml")
-    throw InputError(fmt::format("{}: maps are written as {}", path.string(), written_map_formats));
-  if (cell == 0) throw InputError(path.string() + ": the size of a cell is missing: give --cell");
+    throw InputError(path.string(), fmt::format("maps are written as {}", written_map_formats));
+  if (cell == 0) throw InputError(path.string(), "the size of a cell is missing: give --cell");
   const Mask walls = rasterise(map, cell);
   if (extension == ".png")
     write_png(path, picture(walls, 255));

@@ -64,7 +64,7 @@ class Hdf5Reader {
 
   const std::string& name() const { return name_; }
   /// Throws InputError "NAME: WHY".
-  [[noreturn]] void fail(const std::string& why) const { throw InputError(name_ + ": " + why); }
+  [[noreturn]] void fail(const std::string& why) const { throw InputError(name_, why); }
 
  private:
   std::string name_;

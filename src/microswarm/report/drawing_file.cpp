@@ -46,7 +46,7 @@ std::string drawing_bytes(std::string_view kind, Vec2 size, const DrawOn& draw) 
 
 void write_drawing(const std::filesystem::path& path, Vec2 size, const DrawOn& draw) {
   const std::string bytes = drawing_bytes(path.extension().string(), size, draw);
-  if (bytes.empty()) throw InputError(path.string() + ": a picture is .png, .svg or .pdf");
+  if (bytes.empty()) throw InputError(path.string(), "a picture is .png, .svg or .pdf");
   write_file_atomically(path, bytes);
 }
 

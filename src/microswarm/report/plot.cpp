@@ -241,7 +241,7 @@ std::optional<std::string> drawn_by_gnuplot(const std::filesystem::path& script)
 void write_plots(const std::vector<Plot>& plots, const std::filesystem::path& path) {
   const std::string kind = path.extension().string();
   if (kind != ".png" && kind != ".svg" && kind != ".pdf")
-    throw InputError(path.string() + ": a plot is .png, .svg or .pdf");
+    throw InputError(path.string(), "a plot is .png, .svg or .pdf");
   std::string script = fmt::format("set terminal {}\n", terminal(kind, plots.size()));
   script +=
       "set grid xtics ytics lt 1 lc rgb '#e4e4e4'\nset style boxplot outliers pointtype 7\n"
@@ -257,7 +257,7 @@ void write_plots(const std::vector<Plot>& plots, const std::filesystem::path& pa
   const StagedFile script_file(beside.replace_extension(".gnuplot"));  // never committed
   write_file_atomically(script_file.path(), script);
   const std::optional<std::string> picture = drawn_by_gnuplot(script_file.path());
-  if (!picture) throw InputError(path.string() + ": cannot plot: gnuplot is missing or failed");
+  if (!picture) throw InputError(path.string(), "cannot plot: gnuplot is missing or failed");
   write_file_atomically(path, *picture);
 }
 

@@ -135,15 +135,15 @@ RunVideo write_run_video(const experiment::Record& record, const std::filesystem
   const double begin = std::max(options.from, record.frames.front().t);
   const double end = std::min(options.to, record.frames.back().t);
   if (!(begin <= end))
-    throw InputError(fmt::format("{}: the run is from {:g} s to {:g} s: nothing to show",
-                                 file.string(), record.frames.front().t, record.frames.back().t));
+    throw InputError(file.string(), fmt::format("the run is from {:g} s to {:g} s: nothing to show",
+                                                record.frames.front().t, record.frames.back().t));
   const double step = options.speed / options.rate;
   const double pictures = std::floor((end - begin) / step) + 1;
   if (!(pictures <= max_video_pictures))
-    throw InputError(
-        fmt::format("{}: the video would have {:.0f} pictures, at most {}: raise the "
-                    "speed or lower the rate",
-                    file.string(), pictures, max_video_pictures));
+    throw InputError(file.string(),
+                     fmt::format("the video would have {:.0f} pictures, at most {}: raise the "
+                                 "speed or lower the rate",
+                                 pictures, max_video_pictures));
   Film film(record, options);
   vision::VideoFileWriter writer(file, options.rate);
   const Progress progress(options.progress, "video");

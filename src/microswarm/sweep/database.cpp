@@ -70,7 +70,7 @@ std::string sql_name(std::string_view name) {
 
 WriterLock::WriterLock(const std::filesystem::path& file)
     : file_(open_descriptor(file, O_RDWR | O_CREAT)) {
-  if (!file_) throw InputError(fmt::format("{}: cannot write: {}", file.string(), reason(errno)));
+  if (!file_) throw InputError(file.string(), fmt::format("cannot write: {}", reason(errno)));
   struct flock lock {};
   lock.l_type = F_WRLCK;
   lock.l_whence = SEEK_SET;
@@ -79,8 +79,8 @@ WriterLock::WriterLock(const std::filesystem::path& file)
   if (::fcntl(file_.get(), F_OFD_SETLK, &lock) == 0) return;
   const int error = errno;
   if (error == EAGAIN || error == EACCES)
-    throw InputError(file.string() + ": another sweep is writing to it");
-  throw InputError(fmt::format("{}: cannot lock: {}", file.string(), reason(error)));
+    throw InputError(file.string(), "another sweep is writing to it");
+  throw InputError(file.string(), fmt::format("cannot lock: {}", reason(error)));
 }
 
 // Opened for writing even to read, which rolls back what a killed writer left half done; where the
@@ -103,9 +103,7 @@ Database::Database(const std::filesystem::path& file, Access access) : name_(fil
 
 Database::~Database() = default;
 
-void Database::fail(const std::string& why) const {
-  throw InputError(fmt::format("{}: {}", name_, why));
-}
+void Database::fail(const std::string& why) const { throw InputError(name_, why); }
 
 void Database::fail(const SQLite::Exception& error) const {
   const int system = sqlite3_system_errno(connection_->getHandle());

@@ -97,7 +97,7 @@ std::vector<Identity> plan_identity(const SweepPlan& plan) {
 const std::filesystem::path& no_folder(const std::filesystem::path& file) {
   std::error_code error;
   if (std::filesystem::is_directory(file, error))
-    throw InputError(file.string() + ": is a folder, must be a file for the database");
+    throw InputError(file.string(), "is a folder, must be a file for the database");
   return file;
 }
 

@@ -32,8 +32,7 @@ class Checker {
 
   template <class... Values>
   void need(bool good, fmt::format_string<Values...> format, Values&&... values) const {
-    if (!good)
-      throw InputError(name_ + ": " + fmt::format(format, std::forward<Values>(values)...));
+    if (!good) throw InputError(name_, fmt::format(format, std::forward<Values>(values)...));
   }
 
   void parameter(const SweepParameter& parameter) const {

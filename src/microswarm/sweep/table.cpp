@@ -105,8 +105,8 @@ std::vector<SweepColumn> sweep_columns(const SweepPlan& plan) {
   for (std::size_t i = 0; i < columns.size(); ++i)
     for (std::size_t k = i + 1; k < columns.size(); ++k)
       if (columns[i].name == columns[k].name)
-        throw InputError(fmt::format("{}: the table would have two columns {}", plan.file,
-                                     quote(columns[i].name)));
+        throw InputError(
+            plan.file, fmt::format("the table would have two columns {}", quote(columns[i].name)));
   return columns;
 }
 

@@ -95,8 +95,8 @@ FoundScale from_grid(const ScaleOptions& o, const formats::Image& picture) {
       p.position.y = (params.rows - 1) * params.pitch - p.position.y;
   vision::FittedScale fit = vision::fit_scale(points, !o.mirrored);
   if (fit.worst > 0.25 * params.pitch)
-    throw InputError(fmt::format("{}: a point is {:.3g} µm off a grid of {:.6g} µm", o.picture,
-                                 fit.worst, params.pitch));
+    throw InputError(o.picture, fmt::format("a point is {:.3g} µm off a grid of {:.6g} µm",
+                                            fit.worst, params.pitch));
   if (const auto origin = chosen_origin(o)) fit.scale.origin_px = *origin;
   return {fit, vision::fit_distortion(points, !o.mirrored, picture.width, picture.height)};
 }

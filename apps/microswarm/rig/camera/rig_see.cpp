@@ -51,8 +51,8 @@ struct SeeOptions {
 formats::Image read_still(const std::string& file, const formats::Image& picture) {
   formats::Image still = read_photo(file);
   if (still.width != picture.width || still.height != picture.height)
-    throw InputError(fmt::format("{}: is {} × {} px, the picture is {} × {} px", file, still.width,
-                                 still.height, picture.width, picture.height));
+    throw InputError(file, fmt::format("is {} × {} px, the picture is {} × {} px", still.width,
+                                       still.height, picture.width, picture.height));
   return still;
 }
 

@@ -159,10 +159,9 @@ void require_new(const std::filesystem::path& folder, const std::filesystem::pat
   if (!video.empty()) files.insert(files.end(), {video, vision::VideoRecorder::times_file(video)});
   for (const std::filesystem::path& file : files)
     if (std::error_code none; std::filesystem::exists(file, none))
-      throw InputError(
-          fmt::format("{}: is there from another experiment: choose another name, "
-                      "or run with --overwrite",
-                      file.string()));
+      throw InputError(file.string(),
+                       "is there from another experiment: choose another name, "
+                       "or run with --overwrite");
 }
 
 void tell(const vision::RecordedVideo& video) {

@@ -165,11 +165,13 @@ constexpr double weight_of_unknown = 1e-3;  // smaller entries of the null space
   const Eigen::MatrixXd unknown = solver.null_space();
   for (std::size_t i = 0; i < measured.coils.size(); ++i)
     if (unknown.row(whole(i)).norm() > weight_of_unknown) open.push_back(quote(measured.coils[i]));
-  throw InputError(fmt::format(
-      "{}: {} measurements do not tell the fields of {}: currents are missing that change each "
-      "of them apart from the others{}",
-      measured.file, measured.rows.size(), fmt::join(open, ", "),
-      with_offset ? ", and one without them all" : ""));
+  throw InputError(
+      measured.file,
+      fmt::format(
+          "{} measurements do not tell the fields of {}: currents are missing that change each "
+          "of them apart from the others{}",
+          measured.rows.size(), fmt::join(open, ", "),
+          with_offset ? ", and one without them all" : ""));
 }
 
 [[noreturn]] void fail_gradients(const Solver& solver, const FieldMeasurements& measured,
@@ -188,10 +190,11 @@ constexpr double weight_of_unknown = 1e-3;  // smaller entries of the null space
   }
   for (std::size_t k = 0; k < 5; ++k)
     if (named[k]) open.emplace_back(gradient_names[k]);
-  throw InputError(fmt::format(
-      "{}: {} measurements do not tell {} of {}: each needs three positions or more "
-      "that are not on one line",
-      measured.file, measured.rows.size(), fmt::join(open, ", "), fmt::join(sources, ", ")));
+  throw InputError(
+      measured.file,
+      fmt::format("{} measurements do not tell {} of {}: each needs three positions or more "
+                  "that are not on one line",
+                  measured.rows.size(), fmt::join(open, ", "), fmt::join(sources, ", ")));
 }
 
 /// Writes the solution of a source to the coils, or to the field without current.
@@ -331,10 +334,12 @@ void require_effects(const FieldMeasurements& measured, const FittedMatrix& fit)
       without.push_back(quote(measured.coils[i]));
   }
   if (without.empty()) return;
-  throw InputError(fmt::format(
-      "{}: the currents of {} do not change the field by more than its errors: are the probe and "
-      "these coils connected?",
-      measured.file, fmt::join(without, ", ")));
+  throw InputError(
+      measured.file,
+      fmt::format(
+          "the currents of {} do not change the field by more than its errors: are the probe and "
+          "these coils connected?",
+          fmt::join(without, ", ")));
 }
 
 }  // namespace microswarm::actuation

@@ -30,8 +30,7 @@ std::size_t read_at(int file, std::uint64_t at, std::string& bytes, const std::s
   do n = ::pread(file, bytes.data(), bytes.size(), static_cast<off_t>(at));
   while (n < 0 && errno == EINTR);
   if (n < 0)
-    throw InputError(
-        fmt::format("{}: cannot read: {}", name, std::generic_category().message(errno)));
+    throw InputError(name, fmt::format("cannot read: {}", std::generic_category().message(errno)));
   return static_cast<std::size_t>(n);
 }
 
@@ -49,7 +48,7 @@ ProbeRows::ProbeRows(std::string_view header, std::string name) : name_(std::mov
   constexpr std::array<std::string_view, 3> fields{"bx_mt", "by_mt", "bz_mt"};
   for (std::size_t k = 0; k < 3; ++k) {
     const auto at = find(fields[k]);
-    if (!at) throw InputError(fmt::format("{}: column '{}' is missing", name_, fields[k]));
+    if (!at) throw InputError(name_, fmt::format("column '{}' is missing", fields[k]));
     field_[k] = *at;
   }
   time_ = find("t_s");
@@ -66,7 +65,7 @@ void ProbeRows::take(std::string_view bytes, std::vector<Eigen::Vector3d>& field
     const bool is_whole = end != std::string_view::npos;
     if (!skipping_) unfinished_ += bytes.substr(0, end);
     if (unfinished_.size() > max_row)
-      throw InputError(fmt::format("{}: a row is longer than {} bytes", name_, max_row));
+      throw InputError(name_, fmt::format("a row is longer than {} bytes", max_row));
     bytes.remove_prefix(is_whole ? end + 1 : bytes.size());
     if (!is_whole) return;
     if (!std::exchange(skipping_, false)) take_row(unfinished_, fields);
@@ -79,13 +78,13 @@ void ProbeRows::take_row(std::string_view row, std::vector<Eigen::Vector3d>& fie
   if (text.empty() || text.front() == '#') return;
   const std::vector<std::string_view> cells = csv_cells(text, separator_);
   if (cells.size() != columns_)
-    throw InputError(fmt::format("{}: {} has {} fields, the header has {}", name_, quote(text),
-                                 cells.size(), columns_));
+    throw InputError(name_, fmt::format("{} has {} fields, the header has {}", quote(text),
+                                        cells.size(), columns_));
   const auto number = [&](std::size_t column, double most) {
     const std::optional<double> value = parse_number(csv_number(cells[column], separator_));
     if (!value || !(std::abs(*value) <= most))
-      throw InputError(fmt::format("{}: {} must be a number of at most {}", name_,
-                                   quote(cells[column]), number_text(most)));
+      throw InputError(name_, fmt::format("{} must be a number of at most {}", quote(cells[column]),
+                                          number_text(most)));
     return *value;
   };
   const Eigen::Vector3d field{number(field_[0], max_probe_field),
@@ -104,16 +103,15 @@ ProbeFile::ProbeFile(std::filesystem::path path)
       name_(path_.string()),
       file_(open_descriptor(path_, O_RDONLY | O_NONBLOCK)) {
   if (!file_)
-    throw InputError(
-        fmt::format("{}: cannot read: {}", name_, std::generic_category().message(errno)));
+    throw InputError(name_, fmt::format("cannot read: {}", std::generic_category().message(errno)));
   struct stat info {};
   if (::fstat(file_.get(), &info) != 0 || !S_ISREG(info.st_mode))
-    throw InputError(name_ + ": cannot read: is no regular file");
+    throw InputError(name_, "cannot read: is no regular file");
   std::string start(max_row, '\0');
   start.resize(read_at(file_.get(), 0, start, name_));
   const std::size_t end = start.find('\n');
   if (end == std::string::npos)
-    throw InputError(name_ + ": a header with the columns bx_mt, by_mt, bz_mt is missing");
+    throw InputError(name_, "a header with the columns bx_mt, by_mt, bz_mt is missing");
   rows_.emplace(trimmed(std::string_view(start).substr(0, end)), name_);
   at_ = end + 1;
 }
@@ -124,7 +122,7 @@ std::uint64_t ProbeFile::size() const {
   if (::fstat(file_.get(), &here) != 0 || ::stat(path_.c_str(), &there) != 0 ||
       here.st_ino != there.st_ino || here.st_dev != there.st_dev ||
       static_cast<std::uint64_t>(here.st_size) < at_)
-    throw InputError(name_ + ": was cut short or replaced while it was read");
+    throw InputError(name_, "was cut short or replaced while it was read");
   return static_cast<std::uint64_t>(here.st_size);
 }
 

@@ -162,7 +162,7 @@ FieldGrid parse_vfield_text(std::string_view text, std::string_view name) {
 FieldGrid parse_vfield_yaml(std::string_view text, std::string_view name) {
   const auto file = read_yaml_text<VfieldYaml>(text, name);
   const auto fail = [&](const std::string& why) -> void {
-    throw InputError(std::string(name) + ": " + why);
+    throw InputError(std::string(name), why);
   };
   for (std::size_t d = 0; d < 3; ++d)
     if (const std::string wrong = complaint(file.nodes[d], file.least[d], file.most[d]);

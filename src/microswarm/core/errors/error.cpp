@@ -23,6 +23,9 @@ Issues to_issues(Issue issue) {
 
 InputError::InputError(const std::string& what) : InputError(Issue{.text = what}) {}
 
+InputError::InputError(const std::string& location, const std::string& what)
+    : InputError(Issue{.text = what, .location = location}) {}
+
 InputError::InputError(const std::string& file, int line, int column, const std::string& what)
     : InputError(Issue{.text = what, .location = location_text(file, line, column)}) {}
 

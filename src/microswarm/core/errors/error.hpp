@@ -17,6 +17,8 @@ class InputError : public std::runtime_error {
  public:
   /// One issue that is only a text.
   explicit InputError(const std::string& what);
+  /// "location: what"; the location is a file, or another place in words of who gave it.
+  InputError(const std::string& location, const std::string& what);
   /// "file:line:column: what"; line and column count from 1, 0 leaves them out.
   InputError(const std::string& file, int line, int column, const std::string& what);
   /// At least one issue, located.

@@ -78,8 +78,9 @@ void* load_module(const std::string& name, const std::string& users) {
     if (void* const function = function_of(file, name, reason)) return function;
     if (why.empty() || is_there) why = reason;
   }
-  throw InputError(file_name + ": cannot be loaded, and " + users + " need it: " + why + "; " +
-                   modules_variable + " can name its folder, lib/microswarm of the installation");
+  throw InputError(file_name, "cannot be loaded, and " + users + " need it: " + why + "; " +
+                                  modules_variable +
+                                  " can name its folder, lib/microswarm of the installation");
 }
 
 }  // namespace microswarm

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const fs::path& path, std::string_view doing, std::string_view reason) {
-  throw InputError(fmt::format("{}: cannot {}: {}", path.string(), doing, reason));
+  throw InputError(path.string(), fmt::format("cannot {}: {}", doing, reason));
 }
 
 [[noreturn]] void fail_errno(const fs::path& path, std::string_view doing, int error) {
@@ -156,11 +156,10 @@ void write_file_atomically(const fs::path& path, std::string_view bytes, LinkAtF
 void make_folder(const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error)
-    throw InputError(fmt::format("{}: cannot make the folder: {}", folder, error.message()));
+  if (error) throw InputError(folder, fmt::format("cannot make the folder: {}", error.message()));
   const Descriptor nameless = open_descriptor(folder, O_TMPFILE | O_WRONLY);
   if (!nameless && errno != EOPNOTSUPP && errno != EISDIR)  // O_TMPFILE unsupported: not tested
-    throw InputError(folder + ": cannot write: " + std::generic_category().message(errno));
+    throw InputError(folder, "cannot write: " + std::generic_category().message(errno));
 }
 
 }  // namespace microswarm

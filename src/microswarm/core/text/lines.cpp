@@ -40,7 +40,7 @@ void Lines::fail(const std::string& why) const { throw InputError(name_, number_
 
 void require_utf8(std::string_view text, std::string_view name) {
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
-    throw InputError(std::string(name) + ": is a text in UTF-16: save it in UTF-8");
+    throw InputError(std::string(name), "is a text in UTF-16: save it in UTF-8");
 }
 
 std::string_view trimmed(std::string_view text) {

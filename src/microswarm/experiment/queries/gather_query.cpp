@@ -21,8 +21,8 @@ GatherExperiment open_gathering(formats::MapParts map, formats::MapSpec spec,
                                 const GatherQuery& query, const std::string& name) {
   for (const Setting& setting : query.settings.list)
     if (formats::is_of_map(setting))
-      throw InputError(setting_location(query.settings.option, setting.key) +
-                       ": the map is read already: give its keys where it is read");
+      throw InputError(setting_location(query.settings.option, setting.key),
+                       "the map is read already: give its keys where it is read");
   GatherExperiment made;
   Scene& scene = made.experiment.scene;
   Scenario& scenario = scene.scenario;
@@ -38,7 +38,7 @@ GatherExperiment open_gathering(formats::MapParts map, formats::MapSpec spec,
   const Notes of_map = scene.map.notes;
   const World world = build_world(scene);
   if (const std::string why = world.at(0).blocked_reason(query.goal, 0); !why.empty())
-    throw InputError(fmt::format("{}: goal {}", name, why));
+    throw InputError(name, fmt::format("goal {}", why));
   Rng rng(query.seed, Purpose::planner);
   made.measured_width = channel_width(*world.map, rng);
   fit_gathering(scenario, query.channel_width.value_or(made.measured_width), query.max_steps);

@@ -26,12 +26,12 @@ void explain(const Map& map, const GlobalQuery& query, const planning::GlobalPla
   const char* what = starts_wrong ? "start" : "goal";
   for (std::size_t i = 0; i < wrong.size(); ++i)
     if (const std::string why = world.blocked_reason(wrong[i], 0); !why.empty())
-      throw InputError(fmt::format("{}: robot {}: {} {}", name, i + 1, what, why));
+      throw InputError(name, fmt::format("robot {}: {} {}", i + 1, what, why));
   if (play.separation > 0)
-    throw InputError(fmt::format("{}: two {}s are nearer to each other than separation_um {:g}{}",
-                                 name, what, play.separation,
-                                 starts_wrong ? "" : " and the tolerance allow"));
-  throw InputError(fmt::format("{}: a {} is too near a wall", name, what));
+    throw InputError(name,
+                     fmt::format("two {}s are nearer to each other than separation_um {:g}{}", what,
+                                 play.separation, starts_wrong ? "" : " and the tolerance allow"));
+  throw InputError(name, fmt::format("a {} is too near a wall", what));
 }
 
 void search(const Map& map, const GlobalQuery& query, const planning::GlobalSearchParams& params,
@@ -56,7 +56,7 @@ void grow(const Map& map, const GlobalQuery& query, const planning::GlobalRrtPar
 void check_finite(std::span<const Vec2> positions, const char* what, const std::string& name) {
   for (std::size_t i = 0; i < positions.size(); ++i)
     if (!is_finite(positions[i]))
-      throw InputError(fmt::format("{}: robot {}: {} must be finite numbers", name, i + 1, what));
+      throw InputError(name, fmt::format("robot {}: {} must be finite numbers", i + 1, what));
 }
 
 }  // namespace

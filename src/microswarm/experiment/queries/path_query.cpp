@@ -45,9 +45,9 @@ void explain(const Snapshot& world, const PathQuery& query, const std::string& n
   const auto [clearance, tolerance] = path_limits(planner);
   const Vec2 start = query.start.position;
   if (status == Status::start_blocked)
-    throw InputError(fmt::format("{}: start {}", name, world.blocked_reason(start, clearance)));
+    throw InputError(name, fmt::format("start {}", world.blocked_reason(start, clearance)));
   if (status == Status::goal_blocked)
-    throw InputError(fmt::format("{}: goal {}", name, world.blocked_reason(query.goal, clearance)));
+    throw InputError(name, fmt::format("goal {}", world.blocked_reason(query.goal, clearance)));
   if (status != Status::no_path && status != Status::node_limit) return;
   if (const auto target = planning::free_goal(world, query.goal, tolerance, clearance))
     KeyLocations(name).require_none(validate_path(world.map(), start, *target, clearance));
@@ -98,7 +98,7 @@ PathAnswer answer(const Snapshot& world, const PathQuery& query, const std::stri
       planning::fit_to_map(choice.planner, world.map(), given_within(keys.is_given(), "planner"));
   const std::string why = world.blocked_reason(query.goal, 0);
   if (!why.empty() && world.is_free(query.start.position, 0))  // else the start is named
-    throw InputError(fmt::format("{}: goal {}", name, why));
+    throw InputError(name, fmt::format("goal {}", why));
   Rng rng(query.seed, Purpose::planner);
   const auto began = Stop::Clock::now();
   made.plan = plan(world, query.start, query.goal, made.planner, rng, stop);

@@ -141,8 +141,8 @@ void write_record(const Record& record, const std::filesystem::path& file) {
 Record read_record(const std::filesystem::path& file) {
   std::string bytes = read_file(file);
   if (bytes.starts_with("SQLite format 3"))
-    throw InputError(file.string() +
-                     ": the database of a sweep, no record: `microswarm export` writes its trials "
+    throw InputError(file.string(),
+                     "the database of a sweep, no record: `microswarm export` writes its trials "
                      "as a table, with --csv FILE");
   const auto opened = io::read_hdf5(std::move(bytes), file.string());
   const io::Hdf5Reader& in = *opened;

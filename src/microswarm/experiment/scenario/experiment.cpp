@@ -73,7 +73,7 @@ Experiment open_experiment_text(std::string_view text, const std::string& name,
                                 std::optional<std::uint64_t> seed) {
   if (text.size() > max_yaml_bytes)
     throw InputError(
-        fmt::format("{}: {} bytes, a scenario has at most {}", name, text.size(), max_yaml_bytes));
+        name, fmt::format("{} bytes, a scenario has at most {}", text.size(), max_yaml_bytes));
   KeyLocations keys;
   Issues issues;
   auto scenario = read_yaml_text<Scenario>(text, name, settings, keys, issues);

@@ -100,7 +100,7 @@ std::unique_ptr<Session> open_session(const std::filesystem::path& file, const S
   if (!is_record(file))
     return std::make_unique<Session>(open_experiment(file, settings), std::move(parts));
   if (!settings.empty() || parts.trial != 0 || parts.plant || parts.navigator)
-    throw InputError(file.string() + ": a record accepts no options");
+    throw InputError(file.string(), "a record accepts no options");
   return std::make_unique<Session>(read_record(file));
 }
 

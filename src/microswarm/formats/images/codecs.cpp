@@ -24,7 +24,7 @@ namespace {
 using Bytes = std::span<const std::byte>;
 
 [[noreturn]] void fail_image(std::string_view name, const std::string& why) {
-  throw InputError(std::string(name) + ": " + why);
+  throw InputError(std::string(name), why);
 }
 
 bool starts_with(Bytes bytes, std::string_view text) {

@@ -128,7 +128,8 @@ struct GifWriter::Parts {
 
   [[noreturn]] void fail(int error) const {
     const char* reason = GifErrorString(error);
-    throw InputError(file.string() + ": cannot write: " + (reason != nullptr ? reason : "unknown"));
+    throw InputError(file.string(),
+                     std::string("cannot write: ") + (reason != nullptr ? reason : "unknown"));
   }
   void check(int result) const {
     if (result != GIF_OK) fail(gif->Error);

@@ -28,7 +28,7 @@ bool is_pnm(std::span<const std::byte> bytes) {
 void check_image_size(std::int64_t width, std::int64_t height, std::string_view name,
                       std::string_view unit) {
   const auto refuse = [&](const std::string& limit) {
-    throw InputError(fmt::format("{}: {} × {} {}, {}", name, width, height, unit, limit));
+    throw InputError(std::string(name), fmt::format("{} × {} {}, {}", width, height, unit, limit));
   };
   if (width < 1 || height < 1) refuse("at least 1 × 1");
   if (width > max_image_side || height > max_image_side)

@@ -14,7 +14,7 @@ void decode_jpeg_frame(std::span<const std::byte> bytes, std::string_view name, 
   const std::unique_ptr<void, int (*)(tjhandle)> jpeg(tjInitDecompress(), tjDestroy);
   const auto why = [&] { return std::string_view(tjGetErrorStr2(jpeg.get())); };
   const auto fail = [&](std::string_view reason) {
-    throw InputError(std::string(name) + ": damaged JPEG: " + std::string(reason));
+    throw InputError(std::string(name), "damaged JPEG: " + std::string(reason));
   };
   const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
   int width = 0, height = 0, subsampling = 0, colours = 0;

@@ -16,7 +16,7 @@ class PnmReader {
       : text_(reinterpret_cast<const char*>(bytes.data()), bytes.size()), name_(name), at_(2) {}
 
   [[noreturn]] void fail(const std::string& why) const {
-    throw InputError(std::string(name_) + ": " + why);
+    throw InputError(std::string(name_), why);
   }
   std::size_t left() const { return text_.size() - at_; }
 

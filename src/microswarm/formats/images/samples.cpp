@@ -19,12 +19,13 @@ template <class Sample>
 void check(const Samples2d<Sample>& picture, std::string_view name) {
   check_image_size(picture.width, picture.height, name);
   if (picture.channels != 1 && picture.channels != 3)
-    throw InputError(std::string(name) + ": " + std::to_string(picture.channels) +
-                     " channels, must be 1 or 3");
+    throw InputError(std::string(name),
+                     std::to_string(picture.channels) + " channels, must be 1 or 3");
   const auto pixels = static_cast<std::size_t>(picture.width) * picture.height;
   if (picture.samples.size() != pixels * picture.channels)
-    throw InputError(std::string(name) + ": " + std::to_string(picture.samples.size()) +
-                     " samples, the sizes say " + std::to_string(pixels * picture.channels));
+    throw InputError(std::string(name), std::to_string(picture.samples.size()) +
+                                            " samples, the sizes say " +
+                                            std::to_string(pixels * picture.channels));
 }
 
 template <class Picture>

@@ -54,14 +54,14 @@ TiffPages::~TiffPages() = default;
 
 void TiffPages::count_pages() {
   TIFF* const tiff = file_->tiff;
-  if (!tiff) throw InputError(name_ + ": is no TIFF that can be read");
+  if (!tiff) throw InputError(name_, "is no TIFF that can be read");
   const tiff::Page first = file_->page();
   description_ = file_->description(name_);
   description_.pixel_channels = first.pixel.channels;
   orientation_ = first.orientation;
   file_->errors = 0;
   count_ = static_cast<int>(std::min<std::uint64_t>(TIFFNumberOfDirectories(tiff), max_pages));
-  if (count_ == 0) throw InputError(name_ + ": holds no picture");
+  if (count_ == 0) throw InputError(name_, "holds no picture");
   const bool is_cut = file_->errors > 0;
   const int told = description_.images;
   if (told > 1 && count_ == 1 && may_be_in_row(is_cut)) {
@@ -117,7 +117,7 @@ void TiffPages::step() {
   }
   TIFF* const tiff = f.tiff;
   const auto fail = [&](std::size_t page) {
-    throw InputError(fmt::format("{}: picture {} is damaged, or the file ends early", name_, page));
+    throw InputError(name_, fmt::format("picture {} is damaged, or the file ends early", page));
   };
   if (f.places.empty()) f.places.push_back(TIFFCurrentDirOffset(tiff));
   const auto page = static_cast<std::size_t>(next_);
@@ -137,17 +137,19 @@ DecodedImage TiffPages::next() {
   check_image_size(page.width, page.height, name_);
   const bool real = !tiff::real_kind(page).empty();
   if (page.samples < 1 || page.samples > 16)
-    throw InputError(fmt::format("{}: picture {} has {} samples a pixel, at most 16 are read",
-                                 name_, next_, page.samples));
+    throw InputError(name_, fmt::format("picture {} has {} samples a pixel, at most 16 are read",
+                                        next_, page.samples));
   if (!real && (!page.is_whole() || page.bits > 16))
-    throw InputError(fmt::format(
-        "{}: picture {} has {} samples of {} bits, which are not read: save it with 8 or 16 bits, "
-        "or as 32-bit float",
-        name_, next_,
-        page.format == SAMPLEFORMAT_IEEEFP ? "float"
-        : page.is_whole()                  ? "whole"
-                                           : "signed or complex",
-        page.bits));
+    throw InputError(
+        name_,
+        fmt::format(
+            "picture {} has {} samples of {} bits, which are not read: save it with 8 or 16 bits, "
+            "or as 32-bit float",
+            next_,
+            page.format == SAMPLEFORMAT_IEEEFP ? "float"
+            : page.is_whole()                  ? "whole"
+                                               : "signed or complex",
+            page.bits));
   const bool is_colour = page.is_grey() || page.photometric == PHOTOMETRIC_RGB;
   require_known(
       (real ? is_colour : page.is_plain()) || (!real && page.bits <= 8 && page.pixel.alpha < 0),
@@ -160,8 +162,7 @@ DecodedImage TiffPages::next() {
   };
   std::optional<DecodedImage> picture = decode();
   if (!picture)
-    throw InputError(
-        fmt::format("{}: picture {} is damaged, or the file ends early", name_, next_));
+    throw InputError(name_, fmt::format("picture {} is damaged, or the file ends early", next_));
   orient(*picture, page.orientation ? page.orientation : orientation_);
   ++next_;
   return *std::move(picture);
@@ -170,13 +171,15 @@ DecodedImage TiffPages::next() {
 /// Refuses the next page if its colours are not `known`, or fewer channels than the one chosen.
 void TiffPages::require_known(bool known, int channels) const {
   if (!known)
-    throw InputError(fmt::format(
-        "{}: picture {} has colours of a kind that is not read with its samples: save it as RGB or "
-        "grey",
-        name_, next_));
+    throw InputError(
+        name_,
+        fmt::format(
+            "picture {} has colours of a kind that is not read with its samples: save it as RGB or "
+            "grey",
+            next_));
   if (file_->channel >= channels)
-    throw InputError(fmt::format("{}: picture {} has {} channel{}, number {} is chosen", name_,
-                                 next_, channels, channels == 1 ? "" : "s", file_->channel + 1));
+    throw InputError(name_, fmt::format("picture {} has {} channel{}, number {} is chosen", next_,
+                                        channels, channels == 1 ? "" : "s", file_->channel + 1));
 }
 
 std::vector<std::uint8_t> TiffPages::transparency() {
@@ -187,8 +190,7 @@ std::vector<std::uint8_t> TiffPages::transparency() {
   if (!is_read || !page.is_plain()) return {};
   auto clear = file_->transparency(page);
   if (!clear)
-    throw InputError(
-        fmt::format("{}: picture {} is damaged, or the file ends early", name_, next_));
+    throw InputError(name_, fmt::format("picture {} is damaged, or the file ends early", next_));
   if (clear->empty()) return {};
   DecodedImage picture =
       Image{static_cast<int>(page.width), static_cast<int>(page.height), 1, *std::move(clear)};

@@ -25,8 +25,8 @@ std::pair<double, double> size_um(const SvgSize& size, std::optional<double> um_
                                   const std::string& name) {
   if (um_per_unit) return {*um_per_unit * size.width, *um_per_unit * size.height};
   if (size.width_um && size.height_um) return {*size.width_um, *size.height_um};
-  throw InputError(name +
-                   ": its size is not in mm, cm, in, pt or pc: give um_per_unit (--um-per-unit), "
+  throw InputError(name,
+                   "its size is not in mm, cm, in, pt or pc: give um_per_unit (--um-per-unit), "
                    "the µm for a unit of the drawing");
 }
 
@@ -96,15 +96,15 @@ SvgPicture draw_svg(std::string_view drawing, std::string_view name,
   const std::string text = with_joined_units(drawing);
   const SvgRenderer& renderer = svg_renderer();
   const SvgSize size = renderer.measure(text);
-  if (!size.error.empty()) throw InputError(file + ": no SVG: " + one_line(size.error));
+  if (!size.error.empty()) throw InputError(file, "no SVG: " + one_line(size.error));
   SvgPicture picture;
   std::tie(picture.width, picture.height) = size_um(size, um_per_unit, file);
   const auto is_size = [](double side) { return side > 0 && side <= 1e9; };
   if (!is_size(picture.width) || !is_size(picture.height))
-    throw InputError(
-        fmt::format("{}: a drawing of {:.4g} × {:.4g} µm, a side must be above 0 and "
-                    "at most 1e9",
-                    name, picture.width, picture.height));
+    throw InputError(std::string(name),
+                     fmt::format("a drawing of {:.4g} × {:.4g} µm, a side must be above 0 and "
+                                 "at most 1e9",
+                                 picture.width, picture.height));
   picture.um_per_px = um_per_px.value_or(std::max(picture.width, picture.height) / default_side);
   // A side of whole pixels may be a bit more by rounding.
   const auto pixels = [&](double side) { return std::ceil(side / picture.um_per_px - 1e-6); };
@@ -114,7 +114,7 @@ SvgPicture draw_svg(std::string_view drawing, std::string_view name,
   check_image_size(columns, rows, name);
   SvgPixels drawn = renderer.draw(text, picture.width / picture.um_per_px,
                                   picture.height / picture.um_per_px, columns, rows);
-  if (!drawn.error.empty()) throw InputError(file + ": cannot draw it: " + one_line(drawn.error));
+  if (!drawn.error.empty()) throw InputError(file, "cannot draw it: " + one_line(drawn.error));
   picture.image = {columns, rows, 1, std::move(drawn.grey)};
   note_links(text, name, picture.notes);
   if (!um_per_px)

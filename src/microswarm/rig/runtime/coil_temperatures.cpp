@@ -65,15 +65,15 @@ KeptTemperatures read_kept(const fs::path& file, std::size_t coils) {
   try {
     kept = read_yaml_text<KeptTemperatures>(text, file.string());
   } catch (const InputError&) {
-    throw InputError(fmt::format(
-        "{}: does not hold the temperatures of coils: remove it, or run with --coils-cold",
-        file.string()));
+    throw InputError(
+        file.string(),
+        "does not hold the temperatures of coils: remove it, or run with --coils-cold");
   }
   if (kept.temperatures.size() != coils)
-    throw InputError(
-        fmt::format("{}: {} temperatures, the system has {} coils: correct it, or "
-                    "run with --coils-cold",
-                    file.string(), kept.temperatures.size(), coils));
+    throw InputError(file.string(),
+                     fmt::format("{} temperatures, the system has {} coils: correct it, or "
+                                 "run with --coils-cold",
+                                 kept.temperatures.size(), coils));
   return kept;
 }
 

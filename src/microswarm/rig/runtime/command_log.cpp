@@ -77,8 +77,8 @@ std::FILE* create(const std::filesystem::path& file) {
   std::filesystem::remove(file, none);
   std::FILE* const made = std::fopen(file.c_str(), "wxe");
   if (!made)
-    throw InputError(
-        fmt::format("{}: cannot write: {}", file.string(), std::generic_category().message(errno)));
+    throw InputError(file.string(),
+                     fmt::format("cannot write: {}", std::generic_category().message(errno)));
   return made;
 }
 
@@ -145,7 +145,7 @@ std::string CommandLog::finish(const actuation::StopReport& zero) noexcept {
 
 void CommandLog::write(const std::string& text) {
   if (std::fwrite(text.data(), 1, text.size(), out_.get()) != text.size())
-    throw InputError(part_.string() + ": cannot write");
+    throw InputError(part_.string(), "cannot write");
 }
 
 }  // namespace microswarm::rig

@@ -15,7 +15,7 @@ std::unique_ptr<experiment::Session> open_on_rig(const RigExperiment& on, std::u
 std::unique_ptr<experiment::Session> open_on_rig(const std::filesystem::path& file,
                                                  const RigSessionOptions& options) {
   if (experiment::is_record(file) && !(options.rig.empty() && options.rig_settings.empty()))
-    throw InputError(file.string() + ": a record accepts no options");
+    throw InputError(file.string(), "a record accepts no options");
   if (options.rig.empty() && !options.rig_settings.empty())
     throw InputError("values of a rig are set, but there is no rig");
   if (options.rig.empty()) return experiment::open_session(file, options.settings);

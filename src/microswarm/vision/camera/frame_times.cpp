@@ -81,8 +81,7 @@ std::vector<double> parse_frame_times(std::string_view text, std::string_view na
       lines.fail("time " + number_text(*t) + " s is not after " + number_text(times.back()) + " s");
     times.push_back(*t);
   }
-  if (times.empty())
-    throw InputError(std::string(name) + ": no times: seconds expected, one a line");
+  if (times.empty()) throw InputError(std::string(name), "no times: seconds expected, one a line");
   return times;
 }
 
@@ -107,7 +106,7 @@ bool is_utf16(std::string_view text) {
 }
 
 void refuse_utf16(std::string_view text, std::string_view name) {
-  if (is_utf16(text)) throw InputError(std::string(name) + ": is UTF-16: save it as UTF-8");
+  if (is_utf16(text)) throw InputError(std::string(name), "is UTF-16: save it as UTF-8");
 }
 
 double ContainerClock::next(std::optional<double> in_file) {

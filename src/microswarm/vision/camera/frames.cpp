@@ -30,7 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const fs::path& source, const std::string& why) {
-  throw InputError(source.string() + ": " + why);
+  throw InputError(source.string(), why);
 }
 
 /// Times that are given beforehand, one a picture.

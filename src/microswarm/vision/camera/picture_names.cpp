@@ -113,13 +113,15 @@ void choose_along(std::vector<fs::path>& files, const std::set<std::string_view>
   const std::optional<NamedAxis> axis = axis_in(names, words);
   const int size = axis ? static_cast<int>(axis->labels.size()) : 1;
   if (given && (*given < 1 || *given > size))
-    throw InputError(fmt::format("{}: {} is {}, the names tell {} {}{}", folder, key, *given, size,
-                                 what, size == 1 ? "" : "s"));
+    throw InputError(folder, fmt::format("{} is {}, the names tell {} {}{}", key, *given, size,
+                                         what, size == 1 ? "" : "s"));
   if (!axis) return;
   if (!given)
-    throw InputError(fmt::format(
-        "{}: names such as {} tell {} {}s of {} pictures in all: choose one with {}, 1 to {}",
-        folder, files.front().filename().string(), size, what, files.size(), key, size));
+    throw InputError(
+        folder,
+        fmt::format(
+            "names such as {} tell {} {}s of {} pictures in all: choose one with {}, 1 to {}",
+            files.front().filename().string(), size, what, files.size(), key, size));
   const std::string& label = axis->labels[static_cast<std::size_t>(*given - 1)];
   std::vector<fs::path> kept;
   for (std::size_t k = 0; k < files.size(); ++k)
@@ -287,10 +289,11 @@ void require_one_series(const std::vector<fs::path>& files, const std::string& f
   }
   if (grid.size() < 2 || !labelled) return;
   throw InputError(
-      fmt::format("{}: names such as {} and {} differ in two numbers, of {} values each: cameras, "
+      folder,
+      fmt::format("names such as {} and {} differ in two numbers, of {} values each: cameras, "
                   "positions and "
                   "the like are no times; put each series of pictures into a folder of its own",
-                  folder, files[fewest_pair->first].filename().string(),
+                  files[fewest_pair->first].filename().string(),
                   files[fewest_pair->second].filename().string(), fmt::join(grid, " and ")));
 }
 

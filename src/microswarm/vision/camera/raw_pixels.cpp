@@ -141,9 +141,7 @@ std::string fourcc_text(std::uint32_t fourcc) {
 }
 
 void take_raw(const RawPicture& raw, std::string_view name, formats::Image& image) {
-  const auto fail = [&](const std::string& why) {
-    throw InputError(std::string(name) + ": " + why);
-  };
+  const auto fail = [&](const std::string& why) { throw InputError(std::string(name), why); };
   if (is_jpeg(raw.format)) {
     formats::decode_jpeg_frame(raw.bytes, name, image);
     if (image.width != raw.width || image.height != raw.height)

@@ -85,7 +85,7 @@ class PageChoice {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& why) const { throw InputError(name_ + ": " + why); }
+  [[noreturn]] void fail(const std::string& why) const { throw InputError(name_, why); }
   double planes_told() const { return static_cast<double>(d_.plane_pages.size()); }
 
   /// The pages of ImageJ are channels first, then slices, then times, for any counts.

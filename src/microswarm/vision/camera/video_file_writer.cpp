@@ -16,7 +16,7 @@ struct VideoFileWriter::Parts {
   Parts(std::filesystem::path path, double pictures_a_second)
       : file(std::move(path)), rate(pictures_a_second), staged(std::in_place, file) {
     if (is_gif() && rate > formats::max_gif_rate)
-      throw InputError(file.string() + ": a GIF has at most 50 pictures a second");
+      throw InputError(file.string(), "a GIF has at most 50 pictures a second");
   }
 
   bool is_gif() const { return file.extension() == ".gif"; }
@@ -82,7 +82,7 @@ std::optional<std::filesystem::path> VideoFileWriter::commit() {
   p.video.reset();
   if (p.gif) p.gif->finish();
   if (std::filesystem::file_size(p.staged->path()) == 0)
-    throw InputError(p.file.string() + ": cannot write: the video stayed empty");
+    throw InputError(p.file.string(), "cannot write: the video stayed empty");
   p.staged->commit();
   return p.file;
 }

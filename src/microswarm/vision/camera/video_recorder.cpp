@@ -43,7 +43,7 @@ std::FILE* create_new(const fs::path& file, const fs::path& called) {
   fs::remove(file, none);
   std::FILE* const made = std::fopen(file.c_str(), "wxe");
   if (!made)
-    throw InputError(called.string() + ": cannot write: " + std::generic_category().message(errno));
+    throw InputError(called.string(), "cannot write: " + std::generic_category().message(errno));
   return made;
 }
 
@@ -132,7 +132,7 @@ class VideoRecorder::Writer {
         result_{.file = file} {
     std::fclose(create_new(part_, file));
     if (!open_video(part_, rate_ > 0 ? rate_ : usual_rate, {64, 64}, true))
-      throw InputError(file.string() + ": cannot write: no encoder for it");
+      throw InputError(file.string(), "cannot write: no encoder for it");
     times_.reset(create_new(part_file(times_file_), times_file_));
     std::fputs("frame,camera_frame,t_s\n", times_.get());
     thread_ = std::thread([this] { run(); });

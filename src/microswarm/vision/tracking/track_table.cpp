@@ -229,8 +229,8 @@ class CsvTable {
 void require_text(std::string_view text, std::string_view name) {
   constexpr std::size_t looked_at = 4096;
   if (text.substr(0, looked_at).find('\0') != text.npos)
-    throw InputError(std::string(name) +
-                     ": is no text: a table is expected here; videos and pictures are read from "
+    throw InputError(std::string(name),
+                     "is no text: a table is expected here; videos and pictures are read from "
                      "files, which are named");
 }
 
@@ -327,8 +327,8 @@ TrackTable parse_track_table(std::string_view text, std::string_view name,
   TrackTable table = is_wide_xml || is_xml(text) ? parse_trackmate_xml(text, name, um_per_px)
                                                  : CsvTable(text, name, um_per_px).read();
   if (table.rows.empty())
-    throw InputError(std::string(name) + ": no positions" +
-                     (table.untracked > 0 ? " in tracks" : ""));
+    throw InputError(std::string(name),
+                     table.untracked > 0 ? "no positions in tracks" : "no positions");
   sort_and_check(table.rows, name);
   return table;
 }

@@ -29,8 +29,8 @@ class XmlSource {
 
   [[noreturn]] void fail(std::ptrdiff_t offset, const std::string& why) const {
     const auto end = text_.begin() + std::clamp<std::ptrdiff_t>(offset, 0, std::ssize(text_));
-    throw InputError(std::string(name_) + ":" +
-                     std::to_string(1 + std::count(text_.begin(), end, '\n')) + ": " + why);
+    const auto line = 1 + std::count(text_.begin(), end, '\n');
+    throw InputError(std::string(name_), static_cast<int>(line), 0, why);
   }
   auto fail_at(const pugi::xml_node& node) const {
     return [this, node](const std::string& why) { fail(node.offset_debug(), why); };

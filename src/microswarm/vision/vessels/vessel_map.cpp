@@ -13,12 +13,12 @@ namespace microswarm::vision {
 Map vessel_map(const VesselSegmentation& found, double um_per_px, double smooth,
                const std::string& name, const Stop& stop) {
   if (!(um_per_px >= 1e-6 && um_per_px <= 1e6))
-    throw InputError(name + ": um_per_px is " + number_text(um_per_px) + ", must be 1e-6 to 1e6");
+    throw InputError(name, "um_per_px is " + number_text(um_per_px) + ", must be 1e-6 to 1e6");
   if (!(smooth >= 0 && smooth <= 100))
-    throw InputError(name + ": smooth_px is " + number_text(smooth) + ", must be 0 to 100");
+    throw InputError(name, "smooth_px is " + number_text(smooth) + ", must be 0 to 100");
   if (found.kept_share == 0) {
     const std::string faint = note_on_noise(found);
-    throw InputError(name + ": no vessels found" + (faint.empty() ? "" : ": " + faint));
+    throw InputError(name, "no vessels found" + (faint.empty() ? "" : ": " + faint));
   }
   auto walls = walls_around(found.vessels, um_per_px, smooth * um_per_px, {}, stop);
   if (stop()) return {};
