@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <utility>
 
 #include "lab/files/library.hpp"
 #include "microswarm/sweep/export.hpp"
@@ -76,10 +77,17 @@ void remove_left_folders() {
 
 void throw_renamed(const InputError& error, const fs::path& file, std::string_view name) {
   const std::string written = file.string();
-  std::string what = error.what();
-  for (std::size_t at = 0; (at = what.find(written, at)) != std::string::npos; at += name.size())
-    what.replace(at, written.size(), name);
-  throw InputError(what);
+  const auto rename = [&](std::string& text) {
+    for (std::size_t at = 0; (at = text.find(written, at)) != std::string::npos; at += name.size())
+      text.replace(at, written.size(), name);
+  };
+  Issues renamed;
+  for (Issue issue : error.issues()) {
+    rename(issue.location);
+    rename(issue.text);
+    renamed.add(std::move(issue));
+  }
+  throw InputError(std::move(renamed));
 }
 
 std::function<Download(const experiment::Session&)> download(std::string_view name,

@@ -32,7 +32,7 @@ class TemporaryFile {
 /// Removes leftover folders of this user's killed programs.
 void remove_left_folders();
 
-/// Rethrows the error with the file's name for pages.
+/// Rethrows the issues with the file's name for pages.
 [[noreturn]] void throw_renamed(const InputError& error, const std::filesystem::path& file,
                                 std::string_view name);
 
