@@ -99,6 +99,8 @@ void Host::answer(std::uint64_t page, const Request& request) {
   try {
     obey(page, request, issues);
     if (request.ask == Ask::clearance) callbacks_.send(page, clearance_message(session().map()));
+  } catch (const InputError& error) {
+    issues.add(to_issues(error));
   } catch (const std::exception& error) {
     issues.add(to_issues(error));
   }

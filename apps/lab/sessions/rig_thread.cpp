@@ -249,6 +249,13 @@ void RigThread::tell_controls() {
 
 void RigThread::arm(std::uint64_t page, const Request& request, std::uint64_t stops) {
   Issues issues;
+  const auto end_opening = [&](const auto& error) {
+    issues.add(to_issues(error));
+    drives_ = false;
+    if (standing_.state == RigState::opening) standing_.state = RigState::ended;
+    if (standing_.why.empty()) standing_.why = error.what();
+    tell_rig();
+  };
   try {
     if (!has_controls(page)) {
       issues.add({}, "another page has the controls");
@@ -260,12 +267,10 @@ void RigThread::arm(std::uint64_t page, const Request& request, std::uint64_t st
       begin_run(false, stops);
       welcome(0);
     }
+  } catch (const InputError& error) {
+    end_opening(error);
   } catch (const std::exception& error) {
-    issues.add(to_issues(error));
-    drives_ = false;
-    if (standing_.state == RigState::opening) standing_.state = RigState::ended;
-    if (standing_.why.empty()) standing_.why = error.what();
-    tell_rig();
+    end_opening(error);
   }
   publisher_.changed();
   callbacks_.send(page, answer_message(request.id, issues));

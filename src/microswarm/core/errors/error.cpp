@@ -37,9 +37,6 @@ InputError::InputError(Issues issues)
   assert(!issues_->empty());
 }
 
-Issues to_issues(const std::exception& error) {
-  if (const auto* input = dynamic_cast<const InputError*>(&error)) return input->issues();
-  return to_issues(Issue{.text = error.what()});
-}
+Issues to_issues(const std::exception& error) { return to_issues(Issue{.text = error.what()}); }
 
 }  // namespace microswarm

@@ -31,7 +31,8 @@ class InputError : public std::runtime_error {
   std::shared_ptr<const Issues> issues_;  // shared: an exception is copied without throwing
 };
 
-/// Issues of an InputError; the text of any other exception as one.
+/// Issues of an InputError; the text of any other exception as one. Catch an InputError first.
+inline Issues to_issues(const InputError& error) { return error.issues(); }
 Issues to_issues(const std::exception& error);
 
 /// Calls `read` and adds the issues of its InputError as issues about `key`.
