@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <memory>
 #include <utility>
+#include <variant>
+
+#include "microswarm/core/fields/overloaded.hpp"
 
 namespace microswarm::formats {
 namespace {
@@ -61,12 +64,14 @@ int exif_orientation(std::span<const std::byte> jpeg_or_exif) {
 void orient(DecodedImage& picture, int orientation) {
   if (orientation < 2 || orientation > 8) return;
   const Turn& turn = turns[orientation - 1];
-  if (auto* plain = std::get_if<Image>(&picture))
-    turn_samples(plain->pixels, plain->width, plain->height, plain->channels, turn);
-  else if (auto* deep = std::get_if<DeepImage>(&picture))
-    turn_samples(deep->samples, deep->width, deep->height, deep->channels, turn);
-  else if (auto* real = std::get_if<RealImage>(&picture))
-    turn_samples(real->samples, real->width, real->height, real->channels, turn);
+  const Overloaded turn_kind(
+      [&](Image& plain) {
+        turn_samples(plain.pixels, plain.width, plain.height, plain.channels, turn);
+      },
+      [&](OneOf<DeepImage, RealImage> auto& other) {
+        turn_samples(other.samples, other.width, other.height, other.channels, turn);
+      });
+  std::visit(turn_kind, picture);
 }
 
 }  // namespace microswarm::formats

@@ -8,9 +8,11 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/fields/overloaded.hpp"
 
 namespace microswarm::formats {
 namespace {
@@ -67,6 +69,49 @@ SampleRange range_of(std::span<const float> samples) {
   return range;
 }
 
+GreyScale scale_of_real(std::span<const float> samples) {
+  const SampleRange range = range_of(samples);
+  if (range.whole && range.least >= 0 && range.most > 1 && range.most <= 65535)
+    return GreyScale::of_depth(
+        std::max<int>(8, std::bit_width(static_cast<std::uint32_t>(range.most))));
+  return {static_cast<double>(range.least), static_cast<double>(range.most)};
+}
+
+std::string note_on_deep(const DeepImage& deep, const GreyScale& scale) {
+  if (scale.white >= (1 << deep.bits) - 1) return {};
+  return fmt::format("its {}-bit samples are read as numbers of {} bits: {:.0f} is white",
+                     deep.bits, std::bit_width(static_cast<unsigned>(scale.white)), scale.white);
+}
+
+std::string note_on_real(const RealImage& real, const GreyScale& scale) {
+  return fmt::format("its {} samples are scaled: {:.6g} is black, {:.6g} is white", real.kind,
+                     scale.black, scale.white);
+}
+
+std::string note_on_no_numbers(std::span<const float> samples) {
+  const auto count =
+      std::ranges::count_if(samples, [](float sample) { return std::isnan(sample); });
+  if (count == 0) return {};
+  return fmt::format("{} of its samples are no number (NaN): they are read as black", count);
+}
+
+std::size_t take_real(const RealImage& real, const GreyScale& scale, Image& image) {
+  take_shape(real, image);
+  return scale_samples(real.samples, scale, image.pixels);
+}
+
+std::size_t take_deep(const DeepImage& deep, const GreyScale& scale, Image& image) {
+  take_shape(deep, image);
+  if (const int depth = std::bit_width(static_cast<std::uint32_t>(scale.white));
+      scale.black == 0 && scale.white == (1 << depth) - 1) {
+    to_8_bits(deep.samples, depth, image.pixels);
+    return static_cast<std::size_t>(std::ranges::count_if(
+        deep.samples, [&](std::uint16_t sample) { return sample > scale.white; }));
+  }
+  const std::vector<float> samples(deep.samples.begin(), deep.samples.end());
+  return scale_samples(samples, scale, image.pixels);
+}
+
 }  // namespace
 
 int used_depth(std::span<const std::uint16_t> samples) {
@@ -86,57 +131,37 @@ void to_8_bits(std::span<const std::uint16_t> samples, int depth, std::span<std:
 }
 
 GreyScale scale_of(const DecodedImage& picture) {
-  if (const auto* deep = std::get_if<DeepImage>(&picture))
-    return GreyScale::of_depth(used_depth(deep->samples));
-  const auto* real = std::get_if<RealImage>(&picture);
-  if (!real) return GreyScale::of_depth(8);
-  const SampleRange range = range_of(real->samples);
-  if (range.whole && range.least >= 0 && range.most > 1 && range.most <= 65535)
-    return GreyScale::of_depth(
-        std::max<int>(8, std::bit_width(static_cast<std::uint32_t>(range.most))));
-  return {static_cast<double>(range.least), static_cast<double>(range.most)};
+  return std::visit(Overloaded([](const Image&) { return GreyScale::of_depth(8); },
+                               [](const DeepImage& deep) {
+                                 return GreyScale::of_depth(used_depth(deep.samples));
+                               },
+                               [](const RealImage& real) { return scale_of_real(real.samples); }),
+                    picture);
 }
 
 std::string scale_note(const DecodedImage& picture, const GreyScale& scale) {
-  const auto* deep = std::get_if<DeepImage>(&picture);
-  if (deep && scale.white >= (1 << deep->bits) - 1) return {};
-  if (deep)
-    return fmt::format("its {}-bit samples are read as numbers of {} bits: {:.0f} is white",
-                       deep->bits, std::bit_width(static_cast<unsigned>(scale.white)), scale.white);
-  const auto* real = std::get_if<RealImage>(&picture);
-  if (!real) return {};
-  return fmt::format("its {} samples are scaled: {:.6g} is black, {:.6g} is white", real->kind,
-                     scale.black, scale.white);
+  return std::visit(Overloaded([](const Image&) { return std::string(); },
+                               [&](const DeepImage& deep) { return note_on_deep(deep, scale); },
+                               [&](const RealImage& real) { return note_on_real(real, scale); }),
+                    picture);
 }
 
 std::string no_number_note(const DecodedImage& picture) {
-  const auto* real = std::get_if<RealImage>(&picture);
-  if (!real) return {};
-  const auto count =
-      std::ranges::count_if(real->samples, [](float sample) { return std::isnan(sample); });
-  if (count == 0) return {};
-  return fmt::format("{} of its samples are no number (NaN): they are read as black", count);
+  return std::visit(
+      Overloaded([](const OneOf<Image, DeepImage> auto&) { return std::string(); },
+                 [](const RealImage& real) { return note_on_no_numbers(real.samples); }),
+      picture);
 }
 
 std::size_t take_pixels(DecodedImage decoded, const GreyScale& scale, Image& image) {
-  if (auto* plain = std::get_if<Image>(&decoded)) {
-    image = std::move(*plain);
-    return 0;
-  }
-  if (const auto* real = std::get_if<RealImage>(&decoded)) {
-    take_shape(*real, image);
-    return scale_samples(real->samples, scale, image.pixels);
-  }
-  const auto& deep = std::get<DeepImage>(decoded);
-  take_shape(deep, image);
-  if (const int depth = std::bit_width(static_cast<std::uint32_t>(scale.white));
-      scale.black == 0 && scale.white == (1 << depth) - 1) {
-    to_8_bits(deep.samples, depth, image.pixels);
-    return static_cast<std::size_t>(std::ranges::count_if(
-        deep.samples, [&](std::uint16_t sample) { return sample > scale.white; }));
-  }
-  const std::vector<float> samples(deep.samples.begin(), deep.samples.end());
-  return scale_samples(samples, scale, image.pixels);
+  return std::visit(Overloaded(
+                        [&](Image& plain) {
+                          image = std::move(plain);
+                          return std::size_t{0};
+                        },
+                        [&](const DeepImage& deep) { return take_deep(deep, scale, image); },
+                        [&](const RealImage& real) { return take_real(real, scale, image); }),
+                    decoded);
 }
 
 void take_samples(const Samples2d<std::uint8_t>& picture, std::string_view name, Image& image) {
