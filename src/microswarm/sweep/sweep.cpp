@@ -78,7 +78,8 @@ void RemoteWorkers::handle(int from, SweepMessage message, const std::string& pl
     case MessageKind::done:
       --at_work_;
       return;
-    default:
+    case MessageKind::tasks:  // sent by rank 0 only
+    case MessageKind::over:
       return;
   }
 }
