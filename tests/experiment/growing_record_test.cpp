@@ -62,6 +62,45 @@ TEST(GrowingRecords, AreWholeRecordsOfTheRunSoFar) {
   EXPECT_FALSE(std::filesystem::exists(part));
 }
 
+/// Has a new phased goal in each step.
+class PhasedStraight : public GoStraight {
+ public:
+  using GoStraight::GoStraight;
+  NavigatorView view() const override {
+    NavigatorView view = GoStraight::view();
+    view.phased_goal = Vec2{1200, 900.0 + steps_};
+    return view;
+  }
+  Command step(const Observation& seen, const Stop& stop) override {
+    ++steps_;
+    return GoStraight::step(seen, stop);
+  }
+
+ private:
+  int steps_ = 0;
+};
+
+TEST(GrowingRecords, HaveThePhasedGoalsOfAnExternalNavigator) {
+  const test::Folder folder;
+  const auto part = folder / "run.part.h5";
+  const Scenario scenario = long_flight();
+  Session session(open_experiment(scenario, {}),
+                  {.navigator = std::make_shared<PhasedStraight>(*scenario.goal, 60)});
+  const GrowingRecord growing(session, folder / "run.h5", 1ms);
+  ASSERT_TRUE(step_until(session, [&] { return std::filesystem::exists(part); }));
+  const std::size_t frames = read_record(part).frames.size();
+  ASSERT_TRUE(step_until(session, [&] { return read_record(part).frames.size() > frames; }));
+  const Record record = read_record(part);
+  const std::vector<PhasedGoal>& all = session.record().phased_goals;
+  ASSERT_GT(record.phased_goals.size(), 0u);
+  ASSERT_LE(record.phased_goals.size(), all.size());
+  for (std::size_t i = 0; i < record.phased_goals.size(); ++i) {
+    EXPECT_EQ(record.phased_goals[i].t, all[i].t) << i;
+    EXPECT_EQ(record.phased_goals[i].point, all[i].point) << i;
+  }
+  EXPECT_EQ(record.phased_goals.back().t, record.frames.back().t);
+}
+
 TEST(GrowingRecords, ARunNeverFailsForThem) {
   const test::Folder folder;
   Session session(open_experiment(small_flight(), {}));

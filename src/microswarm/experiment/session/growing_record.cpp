@@ -24,13 +24,16 @@ double seconds(std::chrono::steady_clock::duration time) {
 /// Calls `act` with each pair of tables that only grow during a run.
 template <class A, class B, class Act>
 void for_growing(A& a, B& b, const Act& act) {
-  act(a.frames, b.frames);
-  act(a.paths, b.paths);
-  act(a.plans, b.plans);
-  act(a.events, b.events);
-  act(a.changes, b.changes);
-  // A table that is not named here does not compile.
-  auto& [radar, aggregation, predictive, hierarchical] = a.diagnostics;
+  // A member of either that is not named here does not compile.
+  auto& [version, scene, trial, rig, navigator, result, frames, paths, plans, events, changes,
+         robots, phased_goals, diagnostics, rig_log, stated_hash] = a;
+  auto& [radar, aggregation, predictive, hierarchical] = diagnostics;
+  act(frames, b.frames);
+  act(paths, b.paths);
+  act(plans, b.plans);
+  act(events, b.events);
+  act(changes, b.changes);
+  act(phased_goals, b.phased_goals);
   act(radar, b.diagnostics.radar);
   act(aggregation, b.diagnostics.aggregation);
   act(predictive, b.diagnostics.predictive);
