@@ -56,17 +56,17 @@ void GridDistances::compute(const SpaceTimeGrid& grid, std::span<const Seed> see
   for (std::size_t k = 0; k < step_lengths.size(); ++k)
     step_lengths[k] = static_cast<float>(sixteen_steps[k].length * grid.cell());
   while (!open_.empty()) {
-    const Open next = open_.front();
+    const auto [reached, from] = open_.front();
     std::pop_heap(open_.begin(), open_.end());
     open_.pop_back();
-    if (next.length > lengths_[next.cell]) continue;
-    const int column = grid.column_of(next.cell);
-    const int row = grid.row_of(next.cell);
+    if (reached > lengths_[from]) continue;
+    const int column = grid.column_of(from);
+    const int row = grid.row_of(from);
     for (std::size_t k = 0; k < sixteen_steps.size(); ++k) {
       const GridStep& step = sixteen_steps[k];
       if (!grid.holds(column + step.column, row + step.row)) continue;
       const auto cell = grid.at(column + step.column, row + step.row);
-      const float length = next.length + step_lengths[k];
+      const float length = reached + step_lengths[k];
       if (length >= lengths_[cell] || grid.stands(cell) || !passes(grid, column, row, step))
         continue;
       open(cell, length);

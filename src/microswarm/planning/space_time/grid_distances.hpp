@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "microswarm/core/maths/heap_entry.hpp"
 #include "microswarm/planning/space_time/space_time_grid.hpp"
 
 namespace microswarm::planning {
@@ -37,13 +38,7 @@ class GridDistances {
   float operator[](SpaceTimeGrid::Cell c) const { return lengths_[c]; }
 
  private:
-  struct Open {
-    float length;
-    SpaceTimeGrid::Cell cell;
-    friend bool operator<(const Open& a, const Open& b) {
-      return a.length != b.length ? a.length > b.length : a.cell > b.cell;
-    }
-  };
+  using Open = HeapEntry<float, SpaceTimeGrid::Cell>;
   void open(SpaceTimeGrid::Cell cell, float length);
 
   std::vector<float> lengths_;
