@@ -13,7 +13,7 @@ class NaiveRobots {
  public:
   NaiveRobots(const Map& map, std::vector<Vec2> positions);
   void step(Vec2 move);
-  const std::vector<Vec2>& places() const { return places_; }
+  const std::vector<Vec2>& positions() const { return places_; }
 
  private:
   std::vector<Segment> edges_;

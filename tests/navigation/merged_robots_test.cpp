@@ -18,7 +18,7 @@ TEST(MergedRobots, JoinsTheSamePlacesAndRemembersWhoIsWhere) {
   const auto to = merged.merge_coincident();
   EXPECT_EQ(std::vector<std::uint32_t>(to.begin(), to.end()),
             (std::vector<std::uint32_t>{0, 1, 0, 2, 1, 3}));
-  EXPECT_EQ(merged.places().x, (std::vector<float>{1, 2, 3, 1}));
+  EXPECT_EQ(merged.positions().x, (std::vector<float>{1, 2, 3, 1}));
   EXPECT_EQ(sum(merged.counts()), 6u);
   EXPECT_EQ(merged.counts()[1], 2u);
   EXPECT_TRUE(merged.merge_coincident().empty());
@@ -36,8 +36,8 @@ TEST(MergedRobots, ThinsOutToAsManyAsWanted) {
   }
   MergedRobots merged(robots);
   merged.coarsen(64, 0.5);
-  EXPECT_LE(merged.places().size(), 64u);
-  EXPECT_GE(merged.places().size(), 10u);
+  EXPECT_LE(merged.positions().size(), 64u);
+  EXPECT_GE(merged.positions().size(), 10u);
   EXPECT_EQ(sum(merged.counts()), 1000u);
   EXPECT_EQ(merged.robots().size(), 1000u);
 }

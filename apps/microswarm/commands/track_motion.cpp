@@ -21,8 +21,8 @@
 namespace microswarm::cli {
 namespace {
 
-constexpr double least_msd = 1e-12;  // [µm²] less is rounding
-constexpr int few = 5;               // robots whose mean motion is their own rather than a drift
+constexpr double min_msd = 1e-12;  // [µm²] less is rounding
+constexpr int few = 5;             // robots whose mean motion is their own rather than a drift
 
 /// Speeds from picture to picture [µm/s].
 std::vector<double> speeds_of(const std::vector<vision::TrackRow>& rows) {
@@ -63,7 +63,7 @@ report::Plot msd_plot(const std::vector<vision::MsdRow>& msd,
                     .key_below = true};
   report::Series points{.label = "measured, ± standard error", .style = report::PlotStyle::points};
   for (const vision::MsdRow& row : msd) {
-    if (row.msd < least_msd) continue;
+    if (row.msd < min_msd) continue;
     const double error = row.standard_error.value_or(0);
     points.x.push_back(row.t);
     points.y.push_back(row.msd);

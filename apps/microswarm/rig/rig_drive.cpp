@@ -105,7 +105,7 @@ int drive(Bench& bench, const rig::ManualCommand& command, const Context& contex
   if (bench.kept && !std::exchange(bench.said_how_to_stop, true))
     note_how_to_stop(keys.are_there(), "");
   std::optional<ProgressBar> bar("drive");
-  const auto heard = [&](const rig::ManualMoment& moment) {
+  const auto listener = [&](const rig::ManualMoment& moment) {
     bench.temperatures = moment.output.temperatures;
     if (bench.kept) bench.kept->take(bench.temperatures);
     if (pressed) throw HardwareError("the emergency key was pressed");
@@ -113,7 +113,7 @@ int drive(Bench& bench, const rig::ManualCommand& command, const Context& contex
                 fmt::format("{:.3g} A", fmt::join(moment.output.acknowledged, ", ")));
   };
   const rig::ManualResult result = rig::drive_by_hand(bench.rig, *bench.driver, command,
-                                                      bench.temperatures, heard, context.stop);
+                                                      bench.temperatures, listener, context.stop);
   bar.reset();
   if (!result.why.empty()) note("microswarm: {}\n", result.why);
   const bool at_zero = note_zero(result.zero);

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t max_corners = 5'000'000;
 
 /// The value from which a pixel is bright.
-int least_bright(std::span<const std::uint8_t> pixels, const PixelMapParams& params) {
+int min_bright(std::span<const std::uint8_t> pixels, const PixelMapParams& params) {
   if (params.threshold) return *params.threshold;
   const bool is_mask = std::ranges::all_of(pixels, [](std::uint8_t v) { return v <= 1; });
   return is_mask ? 1 : ImageMap{}.threshold;
@@ -53,7 +53,7 @@ PixelMap map_of_pixels(std::span<const std::uint8_t> pixels, std::size_t width, 
   if (!(params.simplify >= 0 && params.simplify <= 1e6))
     throw InputError(fmt::format("simplify is {}, must be 0 to 1e6 µm", params.simplify));
   Mask blocked(static_cast<int>(width), static_cast<int>(height));
-  const int least = least_bright(pixels, params);
+  const int least = min_bright(pixels, params);
   const bool dark_is_free = params.free == FreePixels::dark;
   std::ranges::transform(pixels, blocked.cells.begin(),
                          [&](std::uint8_t v) { return (v < least) != dark_is_free; });

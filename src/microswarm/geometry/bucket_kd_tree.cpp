@@ -49,7 +49,7 @@ class NearestSearch {
   }
 
   /// Leaves room for the rounding of both squares.
-  bool is_too_far(float square) const { return square * (1 - 1e-5f) > least_; }
+  bool is_too_far(float square) const { return square * (1 - 1e-5f) > min_square_; }
 
   void look_through(std::uint32_t index) {
     for (; index != BucketKdTree::none; index = tree_.buckets[index].next)
@@ -76,7 +76,7 @@ class NearestSearch {
     const std::size_t lanes = hn::Lanes(d);
     HWY_ALIGN float squares[BucketKdTree::bucket_size];
     V least = hn::Set(d, std::numeric_limits<float>::infinity());
-    const V limit = hn::Set(d, least_);
+    const V limit = hn::Set(d, min_square_);
     const std::size_t half = (tree_.dimension + 1) / 2;
     const float* x = rows->x.data();
     for (std::size_t i = 0; i < bucket.count; i += 2 * lanes) {
@@ -99,18 +99,18 @@ class NearestSearch {
       least = hn::Min(least, hn::Min(a, b));
     }
     const float min_here = hn::GetLane(hn::MinOfLanes(d, least));
-    if (min_here > least_) return;
+    if (min_here > min_square_) return;
     const auto at = std::find(squares, squares + bucket.count, min_here) - squares;
     const std::uint32_t point = bucket.points[static_cast<std::size_t>(at)];
-    if (min_here < least_ || point < best_) best_ = point;
-    least_ = min_here;
+    if (min_here < min_square_ || point < best_) best_ = point;
+    min_square_ = min_here;
   }
 
   static constexpr std::size_t rows_a_line = BucketKdTree::bucket_size / BucketKdTree::Row::size;
 
   const BucketKdTree::View& tree_;
   const float* point_;
-  float least_ = std::numeric_limits<float>::infinity();
+  float min_square_ = std::numeric_limits<float>::infinity();
   std::uint32_t best_ = BucketKdTree::none;
 };
 

@@ -56,7 +56,7 @@ class Gauge : public experiment::RunListener {
     const double off = distance(frame.pose.position, navigation::point_ahead(path_, position_, 0));
     sum_ += off * off;
     trace.push_back(off);
-    most_ = std::max(most_, off);
+    max_off_ = std::max(max_off_, off);
     ++ticks_;
     fallbacks_ += frame.state == NavigatorState::fallback;
     if (frame.command.speed <= 0) return;
@@ -73,7 +73,7 @@ class Gauge : public experiment::RunListener {
             .time = result.metrics.time,
             .fair_time = navigation::remaining(path_, {}) / speed,
             .rms_off = std::sqrt(sum_ / ticks),
-            .max_off = most_,
+            .max_off = max_off_,
             .field_turning = turning_ / std::max(1e-9, result.metrics.time),
             .fallback_share = fallbacks_ / ticks};
   }
@@ -81,7 +81,7 @@ class Gauge : public experiment::RunListener {
  private:
   const std::vector<Vec2>& path_;
   navigation::PathPosition position_;
-  double sum_ = 0, most_ = 0, turning_ = 0, heading_ = 0;
+  double sum_ = 0, max_off_ = 0, turning_ = 0, heading_ = 0;
   int ticks_ = 0, fallbacks_ = 0;
   bool driven_ = false;
 };

@@ -9,8 +9,8 @@
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/experiment/session/playback.hpp"
-#include "microswarm/report/least_gap.hpp"
 #include "microswarm/report/map_background.hpp"
+#include "microswarm/report/min_gap.hpp"
 #include "microswarm/report/robots_report.hpp"
 
 namespace microswarm::report {
@@ -59,7 +59,7 @@ std::unique_ptr<Picture> draw_run(const experiment::Record& record, const Report
     for (const experiment::Frame& frame : record.frames) trail.push_back(frame.pose.position);
     picture->line(trail, colours::path, 3);
     if (is_going_on) picture->line(record.paths.back().path, colours::path, 2, true);
-    draw_least_gap(*picture, record, world);
+    draw_min_gap(*picture, record, world);
     picture->swarm(record.frames.back().pose, record.frames.back().radius);
   }
   draw_ends(*picture, experiment::scenario_at(record, infinity));

@@ -94,8 +94,8 @@ Vec2 best_within(std::span<const HalfPlane> planes, double max_speed, const Orca
 }
 
 /// Velocity that enters the forbidden sides of the planes from `failed` on least.
-Vec2 least_excess(std::span<const HalfPlane> planes, std::size_t failed, double max_speed,
-                  Vec2 best) {
+Vec2 min_excess(std::span<const HalfPlane> planes, std::size_t failed, double max_speed,
+                Vec2 best) {
   double excess = 0;
   for (std::size_t i = failed; i < planes.size(); ++i) {
     const HalfPlane& plane = planes[i];
@@ -135,7 +135,7 @@ std::vector<Vec2> orca_velocities(std::span<const OrcaAgent> agents, double hori
       if (&other != &agent) planes.push_back(avoiding(agent, other, horizon, step));
     std::size_t failed = 0;
     Vec2 best = best_within(planes, agent.max_speed, {agent.preferred}, failed);
-    if (failed < planes.size()) best = least_excess(planes, failed, agent.max_speed, best);
+    if (failed < planes.size()) best = min_excess(planes, failed, agent.max_speed, best);
     velocities.push_back(best);
   }
   return velocities;

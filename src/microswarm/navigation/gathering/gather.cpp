@@ -33,11 +33,11 @@ GatherResult gather(const CommonInput& input, AggregationPolicy& policy, Robots&
   constexpr int steps_between_joins = 16;
   MergedRobots merged(robots);
   const GatherResult result =
-      gather_by(input, policy, merged.places(), max_steps, stop, [&](int step) {
+      gather_by(input, policy, merged.positions(), max_steps, stop, [&](int step) {
         if (step % steps_between_joins == 0)
           if (const auto new_places = merged.merge_coincident(); !new_places.empty())
             policy.remap(new_places);
-        return policy.next(merged.places(), merged.counts());
+        return policy.next(merged.positions(), merged.counts());
       });
   robots = merged.robots();
   return result;

@@ -101,7 +101,7 @@ Diagnostics HierarchicalNavigator::diagnostics() const {
 Decision HierarchicalNavigator::decide(const Moment& moment) {
   pose_ = moment.pose;
   if (const auto decision = led(moment)) return *decision;
-  return decide_alone(moment);
+  return advance(moment);
 }
 
 /// The leader's decision in an impasse.
@@ -119,7 +119,7 @@ std::optional<Decision> HierarchicalNavigator::led(const Moment& moment) {
 }
 
 // Algorithm 4 [drrt], one pass of its loop
-Decision HierarchicalNavigator::decide_alone(const Moment& moment) {
+Decision HierarchicalNavigator::advance(const Moment& moment) {
   const Snapshot& seen = moment.world();
   const bool is_lost = path_.is_route() && !is_alone(seen, path_.points, path_.position);
   if (is_lost || is_used_up() || !path_holds(seen)) replan(seen, moment.stop);  // lines 4–11

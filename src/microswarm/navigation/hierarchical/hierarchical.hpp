@@ -44,7 +44,7 @@ class HierarchicalNavigator : public SteeringNavigator {
     return {seen, obstacles_, aim(), pose_, delay()};
   }
   std::optional<Decision> led(const Moment& moment);
-  Decision decide_alone(const Moment& moment);
+  Decision advance(const Moment& moment);
   std::optional<Decision> keep_path(const Snapshot& seen);
   bool path_holds(const Snapshot& world) const;
   void replan(const Snapshot& seen, const Stop& stop, bool may_take_route = true);

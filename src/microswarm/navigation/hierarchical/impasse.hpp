@@ -16,7 +16,7 @@ class Impasse {
   /// Whether the other leads at the time `now` [s], `left` [µm] before the goal.
   bool update(double now, double left, bool is_alone) {
     if (led_to_ && (left > *led_to_ || !is_alone)) return true;
-    if (led_to_ || !since_ || left < nearest_ - least_progress) {
+    if (led_to_ || !since_ || left < nearest_ - min_progress) {
       led_to_.reset();
       nearest_ = left;
       since_ = now;
@@ -28,7 +28,7 @@ class Impasse {
   }
 
  private:
-  static constexpr double least_progress = 1;  // [µm]
+  static constexpr double min_progress = 1;  // [µm]
 
   double patience_;
   double distance_;

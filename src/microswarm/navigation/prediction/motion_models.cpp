@@ -132,7 +132,7 @@ std::optional<std::size_t> MotionModels::longest_swing() const {
   return std::nullopt;
 }
 
-Vec2 MotionModels::place(std::size_t model, const MotionTrail& trail, double s) const {
+Vec2 MotionModels::position(std::size_t model, const MotionTrail& trail, double s) const {
   if (model == again) return trail.after(again_, s).position;
   if (model >= arc) return arcs_[model - arc].at(s);
   if (model >= swing) return swings_[model - swing].at(s);

@@ -50,7 +50,7 @@ class MotionModels {
   /// The oscillation on a line or ellipse that applies and is fitted to the longest window.
   std::optional<std::size_t> longest_swing() const;
   /// Position of the centre `s` seconds after the newest sighting.
-  Vec2 place(std::size_t model, const MotionTrail& trail, double s) const;
+  Vec2 position(std::size_t model, const MotionTrail& trail, double s) const;
   /// Rotation of the body [rad] by then since the newest sighting.
   double turn(std::size_t model, const MotionTrail& trail, double s) const;
 

@@ -217,7 +217,7 @@ void MultiModelPredictor::issue_forecasts(BodyHistory& history) const {
     told.due = due;
     for (std::size_t m = 0; m < MotionModels::count; ++m) {
       told.holds[m] = history.models.holds(m);
-      if (told.holds[m]) told.positions[m] = history.models.place(m, history.trail, spans_[k]);
+      if (told.holds[m]) told.positions[m] = history.models.position(m, history.trail, spans_[k]);
     }
   }
 }
@@ -234,7 +234,7 @@ Disc MultiModelPredictor::hidden_at(std::size_t body, double t) const {
   const BodyHistory& history = histories_[hidden_[body]];
   const TrailPoint& last = history.trail.back();
   const Vec2 centre =
-      history.models.place(*history.models.longest_swing(), history.trail, t - last.t);
+      history.models.position(*history.models.longest_swing(), history.trail, t - last.t);
   const double back = -dot(centre - last.position, history.motion.velocity);
   if (back <= 0) return {last.position, 0};
   return {centre, last.radius + distance(centre, last.position)};
@@ -245,7 +245,7 @@ PredictedBody MultiModelPredictor::at(std::size_t body, double t) const {
   const TrackedBody& motion = history.motion;
   const double s = t - now_;
   PredictedBody out;
-  out.centre = history.models.place(history.selected, history.trail, s);
+  out.centre = history.models.position(history.selected, history.trail, s);
   out.turn = history.models.turn(history.selected, history.trail, s);
   const double unseen =
       params_.tuning.growth_time * std::abs(motion.radius_rate) + history.radius_spread;

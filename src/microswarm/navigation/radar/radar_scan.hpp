@@ -51,16 +51,16 @@ inline constexpr double min_distance = 1e-9;
 class MinMax {
  public:
   void include(double v) {
-    least_ = v < least_ ? v : least_;
-    greatest_ = v > greatest_ ? v : greatest_;
+    min_ = v < min_ ? v : min_;
+    max_ = v > max_ ? v : max_;
   }
   /// Reciprocal of the range; 0 if all are equal.
-  double scale() const { return greatest_ > least_ ? 1 / (greatest_ - least_) : 0; }
-  double normalised(double v) const { return (v - least_) * scale(); }
+  double scale() const { return max_ > min_ ? 1 / (max_ - min_) : 0; }
+  double normalised(double v) const { return (v - min_) * scale(); }
 
  private:
-  double least_ = std::numeric_limits<double>::infinity();
-  double greatest_ = -std::numeric_limits<double>::infinity();
+  double min_ = std::numeric_limits<double>::infinity();
+  double max_ = -std::numeric_limits<double>::infinity();
 };
 
 /// Whether a direction keeps to the side of the course.

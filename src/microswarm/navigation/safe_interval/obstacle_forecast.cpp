@@ -148,7 +148,7 @@ void ObstacleForecast::measure_from(Vec2 position, double radius) {
   }
 }
 
-double ObstacleForecast::least_present_gap() const {
+double ObstacleForecast::min_current_gap() const {
   const auto least = std::min_element(present_gaps_.begin(), present_gaps_.end());
   return least == present_gaps_.end() ? infinity : *least;
 }

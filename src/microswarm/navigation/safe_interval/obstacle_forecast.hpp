@@ -37,7 +37,7 @@ class ObstacleForecast {
   void measure_from(Vec2 position, double radius);
   /// The gap of a body then [µm], and the least one; infinity without bodies.
   double present_gap(std::size_t i) const { return present_gaps_[i]; }
-  double least_present_gap() const;
+  double min_current_gap() const;
 
   /// Time from the newest frame to time 0 [s].
   double late() const { return late_; }

@@ -101,7 +101,7 @@ Decision SafeIntervalNavigator::decide(const Moment& moment) {
   constexpr double near = 60;  // [µm]
   const auto planned_state = [&] {
     if (waits) return plan_.empty() ? NavigatorState::hold : NavigatorState::wait;
-    return forecast_.least_present_gap() < near ? NavigatorState::avoid : NavigatorState::follow;
+    return forecast_.min_current_gap() < near ? NavigatorState::avoid : NavigatorState::follow;
   };
   // At first bodies near the swarm may turn round at any moment; then they move as predicted.
   for (const auto turns : {ImminentCheck::Turns::of_any_body, ImminentCheck::Turns::none}) {

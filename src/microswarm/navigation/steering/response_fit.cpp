@@ -9,8 +9,8 @@ namespace microswarm::navigation {
 namespace {
 
 constexpr double usual_deviation = 0.1;  // of speed factors from 1
-constexpr double least_factor = 0.5, most_factor = 1.5;
-constexpr std::size_t least_samples = 6;
+constexpr double min_factor = 0.5, max_factor = 1.5;
+constexpr std::size_t min_samples = 6;
 constexpr double independent = 6;  // misfits among the samples, which follow each other closely
 
 }  // namespace
@@ -20,7 +20,7 @@ void ResponseFit::add(double t, Vec2 position, Vec2 commanded) {
   if (added_ > 0 && t - samples_[(added_ - 1) % max_samples].t < spacing) return;
   samples_[added_ % max_samples] = {t, position, commanded};
   ++added_;
-  if (added_ >= least_samples) fit();
+  if (added_ >= min_samples) fit();
 }
 
 void ResponseFit::fit() {
@@ -64,7 +64,7 @@ void ResponseFit::fit() {
   }
   const double prior = misfit / (independent * usual_deviation * usual_deviation);
   const double factor = cc + prior > 0 ? (cp + prior) / (cc + prior) : 1;
-  response_.speed_factor = std::clamp(factor, least_factor, most_factor);
+  response_.speed_factor = std::clamp(factor, min_factor, max_factor);
   response_.flow = (tp - response_.speed_factor * tc) / tt;
 }
 

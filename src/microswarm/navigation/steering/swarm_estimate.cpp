@@ -8,8 +8,8 @@
 namespace microswarm::navigation {
 namespace {
 
-constexpr double least_noise = 1e-4;  // [µm²]; below it frames are exact
-constexpr double least_gain = 0.9;    // of the squares, for a response that is not as commanded
+constexpr double min_noise = 1e-4;    // [µm²]; below it frames are exact
+constexpr double needed_share = 0.9;  // of the squares, for a response that is not as commanded
 
 }  // namespace
 
@@ -47,9 +47,9 @@ void SwarmEstimate::correct(Vec2 seen, double share) {
     positions_[i] = gain == 1 ? seen : positions_[i] + gain * difference;
   }
   best_ = 0;
-  if (squares_[0] < least_noise) return;
+  if (squares_[0] < min_noise) return;
   for (std::size_t i = 1; i < count; ++i) {
-    const double needed = i < gains.size() || best_ >= gains.size() ? 1 : least_gain;
+    const double needed = i < gains.size() || best_ >= gains.size() ? 1 : needed_share;
     if (squares_[i] < needed * squares_[best_]) best_ = i;
   }
 }

@@ -27,7 +27,7 @@ bool GlobalSeparation::holds(std::span<const PointF> robots) const {
   if (!is_on()) return true;
   for (std::size_t i = 0; i < robots.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      if (norm(minus(robots[i], robots[j])) < least_) return false;
+      if (norm(minus(robots[i], robots[j])) < min_distance_) return false;
   return true;
 }
 
@@ -47,9 +47,9 @@ bool GlobalSeparation::holds(const Pair& from, const Pair& to, PointF move) cons
   };
   const PointF before = minus(from.a, from.b);
   const PointF after = minus(to.a, to.b);
-  if (norm(after) < least_) return false;
+  if (norm(after) < min_distance_) return false;
   if (is_straight(from.a, to.a) && is_straight(from.b, to.b))
-    return min_norm(before, after) >= least_;
+    return min_norm(before, after) >= min_distance_;
   return holds_between(from, to, move, 0, from, 1, to, max_halvings);
 }
 
@@ -67,9 +67,9 @@ bool GlobalSeparation::holds_between(const Pair& from, const Pair& to, PointF mo
   const PointF before = minus(at_low.a, at_low.b);
   const PointF after = minus(at_high.a, at_high.b);
   const float nearest = std::min(norm(before), norm(after));
-  if (nearest < least_) return false;
+  if (nearest < min_distance_) return false;
   const float far = norm(move);
-  if ((norm(before) + norm(after)) / 2 - (high - low) * far >= least_) return true;
+  if ((norm(before) + norm(after)) / 2 - (high - low) * far >= min_distance_) return true;
   if (halvings == 0) return norm(minus(after, before)) <= rigid_share * far;
   const float middle = (low + high) / 2;
   const Pair at_middle = at(from, to, move, middle);

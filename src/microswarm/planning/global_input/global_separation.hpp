@@ -13,9 +13,9 @@ class GlobalSeparation {
  public:
   /// `least` [µm]; 0: no minimum, everything holds.
   GlobalSeparation(const RobotStepper& stepper, ContactRule rule, double least)
-      : stepper_(stepper), rule_(rule), least_(static_cast<float>(least)) {}
+      : stepper_(stepper), rule_(rule), min_distance_(static_cast<float>(least)) {}
 
-  bool is_on() const { return least_ > 0; }
+  bool is_on() const { return min_distance_ > 0; }
   /// Whether no pair is closer.
   bool holds(std::span<const PointF> robots) const;
   /// Whether no pair comes closer anywhere on the move from `from`, where none is, to `to`.
@@ -35,7 +35,7 @@ class GlobalSeparation {
 
   const RobotStepper& stepper_;
   ContactRule rule_;
-  float least_;
+  float min_distance_;
 };
 
 }  // namespace microswarm::planning

@@ -39,10 +39,11 @@ class Trips {
 }  // namespace
 
 CoilLoop::CoilLoop(actuation::CoilController& controller, const CoilLoopLimits& limits,
-                   std::function<void(const CoilMoment&)> heard, std::function<double()> suspended)
+                   std::function<void(const CoilMoment&)> listener,
+                   std::function<double()> suspended)
     : controller_(controller),
       limits_(limits),
-      heard_(std::move(heard)),
+      listener_(std::move(listener)),
       suspended_(std::move(suspended)),
       place_(controller.place()),
       thread_([this] { run(); }) {}
@@ -155,7 +156,7 @@ std::string CoilLoop::send(CoilMoment& moment, const Eigen::Vector3d& position, 
     moment.output = controller_.advance(dt);
     moment.driven = steady_seconds();
     moment.round_trip = moment.driven - began;
-    if (actuation::trouble_text(moment.output.status).empty() && heard_) heard_(moment);
+    if (actuation::trouble_text(moment.output.status).empty() && listener_) listener_(moment);
     return {};
   } catch (const std::exception& e) {
     return e.what();

@@ -44,11 +44,11 @@ struct CoilLoopLimits {
 /// then not driven), and on destruction.
 class CoilLoop {
  public:
-  /// `controller` must outlive the loop and not be used elsewhere. `heard` is called in the loop's
-  /// thread after each output; an exception from it is a failure. `suspended` returns the total
-  /// time of suspensions [s]; tests replace it.
+  /// `controller` must outlive the loop and not be used elsewhere. `listener` is called in the
+  /// loop's thread after each output; an exception from it is a failure. `suspended` returns the
+  /// total time of suspensions [s]; tests replace it.
   CoilLoop(actuation::CoilController& controller, const CoilLoopLimits& limits,
-           std::function<void(const CoilMoment&)> heard = {},
+           std::function<void(const CoilMoment&)> listener = {},
            std::function<double()> suspended = suspended_seconds);
   ~CoilLoop();
   CoilLoop(const CoilLoop&) = delete;
@@ -77,7 +77,7 @@ class CoilLoop {
 
   actuation::CoilController& controller_;
   const CoilLoopLimits limits_;
-  std::function<void(const CoilMoment&)> heard_;
+  std::function<void(const CoilMoment&)> listener_;
   const std::function<double()> suspended_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;

@@ -65,7 +65,7 @@ class LiveRig : public Plant {
   /// The newest picture, its scale and its detections.
   const formats::Image& picture() const { return grey_; }
   const vision::CameraScale& scale() const { return scale_; }
-  const Detections& sight() const { return *detections_; }
+  const Detections& detections() const { return *detections_; }
 
  private:
   void take_frame();

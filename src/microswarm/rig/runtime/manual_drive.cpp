@@ -27,11 +27,11 @@ double heading_along(const actuation::Setpoint& setpoint) {
   return command ? command->heading : 0;
 }
 
-/// Reports an output to `heard`. Returns the message of an exception, or an empty string.
-std::string tell(const std::function<void(const ManualMoment&)>& heard,
+/// Reports an output to `listener`. Returns the message of an exception, or an empty string.
+std::string tell(const std::function<void(const ManualMoment&)>& listener,
                  const ManualMoment& moment) {
   try {
-    if (heard) heard(moment);
+    if (listener) listener(moment);
     return {};
   } catch (const std::exception& e) {
     return e.what();
@@ -48,7 +48,7 @@ void take(const actuation::CoilOutput& output, ManualResult& result) {
 
 ManualResult drive_by_hand(const Rig& rig, actuation::CoilDriver& driver,
                            const ManualCommand& command, const Eigen::VectorXd& temperatures,
-                           const std::function<void(const ManualMoment&)>& heard,
+                           const std::function<void(const ManualMoment&)>& listener,
                            const Stop& stop) {
   actuation::CoilController controller(rig.system, rig.params.field, driver,
                                        heading_along(command.wanted));
@@ -69,7 +69,7 @@ ManualResult drive_by_hand(const Rig& rig, actuation::CoilDriver& driver,
     const bool resumed = moment.output.status == actuation::DriveStatus::resumed;
     result.why = first_reason({controller.trouble(),
                                resumed ? "the coils had switched off by themselves" : "",
-                               limits.take(moment.t, moment.output), tell(heard, moment)});
+                               limits.take(moment.t, moment.output), tell(listener, moment)});
     if (command.enough && command.enough())
       end = std::min(end, moment.t + std::min(command.ramp, moment.t));
     const double due = began + moment.t + period;

@@ -39,11 +39,11 @@ struct ManualResult {
 /// Drives the coils manually at the rig's drive rate, within the limits of the coil system, and
 /// sets them to zero at the end, on a fault and when it is stopped. Faults are: a driver that does
 /// not answer, reports trouble, switched off by itself or leaves almost no current by its own
-/// limits, and a standstill of the program. `temperatures`: coils at the start [°C]. `heard` is
+/// limits, and a standstill of the program. `temperatures`: coils at the start [°C]. `listener` is
 /// called after each output; an exception from it is a fault.
 ManualResult drive_by_hand(const Rig& rig, actuation::CoilDriver& driver,
                            const ManualCommand& command, const Eigen::VectorXd& temperatures,
-                           const std::function<void(const ManualMoment&)>& heard = {},
+                           const std::function<void(const ManualMoment&)>& listener = {},
                            const Stop& stop = {});
 
 }  // namespace microswarm::rig

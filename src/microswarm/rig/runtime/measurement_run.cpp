@@ -110,7 +110,7 @@ Measurement StepMeasurement::result(const ManualResult& drive) const {
 Measurement measure_field(const Rig& rig, actuation::CoilDriver& driver,
                           const actuation::MeasurementStep& step, const MeasurementTiming& timing,
                           FieldReader& reader, const Eigen::VectorXd& temperatures,
-                          const std::function<void(const actuation::CoilOutput&)>& heard,
+                          const std::function<void(const actuation::CoilOutput&)>& listener,
                           const Stop& stop) {
   StepMeasurement measurement(rig, driver, step, timing, reader);
   const ManualCommand command{.wanted = step.currents,
@@ -120,7 +120,7 @@ Measurement measure_field(const Rig& rig, actuation::CoilDriver& driver,
   return measurement.result(drive_by_hand(
       rig, driver, command, temperatures,
       [&](const ManualMoment& moment) {
-        if (heard) heard(moment.output);
+        if (listener) listener(moment.output);
         measurement.look(moment);
       },
       stop));

@@ -73,11 +73,11 @@ struct Measurement {
 
 /// Drives the currents of a step, waits until they have settled and holds them until the reader
 /// answers. The coils are at zero afterwards, also after an exception. `temperatures`: coils at the
-/// start [°C]. `heard` is called after each output.
+/// start [°C]. `listener` is called after each output.
 Measurement measure_field(const Rig& rig, actuation::CoilDriver& driver,
                           const actuation::MeasurementStep& step, const MeasurementTiming& timing,
                           FieldReader& reader, const Eigen::VectorXd& temperatures,
-                          const std::function<void(const actuation::CoilOutput&)>& heard,
+                          const std::function<void(const actuation::CoilOutput&)>& listener,
                           const Stop& stop);
 
 /// Axis on which the mean of the readings has the opposite sign of the largest component of the

@@ -151,7 +151,7 @@ std::optional<vision::RecordedVideo> LiveSession::video() const {
 }
 
 LiveStatus LiveSession::status() const {
-  const Detections& sight = plant_->sight();
+  const Detections& sight = plant_->detections();
   const RigTiming timing = plant_->timing();
   LiveStatus status{.not_found = sight.not_found,
                     .robots = static_cast<int>(sight.robots.size()),

@@ -48,13 +48,13 @@ RigSimulator::RigSimulator(const experiment::Scenario& scenario, const World& wo
       map_(world.map),
       microscope_(std::get<SimulatedCamera>(rig.params.camera).microscope, *map_, scenario.seed,
                   trial),
-      at_((check_workspace(rig, scenario, *map_), place())),
+      at_((check_workspace(rig, scenario, *map_), position())),
       actuation_(rig.system.at(at_)) {}
 
 void RigSimulator::pass(std::span<const double> currents, double dt) {
   const Eigen::VectorXd carried = Eigen::Map<const Eigen::VectorXd>(
       currents.data(), static_cast<Eigen::Index>(rig_.system.size()));
-  if (const Eigen::Vector3d now = place(); (now - at_).norm() > same_place) {
+  if (const Eigen::Vector3d now = position(); (now - at_).norm() > same_place) {
     at_ = now;
     actuation_ = rig_.system.at(now);
   }
@@ -91,7 +91,7 @@ GroundTruth RigSimulator::ground_truth() const {
   return ground_truth;
 }
 
-Eigen::Vector3d RigSimulator::place() const {
+Eigen::Vector3d RigSimulator::position() const {
   return place_among_coils(rig_.system, *map_, physics_->ground_truth()->swarm.pose.position);
 }
 

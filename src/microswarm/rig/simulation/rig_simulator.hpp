@@ -52,7 +52,7 @@ class RigSimulator {
     return {microscope_.scale(), microscope_.width(), microscope_.height()};
   }
   /// True position of the swarm among the coils [µm].
-  Eigen::Vector3d place() const;
+  Eigen::Vector3d position() const;
 
  private:
   const Rig& rig_;

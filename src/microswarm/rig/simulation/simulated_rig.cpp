@@ -34,7 +34,7 @@ void SimulatedRig::apply(const Command& command, double dt) {
   perception_->commanded(command, simulator_.ground_truth().now);
   simulator_.start_trajectory();
   for (int i = 0; i < pieces; ++i) {
-    controller_.aim(simulator_.place());
+    controller_.aim(simulator_.position());
     controller_.advance(piece);
     simulator_.pass(driver_.report().currents, piece);
   }

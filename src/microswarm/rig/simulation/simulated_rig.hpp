@@ -29,7 +29,7 @@ class SimulatedRig : public Plant {
 
   /// The picture of the last observation.
   const formats::Image& picture() const { return *picture_; }
-  const Detections& sight() const { return *detections_; }
+  const Detections& detections() const { return *detections_; }
   const actuation::CoilOutput& coils() const { return controller_.output(); }
 
  private:

@@ -78,7 +78,7 @@ struct NewestFrame::Shared {
   double silent_after = 1;  ///< [s]
   int same = 0;             ///< consecutive pictures that are repetitions
   bool black = false;
-  FrameListener heard;
+  FrameListener listener;
 
   /// To be called with the mutex held.
   CameraStatus status(const std::string& name, const NewestFrameParams& p) const {
@@ -134,7 +134,7 @@ struct NewestFrame::Shared {
       const double taken = steady_seconds();
       const bool is_same = past.has(frame.picture.pixels);
       const bool is_dark = is_black(frame.picture.pixels, black_below);
-      if (heard) heard(frame, taken);
+      if (listener) listener(frame, taken);
       publish(frame, taken, is_same, is_dark);
     }
   }
@@ -160,9 +160,9 @@ struct NewestFrame::Shared {
 };
 
 NewestFrame::NewestFrame(std::unique_ptr<FrameSource> source, std::string name,
-                         const NewestFrameParams& params, FrameListener heard)
+                         const NewestFrameParams& params, FrameListener listener)
     : name_(std::move(name)), params_(params), shared_(std::make_shared<Shared>()) {
-  shared_->heard = std::move(heard);
+  shared_->listener = std::move(listener);
   const double three_frames = 3 / source->rate().value_or(infinity);
   shared_->silent_after = params.silent_after.value_or(std::max(1.0, three_frames));
   // Detached, because a device that hangs must not block its owner; the thread owns its state.

@@ -75,10 +75,10 @@ struct CameraStatus {
 class NewestFrame {
  public:
   /// `name` prefixes the message that the camera is silent; the source's own errors name it
-  /// already. `heard` is called in the camera's thread, after this object's destruction too if the
-  /// source is still busy then.
+  /// already. `listener` is called in the camera's thread, after this object's destruction too if
+  /// the source is still busy then.
   NewestFrame(std::unique_ptr<FrameSource> source, std::string name,
-              const NewestFrameParams& params = {}, FrameListener heard = {});
+              const NewestFrameParams& params = {}, FrameListener listener = {});
   /// Returns within a second. A source that still blocks is abandoned and closed when it returns.
   ~NewestFrame();
   NewestFrame(const NewestFrame&) = delete;

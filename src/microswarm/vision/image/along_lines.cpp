@@ -17,10 +17,10 @@ namespace microswarm::vision {
 namespace {
 
 constexpr int orientations = 16;
-constexpr double bell_ends = 2.5;      // standard deviations
-constexpr double line_ground = 2;      // of the standard deviation along: what is no line
-constexpr double line_energy = 3;      // [px] around a pixel; wider, a line covers its branches
-constexpr float least_energy = 1e-6F;  // of a flat picture
+constexpr double bell_ends = 2.5;    // standard deviations
+constexpr double line_ground = 2;    // of the standard deviation along: what is no line
+constexpr double line_energy = 3;    // [px] around a pixel; wider, a line covers its branches
+constexpr float min_energy = 1e-6F;  // of a flat picture
 
 struct BellPoint {
   int x = 0;
@@ -53,7 +53,7 @@ MICROSWARM_EACH_CPU void add_weighted(const float* values, float weight, int cou
 MICROSWARM_EACH_CPU void add_means(const float* means, const float* energies, int count,
                                    float* sums, float* weights) {
   for (int x = 0; x < count; ++x) {
-    const float energy = energies[x] + least_energy;
+    const float energy = energies[x] + min_energy;
     const float weight = (energy * energy) * (energy * energy);
     sums[x] += weight * means[x];
     weights[x] += weight;

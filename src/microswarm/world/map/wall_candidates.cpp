@@ -176,8 +176,8 @@ double WallCandidates::measure(Vec2 p, std::size_t first) {
   first_measured_ = first;
   const std::size_t count = size_ - first;
   if (count == 0) return nearest_ = infinity;
-  least_ = HWY_DYNAMIC_DISPATCH(measure_here)(view(first), count, p, kind_ == Kind::discs);
-  return nearest_ = kind_ == Kind::discs ? least_ : std::sqrt(least_);
+  min_measure_ = HWY_DYNAMIC_DISPATCH(measure_here)(view(first), count, p, kind_ == Kind::discs);
+  return nearest_ = kind_ == Kind::discs ? min_measure_ : std::sqrt(min_measure_);
 }
 
 WallCandidates::Bound WallCandidates::bound(double half) const {
@@ -190,13 +190,13 @@ WallCandidates::Bound WallCandidates::bound(double half) const {
 Vec2 WallCandidates::towards_nearest() const {
   if (size_ == first_measured_) return {};
   std::size_t i = first_measured_;
-  while (i + 1 < size_ && measure_[i] != least_) ++i;
+  while (i + 1 < size_ && measure_[i] != min_measure_) ++i;
   const Vec2 offset = Vec2{x_[i], y_[i]} - measured_from_;
   if (kind_ == Kind::edges) {
     const Vec2 along{u_[i], v_[i]};
     return offset + std::clamp(-dot(offset, along) * per_length2_[i], 0.0, 1.0) * along;
   }
-  return least_ > 0 ? least_ / (least_ + radius_[i]) * offset : Vec2{};
+  return min_measure_ > 0 ? min_measure_ / (min_measure_ + radius_[i]) * offset : Vec2{};
 }
 
 void WallCandidates::push_rivals(const Bound& bound) {

@@ -59,8 +59,8 @@ class WallCandidates {
   std::size_t size_ = 0;
   Vec2 measured_from_;
   std::size_t first_measured_ = 0;
-  double least_ = 0;    ///< measure
-  double nearest_ = 0;  ///< its distance [µm]
+  double min_measure_ = 0;  ///< measure
+  double nearest_ = 0;      ///< its distance [µm]
   std::vector<double> x_, y_, u_, v_, per_length2_, radius_, measure_;
   std::vector<std::uint32_t> wall_;
 };

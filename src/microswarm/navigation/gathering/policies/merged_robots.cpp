@@ -27,27 +27,27 @@ std::size_t mixed(std::uint64_t key) {
 }  // namespace
 
 MergedRobots::MergedRobots(const Robots& robots)
-    : places_(robots), counts_(robots.size(), 1), place_of_(robots.size()) {
+    : positions_(robots), counts_(robots.size(), 1), place_of_(robots.size()) {
   std::iota(place_of_.begin(), place_of_.end(), 0u);
 }
 
 std::span<const std::uint32_t> MergedRobots::merge_coincident(double cell) {
-  const std::size_t count = places_.size();
+  const std::size_t count = positions_.size();
   const std::size_t mask = std::bit_ceil(2 * count + 1) - 1;
   slots_.assign(mask + 1, nobody);
   merged_into_.resize(count);
   std::size_t kept = 0;
   // Kept positions move to the front, so a slot refers to an index below the current one.
   for (std::size_t i = 0; i < count; ++i) {
-    const std::uint64_t key = cell_key(places_.x[i], places_.y[i], cell);
+    const std::uint64_t key = cell_key(positions_.x[i], positions_.y[i], cell);
     std::size_t slot = mixed(key) & mask;
     while (slots_[slot] != nobody &&
-           cell_key(places_.x[slots_[slot]], places_.y[slots_[slot]], cell) != key)
+           cell_key(positions_.x[slots_[slot]], positions_.y[slots_[slot]], cell) != key)
       slot = (slot + 1) & mask;
     if (slots_[slot] == nobody) {
       slots_[slot] = static_cast<std::uint32_t>(kept);
-      places_.x[kept] = places_.x[i];
-      places_.y[kept] = places_.y[i];
+      positions_.x[kept] = positions_.x[i];
+      positions_.y[kept] = positions_.y[i];
       counts_[kept] = counts_[i];
       ++kept;
     } else {
@@ -56,8 +56,8 @@ std::span<const std::uint32_t> MergedRobots::merge_coincident(double cell) {
     merged_into_[i] = slots_[slot];
   }
   if (kept == count) return {};
-  places_.x.resize(kept);
-  places_.y.resize(kept);
+  positions_.x.resize(kept);
+  positions_.y.resize(kept);
   counts_.resize(kept);
   for (std::uint32_t& position : place_of_) position = merged_into_[position];
   return merged_into_;
@@ -65,21 +65,21 @@ std::span<const std::uint32_t> MergedRobots::merge_coincident(double cell) {
 
 void MergedRobots::coarsen(std::size_t most, double cell) {
   constexpr int max_doublings = 16;
-  for (int k = 0; k < max_doublings && places_.size() > most; ++k, cell *= 2)
+  for (int k = 0; k < max_doublings && positions_.size() > most; ++k, cell *= 2)
     merge_coincident(cell);
 }
 
 MergedRobots MergedRobots::condensed() const {
-  MergedRobots all(places_);
+  MergedRobots all(positions_);
   all.counts_ = counts_;
   return all;
 }
 
 Robots MergedRobots::robots() const {
-  Robots all{places_.origin, {}, {}};
+  Robots all{positions_.origin, {}, {}};
   for (const std::uint32_t position : place_of_) {
-    all.x.push_back(places_.x[position]);
-    all.y.push_back(places_.y[position]);
+    all.x.push_back(positions_.x[position]);
+    all.y.push_back(positions_.y[position]);
   }
   return all;
 }

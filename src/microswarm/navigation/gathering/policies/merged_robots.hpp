@@ -20,11 +20,11 @@ class MergedRobots {
   std::size_t size() const { return place_of_.size(); }
   /// Position of robot i, in the coordinates of `positions`.
   PointF position(std::size_t i) const {
-    return {places_.x[place_of_[i]], places_.y[place_of_[i]]};
+    return {positions_.x[place_of_[i]], positions_.y[place_of_[i]]};
   }
-  const Robots& places() const { return places_; }
+  const Robots& positions() const { return positions_; }
   /// Positions, to be moved by a RobotStepper.
-  Robots& places() { return places_; }
+  Robots& positions() { return positions_; }
   /// Number of robots at each position; the sum is constant.
   std::span<const std::uint32_t> counts() const { return counts_; }
 
@@ -40,7 +40,7 @@ class MergedRobots {
   Robots robots() const;
 
  private:
-  Robots places_;
+  Robots positions_;
   std::vector<std::uint32_t> counts_;
   std::vector<std::uint32_t> place_of_;     ///< of each robot
   std::vector<std::uint32_t> merged_into_;  ///< new index of each old position

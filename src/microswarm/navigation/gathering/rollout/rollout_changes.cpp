@@ -58,7 +58,7 @@ void change(Trial& trial, const RolloutExecution& plan, RolloutSimulator& simula
   const auto length = static_cast<std::size_t>(lengths[rng.below(lengths.size())]);
   const std::size_t left_out = 1 + rng.below(length);
   const std::size_t made = 1 + rng.below(left_out);
-  const std::size_t position = rng.below(partial.merged.places().size());
+  const std::size_t position = rng.below(partial.merged.positions().size());
   trial.goes_on_at = std::min(most, at + left_out);
   switch (rng.below(10)) {
     case 0:  // another policy from here on

@@ -16,7 +16,7 @@ void RolloutExecution::start(const Robots& robots, RolloutPlan&& plan) {
 Vec2 RolloutExecution::advance(const CommonInput& input) {
   const Vec2 move = plan_.moves[done_++];
   if (done_ % RolloutPlan::checkpoint_interval == 0) expected_.merge_coincident();
-  input.step(expected_.places(), move);
+  input.step(expected_.positions(), move);
   return move;
 }
 

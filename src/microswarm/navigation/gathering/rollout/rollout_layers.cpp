@@ -73,7 +73,7 @@ std::size_t RolloutLayers::affordable_trials(std::span<const std::uint32_t> stat
   const double layers = std::ceil(static_cast<double>(most - at) / layer_steps);
   double once = 0;
   for (const std::uint32_t state : states)
-    once += mean_trial(params) * (static_cast<double>(states_[state].robots->places().size()) +
+    once += mean_trial(params) * (static_cast<double>(states_[state].robots->positions().size()) +
                                   params.tuning.step_overhead);
   return static_cast<std::size_t>(
       std::clamp(work / (layers * once), std::min(min_trials, all), all));

@@ -60,7 +60,7 @@ bool RolloutSearch::begin_layers(const RolloutExecution& plan, RolloutSimulator&
            (static_cast<double>(positions) + params.tuning.step_overhead);
   };
   const auto most = static_cast<std::size_t>(params.lookahead_representatives);
-  const auto few = std::min(plan.checkpoints()[plan.done() / interval].places().size(),
+  const auto few = std::min(plan.checkpoints()[plan.done() / interval].positions().size(),
                             static_cast<std::size_t>(params.representatives));
   const double work_left = params.max_work > 0 ? params.max_work - spent_ : infinity;
   const double pass =

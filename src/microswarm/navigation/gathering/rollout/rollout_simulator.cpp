@@ -58,9 +58,9 @@ void RolloutSimulator::move(PartialPlan& partial, Vec2 move, Work& work) const {
     partial.merged.merge_coincident();
     if (partial.keeps_checkpoints) partial.checkpoints.push_back(partial.merged);
   }
-  input_.step(partial.merged.places(), move);
+  input_.step(partial.merged.positions(), move);
   partial.moves.push_back(move);
-  work.add(partial.merged.places().size() +
+  work.add(partial.merged.positions().size() +
            static_cast<std::uint64_t>(params_.rollout.tuning.step_overhead));
 }
 
@@ -96,7 +96,7 @@ void RolloutSimulator::lead(PartialPlan& partial, std::size_t position, std::siz
   alone.sigma = 2 * params_.step;
   AggregationPolicy policy(*map_, alone);
   Work work(*this);
-  Robots leader = single_robot(partial.merged.places(), position);
+  Robots leader = single_robot(partial.merged.positions(), position);
   for (std::size_t i = 0; i < steps && partial.steps() < most; ++i) {
     const std::optional<Vec2> next = policy.next(leader);
     if (!next) return;
@@ -121,7 +121,8 @@ RolloutSimulator::Pursuit RolloutSimulator::pursue(PartialPlan& partial, Aggrega
   while (partial.steps() < pause) {
     if (partial.steps() % RolloutPlan::checkpoint_interval == 0)
       policy.remap(partial.merged.merge_coincident());
-    const std::optional<Vec2> next = policy.next(partial.merged.places(), partial.merged.counts());
+    const std::optional<Vec2> next =
+        policy.next(partial.merged.positions(), partial.merged.counts());
     if (!next) return Pursuit::gathered;
     // Neither the mean nor the longest path decreases by more than one step per move.
     const double least = (policy.distance_left() - params_.sigma) / params_.step;
@@ -140,10 +141,10 @@ void RolloutSimulator::try_moves(PartialPlan& partial, bool first, std::size_t m
   const std::size_t length = shortest + rng.below(longest - shortest + 1);
   const std::size_t end = std::min(most, partial.steps() + length);
   const bool one_direction = rng.uniform() < p.tuning.direction_share;
-  const std::size_t position = rng.below(partial.merged.places().size());
+  const std::size_t position = rng.below(partial.merged.positions().size());
   const double angle = 0.25 * pi * static_cast<double>(rng.below(8));
   if (first)
-    lead(partial, farthest(partial.merged.places()), length, end);
+    lead(partial, farthest(partial.merged.positions()), length, end);
   else if (one_direction)
     follow(partial, std::vector<Vec2>(length, params_.step * unit_vector(angle)), end);
   else
@@ -177,8 +178,8 @@ double RolloutSimulator::remaining(const Robots& robots, std::size_t i) const {
 double RolloutSimulator::mean_distance(const MergedRobots& merged) const {
   double sum = 0;
   double robots = 0;
-  for (std::size_t i = 0; i < merged.places().size(); ++i) {
-    sum += merged.counts()[i] * remaining(merged.places(), i);
+  for (std::size_t i = 0; i < merged.positions().size(); ++i) {
+    sum += merged.counts()[i] * remaining(merged.positions(), i);
     robots += merged.counts()[i];
   }
   return sum / std::max(1.0, robots);
@@ -187,8 +188,8 @@ double RolloutSimulator::mean_distance(const MergedRobots& merged) const {
 double RolloutSimulator::distance_left(const MergedRobots& merged) const {
   if (params_.gathered == Gathered::mean) return mean_distance(merged);
   double most = 0;
-  for (std::size_t i = 0; i < merged.places().size(); ++i)
-    most = std::max(most, remaining(merged.places(), i));
+  for (std::size_t i = 0; i < merged.positions().size(); ++i)
+    most = std::max(most, remaining(merged.positions(), i));
   return most;
 }
 
@@ -198,8 +199,8 @@ double RolloutSimulator::left_to_do(MergedRobots merged) const {
   const RolloutTuning& tuning = params_.rollout.tuning;
   merged.merge_coincident(tuning.merge_cell * params_.step);
   double sum = 0;
-  for (std::size_t i = 0; i < merged.places().size(); ++i) {
-    const double far = remaining(merged.places(), i);
+  for (std::size_t i = 0; i < merged.positions().size(); ++i) {
+    const double far = remaining(merged.positions(), i);
     sum += power(merged.counts()[i]) * far * far;
   }
   return sum;

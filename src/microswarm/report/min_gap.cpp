@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/report/least_gap.hpp"
+#include "microswarm/report/min_gap.hpp"
 
 #include <fmt/format.h>
 
@@ -65,7 +65,7 @@ void draw_places(Picture& picture, const navigation::RadarParams& params) {
 
 }  // namespace
 
-void draw_least_gap(Picture& picture, const experiment::Record& record, const World& world) {
+void draw_min_gap(Picture& picture, const experiment::Record& record, const World& world) {
   if (record.frames.empty()) return;
   const auto* radar = std::get_if<navigation::RadarParams>(&record.scene.scenario.navigator);
   const experiment::Frame& frame = tightest(record);

@@ -11,6 +11,6 @@ namespace microswarm::report {
 /// and the outlines of obstacles then, for a radar its three circles, and the decision if the
 /// record keeps diagnostics. Of a radar also the wait zones and waypoints. Does nothing for other
 /// navigators without diagnostics. `world` is the record's.
-void draw_least_gap(Picture& picture, const experiment::Record& record, const World& world);
+void draw_min_gap(Picture& picture, const experiment::Record& record, const World& world);
 
 }  // namespace microswarm::report
