@@ -174,7 +174,7 @@ std::vector<report::BenchRow> among_discs_and_polygons(bool quick, const Stop& s
       rows.push_back(std::move(row));
   };
   world.map().corners();
-  add("exact, 140 discs and 70 polygons, each query anew",
+  add("exact, 140 discs and 70 polygons, no tangents kept",
       anew_times(world.map(), clearance, queries, stop), {}, {});
   planning::ShortestPaths paths(world.map(), clearance);
   add("exact, 140 discs and 70 polygons, tangents kept", kept_times(paths, queries, stop), 0.05,
@@ -256,7 +256,7 @@ std::vector<report::BenchRow> in_grid_map(const std::filesystem::path& file, boo
        .peer = quantile(plan_times(world, few, a_star, stop), 0.5),
        .peer_name = "our A*, cells of the map",
        .aim = 1},
-      {.name = "exact, " + name + ", each query anew",
+      {.name = "exact, " + name + ", no tangents kept",
        .quantity = "time, median",
        .unit = "ms",
        .ours = quantile(anew_times(*map, clearance, few, stop), 0.5)},

@@ -99,9 +99,10 @@ TEST(Calibration, RefusesWhatIsNotDetermined) {
         [&] { fit_matrix(parse_measurements(text, "m.csv"), {.offset = offset}); });
   };
   const std::string header = "i_x_a,i_y_a,i_z_a,bx_mt,by_mt,bz_mt\n";
-  EXPECT_EQ(refusal(header + "1,0,0,1,0,0\n0,1,0,0,1,0\n"),
-            "m.csv: 2 measurements do not tell the fields of 'z': currents are missing that change "
-            "each of them apart from the others");
+  EXPECT_EQ(
+      refusal(header + "1,0,0,1,0,0\n0,1,0,0,1,0\n"),
+      "m.csv: 2 measurements do not determine the fields of 'z': currents are missing that change "
+      "each of them apart from the others");
   EXPECT_TRUE(
       test::is_one_line_naming(refusal(header + "1,2,0,1,0,0\n0,0,1,0,1,0\n-2,-4,1,1,1,1\n"),
                                "m.csv", {"3", "fields", "x", "y"}));

@@ -102,7 +102,7 @@ TEST(TiffStack, ACutLayoutOfOneDirectorySaysHowManyAreThere) {
   cut += more.substr(0, 6 * 5 + 3);
   TiffPages pages(test::bytes_of(cut), "a.tif");
   EXPECT_EQ(pages.count(), 5);
-  EXPECT_EQ(pages.why_fewer(), "a.tif: ImageJ tells 12 pictures in it, 5 are there");
+  EXPECT_EQ(pages.why_fewer(), "a.tif: ImageJ states 12 pictures in it, 5 are there");
   for (int k = 0; k < 5; ++k) EXPECT_EQ(std::get<Image>(pages.next()).pixels[0], 6 * k);
 }
 
@@ -152,7 +152,7 @@ TEST(TiffStack, AFileThatIsCutInItsDirectoriesHasItsPages) {
   const std::string cut = whole.substr(0, whole.size() - 9);
   EXPECT_EQ(TiffPages(test::bytes_of(cut), "a.tif").count(), 10);
   EXPECT_EQ(TiffPages(test::bytes_of(cut), "a.tif").why_fewer(),
-            "a.tif: ImageJ tells 12 pictures in it, 10 are there: it is cut or damaged");
+            "a.tif: ImageJ states 12 pictures in it, 10 are there: it is cut or damaged");
   // What lies between is not known where the second directory is said to lie among the pages.
   told(begin + 12 * 6 - 1);
   const std::string among = whole.substr(0, whole.size() - 9);
@@ -190,7 +190,7 @@ TEST(TiffStack, PagesThatAreMissingAtAPageAreTold) {
   test::write_tiff<std::uint8_t>(folder / "a.tif", 3, {page(0), page(1)},
                                  {.description = imagej(3)});
   EXPECT_EQ(TiffPages(folder / "a.tif").why_fewer(),
-            (folder / "a.tif").string() + ": ImageJ tells 3 pictures in it, 2 are there");
+            (folder / "a.tif").string() + ": ImageJ states 3 pictures in it, 2 are there");
 }
 
 TEST(TiffDescription, OfImageJTellsScaleIntervalAndOrder) {

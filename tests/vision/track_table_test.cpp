@@ -259,7 +259,7 @@ TEST(TrackTable, AScaleThatContradictsTheTableIsTold) {
   const TrackTable table = parse_track_table(own_tracks, "t.csv", 0.7);
   const TrackResult back = tracks_of_table(table, "t.csv", {.um_per_px = 0.7});
   ASSERT_EQ(back.notes.size(), 1U);
-  EXPECT_EQ(back.notes[0], "t.csv: tells 0.35 µm per px, 0.7 is taken, as asked");
+  EXPECT_EQ(back.notes[0], "t.csv: states 0.35 µm per px, 0.7 is taken, as asked");
   EXPECT_NEAR(back.rows[0].position.y, 0.7 * 159.5, 1e-9);
 }
 

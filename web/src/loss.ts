@@ -18,7 +18,7 @@ export function mayBeginAnew(live: Live): Promise<boolean> {
         { class: 'row' },
         element('a', { href: `/api/sessions/${live.session}/record.h5`, download: 'record.h5', class: 'button' }, 'Download record.h5'),
         button('Keep the run', 'keep', ''),
-        button('Begin anew', 'primary anew', 'anew'),
+        button('Restart', 'primary anew', 'anew'),
       ),
     );
     dialog.addEventListener('close', () => {

@@ -13,7 +13,7 @@ interface Plotted {
 const plotted: Plotted[] = [
   { column: 'clearance_um', title: 'Clearance [µm]', factor: 1 },
   { column: 'avoidance_cost', title: 'Avoidance cost δ', factor: 1 },
-  { column: 'step_time_s', title: 'Planning time [ms]', factor: 1000 },
+  { column: 'step_time_s', title: 'Step time [ms]', factor: 1000 },
   { column: 'goal_distance_um', title: 'Mean distance to the goal [µm]', factor: 1 },
 ];
 const period = 200; // ms between updates

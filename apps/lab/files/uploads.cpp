@@ -38,7 +38,7 @@ class Trial {
 }  // namespace
 
 fs::path Uploads::new_file(std::string_view extension) {
-  if (count_ >= max_files) throw InputError("this lab has too many uploads: start it anew");
+  if (count_ >= max_files) throw InputError("this lab has too many uploads: start it again");
   return folder() / fmt::format("upload-{}{}", ++count_, extension);
 }
 
@@ -50,7 +50,7 @@ Upload Uploads::keep(std::string_view name, const std::string& bytes, const Libr
   if (!is_picture && extension != ".yaml" && extension != ".h5")
     throw InputError(shown, "neither a photograph, a scenario (.yaml) nor a record (.h5)");
   if (size_ + bytes.size() > max_total)
-    throw InputError("the uploads of this lab are too large together: start it anew");
+    throw InputError("the uploads of this lab are too large together: start it again");
   const fs::path file = new_file(extension);
   Trial trial(file);
   write_file_atomically(file, bytes);

@@ -134,7 +134,7 @@ def track(
     if um_per_px is not None:
         settings.insert(0, setting("um_per_px", in_range("um_per_px", um_per_px, 1e-6, 1e6)))
     elif not is_file:
-        raise InputError("um_per_px is missing: arrays tell no scale")
+        raise InputError("um_per_px is missing: arrays state no scale")
     if fps is not None:
         settings.append(setting("rate_hz", in_range("fps", fps, 1e-6, 1e6)))
     with shown(progress) as report:
@@ -143,7 +143,7 @@ def track(
             if made["ended"]:
                 warnings.warn(f"the tracks end at picture {made['frames']}: {made['ended']}", stacklevel=2)
         elif fps is None:
-            raise InputError("fps is missing, or times_s: arrays tell no times")
+            raise InputError("fps is missing, or times_s: arrays state no times")
         else:
             made = track_arrays(frames, settings, report, times)
     if times is not None and len(times) != made["frames"]:

@@ -128,7 +128,7 @@ int fit_and_tell(const CalibrateOptions& o, const actuation::FitOptions& options
       note("note: {} names no limits of the coils: add its `drives`\n", o.out);
   }
   if (of.fit.freedom == 0)
-    note("note: {} measurements are just enough for the unknowns: the residuals tell nothing\n",
+    note("note: {} measurements are just enough for the unknowns: the residuals mean nothing\n",
          of.measured.rows.size());
   if (of.rms_with_gradients)
     note("note: with --gradients the RMS residual is {:.4g} mT, not {:.4g} mT\n",

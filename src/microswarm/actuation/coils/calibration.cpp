@@ -42,13 +42,13 @@ class Design {
   Design(const FieldMeasurements& measured, const FitOptions& options)
       : measured_(measured), gradients_(options.gradients), offset_(options.offset) {
     const Eigen::Index n = whole(measured.coils.size());
-    most_ = Eigen::VectorXd::Constant(n, 0);
+    max_currents_ = Eigen::VectorXd::Constant(n, 0);
     Eigen::AlignedBox3d box;
     for (const FieldMeasurement& row : measured.rows) {
-      most_ = most_.cwiseMax(row.currents.cwiseAbs());
+      max_currents_ = max_currents_.cwiseMax(row.currents.cwiseAbs());
       box.extend(row.position);
     }
-    for (double& most : most_)
+    for (double& most : max_currents_)
       if (most < min_current) most = 1;
     centre_ = options.centre.value_or(gradients_ ? Eigen::Vector3d(box.center())
                                                  : Eigen::Vector3d::Zero());
@@ -57,14 +57,16 @@ class Design {
     if (length_ < min_distance) length_ = 1;
   }
 
-  Eigen::Index sources() const { return most_.size() + (offset_ ? 1 : 0); }
+  Eigen::Index sources() const { return max_currents_.size() + (offset_ ? 1 : 0); }
   Eigen::Index rows_each() const { return gradients_ ? 3 : 1; }
   Eigen::Index columns_each() const { return gradients_ ? 8 : 1; }
   Eigen::Index columns() const { return sources() * columns_each(); }
   Eigen::Index sides() const { return gradients_ ? 1 : 3; }
   const Eigen::Vector3d& centre() const { return centre_; }
   /// Amount of a source by which its columns were divided [A]; 1 for the field at zero current.
-  double most(Eigen::Index source) const { return source < most_.size() ? most_[source] : 1; }
+  double most(Eigen::Index source) const {
+    return source < max_currents_.size() ? max_currents_[source] : 1;
+  }
   double length() const { return length_; }  ///< distance by which gradients were multiplied [µm]
 
   /// The rows of a measurement, with the right-hand sides behind the columns.
@@ -73,7 +75,7 @@ class Design {
     Eigen::Matrix<double, 3, 8> of_one;
     if (gradients_) of_one << Eigen::Matrix3d::Identity(), slopes(row);
     for (Eigen::Index s = 0; s < sources(); ++s) {
-      const double amount = s < most_.size() ? row.currents[s] / most_[s] : 1;
+      const double amount = s < max_currents_.size() ? row.currents[s] / max_currents_[s] : 1;
       if (gradients_)
         rows.middleCols(8 * s, 8) = amount * of_one;
       else
@@ -93,7 +95,7 @@ class Design {
 
   const FieldMeasurements& measured_;
   bool gradients_, offset_;
-  Eigen::VectorXd most_;
+  Eigen::VectorXd max_currents_;
   Eigen::Vector3d centre_;
   double length_ = 0;
 };
@@ -168,7 +170,7 @@ constexpr double weight_of_unknown = 1e-3;  // smaller entries of the null space
   throw InputError(
       measured.file,
       fmt::format(
-          "{} measurements do not tell the fields of {}: currents are missing that change each "
+          "{} measurements do not determine the fields of {}: currents are missing that change each "
           "of them apart from the others{}",
           measured.rows.size(), fmt::join(open, ", "),
           with_offset ? ", and one without them all" : ""));
@@ -192,7 +194,7 @@ constexpr double weight_of_unknown = 1e-3;  // smaller entries of the null space
     if (named[k]) open.emplace_back(gradient_names[k]);
   throw InputError(
       measured.file,
-      fmt::format("{} measurements do not tell {} of {}: each needs three positions or more "
+      fmt::format("{} measurements do not determine {} of {}: each needs three positions or more "
                   "that are not on one line",
                   measured.rows.size(), fmt::join(open, ", "), fmt::join(sources, ", ")));
 }

@@ -28,7 +28,7 @@ class TextRows {
   double number(std::string_view piece, std::string_view what) const;
   /// Number of the line last given, from 1.
   int line() const { return lines_.number(); }
-  /// Complains of a row that follows.
+  /// Throws InputError if another row follows.
   void end();
   /// Throws InputError "NAME:LINE: WHY" for the current row.
   [[noreturn]] void fail(const std::string& why) const;

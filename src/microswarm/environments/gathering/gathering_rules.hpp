@@ -78,8 +78,10 @@ struct GatheringRules {
     visit(self.max_episode_steps,
           plain("max_episode_steps", 1, 1e9, "Steps after which an episode is cut."));
     visit(self.observation, plain("observation", "Channels of the picture."));
-    visit(self.total_cost_reward, plain("total_cost_reward", "Reward what all come nearer."));
-    visit(self.max_cost_reward, plain("max_cost_reward", "Reward what the farthest comes nearer."));
+    visit(self.total_cost_reward,
+          plain("total_cost_reward", "Reward the decrease of the total distance."));
+    visit(self.max_cost_reward,
+          plain("max_cost_reward", "Reward the decrease of the largest distance."));
     visit(self.time_penalty, plain("time_penalty", "Every step costs."));
     visit(self.random_move_chance,
           plain("random_move_chance", 0, 1, "Fuzzy: share of cells with a random move."));

@@ -77,11 +77,11 @@ void TiffPages::count_pages() {
   }
   if (why_fewer_.empty() && count_ < told)
     why_fewer_ =
-        fmt::format("{}: {} tells {} pictures in it, {} are there{}", name_, description_.software,
+        fmt::format("{}: {} states {} pictures in it, {} are there{}", name_, description_.software,
                     told, count_, is_cut ? ": it is cut or damaged" : "");
   if (first.pixel.unknown > 0)
     notes_.push_back(
-        fmt::format("of the {} samples of a pixel {} are left out: the file does not tell what "
+        fmt::format("of the {} samples of a pixel {} are left out: the file does not say what "
                     "they are",
                     first.samples, first.pixel.unknown));
   if (file_->is_of_bools())

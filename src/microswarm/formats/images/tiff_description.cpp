@@ -92,7 +92,7 @@ void take_axes(const NamedAxes& axes, TiffDescription& d) {
   if (images > max_tiff_images) return;
   if (!others.empty()) {
     d.notes.push_back(
-        fmt::format("{} tells {:.0f} pictures along axes that are not all times, channels or "
+        fmt::format("{} states {:.0f} pictures along axes that are not all times, channels or "
                     "slices: the pages are "
                     "taken as times",
                     d.software, images));
@@ -161,7 +161,7 @@ TiffDescription of_tifffile(std::string_view text, int samples) {
     const auto end = shape.end() - static_cast<std::ptrdiff_t>(std::min(in_picture, shape.size()));
     if (std::count_if(shape.begin(), end, [](int size) { return size > 1; }) > 1)
       d.notes.push_back(
-          "tifffile tells several axes without their names: if some are channels or slices, they "
+          "tifffile states several axes without their names: if some are channels or slices, they "
           "are taken as times");
     else if (shape.begin() != end)
       d.images = d.times = *std::max_element(shape.begin(), end);

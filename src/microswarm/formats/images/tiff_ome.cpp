@@ -257,11 +257,11 @@ TiffDescription parse_ome(std::string_view text, std::string_view file_name) {
     return without(fmt::format("its OME description is in another file, {}",
                                binary.attribute("MetadataFile").as_string("which is not named")));
   const pugi::xml_node pixels = child(child(root, "Image"), "Pixels");
-  if (!pixels || !take_sizes(pixels, d)) return without("its OME description tells no pictures");
+  if (!pixels || !take_sizes(pixels, d)) return without("its OME description states no pictures");
   int images = 0;
   each_child(root, "Image", [&](const pugi::xml_node&) { ++images; });
   if (images > 1)
-    d.notes.push_back(fmt::format("OME tells {} images in it: the first is read", images));
+    d.notes.push_back(fmt::format("OME states {} images in it: the first is read", images));
   const auto above_0 = [](std::optional<double> v) { return v && *v > 0 ? v : std::nullopt; };
   d.um_per_px = above_0(quantity(pixels, "PhysicalSizeX", length_unit_um, "µm"));
   d.um_per_px_y = above_0(quantity(pixels, "PhysicalSizeY", length_unit_um, "µm"));

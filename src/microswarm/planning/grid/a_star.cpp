@@ -16,7 +16,7 @@ struct SteppedCell {
   std::uint8_t move = 0;  ///< move that led here, or off_grid
 };
 
-/// In place of a move: from a start that is no place of the grid.
+/// In place of a move: from a start that is no cell of the grid.
 constexpr std::uint8_t off_grid = 8;
 
 /// Length of the shortest path on an obstacle-free grid.

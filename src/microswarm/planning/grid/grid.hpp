@@ -41,7 +41,7 @@ class Grid {
   static constexpr std::size_t side = 64;
   static constexpr double max_tiles = 1 << 22;
 
-  /// `origin` is a place of the grid, in the bounds or not; without one the start is.
+  /// `origin` is a cell of the grid, in the bounds or not; without one the start is.
   Grid(const Box& bounds, Vec2 start, std::optional<Vec2> origin, double cell)
       : cell_(cell), start_at_(start), origin_(origin.value_or(start)) {
     const auto places = [&](double length) { return std::floor(length / cell); };
@@ -68,7 +68,7 @@ class Grid {
   bool holds(Place p) const {
     return p.column >= 0 && p.row >= 0 && p.column < columns_ && p.row < rows_;
   }
-  /// Position [µm] of a place of the grid.
+  /// Position [µm] of a cell of the grid.
   Vec2 operator()(Place p) const {
     const Place d = p - origin_place_;
     return origin_ + cell_ * Vec2{static_cast<double>(d.column), static_cast<double>(d.row)};

@@ -26,7 +26,7 @@ struct GridParams {
     visit(self.goal_tolerance,
           um("goal_tolerance", 0, 1e6, "Distance at which the goal counts as reached."));
     visit(self.cell, um("cell", 1e-3, 1e6, "Grid spacing to begin with."));
-    visit(self.origin, um("origin", -1e6, 1e6, "A place of the grid; unset: the start."));
+    visit(self.origin, um("origin", -1e6, 1e6, "A cell of the grid; unset: the start."));
     visit(self.max_nodes, plain("max_nodes", 1, 1e8, "Maximum number of opened cells."));
   }
 };

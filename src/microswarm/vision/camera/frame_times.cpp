@@ -136,7 +136,7 @@ double ContainerClock::widest() const { return std::max(longest_, 1 / rate_); }
 
 std::vector<std::string> ContainerClock::notes() const {
   if (missing_ > 0 && missing_ == count_)
-    return {fmt::format("the file tells no times: its mean rate of {:.6g} Hz is taken", rate_)};
+    return {fmt::format("the file states no times: its mean rate of {:.6g} Hz is taken", rate_)};
   std::vector<std::string> lines;
   if (longest_ - shortest_ > 2.02 * tick_ + 1e-6 * longest_)
     lines.push_back(

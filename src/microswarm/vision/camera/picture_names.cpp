@@ -113,14 +113,14 @@ void choose_along(std::vector<fs::path>& files, const std::set<std::string_view>
   const std::optional<NamedAxis> axis = axis_in(names, words);
   const int size = axis ? static_cast<int>(axis->labels.size()) : 1;
   if (given && (*given < 1 || *given > size))
-    throw InputError(folder, fmt::format("{} is {}, the names tell {} {}{}", key, *given, size,
+    throw InputError(folder, fmt::format("{} is {}, the names state {} {}{}", key, *given, size,
                                          what, size == 1 ? "" : "s"));
   if (!axis) return;
   if (!given)
     throw InputError(
         folder,
         fmt::format(
-            "names such as {} tell {} {}s of {} pictures in all: choose one with {}, 1 to {}",
+            "names such as {} state {} {}s of {} pictures in all: choose one with {}, 1 to {}",
             files.front().filename().string(), size, what, files.size(), key, size));
   const std::string& label = axis->labels[static_cast<std::size_t>(*given - 1)];
   std::vector<fs::path> kept;

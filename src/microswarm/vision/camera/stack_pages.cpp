@@ -72,12 +72,12 @@ class PageChoice {
             (d_.images >= count_ || !d_.plane_pages.empty());
     if (!fits_ && d_.channels > 1 && options_.stack_channel)
       fail(fmt::format(
-          "{} tells {} channels, {} slices and {} times of {} pictures, which does not fit: no "
+          "{} states {} channels, {} slices and {} times of {} pictures, which does not fit: no "
           "channel can be chosen",
           d_.software, d_.channels, d_.slices, d_.times, count_));
     if (!fits_ && told > 1)
       chosen_.notes.push_back(fmt::format(
-          "{} tells {} channels, {} slices and {} times of {} pictures: all are taken as times",
+          "{} states {} channels, {} slices and {} times of {} pictures: all are taken as times",
           d_.software, d_.channels, d_.slices, d_.times, count_));
     take(planes());
     take_times();
@@ -96,7 +96,7 @@ class PageChoice {
     // Counts of slices and times alone may be those of a plain stack.
     if (fits || d_.channels < 2 || in_a_time > count_) return;
     chosen_.notes.push_back(fmt::format(
-        "ImageJ tells {} channels, {} slices and {} times of {} pictures: the pages are "
+        "ImageJ states {} channels, {} slices and {} times of {} pictures: the pages are "
         "taken in its order, channels first",
         d_.channels, d_.slices, d_.times, count_));
     d_.times = static_cast<int>(std::ceil(count_ / in_a_time));
@@ -156,16 +156,16 @@ class PageChoice {
     const std::string where =
         d_.other_files.empty() ? "nowhere" : "in other files, " + names_of(d_.other_files);
     if (chosen_.pages.empty() && elsewhere > 0)
-      fail(fmt::format("none of the pictures chosen is in this file: {} tells that they are {}",
+      fail(fmt::format("none of the pictures chosen is in this file: {} says that they are {}",
                        d_.software, where));
     if (chosen_.pages.empty())
       fail(fmt::format("its {} pictures hold none of those chosen", count_));
     if (elsewhere > 0 || !d_.other_files.empty())
       chosen_.notes.push_back(
-          fmt::format("{} tells pictures that are {}: they are left out", d_.software, where));
+          fmt::format("{} names pictures that are {}: they are left out", d_.software, where));
     if (!pages.empty() && count_ > d_.images)
       chosen_.notes.push_back(
-          fmt::format("its last {} pictures have no place in what {} tells: "
+          fmt::format("its last {} pictures are not in what {} states: "
                       "they are left out",
                       count_ - d_.images, d_.software));
     const int first = chosen_.steps.front();

@@ -240,11 +240,11 @@ std::vector<std::string> notes_on(const TrackTable& table, const TrackSettings& 
   std::vector<std::string> notes = table.notes;
   if (table.um_per_px && settings.um_per_px &&
       std::abs(*table.um_per_px / *settings.um_per_px - 1) > 1e-3)
-    notes.push_back(fmt::format("tells {:.6g} µm per px, {:.6g} is taken, as asked",
+    notes.push_back(fmt::format("states {:.6g} µm per px, {:.6g} is taken, as asked",
                                 *table.um_per_px, *settings.um_per_px));
   if (!table.height)
     notes.push_back(fmt::format(
-        "tells no height of the pictures: y_um counts from the lowest position, y = {:.6g} px",
+        "states no height of the pictures: y_um counts from the lowest position, y = {:.6g} px",
         lowest));
   for (std::string& text : notes) text.insert(0, std::string(source) + ": ");
   return notes;
