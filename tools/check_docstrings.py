@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Fails on a class, struct, enum or function in a header without a docstring, and on phrases that are no
-plain English in a comment.
+"""Fails on a class, struct, enum or function in a header without a docstring, on phrases that are no plain English
+in a comment or a message, and on a command-line option in a text of the library.
 
 Docstrings: declarations at namespace scope in the headers of src, apps and bindings. A docstring `///` stands just
 before its declaration and covers the declarations up to the next blank line, so that one sentence may serve a
@@ -9,7 +9,11 @@ family of overloads. Forward declarations, variables, aliases, concepts, special
 detail need none. A docstring in front of a blank line belongs to nothing and is refused.
 
 Phrases: comments of C++, C and TypeScript in src, apps, bindings and web/src, and docstrings of the Python package.
-PHRASES lists them, each with the words to use in its place.
+PHRASES lists them, each with the words to use in its place. IN_TEXTS of them hold for texts with a blank in string
+literals of src, apps, bindings and the Python package, too: messages, notes, help.
+
+Options: string literals of src name no "--option", since Python, C, MATLAB and the lab show the library's texts, too.
+The library says what is missing; apps/support/option_names.cpp adds the option.
 """
 
 import ast
@@ -38,6 +42,12 @@ PHRASES = [(re.compile(pattern, re.I), hint) for pattern, hint in (
     (r"\bso many (seconds|times|ticks)\b", "the name of the parameter"),
     (r"\bof (its|their|your|his|the caller's) own\b", "'its own X' or 'a separate X'"),
 )]
+# Those that messages must not say either.
+IN_TEXTS = [(pattern, hint) for pattern, hint in PHRASES if pattern.pattern in (
+    r"\bone's own\b", r"\bfor ever\b|\bfor good\b", r"\bbut for\b", r"\b(what|who|where)ever\b", r"\btold\b",
+    r"\btells?\b", r"\banew\b", r"\bseldom\b", r"\bforese(e|es|en|eing)\b", r"\bso many (seconds|times|ticks)\b",
+)]
+OPTION = re.compile(r"--[a-z]")
 # How a docstring must not begin: it names what a thing is, or what a function does.
 OPENING = re.compile(r"(What|Where|How)\b")
 OPENING_HINT = "a noun or a verb: 'Result of', 'Position of', 'Number of', 'Returns'"
@@ -173,6 +183,32 @@ def comments(text):
     return [found[:3] for found in joined]
 
 
+LITERAL = re.compile(r'R"(?P<tag>\w*)\((?P<raw>.*?)\)(?P=tag)"|"(?P<plain>(?:\\.|[^"\\\n])*)"', re.S)
+
+
+def literals(text):
+    """[(line, text)] of the string literals of C++ or C; adjacent ones are one."""
+    found = []
+    ended = 0
+    for match in COMMENT.finditer(text):
+        literal = LITERAL.fullmatch(match[0])
+        if not literal:
+            continue
+        words = literal["plain"] if literal["raw"] is None else literal["raw"]
+        if found and not text[ended:match.start()].strip():
+            found[-1] = (found[-1][0], found[-1][1] + words)
+        else:
+            found.append((text.count("\n", 0, match.start()) + 1, words))
+        ended = match.end()
+    return found
+
+
+def python_literals(text):
+    """The same of a Python module, without the expressions of f-strings. Docstrings are among them."""
+    return [(node.lineno, node.value) for node in ast.walk(ast.parse(text))
+            if isinstance(node, ast.Constant) and isinstance(node.value, str)]
+
+
 def docstrings(text):
     """The same of a Python module: its docstrings, and its comments."""
     found = []
@@ -196,6 +232,22 @@ def phrases(found):
                 yield line, f"'{match[0]}' in a comment: say {hint}"
 
 
+def bad_texts(found):
+    """[(line, what is wrong)] of literals: phrases in those that are texts, with a blank in them."""
+    for line, words in found:
+        for pattern, hint in IN_TEXTS if " " in words.strip() else ():
+            for match in pattern.finditer(words):
+                yield line, f"'{match[0]}' in a text: say {hint}"
+
+
+def options(found):
+    """[(line, what is wrong)] of literals that name options of the command line."""
+    for line, words in found:
+        for match in OPTION.finditer(words):
+            option = re.match(r"[-\w]+", words[match.start():])[0]
+            yield line, f"'{option}' in a text of the library: name the thing, see apps/support/option_names.cpp"
+
+
 def check(root):
     """All complaints about the tree at `root`."""
     root = Path(root)
@@ -214,10 +266,18 @@ def check(root):
     for folder in (*FOLDERS, "web/src"):
         for path in sorted((root / folder).rglob("*.*")):
             if path.suffix in (".hpp", ".cpp", ".h", ".c", ".ts"):
-                for line, what in phrases(comments(path.read_text(encoding="utf-8"))):
+                text = path.read_text(encoding="utf-8")
+                for line, what in phrases(comments(text)):
+                    complain(path, line, what)
+                for line, what in bad_texts(literals(text) if path.suffix != ".ts" else ()):
+                    complain(path, line, what)
+                for line, what in options(literals(text) if folder == "src" else ()):
                     complain(path, line, what)
     for path in sorted((root / "bindings/python").rglob("*.py")):
-        for line, what in phrases(docstrings(path.read_text(encoding="utf-8"))):
+        text = path.read_text(encoding="utf-8")
+        for line, what in phrases(docstrings(text)):
+            complain(path, line, what)
+        for line, what in bad_texts(python_literals(text)):
             complain(path, line, what)
     return complaints
 

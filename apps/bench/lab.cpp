@@ -58,7 +58,7 @@ std::uint64_t frame_number(const std::string& frame) {
 /// CPU time of the simulation alone from one frame to another [s].
 double simulation_time(const fs::path& file, const std::vector<std::string>& settings,
                        std::uint64_t from, std::uint64_t to) {
-  const auto session = experiment::open_session(file, settings);
+  const auto session = experiment::open_session(file, {settings, ""});
   double began = 0;
   for (std::uint64_t k = 0; k <= to && session->step(); ++k)
     if (k == from) began = cpu_time(RUSAGE_THREAD);
@@ -74,7 +74,7 @@ Watched watch(const fs::path& scenarios, int watchers, double duration) {
   LabClient first(lab.url(), number);
   first.ask({{"do", "step"}});  // plans
   first.next("answer");
-  const double tick = experiment::open_session(file, settings)->scenario().tick;
+  const double tick = experiment::open_session(file, {settings, ""})->scenario().tick;
   first.ask({{"do", "speed"}, {"number", tick * ticks_a_second}});
   first.ask({{"do", "play"}});
   const std::uint64_t begin = frame_number(first.next("frame"));

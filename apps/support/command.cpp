@@ -62,6 +62,16 @@ bool names_command(const CLI::App& app, const std::vector<std::string>& words) {
   return true;
 }
 
+/// All options of the command that was given.
+std::vector<std::string> options_of_given(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  for (const CLI::App* command : app.get_subcommands())
+    std::ranges::move(options_of_given(*command), std::back_inserter(names));
+  return names;
+}
+
 }  // namespace
 
 Check number(double lo, double hi) {
@@ -256,6 +266,7 @@ std::optional<int> CommandLine::parse(int argc, char** argv) {
   std::ranges::reverse(words);  // as CLI11 wants them
   try {
     app_->parse(std::move(words));
+    set_options(options_of_given(*app_));
     return std::nullopt;
   } catch (const CLI::Success& e) {  // --help, --version
     std::ostringstream help;

@@ -15,7 +15,7 @@ namespace {
 
 /// The settings that are of `map`, or the others.
 Settings split_settings(const std::vector<std::string>& texts, bool of_map) {
-  Settings settings(texts);
+  Settings settings(texts, "--set");
   std::erase_if(settings.list,
                 [&](const Setting& setting) { return formats::is_of_map(setting) != of_map; });
   return settings;
@@ -48,12 +48,14 @@ formats::MapSpec choose_map_spec(const MapInput& input, const std::vector<std::s
   return formats::choose_map_spec(input.file, {.um_per_px = input.um_per_px,
                                                .um_per_unit = input.um_per_unit,
                                                .settings = split_settings(settings, true),
-                                               .um_per_px_option = input.um_per_px_option});
+                                               .um_per_px_option = input.um_per_px_option,
+                                               .um_per_unit_option = "--um-per-unit"});
 }
 
 formats::LoadedMap load_map(const MapInput& input, const std::vector<std::string>& settings) {
   formats::LoadedMap loaded =
       reading([&] { return formats::load_map(choose_map_spec(input, settings)); });
+  for (std::string& note : loaded.notes) note = with_options(std::move(note));
   note_each(loaded.notes);
   return loaded;
 }
@@ -104,7 +106,7 @@ formats::Image read_photo(const std::string& file, std::optional<double>& um_per
   note_each(picture.notes);
   if (!um_per_px && picture.um_per_px) {
     um_per_px = picture.um_per_px;
-    note("note: {}: a pixel is {:.6g} µm, as the file tells\n", file, *um_per_px);
+    note("note: {}: a pixel is {:.6g} µm, as the file says\n", file, *um_per_px);
   }
   return std::move(picture.image);
 }

@@ -192,9 +192,9 @@ vision::TrackResult tracks_of_file(const std::string& file, vision::TrackSetting
   if (!times.empty()) throw InputError(file, "is a table, times_s needs pictures");
   const vision::TrackTable table = vision::read_track_table(file, settings.um_per_px);
   if (!settings.um_per_px) settings.um_per_px = table.um_per_px;
-  if (!settings.um_per_px) throw InputError(file, "tells no scale: give um_per_px");
+  if (!settings.um_per_px) throw InputError(file, "states no scale: give um_per_px");
   if (!settings.rate && !table.rows.front().t && !table.interval)
-    throw InputError(file, "tells no times: give fps");
+    throw InputError(file, "states no times: give fps");
   vision::TrackResult result = vision::tracks_of_table(table, file, settings);
   if (!table.rows.front().id)
     result.notes.push_back(file + ": has no tracks, its positions are linked");
@@ -213,9 +213,9 @@ py::dict track_file(const std::string& file, const Given& given, const std::stri
   const auto work = [&](const Stop& stop) {
     if (vision::is_track_table(file)) return tracks_of_file(file, settings, times);
     const auto frames = vision::open_frames(file, vision::frame_options(settings, times));
-    if (!frames->rate()) throw InputError(file, "tells no times: give fps or times_s");
+    if (!frames->rate()) throw InputError(file, "states no times: give fps or times_s");
     if (!settings.um_per_px && !frames->um_per_px())
-      throw InputError(file, "tells no scale: give um_per_px");
+      throw InputError(file, "states no scale: give um_per_px");
     const double all = frames->count().value_or(0);
     vision::TrackResult result = vision::track_video(
         *frames, file, settings,

@@ -369,6 +369,16 @@ TEST_F(Track, GapsInNamesAreGapsInTimeAndTold) {
   EXPECT_NE(read("out/tracks.csv").find("\n6,12,2.6,"), std::string::npos);
 }
 
+TEST_F(Track, NamesOfSeveralNumbersAskForTimes) {
+  film("video", 12);
+  for (int k = 0; k < 12; ++k)
+    fs::rename(at.folder / ("video/f" + std::to_string(k) + ".pgm"),
+               at.folder / ("video/f" + std::to_string(k / 4) + "_" + std::to_string(k) + ".pgm"));
+  const Outcome outcome =
+      run({"track", "video", "--um-per-px", "0.5", "--rate", "10", "--out", "out", "--no-overlay"});
+  EXPECT_TRUE(names(outcome.err, "gaps need the times of the pictures (--times)")) << outcome.err;
+}
+
 TEST_F(Track, APictureThatCannotBeReadEndsAFolder) {
   film("video", 3, 300);
   write("video/f9.pgm", pgm(20, 20, [](int, int) { return 7; }));

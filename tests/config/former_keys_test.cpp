@@ -171,9 +171,12 @@ TEST(FormerKeys, AssignmentsGetThePresentKeyOfTheAlternativeThatIsHeld) {
   EXPECT_EQ(std::get<Square>(house.body).clearance, 6);
   EXPECT_EQ(house.rooms[1].gap, 7);
   EXPECT_EQ(notes.size(), 5u);
-  EXPECT_EQ(set_values(house, {"shape.margin_um=9", "sensing.timeout_s=1"}),
-            Notes{"--set shape.margin_um: is now 'body.clearance_um'"});
-  EXPECT_EQ(sample::message_of([&] { set_value(house, "rooms.9.margin_um=1"); }),
+  EXPECT_EQ(
+      set_values(
+          house,
+          Settings(std::vector<std::string>{"shape.margin_um=9", "sensing.timeout_s=1"}, "--set")),
+      Notes{"--set shape.margin_um: is now 'body.clearance_um'"});
+  EXPECT_EQ(sample::message_of([&] { set_value(house, "rooms.9.margin_um=1", "--set"); }),
             "--set rooms.9.margin_um: rooms has 2 entries, counted from 0, and none is '9'");
 }
 
@@ -189,8 +192,9 @@ TEST(FormerKeys, AreReadWithinAnAssignedValue) {
   EXPECT_EQ(notes,
             (Notes{"--set shape: 'margin_um' is now 'clearance_um'", "--set shape: is now 'body'",
                    "--set rooms: 'margin_um' is now 'gap_um'"}));
-  EXPECT_EQ(sample::message_of([&] { set_value(house, "body={type: round, timeout_s: 4}"); }),
-            "--set body: 'body.timeout_s' is now 'sensing.timeout_s': set that");
+  EXPECT_EQ(
+      sample::message_of([&] { set_value(house, "body={type: round, timeout_s: 4}", "--set"); }),
+      "--set body: 'body.timeout_s' is now 'sensing.timeout_s': set that");
 }
 
 }  // namespace

@@ -114,7 +114,8 @@ TEST(Issues, OfAnAssignmentWithoutAnOptionStandAtItsKey) {
 TEST(Issues, OfDocumentAndAssignmentsComeTogether) {
   KeyLocations locations;
   Issues issues;
-  read_yaml_text<Scene>("seed: -1\ntimes_s: [a]\n", "s.yaml", {"count=x", "nose=3"}, locations,
+  read_yaml_text<Scene>("seed: -1\ntimes_s: [a]\n", "s.yaml",
+                        Settings(std::vector<std::string>{"count=x", "nose=3"}, "--set"), locations,
                         issues);
   std::string found;
   for (const Issue& issue : issues) found += issue.keys.at(0) + " at " + issue.location + "; ";

@@ -7,7 +7,7 @@
 namespace microswarm {
 namespace {
 
-KeyLocations keys(std::vector<std::string> assignments = {}) {
+KeyLocations keys(const std::vector<std::string>& assignments = {}) {
   const char* text =
       "name: a\n"
       "navigator:\n"
@@ -15,7 +15,7 @@ KeyLocations keys(std::vector<std::string> assignments = {}) {
       "  speed_um_per_s: 20\n"
       "  waypoints_um: [[1, 2],\n"
       "    [3, 4]]\n";
-  return find_locations(parse_yaml(text, "a.yaml"), "a.yaml", std::move(assignments));
+  return find_locations(parse_yaml(text, "a.yaml"), "a.yaml", {assignments, "--set"});
 }
 
 std::string said(const KeyLocations& at, std::string_view key) {

@@ -56,11 +56,12 @@ TEST(Set, TheOrderOfKeysDoesNotMatter) {
   std::vector<std::string> texts{"seed=3", "tip.opening_deg=10", "tip.type=fan"};
   do {
     Scene scene;
-    set_values(scene, texts);
+    set_values(scene, {texts, ""});
     EXPECT_EQ(scene, expected) << texts[0] << " " << texts[1];
     KeyLocations locations;
     Issues issues;
-    EXPECT_EQ(read_yaml_text<Scene>("{}", "s.yaml", texts, locations, issues).tip, expected.tip);
+    EXPECT_EQ(read_yaml_text<Scene>("{}", "s.yaml", {texts, ""}, locations, issues).tip,
+              expected.tip);
   } while (std::ranges::next_permutation(texts).found);
   // Of two types the later one counts, whatever stands between them.
   Scene scene;
@@ -70,7 +71,7 @@ TEST(Set, TheOrderOfKeysDoesNotMatter) {
 
 TEST(Set, ATypeComesBeforeThePartsOfItsOwnVariantOnly) {
   const auto order = [](const std::vector<std::string>& texts) {
-    const Settings settings(texts);
+    const Settings settings(texts, "");
     std::string joined;
     for (const std::size_t i : types_first(settings.list)) joined += settings.list[i].key + " ";
     return joined;
@@ -112,7 +113,7 @@ TEST(Set, ComplaintsNameTheKeyAndLeaveTheValue) {
       {"", "--set '': must be KEY=VALUE"}};
   Scene scene;
   for (const auto& [assignment, message] : cases) {
-    EXPECT_EQ(message_of([&, text = assignment] { set_value(scene, text); }), message);
+    EXPECT_EQ(message_of([&, text = assignment] { set_value(scene, text, "--set"); }), message);
     EXPECT_EQ(scene, Scene{});
   }
 }

@@ -44,7 +44,8 @@ TEST(Scenario, AsPublishedLeavesNothingOfOursUnsaid) {
     write_file_atomically(folder / "s.yaml", room + keys);
     const std::string what = error_of([&] {
       // What a record holds reads back, and is the same.
-      const std::string text = scenario_text(open_experiment(folder / "s.yaml", set).scenario());
+      const std::string text =
+          scenario_text(open_experiment(folder / "s.yaml", {set, "--set"}).scenario());
       write_file_atomically(folder / "back.yaml", text);
       EXPECT_EQ(scenario_text(open_experiment(folder / "back.yaml").scenario()), text);
     });
@@ -156,7 +157,7 @@ TEST(Scenario, EveryMistakeHasItsLine) {
   const auto folder = empty_folder("scenario_mistakes");
   const auto mistakes = [&](const std::string& text, const std::vector<std::string>& set = {}) {
     write_file_atomically(folder / "s.yaml", text);
-    std::istringstream what(error_of([&] { open_experiment(folder / "s.yaml", set); }));
+    std::istringstream what(error_of([&] { open_experiment(folder / "s.yaml", {set, "--set"}); }));
     std::vector<std::string> lines;
     for (std::string line; std::getline(what, line);) {
       const auto name = line.find("s.yaml");
@@ -202,7 +203,7 @@ TEST(Scenario, KeysOfEarlierVersionsAreRead) {
       "goal_um: [1800, 500]\n";
   const auto opened = [&](const std::string& text, const std::vector<std::string>& set = {}) {
     write_file_atomically(folder / "s.yaml", room + text);
-    return open_experiment(folder / "s.yaml", set).scenario();
+    return open_experiment(folder / "s.yaml", {set, "--set"}).scenario();
   };
   const std::string old = "navigator: {type: radar, frame_timeout_s: 0.3}\n";
   EXPECT_EQ(opened(old).sensing.frame_timeout, 0.3);
@@ -233,7 +234,7 @@ TEST(Scenario, WhatComesOutLaterHasItsPlaceToo) {
   const auto folder = empty_folder("scenario_places");
   const auto message = [&](const std::string& text, const std::vector<std::string>& set = {}) {
     write_file_atomically(folder / "s.yaml", text);
-    const std::string what = error_of([&] { open_experiment(folder / "s.yaml", set); });
+    const std::string what = error_of([&] { open_experiment(folder / "s.yaml", {set, "--set"}); });
     return what.substr(what.starts_with("--set") ? 0 : std::min(what.size(), what.find("s.yaml")));
   };
   const std::string room =

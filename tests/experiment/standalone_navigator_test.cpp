@@ -32,11 +32,11 @@ class InBothLoops : public testing::TestWithParam<const char*> {};
 TEST_P(InBothLoops, TheCommandsAreTheSame) {
   const std::vector<std::string> settings{"time_limit_s=30"};
   const auto file = shipped / GetParam();
-  Session session(open_experiment(file, settings));
+  Session session(open_experiment(file, {settings, ""}));
   session.finish();
   const std::vector<Frame>& frames = session.record().frames;
 
-  Experiment experiment = open_experiment(file, settings);
+  Experiment experiment = open_experiment(file, {settings, ""});
   const auto plant = make_kinematic_plant(experiment.scenario(), experiment.world);
   StandaloneNavigator navigator(std::move(experiment));
   ASSERT_GT(frames.size(), 10u);

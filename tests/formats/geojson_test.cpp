@@ -237,7 +237,7 @@ TEST(GeoJson, UnitsAreToldOrAskedFor) {
   };
   const char* degrees = "[[[8.54,47.37],[8.55,47.37],[8.55,47.38],[8.54,47.37]]]";
   ASSERT_EQ(notes(degrees).size(), 1u);
-  EXPECT_NE(notes(degrees)[0].find("--um-per-unit"), std::string::npos);
+  EXPECT_NE(notes(degrees)[0].find("um_per_unit"), std::string::npos);
   EXPECT_TRUE(notes(degrees, 1).empty());
   EXPECT_TRUE(notes("[[[0,0],[200,0],[200,90],[0,0]]]").empty());
   const char* country = "[[[458000,5500000],[458100,5500000],[458100,5500100],[458000,5500000]]]";
@@ -248,7 +248,7 @@ TEST(GeoJson, UnitsAreToldOrAskedFor) {
                           R"({"name":"EPSG:32633"}},"geometry":)" +
                           polygon(square) + "}";
   EXPECT_TRUE(test::is_one_line_naming(geojson_complaint(crs), "x.geojson:1",
-                                       {"crs", "EPSG:32633", "--um-per-unit"}));
+                                       {"crs", "EPSG:32633", "um_per_unit"}));
   EXPECT_EQ(parsed_geojson(crs, 1e6).bounds.hi, (Vec2{4e6, 4e6}));
   const std::string own =
       R"({"type":"Polygon","um_per_unit":3,"crs":null,"coordinates":)" + std::string(square) + "}";

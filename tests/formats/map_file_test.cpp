@@ -167,8 +167,8 @@ TEST(MapFile, SettingsChooseHowAFileIsRead) {
   EXPECT_EQ(walls({"map.threshold=5"}), 0u);
   const auto spec = choose_map_spec(folder / "a.pgm", {.settings = {"map.um_per_px=4"}});
   EXPECT_EQ(std::get<ImageMap>(spec).um_per_px, 4);
-  EXPECT_TRUE(test::is_one_line_naming(error_of([&] { walls({"map.fre=dark"}); }), "--set map.fre",
-                                       {"free"}));
+  EXPECT_TRUE(
+      test::is_one_line_naming(error_of([&] { walls({"map.fre=dark"}); }), "map.fre", {"free"}));
   folder.with("walls", "0,0,2,1\n");
   EXPECT_TRUE(std::holds_alternative<RectanglesMap>(
       choose_map_spec(folder / "walls", {.settings = {"map.type=rectangles"}})));
@@ -193,10 +193,10 @@ TEST(MapFile, AUnitScalesFilesInPlaneCoordinates) {
             (Vec2{8000, 6000}));
   EXPECT_TRUE(test::is_one_line_naming(
       error_of([&] { choose_map_spec(folder / "a.pgm", {.um_per_unit = 5}); }),
-      (folder / "a.pgm").string(), {"--um-per-unit", "--um-per-px"}));
+      (folder / "a.pgm").string(), {"um_per_unit", "um_per_px"}));
   EXPECT_TRUE(test::is_one_line_naming(
       error_of([&] { choose_map_spec(folder / "a.geojson", {.um_per_px = 5}); }),
-      (folder / "a.geojson").string(), {"--um-per-unit", "--um-per-px"}));
+      (folder / "a.geojson").string(), {"um_per_unit", "um_per_px"}));
 }
 
 /// A picture that is all wall says what to change.
@@ -249,10 +249,10 @@ TEST(MapFile, AScaleIsGivenOnce) {
   };
   EXPECT_TRUE(test::is_one_line_naming(
       complaint("a.geojson", {.um_per_unit = 5, .settings = {"map.um_per_unit=3"}}),
-      (folder / "a.geojson").string(), {"--um-per-unit", "map.um_per_unit"}));
+      (folder / "a.geojson").string(), {"um_per_unit", "map.um_per_unit"}));
   EXPECT_TRUE(test::is_one_line_naming(
       complaint("a.pgm", {.um_per_px = 5, .settings = {"map.um_per_px=5"}}),
-      (folder / "a.pgm").string(), {"--um-per-px", "map.um_per_px"}));
+      (folder / "a.pgm").string(), {"um_per_px", "map.um_per_px"}));
 }
 
 TEST(MapFile, WhatMakesAMapOfAFileIsTold) {
@@ -402,9 +402,9 @@ TEST(GuessMapSpec, SaysWhatIsMissing) {
     return what.substr(std::min(what.size(), (folder / "").string().size()));
   };
   for (const char* name : {"x.png", "x.csv", "x.doc", "x.yaml"}) folder.with(name, "a: 1\n");
-  EXPECT_TRUE(test::is_one_line_naming(complaint("x.png"), "x.png", {"missing", "--um-per-px"}));
+  EXPECT_TRUE(test::is_one_line_naming(complaint("x.png"), "x.png", {"missing", "um_per_px"}));
   EXPECT_TRUE(test::is_one_line_naming(complaint("x.png", -1), "x.png", {"-1", "1e-6..1e6"}));
-  EXPECT_TRUE(test::is_one_line_naming(complaint("x.csv", 2), "x.csv", {"pixels", "--um-per-px"}));
+  EXPECT_TRUE(test::is_one_line_naming(complaint("x.csv", 2), "x.csv", {"pixels", "um_per_px"}));
   EXPECT_EQ(complaint("no.png", 2), "no.png: cannot read: No such file or directory");
   EXPECT_TRUE(
       test::is_one_line_naming(complaint("x.doc"), "x.doc", {"ROS", "MovingAI", "GeoJSON"}));

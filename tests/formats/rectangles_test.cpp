@@ -44,7 +44,7 @@ TEST(MapFile, MatrixOfZerosAndOnes) {
   EXPECT_TRUE(read("m.csv", "1 0\n", {.settings = {"map.wall=zero"}}).notes.empty());
   const auto box = folder.with("m.txt", "0 0 1 1\n");
   EXPECT_TRUE(test::is_one_line_naming(error_of([&] { guess_map_spec(box); }), box.string(),
-                                       {"matrix", "missing", "--um-per-px"}));
+                                       {"matrix", "missing", "um_per_px"}));
   EXPECT_EQ(
       area(read_map_parts(choose_map_spec(box, {.settings = {"map.type=rectangles"}})).walls[0]),
       1);
@@ -136,7 +136,7 @@ TEST(MapFile, ATableThatLooksLikeAMatrixIsTold) {
   for (const char* text : {"True False\nFalse True\n", "[[1,0],[0,1]]\n", "0,255\n255,0\n"}) {
     const auto file = folder.with("m.csv", text);
     EXPECT_TRUE(test::is_one_line_naming(error_of([&] { choose_map_spec(file, {.um_per_px = 1}); }),
-                                         file.string(), {"rectangles", "--um-per-unit", "matrix"}));
+                                         file.string(), {"rectangles", "um_per_unit", "matrix"}));
   }
   const auto wide = folder.with("u.csv", std::string("\xff\xfe\x31\0\x20\0", 6));
   EXPECT_EQ(error_of([&] { choose_map_spec(wide, {.um_per_px = 1}); }),

@@ -198,7 +198,7 @@ TEST(Svg, IsWhatItLooksLike) {
   const LoadedMap map = load_map(guess_map_spec(folder / "a.svg"));
   EXPECT_EQ(map.map->bounds().hi, (Vec2{2000, 1000}));
   ASSERT_EQ(map.notes.size(), 1u);
-  EXPECT_NE(map.notes[0].find("--um-per-px"), std::string::npos) << map.notes[0];
+  EXPECT_NE(map.notes[0].find("give um_per_px"), std::string::npos) << map.notes[0];
   EXPECT_NEAR(map.map->clearance({1500, 300}), 100, 1);  // circle at (1500, 600), radius 200
   EXPECT_FALSE(map.map->is_free(Vec2{1500, 600}, 0));
   EXPECT_FALSE(map.map->is_free(Vec2{500, 200}, 0));  // the stroke, 80 wide
@@ -213,7 +213,7 @@ TEST(Svg, IsWhatItLooksLike) {
   folder.with("b.svg", R"(<svg xmlns="http://www.w3.org/2000/svg" width="200" height="100"/>)");
   EXPECT_TRUE(
       test::is_one_line_naming(test::error_of([&] { load_map(guess_map_spec(folder / "b.svg")); }),
-                               (folder / "b.svg").string(), {"mm", "--um-per-unit"}));
+                               (folder / "b.svg").string(), {"mm", "um_per_unit"}));
   folder.with("b.svg", "<svg");
   EXPECT_TRUE(
       test::is_one_line_naming(test::error_of([&] { load_map(guess_map_spec(folder / "b.svg")); }),

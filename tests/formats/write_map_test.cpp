@@ -98,7 +98,7 @@ TEST(WriteMapErrors, OneLineEach) {
   };
   EXPECT_EQ(complaint("a.doc", 1),
             "a.doc: maps are written as .geojson, .png, .map (MovingAI) or .yaml (ROS)");
-  EXPECT_TRUE(test::is_one_line_naming(complaint("a.png", 0), "a.png", {"missing", "--cell"}));
+  EXPECT_TRUE(test::is_one_line_naming(complaint("a.png", 0), "a.png", {"missing", "cell"}));
   EXPECT_NE(error_of([&] { write_map(folder / "no/a.json", map); }).find("cannot write"),
             std::string::npos);
   EXPECT_TRUE(test::is_one_line_naming(error_of([&] { rasterise(map, 0.001); }), "",

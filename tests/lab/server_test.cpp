@@ -22,7 +22,7 @@ experiment::Record record_of(const Lab& lab, std::uint64_t session) {
 
 /// Of the command line.
 std::string hash_of(const std::string& file, const std::vector<std::string>& settings = {}) {
-  const auto session = experiment::open_session(file, settings);
+  const auto session = experiment::open_session(file, {settings, ""});
   session->finish();
   return session->record().hash();
 }

@@ -40,8 +40,14 @@ def test_keys_and_units_of_a_file(tmp_path):
     drawing = tmp_path / "a.geojson"
     drawing.write_text('{"type":"LineString","coordinates":[[0,0],[3,0]]}')
     assert ms.Map.load(drawing, um_per_unit=1000, line_width_um=100).bounds_um == (-50, -50, 3050, 50)
-    with pytest.warns(FutureWarning, match="um_per_unit"):
+    with pytest.warns(FutureWarning, match="give um_per_unit") as caught:
         ms.Map.load(drawing, line_width_um=1)
+    assert "--" not in str(caught[0].message)
+    degrees = tmp_path / "b.geojson"
+    degrees.write_text('{"type":"Point","coordinates":[1,2],"crs":{}}')
+    with pytest.raises(ms.InputError, match="give um_per_unit") as refused:
+        ms.Map.load(degrees)
+    assert "--" not in str(refused.value)
     with pytest.raises(ms.InputError, match="line_width"):
         ms.Map.load(drawing, um_per_unit=1000)
     with pytest.raises(ms.InputError, match="map.fre"):

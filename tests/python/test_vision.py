@@ -172,7 +172,7 @@ def test_times_of_ones_own(video, tmp_path):
         ms.track((one for one in video), 0.5, times_s=times[:-1])
     with pytest.raises(ms.InputError, match="both"):
         ms.track(video, 0.5, 4, times_s=times)
-    with pytest.raises(ms.InputError, match="tells no times"):
+    with pytest.raises(ms.InputError, match="states no times"):
         ms.track(folder, 0.5)
     table = tmp_path / "times.csv"
     table.write_text("picture,t_s\n" + "".join(f"{k},{t}\n" for k, t in enumerate(times)))
@@ -198,10 +198,19 @@ def test_gaps_in_names_are_gaps_in_time(video, tmp_path):
     assert set(tracks["t_s"].tolist()) == {k / 4 for k in (*range(6), *range(26, 32))}
 
 
+def test_gaps_in_names_of_several_numbers_need_times(video, tmp_path):
+    folder = folder_of(tmp_path / "in", video)
+    for k in range(12):
+        (folder / f"{k:03}.pgm").rename(folder / f"{k // 4}_{k:03}.pgm")
+    with pytest.warns(UserWarning, match="gaps need the times") as caught:
+        ms.track(folder, 0.5, 4, min_mass=100)
+    assert not any("--" in str(one.message) for one in caught)
+
+
 def test_a_scale_is_needed(video, tmp_path):
     with pytest.raises(ms.InputError, match="um_per_px is missing"):
         ms.track(video, fps=4)
-    with pytest.raises(ms.InputError, match="tells no scale: give um_per_px"):
+    with pytest.raises(ms.InputError, match="states no scale: give um_per_px"):
         ms.track(folder_of(tmp_path / "in", video), fps=4)
 
 

@@ -28,10 +28,11 @@ struct Rehearsal {
   Rehearsal(const std::string& scenario, const std::string& rig_name,
             const std::vector<std::string>& rig_settings = {},
             const std::vector<std::string>& settings = {})
-      : scene(experiment::load_scene(experiment::read_scenario(scenarios / scenario, settings),
-                                     (scenarios / scenario).parent_path())),
+      : scene(
+            experiment::load_scene(experiment::read_scenario(scenarios / scenario, {settings, ""}),
+                                   (scenarios / scenario).parent_path())),
         world(experiment::build_world(scene)),
-        rig(read_rig(scenarios / "rigs" / rig_name, rig_settings)) {}
+        rig(read_rig(scenarios / "rigs" / rig_name, {rig_settings, ""})) {}
 
   experiment::RunResult in_rig(SimulatedRig& plant,
                                std::span<experiment::RunListener* const> listeners = {}) const {
@@ -148,10 +149,9 @@ TEST(SimulatedRig, WhatDoesNotGoTogetherIsRefused) {
                ": drive_rate_hz is 100, the field turns 16 times a second and needs at least 160");
   const auto on_device = [&](const std::string& rate, const std::string& frequency) {
     return test::error_of([&] {
-      read_rig(
-          scenarios / "rigs/vortex.yaml",
-          std::vector<std::string>{"driver.type=serial", "driver.waveforms=true",
-                                   "drive_rate_hz=" + rate, "field.frequency_hz=" + frequency});
+      read_rig(scenarios / "rigs/vortex.yaml",
+               {"driver.type=serial", "driver.waveforms=true", "drive_rate_hz=" + rate,
+                "field.frequency_hz=" + frequency});
     });
   };
   EXPECT_EQ(on_device("50", "100"), "nothing was thrown");

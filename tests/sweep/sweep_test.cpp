@@ -70,7 +70,7 @@ TEST(Sweep, OnAChangedInputIsRefused) {
   };
   const auto line = [&](const std::string& what) {
     return file + ": was begun with another " + what +
-           ": go on with that one, or give another database with --out";
+           ": go on with that one, or give another database";
   };
   write_file_atomically(folder / "sweep.yaml", sweep_text(2));
   EXPECT_EQ(refused(), line("sweep file"));
@@ -95,7 +95,7 @@ TEST(Sweep, OnAChangedMapIsRefused) {
   EXPECT_EQ(experiment::error_of([&] { run_alone(load_sweep(folder / "sweep.yaml", 1), file, 1); }),
             file +
                 ": was begun with another map, track or program: go on with that one, or give "
-                "another database with --out");
+                "another database");
 }
 
 TEST(Sweep, WhatIsNoDatabaseOfASweepIsRefused) {
@@ -128,7 +128,7 @@ TEST(Sweep, WhatIsNoDatabaseOfASweepIsRefused) {
       .run("UPDATE sweep SET value = '0.0.1' WHERE key = 'version'");
   EXPECT_EQ(refused(older),
             "was begun with another version of this program: go on with that one, or give another "
-            "database with --out");
+            "database");
   Database(older, Database::Access::write).run("DROP TABLE columns");
   EXPECT_NE(experiment::error_of([&] { SweepReader reader(older); }), "");
 }

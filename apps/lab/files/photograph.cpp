@@ -28,7 +28,7 @@ constexpr int max_steps = 100'000;
 
 vision::VesselSegmentation searched(const formats::Image& photo, const PhotoRequest& request) {
   vision::VesselParams params;
-  set_values(params, request.settings);
+  set_values(params, {request.settings, ""});
   return vision::segment_vessels(photo, params);
 }
 

@@ -7,7 +7,7 @@ Source to_source(const Opening& opening) {
   return {.file = opening.file.string(),
           .rig = opening.options.rig.string(),
           .settings = opening.options.settings.texts(),
-          .rig_settings = opening.options.rig_settings,
+          .rig_settings = opening.options.rig_settings.texts(),
           .live = opening.live.has_value(),
           .photo = opening.photo};
 }

@@ -47,7 +47,7 @@ int gather_command(const GatherOptions& o, const Context& context) {
                                   .robots = o.robots,
                                   .channel_width = o.channel_width,
                                   .max_steps = o.max_steps,
-                                  .settings = other_settings(o.settings),
+                                  .settings = {other_settings(o.settings), "--set"},
                                   .seed = o.seed},
                                  o.map.file);
   note_width(o, made.measured_width);

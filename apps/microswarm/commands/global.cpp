@@ -65,7 +65,7 @@ planning::GlobalRrtParams search_parameters(const GlobalOptions& o,
   grown.contact = tree.contact;
   grown.separation = tree.separation;
   choice.planner = grown;
-  note_each(set_values(choice, other_settings(o.settings)));
+  note_each(set_values(choice, {other_settings(o.settings), "--set"}));
   const auto* set = std::get_if<planning::GlobalRrtParams>(&choice.planner);
   const auto differs = [&](const char* key, const auto& was, const auto& is) {
     if (was != is)
@@ -168,14 +168,15 @@ experiment::GlobalAnswer ask_tree(const GlobalOptions& o, const formats::LoadedM
 experiment::GlobalAnswer found_plan(const GlobalOptions& o, const formats::LoadedMap& map,
                                     std::vector<Vec2> goals, const Stop& stop) {
   if (!o.tree.empty()) return ask_tree(o, map, goals, stop);
-  experiment::GlobalAnswer found = experiment::answer(*map.map,
-                                                      {.starts = places(o.robots),
-                                                       .goals = std::move(goals),
-                                                       .settings = other_settings(o.settings),
-                                                       .seed = o.seed,
-                                                       .shorten = !o.as_found,
-                                                       .keep_tree = !o.save_tree.empty()},
-                                                      o.map.file, stop);
+  experiment::GlobalAnswer found =
+      experiment::answer(*map.map,
+                         {.starts = places(o.robots),
+                          .goals = std::move(goals),
+                          .settings = {other_settings(o.settings), "--set"},
+                          .seed = o.seed,
+                          .shorten = !o.as_found,
+                          .keep_tree = !o.save_tree.empty()},
+                         o.map.file, stop);
   note_each(found.notes);
   if (found.tree) experiment::write_global_tree(*found.tree, map, o.save_tree);
   return found;

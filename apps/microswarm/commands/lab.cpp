@@ -60,17 +60,20 @@ std::optional<lab::Opening> to_opening(const LabOptions& o) {
     if (!o.photo.file.empty()) throw InputError("--photo: there is no map for the photograph");
     return std::nullopt;
   }
-  lab::Opening opening{
-      .file = lab::present_record(o.file),
-      .options = {.settings = o.settings, .rig = o.rig, .rig_settings = o.rig_settings}};
+  lab::Opening opening{.file = lab::present_record(o.file),
+                       .options = {.settings = {o.settings, "--set"},
+                                   .rig = o.rig,
+                                   .rig_settings = {o.rig_settings, "--set-rig"}}};
   if (report_options(o.photo).photo)  // reports an unreadable photograph
     opening.photo = lab::BackgroundPhoto{.file = o.photo.file, .um_per_px = *o.photo.um_per_px};
   if (o.rig.empty() || o.simulate) {
     note_each(reading([&] { return rig::open_on_rig(opening.file, opening.options); })->notes());
     return opening;
   }
-  const rig::RigExperiment on =
-      reading([&] { return rig::open_rig_experiment(o.file, o.settings, o.rig, o.rig_settings); });
+  const rig::RigExperiment on = reading([&] {
+    return rig::open_rig_experiment(o.file, {o.settings, "--set"}, o.rig,
+                                    {o.rig_settings, "--set-rig"});
+  });
   note_each(on.experiment.keys.notes());
   note_field(on.rig, on.scenario());
   std::error_code error;

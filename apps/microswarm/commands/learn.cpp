@@ -35,7 +35,7 @@ learning::FollowerTrainingParams training_params(const LearnOptions& o) {
     params.rounds = 1;
     params.iterations = params.last_iterations = 60;
   }
-  note_each(set_values(params, o.settings));
+  note_each(set_values(params, {o.settings, "--set"}));
   return params;
 }
 

@@ -41,7 +41,7 @@ void add_input(Command cmd, const std::shared_ptr<MapOptions>& o) {
 }
 
 formats::LoadedMap load(const MapOptions& o) {
-  for (const Setting& setting : Settings(other_settings(o.settings)).list)
+  for (const Setting& setting : Settings(other_settings(o.settings), "--set").list)
     throw InputError(setting_location("--set", setting.key), "only keys within 'map' are set");
   return load_map(o.map, o.settings);
 }
@@ -189,7 +189,7 @@ std::optional<formats::Mask> read_truth(const std::string& file, const formats::
 
 int segment(const SegmentOptions& o, const Context& context) {
   vision::VesselParams params;
-  note_each(set_values(params, o.settings));
+  note_each(set_values(params, {o.settings, "--set"}));
   if (!o.um_per_px && is_camera(o.photo))
     throw InputError(o.photo, "µm per px is missing: give --um-per-px");
   std::optional<double> um_per_px = o.um_per_px;
@@ -231,7 +231,7 @@ int segment(const SegmentOptions& o, const Context& context) {
   std::string text = fmt::format(
       "method: {}\nvessels cover {:.1f} % of the view, wide ones {:.0f} µm; {} gaps bridged; kept "
       "{:.0f} % of {} pieces\n",
-      vision::describe_choice(found), 100 * found.view_share, found.wide_width_px * cell,
+      vision::describe_choice(found, "--set "), 100 * found.view_share, found.wide_width_px * cell,
       found.bridges, 100 * found.kept_share, found.pieces);
   if (truth) {
     const vision::Agreement a = vision::compare(*truth, found.vessels, &found.field_of_view);

@@ -75,7 +75,7 @@ int plan_command(const PlanOptions& o, const Context& context) {
   const experiment::PathQuery query{
       .start = {{from[0], from[1]}, from.size() > 2 ? radians(from[2]) : 0.0},
       .goal = {to[0], to[1]},
-      .settings = other_settings(o.settings),
+      .settings = {other_settings(o.settings), "--set"},
       .seed = o.seed};
   const formats::LoadedMap map = load_map(o.map, o.settings);
   const Snapshot world(map.map);

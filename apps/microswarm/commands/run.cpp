@@ -119,7 +119,8 @@ int many_runs(const RunOptions& o, const experiment::Scene& scene, const World& 
 std::unique_ptr<experiment::Session> open_on_rig(const RunOptions& o) {
   if (o.rig.empty()) return nullptr;
   const rig::RigExperiment on = reading([&] {
-    return rig::open_rig_experiment(o.scenario, o.settings, o.rig, o.rig_settings, o.seed);
+    return rig::open_rig_experiment(o.scenario, {o.settings, "--set"}, o.rig,
+                                    {o.rig_settings, "--set-rig"}, o.seed);
   });
   note_each(on.experiment.keys.notes());
   note_field(on.rig, on.scenario());
@@ -130,8 +131,9 @@ int run_command(const RunOptions& o, const Context& context) {
   std::unique_ptr<experiment::Session> session = open_on_rig(o);
   std::optional<experiment::Experiment> experiment;
   if (!session) {
-    experiment =
-        reading([&] { return experiment::open_experiment(o.scenario, o.settings, o.seed); });
+    experiment = reading([&] {
+      return experiment::open_experiment(o.scenario, {o.settings, "--set"}, o.seed);
+    });
     note_each(experiment->keys.notes());
   }
   const report::ReportOptions report = report_options(o.photo);

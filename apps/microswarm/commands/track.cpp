@@ -55,10 +55,10 @@ vision::PictureRegion to_region(const std::string& text) {
 vision::TrackSettings to_settings(const TrackOptions& o) {
   vision::TrackSettings settings;
   if (o.config.empty()) {
-    note_each(set_values(settings, o.settings));
+    note_each(set_values(settings, {o.settings, "--set"}));
   } else {
     KeyLocations keys;
-    settings = read_yaml_file<vision::TrackSettings>(o.config, o.settings, keys);
+    settings = read_yaml_file<vision::TrackSettings>(o.config, {o.settings, "--set"}, keys);
     note_each(keys.notes());
   }
   if (o.um_per_px) settings.um_per_px = o.um_per_px;
@@ -83,7 +83,7 @@ void find_scale(vision::TrackSettings& settings, const vision::FrameSource& sour
   if (settings.um_per_px) return;
   settings.um_per_px = source.um_per_px();
   if (!settings.um_per_px) fail_without_scale(name);
-  note("note: {}: a pixel is {:.6g} µm, as the file tells\n", name, *settings.um_per_px);
+  note("note: {}: a pixel is {:.6g} µm, as the file says\n", name, *settings.um_per_px);
 }
 
 /// Tracks the video with a progress bar; `overlay` may be null.
@@ -155,14 +155,14 @@ void take_units(vision::TrackSettings& settings, const vision::TrackTable& table
                 const std::string& file) {
   if (!settings.um_per_px && table.um_per_px) {
     settings.um_per_px = table.um_per_px;
-    note("note: {}: a pixel is {:.6g} µm, as the file tells\n", file, *table.um_per_px);
+    note("note: {}: a pixel is {:.6g} µm, as the file says\n", file, *table.um_per_px);
   }
   if (!settings.um_per_px) fail_without_scale(file);
   if (settings.rate) return;
   if (table.rows.front().t)
     note("note: {}: the times are those in the table\n", file);
   else if (table.interval)
-    note("note: {}: {:.6g} s from frame to frame, as the file tells\n", file, *table.interval);
+    note("note: {}: {:.6g} s from frame to frame, as the file says\n", file, *table.interval);
   else
     note("note: {} has no times, one picture a second is assumed: give --rate\n", file);
 }

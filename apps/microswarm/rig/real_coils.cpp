@@ -39,7 +39,7 @@ Bench::Bench(const rig::Rig& of, const CoilOptions& o) : rig(of) {
   if (real) kept.emplace(rig, o.coils_cold);
   temperatures =
       kept ? kept->at_start() : actuation::Amplifiers(rig.system.amplifiers()).temperatures();
-  if (kept && !kept->known()) note("note: {}\n", kept->why_hot());
+  if (kept && !kept->known()) note_each({kept->why_hot()});
 }
 
 bool note_zero(const actuation::StopReport& zero) {

@@ -81,7 +81,7 @@ void ask_driver(const rig::Rig& rig, const CheckOptions& o, const Stop& stop, An
 }
 
 int rig_check(const CheckOptions& o, const Stop& stop) {
-  const rig::Rig rig = rig::read_rig(o.rig, o.settings);
+  const rig::Rig rig = rig::read_rig(o.rig, {o.settings, "--set"});
   Answers answers(o.json);
   answers.say(true, "coils", fmt::format("{}: {} coils", rig.system.name(), rig.system.size()));
   answer(answers, {rig::check_field(rig)});

@@ -24,8 +24,8 @@ constexpr FileKind kinds[] = {{"scenario", {"map", "navigator"}, "`microswarm ru
                               {"scenario", {"map", "goal_um"}, "`microswarm run` takes it"},
                               {"sweep", {"scenario", "trials"}, "`microswarm sweep` takes it"},
                               {"sweep", {"scenario", "grid"}, "`microswarm sweep` takes it"},
-                              {"rig", {"coils", "driver"}, "the option --rig takes it"},
-                              {"rig", {"coils", "camera"}, "the option --rig takes it"},
+                              {"rig", {"coils", "driver"}, "give it as the rig"},
+                              {"rig", {"coils", "camera"}, "give it as the rig"},
                               {"coil system", {"coils", "drives"}, "a rig's key 'coils' names it"},
                               {"ROS map", {"image", "resolution"}, "a map's key 'file' names it"}};
 

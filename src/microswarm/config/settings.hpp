@@ -21,17 +21,16 @@ struct Setting {
 /// "KEY=VALUE".
 std::string to_string(const Setting& setting);
 /// Splits KEY=VALUE. Throws InputError, which names the option, for a text that is none.
-Setting parse_setting(std::string_view text, std::string_view option = "--set");
+Setting parse_setting(std::string_view text, std::string_view option = {});
 
 /// Assignments applied after a file is read, and the command-line option that gave them, for the
 /// locations of issues. Without an option a location is the key alone.
 struct Settings {
   Settings() = default;
-  Settings(std::initializer_list<std::string> texts, std::string from = "--set")
-      : Settings(std::vector<std::string>(texts), std::move(from)) {}
   /// From KEY=VALUE each; throws InputError for a text that is none.
-  // NOLINTNEXTLINE(google-explicit-constructor): a plain list belongs to --set
-  Settings(const std::vector<std::string>& texts, std::string from = "--set");
+  Settings(std::initializer_list<std::string> texts)
+      : Settings(std::vector<std::string>(texts), {}) {}
+  Settings(const std::vector<std::string>& texts, std::string from);
   Settings(std::vector<Setting> settings, std::string from)
       : list(std::move(settings)), option(std::move(from)) {}
 
@@ -40,7 +39,7 @@ struct Settings {
   std::vector<std::string> texts() const;
 
   std::vector<Setting> list{};
-  std::string option = "--set";
+  std::string option{};
 };
 
 /// Place of an issue in an assignment: "--set planner.step_um", or the key alone without an option.

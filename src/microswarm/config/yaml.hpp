@@ -61,7 +61,7 @@ T read_yaml_file(const std::filesystem::path& path) {
   return read_yaml_text<T>(read_file(path, max_yaml_bytes), path.string());
 }
 
-/// Applies one assignment of `--set` or a similar option. Setting a variant's `type` to another
+/// Applies one assignment, which `option` gave. Setting a variant's `type` to another
 /// alternative resets it to that alternative's defaults; its other keys can only be set once it is
 /// chosen. Issues are as in a file, with the location "--set planner.stpe_um", and leave `value`
 /// unchanged. Returns the assignment with its current keys; nothing for a key that no longer has a
@@ -76,7 +76,7 @@ std::optional<Setting> set_value(T& value, const Setting& setting, std::string_v
 }
 /// The same for KEY=VALUE.
 template <HasFields T>
-void set_value(T& value, std::string_view text, std::string_view option = "--set") {
+void set_value(T& value, std::string_view text, std::string_view option = {}) {
   Notes notes;
   set_value(value, parse_setting(text, option), option, notes);
 }

@@ -105,7 +105,7 @@ class GeoJsonReader {
         has_name ? quote((*found)[path].get<std::string>()) + " is given" : "is given";
     fail(place.member("crs"),
          crs +
-             ": coordinates may be degrees or metres; give um_per_unit (--um-per-unit), the µm "
+             ": coordinates may be degrees or metres; give um_per_unit, the µm "
              "for a unit of the file");
   }
 
@@ -115,7 +115,7 @@ class GeoJsonReader {
     all.include(parts_.bounds.lo);
     all.include(parts_.bounds.hi);
     const std::string advice =
-        "they are read as µm; if they are not, give um_per_unit (--um-per-unit), the µm for a unit";
+        "they are read as µm; if they are not, give um_per_unit, the µm for a unit";
     constexpr double max_longitude = 180, max_latitude = 90, far = 100;
     if (std::max(std::abs(all.lo.x), std::abs(all.hi.x)) <= max_longitude &&
         std::max(std::abs(all.lo.y), std::abs(all.hi.y)) <= max_latitude)

@@ -58,8 +58,8 @@ RectangleColumns find_columns(const Lines& lines, const std::vector<std::string_
   constexpr std::size_t missing = ~std::size_t{0};
   RectangleColumns found{missing, missing, missing, missing};
   constexpr std::string_view expected =
-      "rectangles have x,y,width,height, (x, y) being the lower left corner; other units by "
-      "um_per_unit (--um-per-unit)";
+      "rectangles have x,y,width,height, (x, y) being the lower left corner; for other "
+      "units give um_per_unit";
   for (std::size_t column = 0; column < header.size(); ++column) {
     if (column == 0 && header[column].empty()) continue;
     std::string name(header[column]);

@@ -55,7 +55,7 @@ void write_map(const std::filesystem::path& path, const Map& map, double cell) {
     return write_file_atomically(path, geojson_text(to_parts(map)));
   if (extension != ".png" && extension != ".map" && extension != ".yaml")
     throw InputError(path.string(), fmt::format("maps are written as {}", written_map_formats));
-  if (cell == 0) throw InputError(path.string(), "the size of a cell is missing: give --cell");
+  if (cell == 0) throw InputError(path.string(), "the size of a cell is missing");
   const Mask walls = rasterise(map, cell);
   if (extension == ".png")
     write_png(path, picture(walls, 255));

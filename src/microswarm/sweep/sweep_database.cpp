@@ -165,14 +165,12 @@ void SweepDatabase::check_same() const {
   for (const Identity& one : plan_identity(plan_))
     if (about[one.key] != one.value)
       database_.fail(fmt::format(
-          "was begun with another {}: go on with that one, or give another database with --out",
-          one.name));
+          "was begun with another {}: go on with that one, or give another database", one.name));
   const std::vector<SweepColumn> columns = read_columns(database_);
   bool same = columns.size() == columns_.size();
   for (std::size_t i = 0; same && i < columns.size(); ++i)
     same = columns[i].name == columns_[i].name && columns[i].kind == columns_[i].kind;
-  if (!same)
-    database_.fail("was begun by a program with other columns: give another database with --out");
+  if (!same) database_.fail("was begun by a program with other columns: give another database");
 }
 
 std::vector<SweepTask> SweepDatabase::missing() const {

@@ -29,7 +29,7 @@ struct SweepMethod {
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.name, plain("name", "Name of the method.").needed());
-    visit(self.set, plain("set", "Settings KEY=VALUE, as for --set."));
+    visit(self.set, plain("set", "Settings KEY=VALUE of the scenario."));
   }
 };
 
@@ -49,7 +49,7 @@ struct Sweep {
     visit(self.description, plain("description", "Description of the sweep."));
     visit(self.scenario,
           plain("scenario", "Scenario file, from the sweep file's folder.").needed());
-    visit(self.set, plain("set", "Settings KEY=VALUE of all cells, as for --set."));
+    visit(self.set, plain("set", "Settings KEY=VALUE of the scenarios of all cells."));
     visit(self.grid, plain("grid", "Parameters whose combinations are run."));
     visit(self.methods, plain("methods", "Methods compared in every combination."));
     visit(self.trials, plain("trials", 1, 1e6, "Trials of each cell: 0 to n - 1.").needed());

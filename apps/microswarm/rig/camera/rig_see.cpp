@@ -96,11 +96,11 @@ SeeSettings to_settings(const SeeOptions& o) {
   }
   settings.camera = camera_for(o.picture, settings.camera);
   if (o.config.empty()) {
-    note_each(set_values(settings, o.settings));
+    note_each(set_values(settings, {o.settings, "--set"}));
     return settings;
   }
   KeyLocations keys;
-  settings = read_yaml_file<SeeSettings>(o.config, o.settings, keys);
+  settings = read_yaml_file<SeeSettings>(o.config, {o.settings, "--set"}, keys);
   note_each(keys.notes());
   return settings;
 }

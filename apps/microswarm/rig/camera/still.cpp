@@ -42,7 +42,7 @@ vision::AnyCameraParams find_camera(const std::string& source, const std::string
   vision::AnyCameraParams given;
   if (!rig.empty()) given = rig::device_camera(rig::read_rig(rig).params).value_or(given);
   vision::AnyCameraParams camera = camera_for(source, given);
-  std::visit([&](auto& params) { note_each(set_values(params, settings)); }, camera);
+  std::visit([&](auto& params) { note_each(set_values(params, {settings, "--set"})); }, camera);
   return camera;
 }
 

@@ -233,8 +233,10 @@ std::string operate(rig::LiveSession& session, bool drives_coils, std::optional<
 int rig_run(const RigRunOptions& o, const Context& context) {
   std::vector<std::string> settings = o.settings;
   if (o.hold) settings.push_back("hold_at_goal_s=" + number_text(*o.hold));
-  const rig::RigExperiment on = reading(
-      [&] { return rig::open_rig_experiment(o.scenario, settings, o.rig, o.rig_settings); });
+  const rig::RigExperiment on = reading([&] {
+    return rig::open_rig_experiment(o.scenario, {settings, "--set"}, o.rig,
+                                    {o.rig_settings, "--set-rig"});
+  });
   note_each(on.experiment.keys.notes());
   note_field(on.rig, on.scenario());
   require_person(on.rig, o);
@@ -296,7 +298,7 @@ void add_rig_run(Command rig, Action& action) {
   cmd.add_flag("--overwrite", o->overwrite, "Replace the experiment in the folder, or the video");
   add_settings(cmd, o->settings, "Override a scenario value", type_of<experiment::Scenario>);
   add_rig_settings(cmd, "--set-rig", o->rig_settings);
-  cmd.add_option("--seconds", o->seconds, "End so long after the first command")
+  cmd.add_option("--seconds", o->seconds, "Duration after the first command")
       .type_name("SECONDS")
       .check(number(0.1, 1e6));
   cmd.add_option("--hold", o->hold, "Hold the swarm at the goal for this time, or until stopped")

@@ -78,8 +78,8 @@ int simulate_trials(const SimulateOptions& o, const Context& context) {
       scenes;  // open all first, so that errors are reported before any run
   scenes.reserve(pairs.size());
   for (const Pair& pair : pairs)
-    scenes.push_back(
-        rig::open_rig_experiment(pair.scenario, pair.settings, pair.rig, pair.rig_settings));
+    scenes.push_back(rig::open_rig_experiment(pair.scenario, {pair.settings, "--set"}, pair.rig,
+                                              {pair.rig_settings, "--set-rig"}));
   for (const rig::RigExperiment& on : scenes) {
     note_field(on.rig, on.scenario());
     rig::simulated_camera(on.rig);

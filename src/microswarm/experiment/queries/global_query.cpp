@@ -99,7 +99,7 @@ GlobalAnswer answer(const Map& map, const GlobalQuery& query, const std::string&
   check_finite(query.goals, "goal", name);
   check_ends(map, query.starts, query.goals, play, name);
   if (query.keep_tree && !std::holds_alternative<planning::GlobalRrtParams>(made.planner))
-    throw InputError("global: --save-tree keeps trees of planner.type=global_rrt only");
+    throw InputError("global: a tree to keep is of planner.type=global_rrt only");
   Rng rng(query.seed, Purpose::planner);
   const auto began = Stop::Clock::now();
   std::visit(

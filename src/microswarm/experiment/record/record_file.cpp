@@ -142,8 +142,7 @@ Record read_record(const std::filesystem::path& file) {
   std::string bytes = read_file(file);
   if (bytes.starts_with("SQLite format 3"))
     throw InputError(file.string(),
-                     "the database of a sweep, no record: `microswarm export` writes its trials "
-                     "as a table, with --csv FILE");
+                     "the database of a sweep, no record: export its trials as a table");
   const auto opened = io::read_hdf5(std::move(bytes), file.string());
   const io::Hdf5Reader& in = *opened;
   const std::int64_t format = check_format(in);

@@ -26,7 +26,7 @@ std::pair<double, double> size_um(const SvgSize& size, std::optional<double> um_
   if (um_per_unit) return {*um_per_unit * size.width, *um_per_unit * size.height};
   if (size.width_um && size.height_um) return {*size.width_um, *size.height_um};
   throw InputError(name,
-                   "its size is not in mm, cm, in, pt or pc: give um_per_unit (--um-per-unit), "
+                   "its size is not in mm, cm, in, pt or pc: give um_per_unit, "
                    "the µm for a unit of the drawing");
 }
 
@@ -119,8 +119,8 @@ SvgPicture draw_svg(std::string_view drawing, std::string_view name,
   note_links(text, name, picture.notes);
   if (!um_per_px)
     picture.notes.push_back(fmt::format(
-        "{}: {:.4g} × {:.4g} µm, drawn with pixels of {:.4g} µm: give um_per_px (--um-per-px) for "
-        "finer ones",
+        "{}: {:.4g} × {:.4g} µm, drawn with pixels of {:.4g} µm: give um_per_px for finer "
+        "ones",
         name, picture.width, picture.height, picture.um_per_px));
   return picture;
 }

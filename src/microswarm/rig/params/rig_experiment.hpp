@@ -20,11 +20,9 @@ struct RigExperiment {
   const experiment::Scenario& scenario() const { return experiment.scenario(); }
 };
 
-/// Reads both files; `rig_settings` are texts as from --set-rig. Throws InputError with one line
-/// per issue.
+/// Reads both files. Throws InputError with one line per issue.
 RigExperiment open_rig_experiment(const std::filesystem::path& scenario, const Settings& settings,
-                                  const std::filesystem::path& rig,
-                                  const std::vector<std::string>& rig_settings,
+                                  const std::filesystem::path& rig, const Settings& rig_settings,
                                   std::optional<std::uint64_t> seed = std::nullopt);
 
 }  // namespace microswarm::rig

@@ -67,12 +67,12 @@ KeptTemperatures read_kept(const fs::path& file, std::size_t coils) {
   } catch (const InputError&) {
     throw InputError(
         file.string(),
-        "does not hold the temperatures of coils: remove it, or run with --coils-cold");
+        "does not hold the temperatures of coils: remove it, or start with cold coils");
   }
   if (kept.temperatures.size() != coils)
     throw InputError(file.string(),
                      fmt::format("{} temperatures, the system has {} coils: correct it, or "
-                                 "run with --coils-cold",
+                                 "start with cold coils",
                                  kept.temperatures.size(), coils));
   return kept;
 }
@@ -121,10 +121,8 @@ CoilTemperatures::~CoilTemperatures() {
 }
 
 std::string CoilTemperatures::why_hot() const {
-  return "no temperatures of these coils are known: they are taken at their limit; if they are "
-         "cold, "
-         "run with --coils-cold (" +
-         file_.string() + ")";
+  return "no temperatures of these coils are known (" + file_.string() +
+         "): they are taken at their limit; if they are cold, start with cold coils";
 }
 
 void CoilTemperatures::take(const Eigen::VectorXd& temperatures) {

@@ -102,7 +102,7 @@ Issues missing_limits(const Rig& rig) {
                                                 : "current and the temperature";
   issues.add("coils",
              fmt::format("{} does not limit the {} of every coil: `drives` needs max_current_a and "
-                         "max_temperature_degc, or the run --without-limits",
+                         "max_temperature_degc, or the rig must run without limits",
                          rig.params.coils, what));
   return issues;
 }
@@ -122,7 +122,7 @@ std::vector<RigCheck> check_camera(vision::NewestFrame& camera, const Rig& rig,
        fmt::format("{}, {} frames of {} × {} in {:.3g} s; {}", enum_name(status.state),
                    status.frames, picture.width, picture.height, seen.seconds,
                    timed ? fmt::format("between frames {} (p50 / p95 / p99)", quantiles(seen.gaps))
-                         : "too few to tell the time between them")});
+                         : "too few to measure the time between them")});
   if (const double usual = seen.gaps.quantile(0.5); rate && timed)
     checks.push_back({"frames", usual <= 1.1 / *rate,
                       fmt::format("{:.4g} ms apart as a rule, {:.6g} Hz means {:.4g}", 1e3 * usual,

@@ -16,7 +16,7 @@ namespace microswarm::rig {
 struct RigSessionOptions {
   Settings settings{};          ///< of the scenario
   std::filesystem::path rig{};  ///< rig file; empty: no rig
-  std::vector<std::string> rig_settings{};
+  Settings rig_settings{};
 };
 
 /// Opens a session through a simulated rig, as fast as possible. Throws InputError if rig and

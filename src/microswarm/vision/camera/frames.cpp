@@ -174,12 +174,12 @@ bool is_tiff(const fs::path& file) {
 
 /// Whether a PNG holds several pictures: a chunk acTL before those of pixels.
 bool is_animated_png(const fs::path& file) {
-  constexpr int most_chunks = 1000;
+  constexpr int max_chunks = 1000;
   if (lower_extension(file) != ".png") return false;
   std::ifstream in(file, std::ios::binary);
   std::array<unsigned char, 8> head{};
   in.seekg(head.size());  // behind the signature
-  for (int k = 0; k < most_chunks && in.read(reinterpret_cast<char*>(head.data()), head.size());
+  for (int k = 0; k < max_chunks && in.read(reinterpret_cast<char*>(head.data()), head.size());
        ++k) {
     const std::string_view type(reinterpret_cast<const char*>(&head[4]), 4);
     if (type == "acTL") return true;
@@ -214,7 +214,7 @@ class Pictures : public Source {
     if (!numbers_ && options.times.empty() && differ_in_several(files_))
       note(
           fmt::format("names such as {} differ in more than one number: the pictures are read in "
-                      "their order, evenly in time; gaps need --times",
+                      "their order, evenly in time; gaps need the times of the pictures",
                       files_.front().filename().string()));
     if (numbers_ && numbers_->gaps > 0 && options.times.empty())
       note(
@@ -288,12 +288,12 @@ class TiffStack : public Source {
       return;
     }
     if (chosen_.times.size() > 1) {
-      note(fmt::format("the times are those that {} tells", told.software));
+      note(fmt::format("the times are those that {} states", told.software));
       const double zero = chosen_.times.front();
       for (double& t : chosen_.times) t -= zero;
       set_times({chosen_.times, {}, false});
     } else if (told.interval) {
-      note(fmt::format("pictures are {:.6g} s apart, as {} tells", *told.interval, told.software));
+      note(fmt::format("pictures are {:.6g} s apart, as {} says", *told.interval, told.software));
       set_rate(1 / *told.interval);
     }
   }
@@ -375,7 +375,7 @@ class VideoFile : public Source {
         if (has_times_column(text))
           note("the times of " + table.string() +
                " beside it are not used: it is no table of a "
-               "recording; give it as --times");
+               "recording; give it as the times of the pictures");
         return;
       }
       set_times({parse_frame_times(text, table.string()), table.string(), false});

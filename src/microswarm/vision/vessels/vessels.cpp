@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/vision/vessels/vessels.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -82,12 +84,12 @@ FoundVessels found_in(const cv::Mat& grey, const cv::Mat& view, const VesselPara
 
 }  // namespace
 
-std::string describe_choice(const VesselSegmentation& found) {
+std::string describe_choice(const VesselSegmentation& found, std::string_view option) {
   const bool lines = found.method == VesselMethod::lines;
   const bool dark = found.polarity == Polarity::dark;
   std::string text = std::string(lines ? "lines" : "regions") + ", " + (dark ? "dark" : "bright");
   const auto doubt = [&](const std::string& why, const char* other) {
-    text += "; " + why + ": compare --set " + other;
+    text += fmt::format("; {}: compare {}{}", why, option, other);
   };
   if (found.two_level_share && std::abs(*found.two_level_share - clearly_two) < close_share)
     doubt("two greys explain " + number_text(std::round(100 * *found.two_level_share)) +

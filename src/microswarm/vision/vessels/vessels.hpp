@@ -99,9 +99,9 @@ struct VesselSegmentation {
   double view_share = 0;  ///< vessel area as a fraction of the field of view
 };
 
-/// Method and polarity in a line: "lines, dark". What was chosen by itself and nearly
-/// otherwise is said.
-std::string describe_choice(const VesselSegmentation& found);
+/// Method and polarity in a line: "lines, dark". A choice that was close is noted, with the setting
+/// of the alternative after `option`: "compare method=regions".
+std::string describe_choice(const VesselSegmentation& found, std::string_view option = {});
 
 /// Note about vessels that are fainter than the noise allows, with advice; empty if they are not.
 std::string note_on_noise(const VesselSegmentation& found);
