@@ -119,6 +119,9 @@ TEST_F(BadScenarios, Records) {
   refused({"replay", "text.h5"}, naming("text.h5", {"HDF5", "damaged"}));
   write("flight.yaml", two_rooms());
   good({"run", "flight.yaml", "--out", "out", "--no-report"});
+  refused({"run", "out/run.h5", "--rig", "rig.yaml"}, naming("out/run.h5", {"record"}));
+  refused({"sweep", "out/run.h5"},
+          naming("out/run.h5", {"record", "`microswarm report`", "`microswarm replay`"}));
   const std::string whole = read("out/run.h5");
   for (const std::size_t bytes : {std::size_t{100}, whole.size() / 2, whole.size() - 1}) {
     write("cut.h5", whole.substr(0, bytes));

@@ -83,6 +83,14 @@ def test_a_mistake_of_a_file_has_the_file_as_its_place(tmp_path):
         assert str(caught.value) == f"{issue.place}: {issue.text}"
 
 
+def test_a_record_is_no_scenario(tmp_path):
+    file = tmp_path / "run.h5"
+    file.write_bytes(b"\x89HDF\r\n\x1a\n" + bytes(100))
+    for read in (ms.Scenario.load, ms.Session, ms.run):
+        with pytest.raises(ms.InputError, match="run.h5: is a record, not text: read it with read_record"):
+            read(file)
+
+
 def test_settings_that_are_planned_with_speak_no_command_line():
     walls = ms.Map.from_walls((0, 0, 100, 100))
     with pytest.raises(ms.InputError) as caught:

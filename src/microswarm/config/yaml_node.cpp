@@ -174,6 +174,8 @@ YamlNode parse_yaml(std::string_view text, std::string_view name) {
   if (text.size() > max_yaml_bytes)
     throw InputError(std::string(name),
                      fmt::format("larger than the allowed {} bytes", max_yaml_bytes));
+  if (text.starts_with("\x89HDF"))
+    throw InputError(std::string(name), "is a record, not text: read it with read_record");
   check_characters(text, name);
   TreeBuilder builder(name);
   try {
