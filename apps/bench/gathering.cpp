@@ -12,6 +12,7 @@
 #include <string>
 
 #include "microswarm/core/maths/statistics.hpp"
+#include "microswarm/formats/choose_map_spec.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/navigation/gathering/gather.hpp"

@@ -11,6 +11,7 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/rng.hpp"
 #include "microswarm/core/maths/statistics.hpp"
+#include "microswarm/formats/choose_map_spec.hpp"
 #include "microswarm/formats/images/mask.hpp"
 #include "microswarm/formats/images/rasterise.hpp"
 #include "microswarm/formats/map_file.hpp"

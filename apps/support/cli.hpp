@@ -15,7 +15,6 @@
 #include "microswarm/core/execution/descriptor.hpp"
 #include "microswarm/core/execution/progress.hpp"
 #include "microswarm/core/execution/stop.hpp"
-#include "support/option_names.hpp"
 #include "support/status_line.hpp"
 
 namespace microswarm::cli {
@@ -87,9 +86,9 @@ void note(fmt::format_string<Values...> format, Values&&... values) {
   say(fmt::format(format, std::forward<Values>(values)...));
 }
 
-/// Writes each line to stderr as "note: …", with_options.
+/// Writes each line to stderr as "note: …".
 inline void note_each(const std::vector<std::string>& lines) {
-  for (const std::string& line : lines) note("note: {}\n", with_options(line));
+  for (const std::string& line : lines) note("note: {}\n", line);
 }
 
 /// Shows progress of library code on progress bars.

@@ -19,6 +19,7 @@
 #include "support/describe.hpp"
 #include "support/help_text.hpp"
 #include "support/input_file.hpp"
+#include "support/option_names.hpp"
 #include "support/options.hpp"
 #include "support/usage.hpp"
 
@@ -266,7 +267,7 @@ std::optional<int> CommandLine::parse(int argc, char** argv) {
   std::ranges::reverse(words);  // as CLI11 wants them
   try {
     app_->parse(std::move(words));
-    set_options(options_of_given(*app_));
+    name_inputs_by_options(options_of_given(*app_));
     return std::nullopt;
   } catch (const CLI::Success& e) {  // --help, --version
     std::ostringstream help;

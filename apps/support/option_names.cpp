@@ -2,59 +2,40 @@
 #include "support/option_names.hpp"
 
 #include <algorithm>
-#include <cstddef>
 #include <string_view>
 #include <utility>
+
+#include "microswarm/core/errors/input_names.hpp"
 
 namespace microswarm::cli {
 namespace {
 
-/// Words of the library, and the option that does what they ask for.
-struct NamedOption {
-  std::string_view words;
-  std::string_view option;
-};
-constexpr NamedOption named_options[] = {
-    {"give um_per_px", "--map-um-per-px"},  // before --um-per-px, which then is of a photograph
-    {"give um_per_px", "--um-per-px"},         {"give um_per_unit", "--um-per-unit"},
-    {"the times of the pictures", "--times"},  {"the size of a cell is missing", "--cell"},
-    {"give another database", "--out"},        {"a tree to keep", "--save-tree"},
-    {"give it as the rig", "--rig"},           {"start with cold coils", "--coils-cold"},
-    {"run without limits", "--without-limits"}};
+/// Keys that an option of another name sets; the first one that the command has.
+constexpr std::pair<std::string_view, std::string_view> other_options[] = {
+    {"um_per_px", "--map-um-per-px"},  // then --um-per-px is of a photograph
+    {"database", "--out"}};
+/// Commands in the place of functions of the library.
+constexpr std::pair<std::string_view, std::string_view> commands_instead[] = {
+    {"read_sweep", "`microswarm export`, with --csv FILE"},
+    {"read_record", "`microswarm report` or `microswarm replay`"}};
 
-/// Words of the library, and what they mean at the command line.
-struct NamedCommand {
-  std::string_view words;
-  std::string_view command;
-};
-constexpr NamedCommand named_commands[] = {
-    {"export its trials as a table",
-     "`microswarm export` writes its trials as a table, with --csv FILE"},
-    {"read it with read_record", "`microswarm report` and `microswarm replay` take it"}};
-
-std::vector<std::string>& options_in_use() {
-  static std::vector<std::string> options;
-  return options;
+std::string option_of(std::string_view key) {
+  std::string option = "--" + std::string(key);
+  std::ranges::replace(option, '_', '-');
+  return option;
 }
 
 }  // namespace
 
-void set_options(std::vector<std::string> options) { options_in_use() = std::move(options); }
-
-std::string with_options(std::string message) {
-  std::string_view last;
-  for (const auto& [words, option] : named_options) {
-    const std::size_t at = message.find(words);
-    if (at == message.npos || words == last || message.find(option) != message.npos ||
-        !std::ranges::count(options_in_use(), option))
-      continue;
-    message.insert(at + words.size(), " (" + std::string(option) + ")");
-    last = words;
-  }
-  for (const auto& [words, command] : named_commands)
-    if (const std::size_t at = message.find(words); at != message.npos)
-      message.replace(at, words.size(), command);
-  return message;
+void name_inputs_by_options(std::vector<std::string> options) {
+  name_inputs([options = std::move(options)](std::string_view key) -> std::string {
+    for (const auto& [function, command] : commands_instead)
+      if (key == function) return std::string(command);
+    for (const auto& [other, option] : other_options)
+      if (key == other && std::ranges::count(options, option)) return std::string(option);
+    const std::string option = option_of(key);
+    return std::ranges::count(options, option) ? option : std::string();
+  });
 }
 
 }  // namespace microswarm::cli

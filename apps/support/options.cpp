@@ -7,6 +7,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/lines.hpp"
 #include "microswarm/core/text/text.hpp"
+#include "microswarm/formats/choose_map_spec.hpp"
 #include "microswarm/formats/map_file.hpp"
 
 namespace microswarm::cli {
@@ -55,7 +56,6 @@ formats::MapSpec choose_map_spec(const MapInput& input, const std::vector<std::s
 formats::LoadedMap load_map(const MapInput& input, const std::vector<std::string>& settings) {
   formats::LoadedMap loaded =
       reading([&] { return formats::load_map(choose_map_spec(input, settings)); });
-  for (std::string& note : loaded.notes) note = with_options(std::move(note));
   note_each(loaded.notes);
   return loaded;
 }

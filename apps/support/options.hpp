@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "microswarm/config/type.hpp"
+#include "microswarm/formats/choose_map_spec.hpp"
 #include "microswarm/formats/images/image.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/report/run_report.hpp"

@@ -44,8 +44,7 @@ extern "C" void on_interrupt(int signal) {
 
 /// Prefixes every line of an error message with the program's name.
 int complain(const char* name, std::string_view message, int code) {
-  const std::string text = with_options(std::string(message));
-  std::string_view what = text;
+  std::string_view what = message;
   for (bool more = true; more;) {
     const std::size_t end = what.find('\n');
     note("{}: {}\n", name, what.substr(0, end));

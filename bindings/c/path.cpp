@@ -2,6 +2,7 @@
 // Maps, and paths in them.
 #include "handles.hpp"
 #include "microswarm/config/yaml.hpp"
+#include "microswarm/formats/choose_map_spec.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/formats/pixel_map.hpp"
 

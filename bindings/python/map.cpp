@@ -7,6 +7,7 @@
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/experiment/queries/path_query.hpp"
+#include "microswarm/formats/choose_map_spec.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/formats/pixel_map.hpp"
 #include "microswarm/formats/write_map.hpp"

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/errors/input_names.hpp"
 #include "microswarm/core/version.hpp"
 
 namespace microswarm::python {
@@ -88,6 +89,7 @@ PYBIND11_MODULE(_core, module) {
   namespace py = pybind11;
   module.doc() = "What the package microswarm is made of; use that.";
   module.attr("version") = std::string(version);
+  name_inputs([](std::string_view key) { return std::string(key == "times" ? "times_s" : ""); });
   static py::exception<HardwareError> hardware_error(module, "HardwareError", PyExc_RuntimeError);
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {

@@ -70,8 +70,8 @@ TEST_F(ImageJ, WhatItWroteIntoAStackIsUsedAndTold) {
   write("s.tif", imagej_tiff(80, 60, 12, "frames=12\nunit=micron\nfinterval=0.5\n", disc));
   const Outcome told = run({"track", "s.tif", "--out", "out", "--no-overlay", "--json"});
   EXPECT_EQ(told.code, 0) << told.err;
-  EXPECT_TRUE(names(told.err, "s.tif: a pixel is 0.25 µm, as the file tells")) << told.err;
-  EXPECT_TRUE(names(told.err, "s.tif: pictures are 0.5 s apart, as ImageJ tells")) << told.err;
+  EXPECT_TRUE(names(told.err, "s.tif: a pixel is 0.25 µm, as the file says")) << told.err;
+  EXPECT_TRUE(names(told.err, "s.tif: pictures are 0.5 s apart, as ImageJ says")) << told.err;
   EXPECT_NEAR(Json::parse(told.out).at("mean_speed_um_per_s"), 0.5, 0.005);
   const Outcome given = run({"track", "s.tif", "--um-per-px", "1", "--rate", "10", "--out", "out",
                              "--no-overlay", "--json"});
@@ -96,7 +96,7 @@ TEST_F(ImageJ, APhotographHasItsScale) {
         }));
   const Outcome outcome = run({"map", "segment", "p.tif", "--out", "p.geojson", "--json"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_TRUE(names(outcome.err, "p.tif: a pixel is 0.25 µm, as the file tells")) << outcome.err;
+  EXPECT_TRUE(names(outcome.err, "p.tif: a pixel is 0.25 µm, as the file says")) << outcome.err;
   EXPECT_NEAR(Json::parse(outcome.out).at("wide_width_um"), 10, 2);
 }
 

@@ -188,11 +188,11 @@ TEST_F(Maps, KeysOfTheMapOnEveryCommand) {
 TEST_F(Maps, AMessageNamesTheOption) {
   write("a.geojson", R"({"type":"LineString","coordinates":[[0,0],[3,0]]})");
   const Outcome map = run({"map", "info", "a.geojson", "--set", "map.line_width_um=1", "--json"});
-  EXPECT_TRUE(names(map.err, "give um_per_unit (--um-per-unit), the µm for a unit")) << map.err;
+  EXPECT_TRUE(names(map.err, "give --um-per-unit, the µm for a unit")) << map.err;
   EXPECT_EQ(map.err, "note: " + Json::parse(map.out).at("notes")[0].get<std::string>() + "\n");
   const Outcome png = run({"map", "convert", "a.geojson", "a.png", "--um-per-unit", "1", "--set",
                            "map.line_width_um=1"});
-  EXPECT_EQ(png.err, "microswarm: a.png: the size of a cell is missing (--cell)\n");
+  EXPECT_EQ(png.err, "microswarm: a.png: the size of a cell is missing: give --cell\n");
   write("s.yaml",
         "map: {type: geojson, file: a.geojson, line_width_um: 1, hi_um: [9, 9]}\n"
         "start: {x_um: 50, y_um: 50}\ngoal_um: [350, 50]\n");

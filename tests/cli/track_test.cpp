@@ -376,7 +376,7 @@ TEST_F(Track, NamesOfSeveralNumbersAskForTimes) {
                at.folder / ("video/f" + std::to_string(k / 4) + "_" + std::to_string(k) + ".pgm"));
   const Outcome outcome =
       run({"track", "video", "--um-per-px", "0.5", "--rate", "10", "--out", "out", "--no-overlay"});
-  EXPECT_TRUE(names(outcome.err, "gaps need the times of the pictures (--times)")) << outcome.err;
+  EXPECT_TRUE(names(outcome.err, "gaps need --times")) << outcome.err;
 }
 
 TEST_F(Track, APictureThatCannotBeReadEndsAFolder) {

@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 
+#include "microswarm/core/errors/input_names.hpp"
 #include "microswarm/core/execution/status.hpp"
 #include "microswarm/core/version.hpp"
 
@@ -93,6 +94,15 @@ TEST(Status, EveryStatusHasItsOwnWord) {
 TEST(Version, HasThreeParts) {
   EXPECT_EQ(version.find_first_not_of("0123456789."), std::string_view::npos);
   EXPECT_EQ(std::count(version.begin(), version.end(), '.'), 2);
+}
+
+TEST(InputName, IsTheKeyUnlessAProgramHasAnother) {
+  EXPECT_EQ(input_name("um_per_px"), "um_per_px");
+  name_inputs([](std::string_view key) { return std::string(key == "times" ? "--times" : ""); });
+  EXPECT_EQ(input_name("times"), "--times");
+  EXPECT_EQ(input_name("um_per_px"), "um_per_px");
+  name_inputs({});
+  EXPECT_EQ(input_name("times"), "times");
 }
 
 }  // namespace

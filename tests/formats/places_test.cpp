@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 
+#include "microswarm/formats/choose_map_spec.hpp"
 #include "microswarm/formats/images/image.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/formats/tracks.hpp"

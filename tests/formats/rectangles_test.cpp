@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/formats/rectangles.hpp"
+#include "microswarm/formats/choose_map_spec.hpp"
 
 #include <gtest/gtest.h>
 

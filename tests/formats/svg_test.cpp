@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "microswarm/formats/choose_map_spec.hpp"
 #include "microswarm/formats/svg_walls.hpp"
 
 #include <fmt/format.h>

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "microswarm/core/maths/rng.hpp"
+#include "microswarm/formats/choose_map_spec.hpp"
 #include "microswarm/formats/images/image.hpp"
 #include "microswarm/formats/images/pnm.hpp"
 #include "microswarm/formats/images/rasterise.hpp"

@@ -6,6 +6,7 @@
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/experiment/scenario/validate.hpp"
 #include "microswarm/experiment/session/session.hpp"
+#include "microswarm/formats/choose_map_spec.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "tests/cases.hpp"
 #include "tests/files.hpp"

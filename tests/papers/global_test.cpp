@@ -2,6 +2,7 @@
 // The task that came with the published program of [global], and a sample of its kind.
 #include <gtest/gtest.h>
 
+#include "microswarm/formats/choose_map_spec.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/planning/global_input/global_search.hpp"
 #include "microswarm/scenes/global_tasks.hpp"

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "microswarm/core/maths/angles.hpp"
+#include "microswarm/formats/choose_map_spec.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/scenes/vascular.hpp"

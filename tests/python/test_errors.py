@@ -87,7 +87,7 @@ def test_a_record_is_no_scenario(tmp_path):
     file = tmp_path / "run.h5"
     file.write_bytes(b"\x89HDF\r\n\x1a\n" + bytes(100))
     for read in (ms.Scenario.load, ms.Session, ms.run):
-        with pytest.raises(ms.InputError, match="run.h5: is a record, not text: read it with read_record"):
+        with pytest.raises(ms.InputError, match="run.h5: is a record, not text: read_record takes it"):
             read(file)
 
 

@@ -53,7 +53,7 @@ TEST_F(CoilTemperaturesTest, OfCoilsThatAreNotKnownAreTheirLimits) {
   const CoilTemperatures unknown(rig, false);
   EXPECT_FALSE(unknown.known());
   expect_near(unknown.at_start(), {80, 90, 22});
-  EXPECT_TRUE(test::names(unknown.why_hot(), "cold coils")) << unknown.why_hot();
+  EXPECT_TRUE(test::names(unknown.why_hot(), "coils_cold")) << unknown.why_hot();
   EXPECT_TRUE(test::names(unknown.why_hot(), file().string())) << unknown.why_hot();
 }
 
@@ -91,9 +91,9 @@ TEST_F(CoilTemperaturesTest, OfADamagedFileAreRefusedInALineThatSaysWhatHelps) {
   at_start(true);
   const auto refused = [&] { return test::error_of([&] { at_start(); }); };
   write_file_atomically(file(), "temperatures: hot\n");
-  EXPECT_TRUE(test::is_one_line_naming(refused(), file().string(), {"cold coils"}));
+  EXPECT_TRUE(test::is_one_line_naming(refused(), file().string(), {"coils_cold"}));
   keep(never, false, "[50, 60]");
-  EXPECT_TRUE(test::is_one_line_naming(refused(), file().string(), {"2", "3", "cold coils"}));
+  EXPECT_TRUE(test::is_one_line_naming(refused(), file().string(), {"2", "3", "coils_cold"}));
   expect_near(at_start(true), {22, 30, 22});
   expect_near(at_start(), {22, 30, 22});
 }

@@ -34,7 +34,7 @@ TEST(Stacks, HaveTheScaleAndIntervalOfTheirDescription) {
   const Seen seen = see(file);
   EXPECT_EQ(seen.times, (std::vector<double>{0, 0.25, 0.5}));
   EXPECT_EQ(seen.notes, (std::vector<std::string>{file.string() +
-                                                  ": pictures are 0.25 s apart, as ImageJ tells"}));
+                                                  ": pictures are 0.25 s apart, as ImageJ says"}));
   const Seen given = see(file, {.rate = 10});
   EXPECT_EQ(given.times[2], 0.2);
   EXPECT_EQ(given.notes, std::vector<std::string>{});
@@ -235,7 +235,7 @@ TEST(Stacks, PicturesWithoutAPlaceInOmeAreLeftOutAndTold) {
   const Seen seen =
       see(described(folder, "l.ome.tif", 4, ome(1, 2, tiff_data(0, 0, 0) + tiff_data(0, 1, 1))));
   EXPECT_EQ(seen.greys, (std::vector<int>{0, 1}));
-  EXPECT_TRUE(any_names(seen.notes, "its last 2 pictures have no place"));
+  EXPECT_TRUE(any_names(seen.notes, "its last 2 pictures are not in what"));
 }
 
 TEST(Stacks, OfOmeMayHaveAPrefixOrAnotherFileForItsDescription) {

@@ -22,16 +22,6 @@ Clock::duration wall_time(double seconds) {
   return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
 }
 
-/// The options of a run that keeps its diagnostics, unless they say otherwise: a page may look back
-/// at a decision.
-rig::RigSessionOptions with_diagnostics(rig::RigSessionOptions options,
-                                        const std::filesystem::path& file) {
-  std::vector<Setting>& settings = options.settings.list;
-  if (!experiment::is_record(file))
-    settings.insert(settings.begin(), {"record.diagnostics", "true"});
-  return options;
-}
-
 }  // namespace
 
 /// Handles requests and the tick that is due, and publishes the changes.
@@ -59,10 +49,13 @@ std::optional<Stop::Clock::time_point> SessionThread::next_act(bool is_due) cons
 void SessionThread::open() {
   if (opening_.check) opening_.check(opening_.options.settings);
   watch_.has_changed();
-  session_ = rig::open_on_rig(watch_.file(), with_diagnostics(opening_.options, watch_.file()));
+  session_ = rig::open_on_rig(watch_.file(), opening_.options);
   look_at_newest();
   publisher_.clear();
-  if (!session_->is_playback()) return;
+  if (!session_->is_playback()) {
+    session_->keep_diagnostics();  // a page may look back at a decision
+    return;
+  }
   publisher_.take(session_->record());
   publisher_.standing.growing = watch_.is_growing();
   looks_ = Clock::now() + look_period;

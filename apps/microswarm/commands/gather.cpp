@@ -6,6 +6,7 @@
 #include "commands/run_output.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/experiment/queries/gather_query.hpp"
+#include "microswarm/formats/choose_map_spec.hpp"
 #include "microswarm/formats/map_file.hpp"
 
 namespace microswarm::cli {

@@ -13,6 +13,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/text/file.hpp"
+#include "microswarm/formats/choose_map_spec.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/formats/write_map.hpp"
 #include "microswarm/vision/image/overlay.hpp"

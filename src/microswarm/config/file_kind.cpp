@@ -8,6 +8,7 @@
 
 #include "microswarm/config/yaml_node.hpp"
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/errors/input_names.hpp"
 
 namespace microswarm {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 struct FileKind {
   std::string_view name;
   std::array<std::string_view, 2> keys;  ///< that only such a file has together
-  std::string_view taken_by;
+  std::string_view taken_by;             ///< empty: the input for a rig
 };
 
 constexpr FileKind kinds[] = {{"scenario", {"map", "navigator"}, "`microswarm run` takes it"},
@@ -24,8 +25,8 @@ constexpr FileKind kinds[] = {{"scenario", {"map", "navigator"}, "`microswarm ru
                               {"scenario", {"map", "goal_um"}, "`microswarm run` takes it"},
                               {"sweep", {"scenario", "trials"}, "`microswarm sweep` takes it"},
                               {"sweep", {"scenario", "grid"}, "`microswarm sweep` takes it"},
-                              {"rig", {"coils", "driver"}, "give it as the rig"},
-                              {"rig", {"coils", "camera"}, "give it as the rig"},
+                              {"rig", {"coils", "driver"}, ""},
+                              {"rig", {"coils", "camera"}, ""},
                               {"coil system", {"coils", "drives"}, "a rig's key 'coils' names it"},
                               {"ROS map", {"image", "resolution"}, "a map's key 'file' names it"}};
 
@@ -50,8 +51,10 @@ void refuse_other_kind(std::string_view text, std::string_view name, std::string
   };
   const FileKind* const found = std::ranges::find_if(kinds, is_it);
   if (found == std::end(kinds) || found->name == expected) return;
-  throw InputError(std::string(name), fmt::format("this is a {}, not a {}: {}", found->name,
-                                                  expected, found->taken_by));
+  const std::string taken_by =
+      found->taken_by.empty() ? input_name("rig") + " takes it" : std::string(found->taken_by);
+  throw InputError(std::string(name),
+                   fmt::format("this is a {}, not a {}: {}", found->name, expected, taken_by));
 }
 
 }  // namespace microswarm

@@ -13,6 +13,7 @@
 
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/errors/input_names.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/core/text/utf8.hpp"
 
@@ -175,7 +176,8 @@ YamlNode parse_yaml(std::string_view text, std::string_view name) {
     throw InputError(std::string(name),
                      fmt::format("larger than the allowed {} bytes", max_yaml_bytes));
   if (text.starts_with("\x89HDF"))
-    throw InputError(std::string(name), "is a record, not text: read it with read_record");
+    throw InputError(std::string(name),
+                     "is a record, not text: " + input_name("read_record") + " takes it");
   check_characters(text, name);
   TreeBuilder builder(name);
   try {

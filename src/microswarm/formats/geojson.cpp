@@ -10,6 +10,7 @@
 #include <span>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/errors/input_names.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/formats/json_place.hpp"
@@ -103,10 +104,8 @@ class GeoJsonReader {
     const bool has_name = found->is_object() && found->contains(path) && (*found)[path].is_string();
     const std::string crs =
         has_name ? quote((*found)[path].get<std::string>()) + " is given" : "is given";
-    fail(place.member("crs"),
-         crs +
-             ": coordinates may be degrees or metres; give um_per_unit, the µm "
-             "for a unit of the file");
+    fail(place.member("crs"), crs + ": coordinates may be degrees or metres; give " +
+                                  input_name("um_per_unit") + ", the µm for a unit of the file");
   }
 
   /// Notes coordinates that are probably no µm.
@@ -114,8 +113,8 @@ class GeoJsonReader {
     Box all = enclosing_box(parts_);
     all.include(parts_.bounds.lo);
     all.include(parts_.bounds.hi);
-    const std::string advice =
-        "they are read as µm; if they are not, give um_per_unit, the µm for a unit";
+    const std::string advice = "they are read as µm; if they are not, give " +
+                               input_name("um_per_unit") + ", the µm for a unit";
     constexpr double max_longitude = 180, max_latitude = 90, far = 100;
     if (std::max(std::abs(all.lo.x), std::abs(all.hi.x)) <= max_longitude &&
         std::max(std::abs(all.lo.y), std::abs(all.hi.y)) <= max_latitude)

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/errors/input_names.hpp"
 #include "microswarm/core/text/csv.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/lines.hpp"
@@ -57,9 +58,10 @@ RectangleColumns find_columns(const Lines& lines, const std::vector<std::string_
                                                                   {"height", "h", "height_um"}}};
   constexpr std::size_t missing = ~std::size_t{0};
   RectangleColumns found{missing, missing, missing, missing};
-  constexpr std::string_view expected =
-      "rectangles have x,y,width,height, (x, y) being the lower left corner; for other "
-      "units give um_per_unit";
+  const std::string expected =
+      "rectangles have x,y,width,height, (x, y) being the lower left corner; for other units "
+      "give " +
+      input_name("um_per_unit");
   for (std::size_t column = 0; column < header.size(); ++column) {
     if (column == 0 && header[column].empty()) continue;
     std::string name(header[column]);

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <utility>
 
+#include "microswarm/core/errors/input_names.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/formats/picture_walls.hpp"
 #include "microswarm/formats/svg/svg.hpp"
@@ -108,9 +109,10 @@ std::string lost_ink_note(const Drawing& d, const std::string& name) {
       side * Vec2{d.first.column + 0.5, -d.first.row - 0.5} + Vec2{0, d.picture.height};
   return fmt::format(
       "{}: {} pixels with some ink are free, the first at ({:.6g}, {:.6g}) µm: lines thinner than "
-      "a pixel of {:.4g} µm, or pale fills; give um_per_px of about {:.2g} to keep such "
+      "a pixel of {:.4g} µm, or pale fills; give {} of about {:.2g} to keep such "
       "lines, map.threshold to keep such fills",
-      name, d.lost, first.x, first.y, side, 0.9 * side * d.ink / static_cast<double>(d.lost));
+      name, d.lost, first.x, first.y, side, input_name("um_per_px"),
+      0.9 * side * d.ink / static_cast<double>(d.lost));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/errors/input_names.hpp"
 #include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/formats/geojson.hpp"
@@ -55,7 +56,8 @@ void write_map(const std::filesystem::path& path, const Map& map, double cell) {
     return write_file_atomically(path, geojson_text(to_parts(map)));
   if (extension != ".png" && extension != ".map" && extension != ".yaml")
     throw InputError(path.string(), fmt::format("maps are written as {}", written_map_formats));
-  if (cell == 0) throw InputError(path.string(), "the size of a cell is missing");
+  if (cell == 0)
+    throw InputError(path.string(), "the size of a cell is missing: give " + input_name("cell"));
   const Mask walls = rasterise(map, cell);
   if (extension == ".png")
     write_png(path, picture(walls, 255));

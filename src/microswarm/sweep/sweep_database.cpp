@@ -8,6 +8,7 @@
 #include "microswarm/config/write.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/errors/input_names.hpp"
 #include "microswarm/core/maths/hash.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/core/version.hpp"
@@ -164,13 +165,16 @@ void SweepDatabase::check_same() const {
   auto about = read_about(database_);
   for (const Identity& one : plan_identity(plan_))
     if (about[one.key] != one.value)
-      database_.fail(fmt::format(
-          "was begun with another {}: go on with that one, or give another database", one.name));
+      database_.fail(
+          fmt::format("was begun with another {}: go on with that one, or give another {}",
+                      one.name, input_name("database")));
   const std::vector<SweepColumn> columns = read_columns(database_);
   bool same = columns.size() == columns_.size();
   for (std::size_t i = 0; same && i < columns.size(); ++i)
     same = columns[i].name == columns_[i].name && columns[i].kind == columns_[i].kind;
-  if (!same) database_.fail("was begun by a program with other columns: give another database");
+  if (!same)
+    database_.fail("was begun by a program with other columns: give another " +
+                   input_name("database"));
 }
 
 std::vector<SweepTask> SweepDatabase::missing() const {

@@ -167,13 +167,11 @@ constexpr double weight_of_unknown = 1e-3;  // smaller entries of the null space
   const Eigen::MatrixXd unknown = solver.null_space();
   for (std::size_t i = 0; i < measured.coils.size(); ++i)
     if (unknown.row(whole(i)).norm() > weight_of_unknown) open.push_back(quote(measured.coils[i]));
-  throw InputError(
-      measured.file,
-      fmt::format(
-          "{} measurements do not determine the fields of {}: currents are missing that change each "
-          "of them apart from the others{}",
-          measured.rows.size(), fmt::join(open, ", "),
-          with_offset ? ", and one without them all" : ""));
+  throw InputError(measured.file, fmt::format("{} measurements do not determine the fields of {}: "
+                                              "currents are missing that change each "
+                                              "of them apart from the others{}",
+                                              measured.rows.size(), fmt::join(open, ", "),
+                                              with_offset ? ", and one without them all" : ""));
 }
 
 [[noreturn]] void fail_gradients(const Solver& solver, const FieldMeasurements& measured,

@@ -10,6 +10,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/experiment/scenario/map_scale.hpp"
 #include "microswarm/experiment/scenario/validate.hpp"
+#include "microswarm/formats/choose_map_spec.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/navigation/gathering/aggregation_check.hpp"
 #include "microswarm/navigation/gathering/policies/published_scale.hpp"

@@ -9,6 +9,7 @@
 #include "microswarm/config/key_locations.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/errors/input_names.hpp"
 #include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/experiment/scenario/validate_robots.hpp"
 #include "microswarm/world/snapshot.hpp"
@@ -99,7 +100,7 @@ GlobalAnswer answer(const Map& map, const GlobalQuery& query, const std::string&
   check_finite(query.goals, "goal", name);
   check_ends(map, query.starts, query.goals, play, name);
   if (query.keep_tree && !std::holds_alternative<planning::GlobalRrtParams>(made.planner))
-    throw InputError("global: a tree to keep is of planner.type=global_rrt only");
+    throw InputError("global: " + input_name("save_tree") + " needs planner.type=global_rrt");
   Rng rng(query.seed, Purpose::planner);
   const auto began = Stop::Clock::now();
   std::visit(

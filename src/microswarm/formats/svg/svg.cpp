@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/errors/input_names.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/formats/svg/renderer.hpp"
 
@@ -25,9 +26,8 @@ std::pair<double, double> size_um(const SvgSize& size, std::optional<double> um_
                                   const std::string& name) {
   if (um_per_unit) return {*um_per_unit * size.width, *um_per_unit * size.height};
   if (size.width_um && size.height_um) return {*size.width_um, *size.height_um};
-  throw InputError(name,
-                   "its size is not in mm, cm, in, pt or pc: give um_per_unit, "
-                   "the µm for a unit of the drawing");
+  throw InputError(name, "its size is not in mm, cm, in, pt or pc: give " +
+                             input_name("um_per_unit") + ", the µm for a unit of the drawing");
 }
 
 bool is_svg_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
@@ -119,9 +119,9 @@ SvgPicture draw_svg(std::string_view drawing, std::string_view name,
   note_links(text, name, picture.notes);
   if (!um_per_px)
     picture.notes.push_back(fmt::format(
-        "{}: {:.4g} × {:.4g} µm, drawn with pixels of {:.4g} µm: give um_per_px for finer "
+        "{}: {:.4g} × {:.4g} µm, drawn with pixels of {:.4g} µm: give {} for finer "
         "ones",
-        name, picture.width, picture.height, picture.um_per_px));
+        name, picture.width, picture.height, picture.um_per_px, input_name("um_per_px")));
   return picture;
 }
 

@@ -52,7 +52,7 @@ void ResponseFit::fit() {
     tc += (weights[i] * one.t) * one.commanded;
   }
   if (!(tt > 0)) return;
-  // What no steady velocity explains; the commanded part of it tells the speed factor.
+  // What no steady velocity explains; the commanded part of it gives the speed factor.
   double cc = 0, cp = 0, misfit = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const Sample one = centred(i);

@@ -10,7 +10,7 @@
 namespace microswarm::navigation {
 
 /// Fits a SwarmResponse to the positions of the last seconds by least squares. On a straight course
-/// a speed factor and a flow cannot be told apart; then it takes a flow. Does not allocate.
+/// a speed factor and a flow cannot be distinguished; then it takes a flow. Does not allocate.
 class ResponseFit {
  public:
   /// `memory` is the time constant with which past positions are forgotten [s].

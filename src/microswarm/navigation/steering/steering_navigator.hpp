@@ -68,8 +68,8 @@ class SteeringNavigator : public Navigator {
   void estimate_swarm(double memory) { estimate_.emplace(memory); }
   /// The estimate; null without it.
   const SwarmEstimate* estimate() const { return estimate_ ? &*estimate_ : nullptr; }
-  /// How the swarm is estimated to follow its commands. A decision says how it should move; the
-  /// command that is given makes it do so.
+  /// Estimated response of the swarm to its commands. A decision is how it should move; the command
+  /// that is given makes it do so.
   SwarmResponse response() const { return estimate_ ? estimate_->response() : SwarmResponse{}; }
 
   /// Chooses the aim, at least `least` and if possible `wanted` [µm] away from the map's walls; see

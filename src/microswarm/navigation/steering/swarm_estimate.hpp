@@ -33,7 +33,7 @@ class SwarmEstimate {
   const std::optional<double>& shown() const { return shown_; }
   /// Variance of a coordinate of the swarm about the estimate, before the frame counts [µm²].
   double variance() const { return gains[best_ % gains.size()] * squares_[best_]; }
-  /// How the swarm follows its commands.
+  /// Response of the swarm to its commands.
   SwarmResponse response() const { return response_of(best_); }
 
  private:

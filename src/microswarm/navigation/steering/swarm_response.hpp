@@ -10,8 +10,8 @@
 
 namespace microswarm::navigation {
 
-/// How a single-body swarm moves when it is commanded: `speed_factor` times as fast, and with a
-/// flow.
+/// Response of a single-body swarm to commands: it is `speed_factor` times as fast, and carried by
+/// a flow.
 struct SwarmResponse {
   double speed_factor = 1;
   Vec2 flow{};  ///< [µm/s]
@@ -28,7 +28,7 @@ struct SwarmResponse {
     if (own == Vec2{}) return {wanted.heading, 0};
     return {heading_along(own), std::min(norm(own), max_speed)};
   }
-  /// Where it is after `dt` [s] in which commands alone would have moved it by `commanded` [µm].
+  /// Position after `dt` [s] in which commands alone would have moved it by `commanded` [µm].
   Vec2 moved(Vec2 from, Vec2 commanded, double dt) const {
     if (*this == SwarmResponse{}) return from + commanded;
     return from + speed_factor * commanded + dt * flow;

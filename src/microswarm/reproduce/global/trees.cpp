@@ -11,6 +11,7 @@
 #include "microswarm/core/execution/stop.hpp"
 #include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/experiment/record/global_tree_file.hpp"
+#include "microswarm/formats/choose_map_spec.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/planning/global_input/global_rrt.hpp"
 #include "microswarm/reproduce/figures.hpp"

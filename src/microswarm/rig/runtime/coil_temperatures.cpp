@@ -11,6 +11,7 @@
 #include "microswarm/config/write.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/errors/input_names.hpp"
 #include "microswarm/core/text/file.hpp"
 
 namespace microswarm::rig {
@@ -65,15 +66,14 @@ KeptTemperatures read_kept(const fs::path& file, std::size_t coils) {
   try {
     kept = read_yaml_text<KeptTemperatures>(text, file.string());
   } catch (const InputError&) {
-    throw InputError(
-        file.string(),
-        "does not hold the temperatures of coils: remove it, or start with cold coils");
+    throw InputError(file.string(), "does not hold the temperatures of coils: remove it, or give " +
+                                        input_name("coils_cold"));
   }
   if (kept.temperatures.size() != coils)
     throw InputError(file.string(),
                      fmt::format("{} temperatures, the system has {} coils: correct it, or "
-                                 "start with cold coils",
-                                 kept.temperatures.size(), coils));
+                                 "give {}",
+                                 kept.temperatures.size(), coils, input_name("coils_cold")));
   return kept;
 }
 
@@ -122,7 +122,7 @@ CoilTemperatures::~CoilTemperatures() {
 
 std::string CoilTemperatures::why_hot() const {
   return "no temperatures of these coils are known (" + file_.string() +
-         "): they are taken at their limit; if they are cold, start with cold coils";
+         "): they are taken at their limit; if they are cold, give " + input_name("coils_cold");
 }
 
 void CoilTemperatures::take(const Eigen::VectorXd& temperatures) {

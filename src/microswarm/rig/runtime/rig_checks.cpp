@@ -7,6 +7,7 @@
 #include <array>
 
 #include "microswarm/actuation/coils/coil_controller.hpp"
+#include "microswarm/core/errors/input_names.hpp"
 #include "microswarm/core/execution/clock.hpp"
 #include "microswarm/core/maths/angles.hpp"
 
@@ -102,8 +103,8 @@ Issues missing_limits(const Rig& rig) {
                                                 : "current and the temperature";
   issues.add("coils",
              fmt::format("{} does not limit the {} of every coil: `drives` needs max_current_a and "
-                         "max_temperature_degc, or the rig must run without limits",
-                         rig.params.coils, what));
+                         "max_temperature_degc, or give {}",
+                         rig.params.coils, what, input_name("without_limits")));
   return issues;
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/errors/input_names.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/formats/images/codecs.hpp"
 #include "microswarm/formats/images/samples.hpp"
@@ -207,19 +208,17 @@ class Pictures : public Source {
  public:
   Pictures(const fs::path& name, std::vector<fs::path> files, const FrameOptions& options)
       : Source(name, options), files_(std::move(files)) {
-    for (const std::string& text :
-         choose_pictures(files_, options.stack_channel, options.slice, name.string()))
-      note(text);
+    const auto notes = choose_pictures(files_, options.stack_channel, options.slice, name.string());
+    for (const std::string& text : notes) note(text);
     numbers_ = numbers_in(files_);
     if (!numbers_ && options.times.empty() && differ_in_several(files_))
       note(
           fmt::format("names such as {} differ in more than one number: the pictures are read in "
-                      "their order, evenly in time; gaps need the times of the pictures",
-                      files_.front().filename().string()));
+                      "their order, evenly in time; gaps need {}",
+                      files_.front().filename().string(), input_name("times")));
     if (numbers_ && numbers_->gaps > 0 && options.times.empty())
-      note(
-          fmt::format("numbers in the names have {} gap{}, first between {}: taken as gaps in time",
-                      numbers_->gaps, numbers_->gaps == 1 ? "" : "s", numbers_->first_gap));
+      note(fmt::format("numbers in the names have {} gap{}, first between {}: gaps in time",
+                       numbers_->gaps, numbers_->gaps == 1 ? "" : "s", numbers_->first_gap));
   }
   bool read(VideoFrame& frame) override {
     const auto at = static_cast<std::size_t>(given());
@@ -373,9 +372,10 @@ class VideoFile : public Source {
       const std::string text = read_file(table);
       if (!is_recorded_table(text)) {
         if (has_times_column(text))
-          note("the times of " + table.string() +
-               " beside it are not used: it is no table of a "
-               "recording; give it as the times of the pictures");
+          note(
+              fmt::format("the times of {} beside it are not used: it is no table of a recording; "
+                          "give it as {}",
+                          table.string(), input_name("times")));
         return;
       }
       set_times({parse_frame_times(text, table.string()), table.string(), false});
