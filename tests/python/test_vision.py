@@ -202,7 +202,7 @@ def test_gaps_in_names_of_several_numbers_need_times(video, tmp_path):
     folder = folder_of(tmp_path / "in", video)
     for k in range(12):
         (folder / f"{k:03}.pgm").rename(folder / f"{k // 4}_{k:03}.pgm")
-    with pytest.warns(UserWarning, match="gaps need the times") as caught:
+    with pytest.warns(UserWarning, match="gaps need times_s") as caught:
         ms.track(folder, 0.5, 4, min_mass=100)
     assert not any("--" in str(one.message) for one in caught)
 
