@@ -48,9 +48,7 @@ void add_map_input(Command command, MapInput& input) {
 formats::MapSpec choose_map_spec(const MapInput& input, const std::vector<std::string>& settings) {
   return formats::choose_map_spec(input.file, {.um_per_px = input.um_per_px,
                                                .um_per_unit = input.um_per_unit,
-                                               .settings = split_settings(settings, true),
-                                               .um_per_px_option = input.um_per_px_option,
-                                               .um_per_unit_option = "--um-per-unit"});
+                                               .settings = split_settings(settings, true)});
 }
 
 formats::LoadedMap load_map(const MapInput& input, const std::vector<std::string>& settings) {

@@ -22,7 +22,7 @@ struct MapInput {
   std::string file;
   std::optional<double> um_per_px;
   std::optional<double> um_per_unit;
-  std::string um_per_px_option = "--um-per-px";
+  std::string um_per_px_option = "--um-per-px";  ///< "--map-um-per-px" beside a photograph's
 };
 /// Adds the map, `--um-per-px` (or what `um_per_px_option` says) and `--um-per-unit`.
 void add_map_input(Command command, MapInput& input);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "handles.hpp"
 
+#include <mutex>
 #include <new>
 #include <shared_mutex>
 #include <unordered_map>
 
+#include "microswarm/core/errors/input_names.hpp"
 #include "microswarm/core/version.hpp"
 
 namespace microswarm::c {
@@ -16,6 +18,13 @@ struct Registry {
   std::unordered_map<std::uint64_t, std::shared_ptr<Object>> objects;
   std::uint64_t next = 1;
 };
+
+std::once_flag names_inputs;
+
+/// The setting by which a caller gives an input that is no parameter of a function.
+std::string key_of_input(std::string_view input) {
+  return input == "um_per_unit" ? "map.um_per_unit" : "";
+}
 
 /// Never destroyed, since a caller may close its handles while the program ends.
 Registry& registry() {
@@ -82,6 +91,7 @@ std::int32_t fail(ms_code code, const std::string& text) noexcept {
 
 std::int32_t guarded(const std::function<std::int32_t()>& work) noexcept {
   try {
+    std::call_once(names_inputs, [] { name_inputs(key_of_input); });
     return work();
   } catch (const BadCall& bad) {
     return fail(MS_BAD_CALL, bad.text);

@@ -31,11 +31,8 @@ int32_t ms_map_open_with(const char* file, double um_per_px, const char* const* 
   return c::guarded([&]() -> int32_t {
     c::require(file, "file"), c::require(map, "map");
     const auto scale = um_per_px != 0 ? std::optional(um_per_px) : std::nullopt;
-    const formats::LoadedMap loaded = formats::load_map(
-        formats::choose_map_spec(file, {.um_per_px = scale,
-                                        .settings = c::to_settings(settings, count),
-                                        .um_per_px_option = "um_per_px",
-                                        .um_per_unit_option = "map.um_per_unit"}));
+    const formats::LoadedMap loaded = formats::load_map(formats::choose_map_spec(
+        file, {.um_per_px = scale, .settings = c::to_settings(settings, count)}));
     auto object = of(loaded.map, file);
     add_lines(object->map->notes_of_reading, loaded.notes);
     object->map->notes = object->map->notes_of_reading;

@@ -20,12 +20,9 @@ NamedMap load(const std::string& file, std::optional<double> um_per_px,
               std::optional<double> um_per_unit, const Given& settings) {
   Notes notes;
   NamedMap loaded = interruptible([&](const Stop&) {
-    const formats::MapSpec spec =
-        formats::choose_map_spec(file, {.um_per_px = um_per_px,
-                                        .um_per_unit = um_per_unit,
-                                        .settings = to_settings(settings),
-                                        .um_per_px_option = "um_per_px",
-                                        .um_per_unit_option = "um_per_unit"});
+    const formats::MapSpec spec = formats::choose_map_spec(
+        file,
+        {.um_per_px = um_per_px, .um_per_unit = um_per_unit, .settings = to_settings(settings)});
     const formats::LoadedMap read = formats::load_map(spec);
     notes = read.notes;
     return NamedMap{Snapshot(read.map), file, spec};

@@ -11,6 +11,7 @@
 
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/errors/input_names.hpp"
 #include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/formats/images/image.hpp"
@@ -80,6 +81,7 @@ bool chooses_type(const Settings& settings) {
 template <class Fail>
 void set_scale(MapSpec& spec, const MapChoice& choice, Fail&& fail) {
   const std::optional<double>&px = choice.um_per_px, &unit = choice.um_per_unit;
+  const std::string px_name = input_name("um_per_px"), unit_name = input_name("um_per_unit");
   const auto is_set = [&](std::string_view key) {
     return std::ranges::any_of(choice.settings.list,
                                [&](const Setting& s) { return s.key == key; });
@@ -90,30 +92,24 @@ void set_scale(MapSpec& spec, const MapChoice& choice, Fail&& fail) {
       if (option && is_set(key))
         fail("its scale is given twice: by " + name + " and by " + std::string(key));
   };
-  need_one(px, choice.um_per_px_option, {"map.um_per_px", "map.um_per_cell", "map.um_per_m"});
-  need_one(unit, choice.um_per_unit_option, {"map.um_per_unit", "map.um_per_m"});
+  need_one(px, px_name, {"map.um_per_px", "map.um_per_cell", "map.um_per_m"});
+  need_one(unit, unit_name, {"map.um_per_unit", "map.um_per_m"});
   const auto need_no_unit = [&] {
-    if (unit)
-      fail("has no unit: leave out " + choice.um_per_unit_option + ", give " +
-           choice.um_per_px_option);
+    if (unit) fail("has no unit: leave out " + unit_name + ", give " + px_name);
   };
   const auto need_no_px = [&] {
-    if (px)
-      fail("has no pixels: leave out " + choice.um_per_px_option + ", give " +
-           choice.um_per_unit_option);
+    if (px) fail("has no pixels: leave out " + px_name + ", give " + unit_name);
   };
   std::visit(
       Overloaded{[&](ImageMap& s) {
                    need_no_unit();
                    if (!px && !is_set("map.um_per_px"))
-                     fail("µm per px is missing: give " + choice.um_per_px_option);
+                     fail("µm per px is missing: give " + px_name);
                    s.um_per_px = px.value_or(s.um_per_px);
                  },
                  [&](RosMap& s) {
                    const RosHeader header = read_ros_header(s.file);
-                   if (px && unit)
-                     fail("give either " + choice.um_per_px_option + " or " +
-                          choice.um_per_unit_option);
+                   if (px && unit) fail("give either " + px_name + " or " + unit_name);
                    if (px) s.um_per_m = *px / header.resolution;
                    if (unit) s.um_per_m = *unit;
                  },
@@ -124,8 +120,7 @@ void set_scale(MapSpec& spec, const MapChoice& choice, Fail&& fail) {
                  [&](MatrixMap& s) {
                    need_no_unit();
                    if (!px && !is_set("map.um_per_cell"))
-                     fail("a matrix of 0 and 1, whose cells' side is missing: give " +
-                          choice.um_per_px_option);
+                     fail("a matrix of 0 and 1, whose cells' side is missing: give " + px_name);
                    s.um_per_cell = px.value_or(s.um_per_cell);
                  },
                  [&](SvgMap& s) {
@@ -139,8 +134,7 @@ void set_scale(MapSpec& spec, const MapChoice& choice, Fail&& fail) {
                  [&](RectanglesMap& s) {
                    if (px && !chooses_type(choice.settings))
                      fail("is read as a table of rectangles, which has no pixels: give " +
-                          choice.um_per_unit_option + ", not " + choice.um_per_px_option +
-                          "; a matrix has rows of 0 and 1 only");
+                          unit_name + ", not " + px_name + "; a matrix has rows of 0 and 1 only");
                    need_no_px();
                    s.um_per_unit = unit.value_or(s.um_per_unit);
                  },
@@ -180,10 +174,10 @@ MapSpec choose_map_spec(const fs::path& path, const MapChoice& choice) {
   std::error_code error;
   if (!fs::exists(path, error)) fail("cannot read: No such file or directory");
   if (choice.um_per_px && !(*choice.um_per_px >= 1e-6 && *choice.um_per_px <= 1e6))
-    fail(choice.um_per_px_option + " is " + number_text(*choice.um_per_px) +
+    fail(input_name("um_per_px") + " is " + number_text(*choice.um_per_px) +
          ", must be within 1e-6..1e6");
   if (choice.um_per_unit && !(*choice.um_per_unit >= 1e-9 && *choice.um_per_unit <= 1e9))
-    fail(choice.um_per_unit_option + " is " + number_text(*choice.um_per_unit) +
+    fail(input_name("um_per_unit") + " is " + number_text(*choice.um_per_unit) +
          ", must be within 1e-9..1e9");
 
   std::optional<MapSpec> kind = kind_of_file(path);
@@ -203,9 +197,8 @@ MapSpec choose_map_spec(const fs::path& path, const MapChoice& choice) {
   return std::move(chosen.map);
 }
 
-MapSpec guess_map_spec(const fs::path& path, std::optional<double> um_per_px,
-                       std::string_view option) {
-  return choose_map_spec(path, {.um_per_px = um_per_px, .um_per_px_option = std::string(option)});
+MapSpec guess_map_spec(const fs::path& path, std::optional<double> um_per_px) {
+  return choose_map_spec(path, {.um_per_px = um_per_px});
 }
 
 }  // namespace microswarm::formats

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "microswarm/config/settings.hpp"
 #include "microswarm/core/fields/fields.hpp"
@@ -15,13 +14,11 @@ namespace microswarm::formats {
 /// Formats of the files that guess_map_spec takes, in words: "picture, …".
 std::string map_formats();
 
-/// Choices of a caller about a map file, with the names that messages give them.
+/// Choices of a caller about a map file.
 struct MapChoice {
   std::optional<double> um_per_px{};    ///< side of a pixel or cell [µm]
   std::optional<double> um_per_unit{};  ///< µm for a unit of a file in plane coordinates
   Settings settings{};                  ///< of keys within `map`, such as map.free=dark
-  std::string um_per_px_option = "um_per_px";
-  std::string um_per_unit_option = "um_per_unit";
 };
 
 /// The map of a MapChoice as its settings see it.
@@ -41,9 +38,8 @@ bool is_of_map(const Setting& setting);
 /// InputError for other files, and for a scale that the kind of map does not have.
 MapSpec choose_map_spec(const std::filesystem::path& path, const MapChoice& choice);
 
-/// The same without settings; the caller calls `um_per_px` `option`.
+/// The same without settings.
 MapSpec guess_map_spec(const std::filesystem::path& path,
-                       std::optional<double> um_per_px = std::nullopt,
-                       std::string_view option = "um_per_px");
+                       std::optional<double> um_per_px = std::nullopt);
 
 }  // namespace microswarm::formats
