@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/maths/rng.hpp"
 
 namespace microswarm {
