@@ -14,6 +14,7 @@
 #include "microswarm/io/hdf5_image.hpp"
 #include "microswarm/planning/common/detection.hpp"
 #include "tests/experiment/scenes.hpp"
+#include "tests/files.hpp"
 #include "tests/messages.hpp"
 
 namespace microswarm::experiment {

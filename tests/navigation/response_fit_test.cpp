@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/core/maths/rng.hpp"
 
 namespace microswarm::navigation {
