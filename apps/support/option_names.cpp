@@ -14,10 +14,10 @@ namespace {
 constexpr std::pair<std::string_view, std::string_view> other_options[] = {
     {"um_per_px", "--map-um-per-px"},  // then --um-per-px is of a photograph
     {"database", "--out"}};
-/// Commands in the place of functions of the library.
-constexpr std::pair<std::string_view, std::string_view> commands_instead[] = {
-    {"read_sweep", "`microswarm export`, with --csv FILE"},
-    {"read_record", "`microswarm report` or `microswarm replay`"}};
+/// Commands in the place of a function of the library.
+constexpr std::string_view instead_of_read_record = "`microswarm report` or `microswarm replay`";
+/// Where --um-per-px is of a photograph, and no option is of the map.
+constexpr std::string_view key_of_map_scale = "map.um_per_px";
 
 std::string option_of(std::string_view key) {
   std::string option = "--" + std::string(key);
@@ -29,12 +29,15 @@ std::string option_of(std::string_view key) {
 
 void name_inputs_by_options(std::vector<std::string> options) {
   name_inputs([options = std::move(options)](std::string_view key) -> std::string {
-    for (const auto& [function, command] : commands_instead)
-      if (key == function) return std::string(command);
+    const auto has = [&](std::string_view option) {
+      return std::ranges::count(options, option) > 0;
+    };
+    if (key == "read_record") return std::string(instead_of_read_record);
     for (const auto& [other, option] : other_options)
-      if (key == other && std::ranges::count(options, option)) return std::string(option);
+      if (key == other && has(option)) return std::string(option);
+    if (key == "um_per_px" && has("--photo")) return std::string(key_of_map_scale);
     const std::string option = option_of(key);
-    return std::ranges::count(options, option) ? option : std::string();
+    return has(option) ? option : std::string();
   });
 }
 

@@ -23,6 +23,7 @@ std::once_flag names_inputs;
 
 /// The setting by which a caller gives an input that is no parameter of a function.
 std::string key_of_input(std::string_view input) {
+  if (input == "read_record") return "ms_session_open";
   return input == "um_per_unit" ? "map.um_per_unit" : "";
 }
 

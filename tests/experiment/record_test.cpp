@@ -118,7 +118,8 @@ TEST(Record, ForeignBytesAreOneLine) {
   ASSERT_EQ(issues.size(), 1u);
   EXPECT_EQ(issues[0].location, (folder / "x.h5").string());
   EXPECT_EQ(message(std::string("SQLite format 3\0", 16)),
-            "x.h5: the database of a sweep, no record: read_sweep gives its trials as a table");
+            "x.h5: the database of a sweep, no record: `microswarm export` writes its trials "
+            "as a table");
   const auto made = io::write_hdf5();
   io::Hdf5Writer& other = *made;
   other.attribute("/", "format", "something else");

@@ -62,12 +62,33 @@ TEST(ResponseFit, WithoutSomeTimeItIsAsCommanded) {
   EXPECT_EQ(fit.response(), SwarmResponse{});
 }
 
+TEST(ResponseFit, AboveItsSpeedItKeepsTheCourse) {
+  for (const Vec2 flow : {Vec2{0, 40}, Vec2{-40, 40}, Vec2{30, -70}}) {
+    const SwarmResponse response{1, flow};
+    const Command given = response.command_for({0, 80}, 80);
+    EXPECT_NEAR(given.speed, 80, 1e-9);
+    const Vec2 moved = response.step({{0, 0}, 0}, given, infinity, 1).position;
+    EXPECT_NEAR(moved.y, 0, 1e-9) << flow.x;
+    EXPECT_GT(moved.x, 0) << flow.x;
+  }
+  EXPECT_NEAR(SwarmResponse({1, {0, 90}}).command_for({0, 80}, 80).speed, 80, 1e-9);
+}
+
+TEST(ResponseFit, AStuckSwarmIsInNoFlow) {
+  ResponseFit fit(3, 0.6 * full_speed);
+  for (int k = 0; k < 50; ++k) {
+    const double t = between_frames * k;
+    fit.add(t, {500, 500}, {full_speed * t, 0});
+  }
+  EXPECT_EQ(fit.response(), SwarmResponse{});
+}
+
 TEST(ResponseFit, AResponseIsMetByItsCommand) {
   const SwarmResponse response{0.8, {5, 10}};
   const Command given = response.command_for({0.3, 40}, 100);
   const Pose2 next = response.step({{0, 0}, 0.3}, given, infinity, 1);
   EXPECT_LT(distance(next.position, 40 * unit_vector(0.3)), 1e-9);
-  EXPECT_EQ(response.command_for({0.3, 500}, 100).speed, 100);
+  EXPECT_EQ(response.command_for({0.3, 0}, 100).speed, 0) << "to hold is to hold";
   EXPECT_EQ(SwarmResponse().command_for({0.3, 500}, 100).speed, 500) << "nothing to meet";
 }
 

@@ -52,10 +52,7 @@ void SessionThread::open() {
   session_ = rig::open_on_rig(watch_.file(), opening_.options);
   look_at_newest();
   publisher_.clear();
-  if (!session_->is_playback()) {
-    session_->keep_diagnostics();  // a page may look back at a decision
-    return;
-  }
+  if (!session_->is_playback()) return;
   publisher_.take(session_->record());
   publisher_.standing.growing = watch_.is_growing();
   looks_ = Clock::now() + look_period;

@@ -51,8 +51,8 @@ void refuse_other_kind(std::string_view text, std::string_view name, std::string
   };
   const FileKind* const found = std::ranges::find_if(kinds, is_it);
   if (found == std::end(kinds) || found->name == expected) return;
-  const std::string taken_by =
-      found->taken_by.empty() ? input_name("rig") + " takes it" : std::string(found->taken_by);
+  const std::string taken_by = found->taken_by.empty() ? "it is given as " + input_name("rig")
+                                                       : std::string(found->taken_by);
   throw InputError(std::string(name),
                    fmt::format("this is a {}, not a {}: {}", found->name, expected, taken_by));
 }

@@ -7,7 +7,6 @@
 
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
-#include "microswarm/core/errors/input_names.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/experiment/record/record.hpp"
 #include "microswarm/experiment/record/record_scene.hpp"
@@ -142,8 +141,9 @@ void write_record(const Record& record, const std::filesystem::path& file) {
 Record read_record(const std::filesystem::path& file) {
   std::string bytes = read_file(file);
   if (bytes.starts_with("SQLite format 3"))
-    throw InputError(file.string(), "the database of a sweep, no record: " +
-                                        input_name("read_sweep") + " gives its trials as a table");
+    throw InputError(file.string(),
+                     "the database of a sweep, no record: `microswarm export` writes its trials as "
+                     "a table");
   const auto opened = io::read_hdf5(std::move(bytes), file.string());
   const io::Hdf5Reader& in = *opened;
   const std::int64_t format = check_format(in);

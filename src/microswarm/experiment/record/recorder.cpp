@@ -12,8 +12,7 @@ Recorder::Recorder(Scene scene, std::uint32_t trial, std::string rig)
               .scene = std::move(scene),
               .trial = trial,
               .rig = std::move(rig)},
-      metrics_(record_.scene.scenario, record_.result),
-      keeps_diagnostics_(record_.scene.scenario.record.diagnostics) {}
+      metrics_(record_.scene.scenario, record_.result) {}
 
 void Recorder::on_tick(const Tick& tick) {
   metrics_.on_tick(tick);
@@ -33,7 +32,8 @@ void Recorder::on_tick(const Tick& tick) {
       kept.push_back({frame.t, view.phased_goal});
   }
   if (tick.robots) keep_robots(tick);
-  if (keeps_diagnostics_ && !tick.end) record_.diagnostics.add(frame.t, tick.diagnostics.value());
+  if (record_.scene.scenario.record.diagnostics && !tick.end)
+    record_.diagnostics.add(frame.t, tick.diagnostics.value());
   record_.events.insert(record_.events.end(), tick.events.begin(), tick.events.end());
 }
 

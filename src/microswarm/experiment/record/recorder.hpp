@@ -20,8 +20,6 @@ class Recorder : public RunListener {
   Recorder& operator=(const Recorder&) = delete;
 
   void on_tick(const Tick& tick) override;
-  /// From now on keeps the diagnostics of each step, also where `record.diagnostics` is false.
-  void keep_diagnostics() { keeps_diagnostics_ = true; }
   /// Notes that the navigator is not the scenario's.
   void note_external_navigator() { record_.navigator = "external"; }
 
@@ -35,8 +33,7 @@ class Recorder : public RunListener {
   void keep_robots(const Tick& tick);
 
   Record record_;
-  MetricsListener metrics_;  ///< into the record's result
-  bool keeps_diagnostics_ = false;
+  MetricsListener metrics_;       ///< into the record's result
   std::size_t robot_period_ = 1;  // frames
   std::size_t robot_frames_ = 0;
 };

@@ -174,7 +174,6 @@ ReplayResult replay(const Record& record, const Stop& stop) {
   SessionParts parts{.trial = record.trial};
   if (!record.navigator.empty()) parts.navigator = std::make_shared<PlayedNavigator>(record);
   Session session({record.scene, build_world(record.scene), {}}, std::move(parts));
-  if (!record.diagnostics.empty()) session.keep_diagnostics();
   Inputs inputs(record, session);
   if (!repeat(record, session, inputs, stop))
     return {.identical = false, .stopped = true, .difference = {}};

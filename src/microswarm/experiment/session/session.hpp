@@ -90,9 +90,6 @@ class Session {
   const Record& record() const;
   /// Writes the record. Throws InputError like write_record.
   void record_to(const std::filesystem::path& file) const { write_record(record(), file); }
-  /// From now on the record keeps the diagnostics of each step, also where the scenario's
-  /// `record.diagnostics` is false. Not for a playback.
-  void keep_diagnostics() { recorder_->keep_diagnostics(); }
   /// Log of a rig in the record, which must be kept.
   RigLog& rig_log() { return recorder_->rig_log(); }
 

@@ -81,7 +81,7 @@ ImminentCheck::Outcome ImminentCheck::roll(Pose2 from, const Command& command, i
                      ? out.end
                      : now_.response.step(out.end, given, turn_rate_, forecast.step());
     Segment move{out.end.position, next.position};
-    if (!stands && command.speed > 0 && !now_.map->is_free(move, now_.wall_clearance)) {
+    if (!stands && !(move.a == move.b) && !now_.map->is_free(move, now_.wall_clearance)) {
       if (s == first) out.least = -infinity;  // no start at all
       if (first > 0 || s < commanded_) return out;
       // The next command stops it before the wall.

@@ -251,7 +251,8 @@ double SafeIntervalNavigator::approach_speed(const Pose2& pose, Vec2 target, boo
   double fastest = speed();
   if (is_goal) fastest = std::min(fastest, std::max(away, 0.5 * aim().tolerance) / tick_);
   if (!std::isfinite(swarm().max_turn_rate)) return fastest;
-  const double turn = turn_between(heading_along(target - pose.position), pose.heading);
+  const Command course{heading_along(target - pose.position), speed()};
+  const double turn = turn_between(response().command_for(course, speed()).heading, pose.heading);
   const double sine = maths::sin(std::min(turn, 0.5 * pi));
   constexpr double slowest_share = 0.1;
   constexpr double reserve = 0.8;

@@ -66,6 +66,7 @@ void ResponseFit::fit() {
   const double factor = cc + prior > 0 ? (cp + prior) / (cc + prior) : 1;
   response_.speed_factor = std::clamp(factor, min_factor, max_factor);
   response_.flow = (tp - response_.speed_factor * tc) / tt;
+  if (!(norm(response_.flow) <= max_flow_)) response_ = {};
 }
 
 }  // namespace microswarm::navigation

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 
+#include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/geometry/vec2.hpp"
 #include "microswarm/navigation/steering/swarm_response.hpp"
 
@@ -13,8 +14,10 @@ namespace microswarm::navigation {
 /// a speed factor and a flow cannot be distinguished; then it takes a flow. Does not allocate.
 class ResponseFit {
  public:
-  /// `memory` is the time constant with which past positions are forgotten [s].
-  explicit ResponseFit(double memory) : memory_(memory) {}
+  /// `memory` is the time constant with which past positions are forgotten [s]. A flow above
+  /// `max_flow` [µm/s] is taken for a swarm that is stuck, and not fitted.
+  explicit ResponseFit(double memory, double max_flow = infinity)
+      : memory_(memory), max_flow_(max_flow) {}
 
   /// A position [µm] at the time `t` [s] of a swarm that its commands alone would have taken to
   /// `commanded` [µm] from where it began.
@@ -32,6 +35,7 @@ class ResponseFit {
   void fit();
 
   double memory_;
+  double max_flow_;
   std::array<Sample, max_samples> samples_{};  ///< a ring
   std::size_t added_ = 0;
   SwarmResponse response_;

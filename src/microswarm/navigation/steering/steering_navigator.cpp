@@ -28,9 +28,7 @@ Command SteeringNavigator::step(const Observation& seen, const Stop& stop) {
   view_ = {};
   update(seen, stop);
   Decision decision = finish(decision_for(seen, stop), seen);
-  const bool moves =
-      decision.state != NavigatorState::arrived && decision.state != NavigatorState::blind;
-  if (moves) decision.command = response().command_for(decision.command, speed_);
+  decision.command = response().command_for(decision.command, speed_);
   view_.state = decision.state;
   record(seen.now, decision.command);
   return decision.command;

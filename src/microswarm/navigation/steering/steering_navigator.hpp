@@ -65,7 +65,7 @@ class SteeringNavigator : public Navigator {
   /// From now on the pose is that of an estimate with this memory [s]; see SwarmEstimate. A swarm
   /// that frames miss is taken to have moved as commanded, until it has not been seen for the age
   /// above which a frame is too old. For a constructor.
-  void estimate_swarm(double memory) { estimate_.emplace(memory); }
+  void estimate_swarm(double memory) { estimate_.emplace(memory, max_flow * speed_); }
   /// The estimate; null without it.
   const SwarmEstimate* estimate() const { return estimate_ ? &*estimate_ : nullptr; }
   /// Estimated response of the swarm to its commands. A decision is how it should move; the command
@@ -104,6 +104,8 @@ class SteeringNavigator : public Navigator {
   NavigatorView& step_view() { return view_; }
 
  private:
+  static constexpr double max_flow = 0.6;  // share of the speed
+
   Decision decision_for(const Observation& seen, const Stop& stop);
   Decision decision_at(const Observation& seen, const Stop& stop);
   bool misses_briefly(const Observation& seen) const;

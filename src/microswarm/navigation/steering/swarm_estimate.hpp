@@ -21,7 +21,8 @@ namespace microswarm::navigation {
 class SwarmEstimate {
  public:
   /// `memory` is the time constant with which past differences are forgotten [s].
-  explicit SwarmEstimate(double memory) : memory_(memory), fit_(memory) {}
+  explicit SwarmEstimate(double memory, double max_flow = infinity)
+      : memory_(memory), fit_(memory, max_flow) {}
 
   /// Takes the swarm of a frame at the time `t` [s], and returns it at the estimated position.
   /// A frame that is not newer than the last changes nothing.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "microswarm/contracts/command.hpp"
 #include "microswarm/core/maths/angles.hpp"
@@ -18,13 +19,17 @@ struct SwarmResponse {
 
   bool operator==(const SwarmResponse&) const = default;
 
-  /// The command with which it moves as `wanted`, as far as `max_speed` [µm/s] allows. In a weak
-  /// flow holding stays holding.
+  /// The command with which it moves as `wanted`: on its course if `max_speed` [µm/s] allows that,
+  /// and as fast as it allows. Holding stays holding.
   Command command_for(const Command& wanted, double max_speed) const {
-    constexpr double weak = 0.05;  // share of the speed
-    if (*this == SwarmResponse{}) return wanted;
-    if (wanted.speed == 0 && norm(flow) < weak * max_speed) return wanted;
-    const Vec2 own = (wanted.speed * unit_vector(wanted.heading) - flow) / speed_factor;
+    if (wanted.speed == 0 || *this == SwarmResponse{}) return wanted;
+    const Vec2 course = unit_vector(wanted.heading);
+    Vec2 own = (wanted.speed * course - flow) / speed_factor;
+    if (norm(own) > max_speed) {
+      const Vec2 across = own - dot(own, course) * course;
+      const double left = max_speed * max_speed - squared_norm(across);
+      own = left > 0 ? across + std::sqrt(left) * course : (max_speed / norm(own)) * own;
+    }
     if (own == Vec2{}) return {wanted.heading, 0};
     return {heading_along(own), std::min(norm(own), max_speed)};
   }
