@@ -16,7 +16,7 @@ constexpr std::pair<std::string_view, std::string_view> other_options[] = {
     {"database", "--out"}};
 /// Commands in the place of a function of the library.
 constexpr std::string_view instead_of_read_record = "`microswarm report` or `microswarm replay`";
-/// Where --um-per-px is of a photograph, and no option is of the map.
+/// Key of the map's scale, for commands whose --um-per-px is of a photograph.
 constexpr std::string_view key_of_map_scale = "map.um_per_px";
 
 std::string option_of(std::string_view key) {
