@@ -43,8 +43,7 @@ extern "C" void on_interrupt(int signal) {
 }
 
 /// Prefixes every line of an error message with the program's name.
-int complain(const char* name, std::string_view message, int code) {
-  std::string_view what = message;
+int complain(const char* name, std::string_view what, int code) {
   for (bool more = true; more;) {
     const std::size_t end = what.find('\n');
     note("{}: {}\n", name, what.substr(0, end));

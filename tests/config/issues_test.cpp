@@ -6,22 +6,13 @@
 
 #include "microswarm/config/yaml.hpp"
 #include "tests/config/sample.hpp"
+#include "tests/files.hpp"
 
 namespace microswarm::sample {
 namespace {
 
-template <class F>
-Issues issues_from(F&& f) {
-  try {
-    f();
-  } catch (const InputError& error) {
-    return error.issues();
-  }
-  return {};
-}
-
 Issues issues_in(std::string_view text) {
-  return issues_from([&] { read_yaml_text<Scene>(text, "s.yaml"); });
+  return test::issues_of([&] { read_yaml_text<Scene>(text, "s.yaml"); });
 }
 
 /// "KEY at PLACE is VALUE, LIMIT".
@@ -94,7 +85,7 @@ TEST(Issues, OfAnAssignmentHaveTheWholeKey) {
   for (const auto& [setting, expected] : cases) {
     Scene scene;
     Notes notes;
-    EXPECT_EQ(only(issues_from([&, one = setting] { set_value(scene, one, "--set", notes); })),
+    EXPECT_EQ(only(test::issues_of([&, one = setting] { set_value(scene, one, "--set", notes); })),
               expected);
     EXPECT_EQ(scene, Scene{});
   }
@@ -103,11 +94,11 @@ TEST(Issues, OfAnAssignmentHaveTheWholeKey) {
 TEST(Issues, OfAnAssignmentWithoutAnOptionStandAtItsKey) {
   Scene scene;
   Notes notes;
-  const Issues issues = issues_from([&] {
+  const Issues issues = test::issues_of([&] {
     set_value(scene, Setting{"planner.walls", "x"}, "", notes);
   });
   EXPECT_EQ(to_string(issues), "planner.walls: walls is 'x', allowed: slide, stop");
-  EXPECT_EQ(to_string(issues_from([&] { Settings({"planner"}, ""); })),
+  EXPECT_EQ(to_string(test::issues_of([&] { Settings({"planner"}, ""); })),
             "'planner': must be KEY=VALUE");
 }
 
@@ -131,7 +122,10 @@ TEST(Settings, AreSplitAtTheFirstEqualsSign) {
   EXPECT_THROW(parse_setting("=3"), InputError);
   Scene scene;  // given apart, a key is not split again
   Notes notes;
-  EXPECT_EQ(issues_from([&] { set_value(scene, Setting{"name=a", "b"}, "", notes); }).size(), 1u);
+  EXPECT_EQ(test::issues_of([&] {
+              set_value(scene, Setting{"name=a", "b"}, "", notes);
+            }).size(),
+            1u);
 }
 
 }  // namespace

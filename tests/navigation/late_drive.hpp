@@ -30,6 +30,8 @@ struct LateDrive {
   std::function<bool(int frame)> is_missed{};  ///< whether a frame does not show the swarm
   double noise = 0;           ///< standard deviation of the positions of discs [µm]
   std::uint64_t seed = 1;     ///< of the noise
+  double swarm_noise = 0;     ///< of the swarm's positions [µm]
+  Vec2 flow{};                ///< that carries the swarm [µm/s]
   double min_gap = infinity;  ///< from edge to edge [µm]
   double time = 0;
   bool arrived = false;
@@ -62,6 +64,8 @@ struct LateDrive {
       const double seen = std::max(0.0, time - 0.05);
       const Snapshot now = seen_as(world.at(seen), rng);
       std::optional<SwarmPose> swarm_seen = SwarmPose{was_there.front(), swarm.radius};
+      if (swarm_noise > 0)
+        swarm_seen->pose.position += swarm_noise * Vec2{rng.normal(), rng.normal()};
       if (is_missed && is_missed(static_cast<int>(commands.size()))) swarm_seen.reset();
       const Command command = navigator.step(
           {.now = time, .seen = seen, .swarm = swarm_seen, .robots = {}, .world = borrowed(now)},
@@ -72,6 +76,7 @@ struct LateDrive {
       for (int k = 0; k < 10; ++k, time += substep) {
         pending.push_back(command);
         pose = unicycle_step(pose, pending.front(), swarm.max_turn_rate, substep);
+        pose.position += substep * flow;
         pending.erase(pending.begin());
         was_there.push_back(pose);
         was_there.erase(was_there.begin());

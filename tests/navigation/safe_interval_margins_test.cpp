@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "microswarm/navigation/safe_interval/imminent_check.hpp"
 #include "microswarm/navigation/safe_interval/obstacle_forecast.hpp"
 #include "microswarm/navigation/safe_interval/safe_interval.hpp"
 #include "tests/navigation/late_drive.hpp"
@@ -229,6 +230,58 @@ TEST(SafeIntervalMargins, ASwarmThatIsLostIsHeld) {
       EXPECT_EQ(drive.states[k], NavigatorState::follow) << t;
     }
   }
+}
+
+/// A wall from below, whose upper end is above the straight way.
+const std::vector<Polygon> wall_in_the_way{{{{980, 0}, {1020, 0}, {1020, 620}, {980, 620}}, {}}};
+
+// The estimate of a swarm that is seen with noise errs by some µm: the gap to walls is more by
+// that.
+TEST(SafeIntervalMargins, TheNoiseOfTheSwarmKeepsItFromWalls) {
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}) {
+    LateDrive<SafeIntervalNavigator> drive{
+        .walls = wall_in_the_way, .seed = seed, .swarm_noise = 9};
+    drive.run(60);
+    EXPECT_TRUE(drive.arrived) << seed;
+    EXPECT_GT(drive.min_gap, 0) << seed;
+  }
+}
+
+TEST(SafeIntervalMargins, AFlowDoesNotCarryItIntoAWall) {
+  for (const SwarmLimits& swarm : {slow_vortex, slow_ribbon})
+    for (const Vec2 flow : {Vec2{0, -15}, Vec2{-10, -10}, Vec2{15, 0}}) {
+      LateDrive<SafeIntervalNavigator> drive{
+          .walls = wall_in_the_way, .swarm = swarm, .flow = flow};
+      drive.run(60);
+      EXPECT_TRUE(drive.arrived) << flow.x << ", " << flow.y;
+      EXPECT_GT(drive.min_gap, 0) << flow.x << ", " << flow.y;
+    }
+}
+
+// A swarm 10 µm before the gap to the lower side of the room.
+TEST(SafeIntervalMargins, AMoveIsCheckedAsTheFlowLetsItBe) {
+  const SafeIntervalParams params;
+  const SwarmLimits swarm{.radius = 50, .max_speed = 40, .max_turn_rate = infinity};
+  const Snapshot room = room_with();
+  ObstacleForecast forecast(params, swarm.max_speed);
+  forecast.update(room, MultiModelPredictor(params.prediction), 0, std::array{Vec2{500, 62}});
+  forecast.measure_from({500, 62}, swarm.radius);
+  ImminentCheck check(params.tuning.imminent, swarm, swarm.max_speed, frame_time);
+  const auto is_safe = [&](const Command& command, Vec2 flow) {
+    check.begin({.map = &room.map(),
+                 .forecast = &forecast,
+                 .pose = {{500, 62}, 0},
+                 .radius = swarm.radius,
+                 .wall_clearance = 52,
+                 .goal = {{1800, 500}, 30},
+                 .response = {1, flow}});
+    return check.is_safe(command);
+  };
+  const Command hold{0, 0}, along{0, 40};
+  for (const Command& command : {hold, along}) EXPECT_TRUE(is_safe(command, {}));
+  EXPECT_TRUE(is_safe(along, {0, -20})) << "it can go against the flow";
+  EXPECT_FALSE(is_safe(along, {0, -200})) << "the flow carries it into the wall";
+  EXPECT_FALSE(is_safe(hold, {0, -200})) << "so it does where it holds";
 }
 
 }  // namespace
