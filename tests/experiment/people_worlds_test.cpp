@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <string>
 #include <variant>
@@ -65,7 +66,8 @@ TEST(OrcaCrowd, PeopleReachTheOtherSideWithoutContact) {
   }
 }
 
-TEST(Dynabarn, TracksBeginAgainWhereTheyEnd) {
+// A disc is not swept from the end of its lap to the begin of the next one.
+TEST(Dynabarn, DiscsAppearAgainWhereTheirLapBegins) {
   const test::Folder folder;
   folder.with("tracks.csv", "plugin,t_s,x_m,y_m\nhardlibobs_1,0,1,2\nhardlibobs_1,10,3,2\n");
   folder.with("worlds.csv", "world,plugin\n0,hardlibobs_1\n");
@@ -73,10 +75,16 @@ TEST(Dynabarn, TracksBeginAgainWhereTheyEnd) {
   ASSERT_EQ(worlds.size(), 1u);
   EXPECT_EQ(worlds[0].level, scenes::DynabarnLevel::hard);
   const Scenario s = scenes::dynabarn_scenario(worlds[0], 200);
-  ASSERT_EQ(s.obstacles.size(), 1u);
-  EXPECT_EQ(placement(s.obstacles[0].motion, 5).pose.position, (Vec2{200, 200}));
-  EXPECT_NEAR(placement(s.obstacles[0].motion, 15.001).pose.position.x, 200, 1e-6);
-  EXPECT_TRUE(placement(s.obstacles[0].motion, 100).present);
+  for (const double t : {0.0, 5.0, 15.0, 47.0, 99.9}) {
+    std::vector<Placement> present;
+    for (const Obstacle& disc : s.obstacles) {
+      EXPECT_LE(top_speed(disc.motion), 20 + 1e-9);
+      if (const Placement at = placement(disc.motion, t); at.present) present.push_back(at);
+    }
+    ASSERT_EQ(present.size(), 1u) << t;
+    EXPECT_NEAR(present[0].pose.position.x, 100 + 20 * std::fmod(t, 10), 1e-6) << t;
+    EXPECT_EQ(present[0].pose.position.y, 200);
+  }
   EXPECT_TRUE(validate(s, scenes::avoidance_world(s)).empty());
 }
 

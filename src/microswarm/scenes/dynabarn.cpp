@@ -21,7 +21,6 @@ constexpr double um_a_metre = 100;
 constexpr double obstacle_radius = 0.5 * um_a_metre;
 constexpr double robot_radius = 0.3 * um_a_metre;
 constexpr double dynabarn_time_limit = 100;  // [s]
-constexpr double between_laps = 1e-3;        // [s]
 constexpr std::uint64_t max_dynabarn_bytes = 64 << 20;
 
 /// Calls `take` with the cells of each row but the header.
@@ -67,16 +66,17 @@ DynabarnLevel level_of(const Lines& lines, std::string_view plugin) {
   lines.fail(quote(plugin) + " is neither easy, medium nor hard");
 }
 
-/// The lap again and again, until the time limit.
-Samples repeated(const Samples& lap) {
-  Samples all;
-  const double duration = lap.times.back() - lap.times.front() + between_laps;
-  for (double begin = 0; begin <= dynabarn_time_limit + 1; begin += duration)
-    for (std::size_t i = 0; i < lap.times.size(); ++i) {
-      all.times.push_back(begin + lap.times[i] - lap.times.front());
-      all.points.push_back(lap.points[i]);
-    }
-  return all;
+/// The lap again and again, until the time limit. A disc disappears at the end of its lap and
+/// appears at the begin: each lap has its own.
+void add_laps(const Samples& lap, std::vector<Obstacle>& obstacles) {
+  const double duration = lap.times.back() - lap.times.front();
+  for (double begin = 0; begin <= dynabarn_time_limit; begin += duration) {
+    Samples shifted = lap;
+    for (double& t : shifted.times) t += begin - lap.times.front();
+    Track track{"tracks.csv", std::to_string(obstacles.size() + 1), {}};
+    track.samples = std::make_shared<const Samples>(std::move(shifted));
+    obstacles.push_back({DiscShape{obstacle_radius}, std::move(track)});
+  }
 }
 
 }  // namespace
@@ -89,6 +89,8 @@ std::vector<DynabarnWorld> read_dynabarn(const std::filesystem::path& folder) {
                  DynabarnWorld& world = worlds[dynabarn_number(lines, cells[0])];
                  const auto plugin = plugins.find(cells[1]);
                  if (plugin == plugins.end()) lines.fail(quote(cells[1]) + " has no track");
+                 if (plugin->second.times.size() < 2)
+                   lines.fail(quote(cells[1]) + " has one key frame, at least 2 expected");
                  world.level = level_of(lines, cells[1]);
                  world.tracks.push_back(plugin->second);
                });
@@ -111,11 +113,7 @@ experiment::Scenario dynabarn_scenario(const DynabarnWorld& world, double speed)
   s.time_limit = dynabarn_time_limit;
   s.hold_limit = dynabarn_time_limit;
   s.stop_at_contact = true;
-  for (const Samples& lap : world.tracks) {
-    Track track{"tracks.csv", std::to_string(s.obstacles.size() + 1), {}};
-    track.samples = std::make_shared<const Samples>(repeated(lap));
-    s.obstacles.push_back({DiscShape{obstacle_radius}, std::move(track)});
-  }
+  for (const Samples& lap : world.tracks) add_laps(lap, s.obstacles);
   return s;
 }
 
