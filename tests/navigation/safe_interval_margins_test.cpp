@@ -258,6 +258,73 @@ TEST(SafeIntervalMargins, AFlowDoesNotCarryItIntoAWall) {
     }
 }
 
+// It faces a disc that fills the corridor and must turn round there, beside the walls.
+TEST(SafeIntervalMargins, ASlowTurnerTurnsRoundInACorridor) {
+  for (const double rate : {1.0, 1.5, 2.0})
+    for (const double from : {900.0, 1000.0, 1100.0}) {
+      LateDrive<SafeIntervalNavigator> drive{
+          .walls = corridor,
+          .obstacles = {{DiscShape{45}, Straight{{from, 500}, {-45, 0}}}},
+          .swarm = {50, 70, rate, 0.1},
+          .pose = {{600, 500}, 0}};
+      drive.run(30);
+      EXPECT_GT(drive.min_gap, 0) << rate << ", " << from;
+    }
+}
+
+/// Discs that close in on a swarm that turns slowly, and a check of its next seconds.
+struct Closing {
+  SafeIntervalParams params{.horizon = 2 * ObstacleForecast::slots * frame_time};
+  SwarmLimits swarm{.radius = 50, .max_speed = 70, .max_turn_rate = 1.5};
+  Snapshot room = room_with();
+  Seen seen{};
+  ObstacleForecast forecast{params, swarm.max_speed};
+  ImminentCheck check{params.tuning.imminent, swarm, swarm.max_speed, frame_time};
+  Pose2 pose{};
+
+  void begin() {
+    const Snapshot frame = seen.next();
+    seen.predictor.update(seen.observe(frame));
+    forecast.update(frame, seen.predictor, frame.time(), std::array{pose.position});
+    forecast.measure_from(pose.position, swarm.radius);
+    check.begin({.map = &room.map(),
+                 .forecast = &forecast,
+                 .pose = pose,
+                 .radius = swarm.radius,
+                 .wall_clearance = 52,
+                 .goal = {{1800, 500}, 30},
+                 .response = {}});
+  }
+};
+
+// What a command was safe with stays possible, whatever else is lost.
+TEST(SafeIntervalMargins, TheEscapeOfASafeCommandIsKept) {
+  Rng rng(11, Purpose::test);
+  int safe = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    Closing c;
+    c.pose = {{500, 500}, rng.uniform(-pi, pi)};
+    for (int k = 0; k < 6; ++k) {
+      const double from = rng.uniform(-pi, pi);
+      const Vec2 at = c.pose.position + rng.uniform(200, 340) * unit_vector(from);
+      const double course = from + pi + rng.uniform(-0.4, 0.4);
+      c.seen.obstacles.push_back(
+          {DiscShape{40}, Straight{at, rng.uniform(30, 60) * unit_vector(course)}});
+    }
+    for (int k = 0; k < 15; ++k) c.begin();
+    for (int k = 0; k < 20; ++k) {
+      const Command command{rng.uniform(-pi, pi), 70};
+      if (!c.check.is_safe(command)) continue;
+      ++safe;
+      c.pose = unicycle_step(c.pose, command, c.swarm.max_turn_rate, frame_time);
+      c.begin();
+      if (c.forecast.min_current_gap() < 5) break;
+      EXPECT_TRUE(c.check.kept_escape().has_value()) << trial << ", " << k;
+    }
+  }
+  EXPECT_GT(safe, 100);
+}
+
 // A swarm 10 µm before the gap to the lower side of the room.
 TEST(SafeIntervalMargins, AMoveIsCheckedAsTheFlowLetsItBe) {
   const SafeIntervalParams params;

@@ -187,6 +187,67 @@ TEST(SafeIntervalSearch, NothingIsReachedThroughWhatStands) {
   EXPECT_TRUE(search.path().empty());
 }
 
+// Something closes the lane; the swarm goes at once to the last cell before it, and waits there.
+TEST(SafeIntervalSearch, WhereNothingLeadsOnItStays) {
+  SpaceTimeGrid grid({{0, 0}, {190, 10}}, 10, 1, 20);
+  for (int column = 0; column < grid.columns(); ++column)
+    for (int row = 0; row < grid.rows(); ++row)
+      if (row > 0 || column == 8) grid.let_stand(grid.at(column, row));
+  grid.clear();
+  std::vector<float> lengths(grid.size());
+  for (Cell c = 0; c < grid.size(); ++c)
+    lengths[c] = static_cast<float>(distance(grid.position(c), grid.position(grid.at(19, 0))));
+  const std::vector<Cell> entries{grid.at(2, 0)};
+  const Vec2 from = grid.position(grid.at(2, 0)), end = grid.position(grid.at(7, 0));
+  SafeIntervalSearch search;
+  ASSERT_EQ(search.find(grid, {.from = from,
+                               .stay_until = infinity,
+                               .entries = entries,
+                               .speed = 10,
+                               .lengths = lengths}),
+            Status::solved);
+  const auto path = search.path();
+  ASSERT_GE(path.size(), 3u);
+  EXPECT_EQ(path.back().position, end);
+  EXPECT_EQ(path.back().arrival, grid.horizon());
+  EXPECT_EQ(path[path.size() - 2].position, end);
+  EXPECT_NEAR(path[path.size() - 2].arrival, distance(from, end) / 10, 1e-6);
+  EXPECT_NEAR(search.arrival(), grid.horizon() + 12, 1e-6);
+}
+
+// It turns by the angle beyond a small one before it moves, at the start and at a corner.
+TEST(SafeIntervalSearch, TurnsTakeTimeAtALimitedRate) {
+  const double rate = 2;
+  const auto arrival = [&](double heading, bool has_wall, double turn_rate) {
+    SpaceTimeGrid grid({{0, 0}, {100, 100}}, 10, 1, 60);
+    if (has_wall)
+      for (int row = 0; row < 9; ++row) grid.let_stand(grid.at(5, row));
+    grid.clear();
+    GridDistances distances;
+    const std::array<GridDistances::Seed, 1> goal{{{grid.at(9, 5), 0}}};
+    distances.compute(grid, goal);
+    const std::vector<Cell> entries{grid.at(0, 5), grid.at(1, 5), grid.at(1, 6), grid.at(0, 6)};
+    SafeIntervalSearch search;
+    EXPECT_EQ(search.find(grid, {.from = grid.position(grid.at(0, 5)),
+                                 .stay_until = infinity,
+                                 .entries = entries,
+                                 .speed = 10,
+                                 .heading = heading,
+                                 .turning = {turn_rate},
+                                 .lengths = distances.lengths()}),
+              Status::solved);
+    return search.arrival();
+  };
+  const double small = TurnFirst::small_turn;
+  EXPECT_NEAR(arrival(0, false, rate), 9, 1e-6);
+  EXPECT_NEAR(arrival(0.9 * small, false, rate), 9, 1e-6);
+  EXPECT_NEAR(arrival(pi, false, rate), 9 + (pi - small) / rate, 1e-6);
+  EXPECT_NEAR(arrival(pi, false, infinity), 9, 1e-6);
+  const double at_once = arrival(0.7, true, infinity);
+  EXPECT_GT(arrival(0.7, true, rate), at_once + 0.2) << "the corner above the wall";
+  EXPECT_LT(arrival(0.7, true, rate), at_once + 2 * pi / rate);
+}
+
 TEST(SafeIntervalSearch, ArrivesAsEarlyAsBruteForce) {
   int solved = 0;
   double sum = 0;

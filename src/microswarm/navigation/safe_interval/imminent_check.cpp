@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "microswarm/core/maths/angles.hpp"
 
 namespace microswarm::navigation {
 namespace {
 
-constexpr int escapes = 16;             // directions of an escape
+constexpr int directions = 16;          // of an escape
 constexpr int first_legs = 18;          // directions of the first leg of a manoeuvre
 constexpr double counted_gap = 40;      // [µm], gap above which two manoeuvres are equally good
 constexpr double contact_gap = 0.5;     // [µm]
@@ -20,11 +21,12 @@ constexpr double hold_turn = 0.5 * pi;  // turn to which a hold is equivalent
 ImminentCheck::ImminentCheck(const ImminentTuning& tuning, const SwarmLimits& swarm, double speed,
                              double tick)
     : tuning_(tuning),
-      turn_rate_(swarm.max_turn_rate),
+      turning_{swarm.max_turn_rate},
       speed_(speed),
       tick_(tick),
-      committed_time_(std::max(tuning.commitment, tick)) {
-  choices_.reserve(2 * static_cast<std::size_t>(tuning.directions) + 1);
+      committed_time_(std::max(tuning.commitment, tick)),
+      escapes_(std::isfinite(swarm.max_turn_rate) ? 2 * directions : directions) {
+  choices_.reserve(3 * static_cast<std::size_t>(tuning.directions) + 3);
 }
 
 void ImminentCheck::begin(const Situation& situation) {
@@ -35,6 +37,8 @@ void ImminentCheck::begin(const Situation& situation) {
   committed_ =
       std::clamp(static_cast<int>(std::ceil(committed_time_ / forecast.step())), 1, samples_);
   commanded_ = std::clamp(static_cast<int>(std::ceil(tick_ / forecast.step())), 1, committed_);
+  kept_ = std::exchange(found_, std::nullopt);
+  if (kept_) kept_->switch_time -= tick_, kept_->checked -= tick_;
   present_hollow_gap_ =
       forecast.hollow_clearance(now_.pose.position, now_.radius + counted_gap) - now_.radius;
   near_.clear();
@@ -61,17 +65,41 @@ Command ImminentCheck::direction(int k, int count, double share) const {
   return {wrap(now_.pose.heading + 2 * pi * k / count), share * speed_};
 }
 
+double ImminentCheck::time_of(int sample) const { return sample * now_.forecast->step(); }
+
+int ImminentCheck::samples_until(double time) const {
+  return static_cast<int>(std::lround(time / now_.forecast->step()));
+}
+
+double ImminentCheck::slow_speed() const { return planning::TurnFirst::slow_share * speed_; }
+
+bool ImminentCheck::turns_first(const Leg& leg, const Pose2& pose) const {
+  return leg.turns_first && turning_.applies(turn_between(leg.command.heading, pose.heading));
+}
+
+/// Escape k: in one direction each, at full speed and, with a limited turn rate, turning first.
+ImminentCheck::Leg ImminentCheck::escape(int k) const {
+  return {direction(k % directions, directions), k >= directions};
+}
+
+Command ImminentCheck::begin_of(const Manoeuvre& manoeuvre) const {
+  const Leg& leg = samples_until(manoeuvre.switch_time) > 0 ? manoeuvre.first : manoeuvre.second;
+  if (!turns_first(leg, now_.pose)) return leg.command;
+  return {leg.command.heading, std::min(leg.command.speed, slow_speed())};
+}
+
 double ImminentCheck::required(const Near& near, int sample) const {
   const double t = sample * now_.forecast->step();
   return std::min(tuning_.gap + near.noise_gap + tuning_.gap_rate * t,
                   near.present + tuning_.recovery_rate * t);
 }
 
-ImminentCheck::Outcome ImminentCheck::roll(Pose2 from, const Command& command, int first, int last,
+ImminentCheck::Outcome ImminentCheck::roll(Pose2 from, const Leg& leg, int first, int last,
                                            bool in_contact_only, Turned turned) const {
   const ObstacleForecast& forecast = *now_.forecast;
   Outcome out{first, counted_gap, from};
-  const Command given = now_.response.command_for(command, speed_);
+  const Command given = now_.response.command_for(leg.command, speed_);
+  const Command slow{given.heading, std::min(given.speed, slow_speed())};
   bool stands = false;
   for (int s = first; s < last; ++s) {
     // The commitment ends at the goal; what comes near there later can be escaped from.
@@ -79,7 +107,8 @@ ImminentCheck::Outcome ImminentCheck::roll(Pose2 from, const Command& command, i
         first == 0 && distance(out.end.position, now_.goal.centre) <= now_.goal.radius;
     Pose2 next = has_arrived || stands
                      ? out.end
-                     : now_.response.step(out.end, given, turn_rate_, forecast.step());
+                     : now_.response.step(out.end, turns_first(leg, out.end) ? slow : given,
+                                          turning_.turn_rate, forecast.step());
     Segment move{out.end.position, next.position};
     if (!stands && !(move.a == move.b) && !now_.map->is_free(move, now_.wall_clearance)) {
       if (s == first) out.least = -infinity;  // no start at all
@@ -115,28 +144,50 @@ ImminentCheck::Outcome ImminentCheck::roll(Pose2 from, const Command& command, i
   return out;
 }
 
-bool ImminentCheck::leaves_escape(const Pose2& from, const Command& command, int first) {
-  const auto is_free = [&](const Command& c) {
-    return roll(from, c, first, samples_, false).until == samples_;
+ImminentCheck::Outcome ImminentCheck::roll(const Manoeuvre& manoeuvre, bool in_contact_only) const {
+  const int turn = std::clamp(samples_until(manoeuvre.switch_time), 0, samples_);
+  const Outcome begin = roll(now_.pose, manoeuvre.first, 0, turn, in_contact_only);
+  if (begin.until < turn) return begin;
+  Outcome rest = roll(begin.end, manoeuvre.second, turn, samples_, in_contact_only);
+  rest.least = std::min(rest.least, begin.least);
+  return rest;
+}
+
+std::optional<ImminentCheck::Leg> ImminentCheck::escape_after(const Pose2& from,
+                                                              const Command& command, int first) {
+  const auto is_free = [&](const Leg& leg) {
+    return roll(from, leg, first, samples_, false).until == samples_;
   };
-  if (is_free(command) || is_free({from.heading, 0})) return true;
-  if (is_free(direction(last_escape_, escapes))) return true;
-  for (int k = 0; k < escapes; ++k) {
-    if (!is_free(direction(k, escapes))) continue;
+  if (const Leg same{command}; is_free(same)) return same;
+  if (const Leg hold{{from.heading, 0}}; is_free(hold)) return hold;
+  if (const Leg last = escape(last_escape_); is_free(last)) return last;
+  for (int k = 0; k < escapes_; ++k) {
+    if (!is_free(escape(k))) continue;
     last_escape_ = k;
-    return true;
+    return escape(k);
   }
-  return false;
+  return std::nullopt;
+}
+
+std::optional<Command> ImminentCheck::kept_escape() {
+  if (!kept_) return std::nullopt;
+  const int until = roll(*kept_, false).until;
+  if (until < std::max(samples_until(kept_->checked), committed_)) return std::nullopt;
+  kept_->checked = time_of(until);
+  found_ = kept_;
+  return begin_of(*kept_);
 }
 
 bool ImminentCheck::is_safe(const Command& command, Turns turns) {
-  const Outcome first = roll(now_.pose, command, 0, committed_, false);
+  const Outcome first = roll(now_.pose, {command}, 0, committed_, false);
   if (first.until < committed_) return false;
   if (turns == Turns::of_any_body)
     for (std::size_t k = 0; k < near_.size(); ++k)
-      if (const int n = near_[k].turned; roll(now_.pose, command, 0, n, false, k).until < n)
+      if (const int n = near_[k].turned; roll(now_.pose, {command}, 0, n, false, k).until < n)
         return false;
-  return leaves_escape(first.end, command, committed_);
+  const auto escape = escape_after(first.end, command, committed_);
+  if (escape) found_ = Manoeuvre{{command}, time_of(committed_), *escape, time_of(samples_)};
+  return escape.has_value();
 }
 
 std::optional<Command> ImminentCheck::nearest_safe(const Command& wanted, const Command& last,
@@ -149,10 +200,16 @@ std::optional<Command> ImminentCheck::nearest_safe(const Command& wanted, const 
     choices_.push_back({turn + extra, command});
   };
   choices_.push_back({hold_turn, {now_.pose.heading, 0}});
+  // The other way round, since the shorter turn may meet something.
+  constexpr double half_way = 2;  // [rad]
+  if (turning_.applies(turn_between(wanted.heading, now_.pose.heading)))
+    for (const double turn : {half_way, -half_way})
+      choices_.push_back({0.9 * hold_turn, {wrap(now_.pose.heading + turn), slow_speed()}});
   for (int k = 0; k < tuning_.directions; ++k) {
     const double heading = wrap(wanted.heading + 2 * pi * k / tuning_.directions);
     add({heading, speed_}, 0);
     add({heading, 0.4 * speed_}, 0.25);
+    if (std::isfinite(turning_.turn_rate)) add({heading, slow_speed()}, 0.4);
   }
   std::sort(choices_.begin(), choices_.end(), [](const Choice& a, const Choice& b) {
     return a.cost != b.cost ? a.cost < b.cost : a.command.heading < b.command.heading;
@@ -164,31 +221,37 @@ std::optional<Command> ImminentCheck::nearest_safe(const Command& wanted, const 
 
 Command ImminentCheck::best_escape(const Command& last) {
   constexpr double same_course = 0.2;  // [rad]
-  Command best{now_.pose.heading, 0};
+  Manoeuvre best;
   double best_score = -infinity;
-  const auto score = [&](const Outcome& o) { return 1e3 * o.until + o.least; };
-  const auto consider = [&](const Command& first) {
-    const Outcome begin = roll(now_.pose, first, 0, committed_, true);
-    double found = score(begin);
-    if (begin.until == committed_)
-      for (int k = -1; k < escapes; ++k) {
-        const Command second = k < 0 ? Command{begin.end.heading, 0} : direction(k, escapes);
-        Outcome rest = roll(begin.end, second, committed_, samples_, true);
-        rest.least = std::min(rest.least, begin.least);
-        found = std::max(found, score(rest));
-      }
-    const bool goes_on =
-        (last.speed > 0) == (first.speed > 0) &&
-        (last.speed <= 0 || turn_between(last.heading, first.heading) < same_course);
-    if (goes_on) found += tuning_.switch_gap;
-    if (found <= best_score) return;
-    best_score = found;
-    best = first;
+  const auto take = [&](const Manoeuvre& manoeuvre, const Outcome& o, bool goes_on) {
+    const double score = 1e3 * o.until + o.least + (goes_on ? tuning_.switch_gap : 0);
+    if (score <= best_score) return;
+    best_score = score;
+    best = manoeuvre;
   };
-  consider(best);
-  if (last.speed > 0) consider(last);
-  for (int k = 0; k < first_legs; ++k) consider(direction(k, first_legs));
-  return best;
+  const auto consider = [&](const Leg& first) {
+    const bool goes_on =
+        (last.speed > 0) == (first.command.speed > 0) &&
+        (last.speed <= 0 || turn_between(last.heading, first.command.heading) < same_course);
+    const Outcome begin = roll(now_.pose, first, 0, committed_, true);
+    take({first, time_of(committed_), first}, begin, goes_on);
+    if (begin.until < committed_) return;
+    for (int k = -1; k < escapes_; ++k) {
+      const Leg second = k < 0 ? Leg{{begin.end.heading, 0}} : escape(k);
+      Outcome rest = roll(begin.end, second, committed_, samples_, true);
+      rest.least = std::min(rest.least, begin.least);
+      take({first, time_of(committed_), second}, rest, goes_on);
+    }
+  };
+  if (kept_) take(*kept_, roll(*kept_, true), true);
+  consider({{now_.pose.heading, 0}});
+  if (last.speed > 0) consider({last});
+  for (int k = 0; k < first_legs; ++k) consider({direction(k, first_legs)});
+  if (std::isfinite(turning_.turn_rate))
+    for (int k = 0; k < first_legs; ++k) consider({direction(k, first_legs), true});
+  best.checked = time_of(samples_);
+  found_ = best;
+  return begin_of(best);
 }
 
 }  // namespace microswarm::navigation

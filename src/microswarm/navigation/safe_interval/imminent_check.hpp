@@ -9,16 +9,17 @@
 #include "microswarm/navigation/safe_interval/obstacle_forecast.hpp"
 #include "microswarm/navigation/safe_interval/safe_interval_tuning.hpp"
 #include "microswarm/navigation/steering/swarm_response.hpp"
+#include "microswarm/planning/space_time/turn_first.hpp"
 #include "microswarm/swarm/body/swarm_limits.hpp"
 
 namespace microswarm::navigation {
 
 /// Exact check of the next seconds. A command is safe if the swarm keeps its gaps for the
-/// commitment and an escape remains after it: to continue, to hold, or another direction. Gaps are
-/// measured along the whole motion, relative to the predicted motion of the bodies, and walls
-/// exactly. It is safe against turns if it does not meet a slower body that turns round just after
-/// the frame, until this is seen through the noise of its position and answered. Does not allocate
-/// once it has seen as many bodies.
+/// commitment and an escape remains after it: to continue, to hold, or another direction. The
+/// escape of the last safe command is kept. Gaps are measured along the whole motion, relative to
+/// the predicted motion of the bodies, and walls exactly. It is safe against turns if it does not
+/// meet a slower body that turns round just after the frame, until this is seen through the noise
+/// of its position and answered. Does not allocate once it has seen as many bodies.
 class ImminentCheck {
  public:
   /// `speed` [µm/s] of the swarm, `tick` [s] between two commands.
@@ -43,6 +44,8 @@ class ImminentCheck {
   /// there is none.
   std::optional<Command> nearest_safe(const Command& wanted, const Command& last,
                                       Turns turns = Turns::none);
+  /// The command that continues the manoeuvre with which the last command was safe, if it still is.
+  std::optional<Command> kept_escape();
   /// Start of the manoeuvre of two legs that is free of contact for longest, then keeps the largest
   /// gap; one that continues `last` is kept unless another is clearly better.
   Command best_escape(const Command& last);
@@ -68,17 +71,38 @@ class ImminentCheck {
     Command command{};
   };
 
-  Outcome roll(Pose2 from, const Command& command, int first, int last, bool in_contact_only,
+  /// A command. Where it turns first, its speed is low until then.
+  struct Leg {
+    Command command{};
+    bool turns_first = false;
+  };
+  /// A leg, and another after some time.
+  struct Manoeuvre {
+    Leg first{};
+    double switch_time = 0;  ///< from now [s]
+    Leg second{};
+    double checked = 0;  ///< time in which it keeps the gaps [s]
+  };
+
+  Outcome roll(Pose2 from, const Leg& leg, int first, int last, bool in_contact_only,
                Turned turned = {}) const;
-  bool leaves_escape(const Pose2& from, const Command& command, int first);
+  Outcome roll(const Manoeuvre& manoeuvre, bool in_contact_only) const;
+  std::optional<Leg> escape_after(const Pose2& from, const Command& command, int first);
+  Leg escape(int k) const;
+  Command begin_of(const Manoeuvre& manoeuvre) const;
+  double time_of(int sample) const;
+  int samples_until(double time) const;
+  double slow_speed() const;
+  bool turns_first(const Leg& leg, const Pose2& pose) const;
   double required(const Near& near, int sample) const;
   Command direction(int k, int count, double share = 1) const;
 
   ImminentTuning tuning_;
-  double turn_rate_;
+  planning::TurnFirst turning_;
   double speed_;
   double tick_;
   double committed_time_;
+  int escapes_;
   Situation now_;
   int samples_ = 0;                ///< of the horizon
   int commanded_ = 0;              ///< until the next command
@@ -86,7 +110,9 @@ class ImminentCheck {
   double present_hollow_gap_ = 0;  ///< [µm]
   std::vector<Near> near_;
   std::vector<Choice> choices_;
-  int last_escape_ = 0;  ///< direction that was free last time
+  int last_escape_ = 0;             ///< the one that was free last time
+  std::optional<Manoeuvre> found_;  ///< with which the last command that was tested is safe
+  std::optional<Manoeuvre> kept_;   ///< what is left of that of the last step
 };
 
 }  // namespace microswarm::navigation

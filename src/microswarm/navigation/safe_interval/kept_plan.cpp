@@ -2,6 +2,10 @@
 #include "microswarm/navigation/safe_interval/kept_plan.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "microswarm/core/maths/angles.hpp"
 
 namespace microswarm::navigation {
 
@@ -13,13 +17,15 @@ void KeptPlan::adopt(std::span<const planning::TimedPoint> path, double begin, d
   from_ = path.front().position;
   for (std::size_t i = 1; i < path.size(); ++i) {
     const double length = distance(path[i - 1].position, path[i].position);
-    if (length == 0) continue;
+    const bool is_stay = length == 0 && path[i].arrival > path[i - 1].arrival;
+    if (length == 0 && !is_stay) continue;
     legs_.push_back({path[i].position, begin + path[i].arrival - length / speed_});
   }
 }
 
-void KeptPlan::advance(Vec2 position, double reach) {
+void KeptPlan::advance(Vec2 position, double reach, double now) {
   while (!empty()) {
+    if (is_stay() && leg().depart > now) return;
     const Vec2 end = leg().end;
     const bool passed = !is_last() && dot(end - from_, position - end) >= 0;
     if (distance(position, end) > reach && !passed) return;
@@ -27,20 +33,34 @@ void KeptPlan::advance(Vec2 position, double reach) {
   }
 }
 
-double KeptPlan::duration(Vec2 position, double now) const {
+/// Time for which the swarm turns from `course` [rad], which becomes the leg's, before it leaves
+/// `from` [s].
+double KeptPlan::turn_delay(const Leg& leg, Vec2 from, double& course) const {
+  const Vec2 way = leg.end - from;
+  if (std::isinf(turning_.turn_rate) || squared_norm(way) == 0) return 0;
+  const double before = std::exchange(course, heading_along(way));
+  return turning_.delay(turn_between(course, before));
+}
+
+double KeptPlan::duration(const Pose2& pose, double now) const {
+  Vec2 position = pose.position;
+  double course = pose.heading;
   double t = now;
   for (const Leg& leg : legs()) {
+    t += turn_delay(leg, position, course);
     t = std::max(t, leg.depart) + distance(position, leg.end) / speed_;
     position = leg.end;
   }
   return t - now;
 }
 
-double KeptPlan::conflict(Vec2 position, double now, const ObstacleForecast& forecast, int samples,
-                          double radius, double share, double recovery) const {
+double KeptPlan::conflict(const Pose2& pose, double now, const ObstacleForecast& forecast,
+                          int samples, double radius, double share, double recovery) const {
   const auto left = legs();
+  Vec2 position = pose.position;
+  double course = pose.heading;
   std::size_t k = 0;
-  double t = 0;
+  double t = left.empty() ? 0 : turn_delay(left[0], position, course);
   for (int sample = 0; sample < samples; ++sample) {
     const double until = (sample + 1) * forecast.step();
     Vec2 there = position;
@@ -56,6 +76,7 @@ double KeptPlan::conflict(Vec2 position, double now, const ObstacleForecast& for
       }
       there = left[k++].end;
       t += needed;
+      if (k < left.size()) t += turn_delay(left[k], there, course);
     }
     t = std::max(t, until);
     for (std::size_t i = 0; i < forecast.size(); ++i) {

@@ -32,9 +32,10 @@ SafeIntervalNavigator::SafeIntervalNavigator(const SafeIntervalParams& params, c
       radius_(swarm().radius),
       predictor_(params.prediction),
       forecast_(params, speed()),
-      planner_(params, swarm().radius, speed()),
-      plan_(speed()),
-      tried_(speed()),
+      turning_{swarm().max_turn_rate},
+      planner_(params, swarm().radius, speed(), turning_),
+      plan_(speed(), turning_),
+      tried_(speed(), turning_),
       imminent_(params.tuning.imminent, swarm(), speed(), task.tick) {
   estimate_swarm(params.tuning.straying_time);
   path_.reserve(KeptPlan::max_legs + 1);
@@ -89,7 +90,7 @@ Decision SafeIntervalNavigator::decide(const Moment& moment) {
                    entry_clearance(moment.map(), pose.position),
                    {goal(), goal_tolerance()},
                    response()});
-  plan_.advance(pose.position, 0.6 * tick_ * speed());
+  plan_.advance(pose.position, 0.6 * tick_ * speed(), now);
   review(moment, now);
   path_.push_back(pose.position);
   for (const KeptPlan::Leg& leg : plan_.legs()) path_.push_back(leg.end);
@@ -111,16 +112,17 @@ Decision SafeIntervalNavigator::decide(const Moment& moment) {
     if (const auto instead = imminent_.nearest_safe(command, last_, turns))
       return {*instead, instead->speed > 0 ? NavigatorState::avoid : NavigatorState::hold};
   }
+  if (const auto instead = imminent_.kept_escape())
+    return {*instead, instead->speed > 0 ? NavigatorState::avoid : NavigatorState::hold};
   return {imminent_.best_escape(last_), NavigatorState::escape};
 }
 
 // Keeps the plan while it is safe; looks for a better one from time to time.
 void SafeIntervalNavigator::review(const Moment& moment, double now) {
-  const Vec2 position = moment.pose.position;
   const double conflict =
       plan_.empty()
           ? 0
-          : plan_.conflict(position, now, forecast_, forecast_.near_samples(), radius_,
+          : plan_.conflict(moment.pose, now, forecast_, forecast_.near_samples(), radius_,
                            params_.tuning.kept_share, params_.tuning.imminent.recovery_rate);
   const bool is_due =
       !reviewed_ || now - *reviewed_ >= params_.replan_period - 1e-9 || now < *reviewed_;
@@ -138,12 +140,12 @@ bool SafeIntervalNavigator::goes_straight(const Moment& moment, double now) {
                                           distance(position, aim().position));
   if (!moment.map().is_free(way, std::min(clearance, entry_clearance(moment.map(), position))))
     return false;
-  return takes(std::array{position, aim().position}, now);
+  return takes(moment.pose, std::array{position, aim().position}, now);
 }
 
 /// Adopts the straight pieces between `points` if nothing is near them that moves, rests or is
 /// hollow.
-bool SafeIntervalNavigator::takes(std::span<const Vec2> points, double now) {
+bool SafeIntervalNavigator::takes(const Pose2& pose, std::span<const Vec2> points, double now) {
   tried_.adopt(std::array{planning::TimedPoint{points[0], 0}}, now, 0);
   for (std::size_t i = 1; i < points.size(); ++i) {
     if (!forecast_.hollow().empty() &&
@@ -153,7 +155,7 @@ bool SafeIntervalNavigator::takes(std::span<const Vec2> points, double now) {
     tried_.append(points[i]);
   }
   forecast_.predict_all(predictor_);
-  if (tried_.conflict(points[0], now, forecast_, forecast_.samples(), radius_, 1,
+  if (tried_.conflict(pose, now, forecast_, forecast_.samples(), radius_, 1,
                       params_.tuning.imminent.recovery_rate) < infinity)
     return false;
   plan_ = tried_;
@@ -177,10 +179,10 @@ void SafeIntervalNavigator::replan(const Moment& moment, double now, double conf
     return;
   }
   if (!plan_.empty()) {
-    double kept = plan_.duration(pose.position, now) + plan_.left();
+    double kept = plan_.duration(pose, now) + plan_.left();
     if (conflict < infinity) kept += params_.tuning.conflict_delay;
-    const bool is_used_up = plan_.duration(pose.position, now) < 0.5 * params_.horizon &&
-                            plan_.left() > 0 && !planner_.ends_at_goal();
+    const bool is_used_up = plan_.duration(pose, now) < 0.5 * params_.horizon && plan_.left() > 0 &&
+                            !planner_.ends_at_goal();
     const bool is_near = conflict < 0.5 * params_.tuning.checked_time;
     if (!is_near && !is_used_up && planner_.cost() > kept - params_.switch_time) return;
   }
@@ -195,7 +197,7 @@ bool SafeIntervalNavigator::takes_route(const Moment& moment, double now) {
   for (planning::Route& route : routes_) {
     route.stop_with(moment.stop);
     const std::vector<Vec2> path = route.path_from(moment.pose.position);
-    if (path.size() > 1) return takes(path, now);
+    if (path.size() > 1) return takes(moment.pose, path, now);
   }
   return false;
 }
@@ -211,7 +213,7 @@ void SafeIntervalNavigator::shorten(const Moment& moment, double now) {
     if (!moment.map().is_free(Segment{position, next->end}, clearance)) return;
     tried_ = plan_;
     tried_.cut(position);
-    if (tried_.conflict(position, now, forecast_, forecast_.near_samples(), radius_, 1,
+    if (tried_.conflict(moment.pose, now, forecast_, forecast_.near_samples(), radius_, 1,
                         params_.tuning.imminent.recovery_rate) < infinity)
       return;
     plan_ = tried_;
@@ -233,19 +235,24 @@ Command SafeIntervalNavigator::wanted(const Moment& moment, double now) {
     if (!moment.map().is_free(Segment{pose.position, next->end}, clearance)) break;
     tried_ = plan_;
     tried_.cut(pose.position);
-    if (tried_.conflict(pose.position, now, forecast_, forecast_.near_samples(), radius_, 1,
+    if (tried_.conflict(pose, now, forecast_, forecast_.near_samples(), radius_, 1,
                         params_.tuning.imminent.recovery_rate) < infinity)
       break;
     plan_ = tried_;
   }
-  if (plan_.wait(now) > 0.5 * tick_) return {pose.heading, 0};
   const Vec2 target = plan_.leg().end;
   const Vec2 offset = target - pose.position;
   if (norm(offset) == 0) return {pose.heading, 0};
-  return {heading_along(offset), approach_speed(pose, target, plan_.is_last())};
+  const double course = heading_along(offset);
+  if (plan_.wait(now) <= 0.5 * tick_)
+    return {course, approach_speed(pose, target, plan_.is_last())};
+  if (plan_.is_stay() || !turning_.applies(turn_between(course, pose.heading)))
+    return {pose.heading, 0};
+  return {course, planning::TurnFirst::slow_share * speed()};
 }
 
-/// Speed at which the target can be reached by one turn, and without passing the goal in a tick.
+/// Speed at which the target can be reached after the turn towards it, and without passing the goal
+/// in a tick.
 double SafeIntervalNavigator::approach_speed(const Pose2& pose, Vec2 target, bool is_goal) const {
   const double away = distance(pose.position, target);
   double fastest = speed();
@@ -254,10 +261,11 @@ double SafeIntervalNavigator::approach_speed(const Pose2& pose, Vec2 target, boo
   const Command course{heading_along(target - pose.position), speed()};
   const double turn = turn_between(response().command_for(course, speed()).heading, pose.heading);
   const double sine = maths::sin(std::min(turn, 0.5 * pi));
+  if (turning_.applies(turn)) return std::min(planning::TurnFirst::slow_share * speed(), fastest);
   constexpr double slowest_share = 0.1;
   constexpr double reserve = 0.8;
   const double turning = reserve * swarm().max_turn_rate * away / std::max(2 * sine, 1e-6);
-  return std::clamp(turning, slowest_share * speed(), fastest);
+  return std::clamp(turning, std::min(slowest_share * speed(), fastest), fastest);
 }
 
 /// The last heading, if the command hardly differs from it.

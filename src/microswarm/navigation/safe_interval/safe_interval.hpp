@@ -39,7 +39,7 @@ class SafeIntervalNavigator : public SteeringNavigator {
 
   void review(const Moment& moment, double now);
   bool goes_straight(const Moment& moment, double now);
-  bool takes(std::span<const Vec2> points, double now);
+  bool takes(const Pose2& pose, std::span<const Vec2> points, double now);
   void replan(const Moment& moment, double now, double conflict);
   bool takes_route(const Moment& moment, double now);
   void shorten(const Moment& moment, double now);
@@ -54,6 +54,7 @@ class SafeIntervalNavigator : public SteeringNavigator {
   double radius_;        ///< with it [µm]
   MultiModelPredictor predictor_;
   ObstacleForecast forecast_;
+  planning::TurnFirst turning_;
   SpaceTimePlanner planner_;
   std::vector<planning::Route> routes_;  ///< to the goal among walls, by falling clearance
   KeptPlan plan_;

@@ -25,8 +25,9 @@ double signed_distance(std::span<const Body> bodies, Vec2 p) {
 
 }  // namespace
 
-SpaceTimePlanner::SpaceTimePlanner(const SafeIntervalParams& params, double radius, double speed)
-    : params_(params), radius_(radius), speed_(speed) {}
+SpaceTimePlanner::SpaceTimePlanner(const SafeIntervalParams& params, double radius, double speed,
+                                   const planning::TurnFirst& turning)
+    : params_(params), radius_(radius), speed_(speed), turning_(turning) {}
 
 void SpaceTimePlanner::prepare(const Map& map, Disc reached, double clearance) {
   reached_ = reached;
@@ -185,6 +186,7 @@ Status SpaceTimePlanner::plan(const Map& map, const ObstacleForecast& forecast, 
                                       .speed = speed_,
                                       .heading = pose.heading,
                                       .turn_cost = params_.tuning.turn_cost,
+                                      .turning = turning_,
                                       .lengths = distances_.lengths(),
                                       .arrived = arrived_,
                                       .max_expansions = params_.tuning.max_expansions},

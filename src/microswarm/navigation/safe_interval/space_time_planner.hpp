@@ -20,8 +20,9 @@ namespace microswarm::navigation {
 /// Allocates when the grid is made.
 class SpaceTimePlanner {
  public:
-  /// `radius` [µm] and `speed` [µm/s] of the swarm.
-  SpaceTimePlanner(const SafeIntervalParams& params, double radius, double speed);
+  /// Of the swarm, `radius` [µm] and `speed` [µm/s].
+  SpaceTimePlanner(const SafeIntervalParams& params, double radius, double speed,
+                   const planning::TurnFirst& turning);
 
   /// Makes the grid. `reached` is the region of the goal, whose centre has at least `clearance`
   /// [µm] from walls.
@@ -57,6 +58,7 @@ class SpaceTimePlanner {
   SafeIntervalParams params_;
   double radius_;
   double speed_;
+  planning::TurnFirst turning_;
   Disc reached_;
   double goal_clearance_ = 0;
   int level_ = 0;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/planning/space_time/grid_distances.hpp"
 
@@ -25,6 +26,17 @@ double SafeIntervalSearch::cost_of_turn(const Query& query, Vec2 course) const {
   return query.turn_cost * std::sqrt(std::max(0.0, 2 * (1 - cosine)));
 }
 
+/// Time for which the swarm turns at a state before it moves on in the direction `course` [s].
+double SafeIntervalSearch::turn_delay(const Query& query, const State& from, Vec2 course) const {
+  if (!std::isfinite(query.turning.turn_rate)) return 0;
+  if (squared_norm(course) == 0) return 0;
+  const Vec2 moved = from.parent == none ? Vec2{} : from.position - states_[from.parent].position;
+  const bool has_moved = squared_norm(moved) > 0;
+  if (!has_moved && !query.heading) return 0;
+  const Vec2 before = has_moved ? moved : ahead_;
+  return query.turning.delay(turn_between(heading_along(before), heading_along(course)));
+}
+
 void SafeIntervalSearch::reserve(const SpaceTimeGrid& grid, std::size_t states) {
   states_.reserve(states);
   open_.reserve(2 * states);
@@ -38,12 +50,16 @@ Status SafeIntervalSearch::find(const SpaceTimeGrid& grid, const Query& query, c
   std::uint32_t nearest = 0;
   float least = std::numeric_limits<float>::infinity();
   while (!open_.empty()) {
-    const auto [cost, number, is_shortcut] = open_.front();
+    const auto [cost, number, next] = open_.front();
     std::pop_heap(open_.begin(), open_.end());
     open_.pop_back();
-    if (is_shortcut) {
+    if (next == Next::test_shortcut) {
       test_shortcut(grid, query, number);
       continue;
+    }
+    if (next == Next::stay_to_horizon) {
+      finish(query, number, grid.horizon());
+      return Status::solved;
     }
     State& state = states_[number];
     if (state.closed) continue;
@@ -68,6 +84,9 @@ Status SafeIntervalSearch::find(const SpaceTimeGrid& grid, const Query& query, c
       return Status::node_limit;
     }
     expand(grid, query, number);
+    const State& expanded = states_[number];
+    if (expanded.end == SpaceTimeGrid::forever)
+      push(query, number, grid.horizon() + expanded.turn_cost, Next::stay_to_horizon);
   }
   return Status::no_path;
 }
@@ -128,7 +147,7 @@ void SafeIntervalSearch::connect(const SpaceTimeGrid& grid, const Query& query,
   const double extent = std::max(std::abs(move.x), std::abs(move.y));
   const double half = extent > 0 ? 0.5 * duration * std::min(1.0, grid.cell() / extent) : 0;
   const double turn_cost = from.parent == none ? cost_of_turn(query, move) : from.turn_cost;
-  const double earliest = from.time + duration;
+  const double earliest = from.time + turn_delay(query, from, move) + duration;
   for (int slot = grid.slot_at(earliest - half);;) {
     const SpaceTimeGrid::Interval safe = grid.safe_interval(to.cell, slot);
     if (safe.begin == SpaceTimeGrid::forever) return;
@@ -153,7 +172,7 @@ void SafeIntervalSearch::note_shortcut(const Query& query, std::uint32_t from, s
   if (state.parent == from || move.arrival >= state.until || cost >= useful - time_rounding) return;
   state.shortcut = from;
   state.shortcut_time = cost;
-  push(query, to, cost, true);
+  push(query, to, cost, Next::test_shortcut);
 }
 
 void SafeIntervalSearch::test_shortcut(const SpaceTimeGrid& grid, const Query& query,
@@ -185,13 +204,12 @@ void SafeIntervalSearch::relax(const SpaceTimeGrid& grid, const Query& query,
   state.turn_cost = move.turn_cost;
   state.parent = from_number;
   state.closed = false;
-  push(query, to, state.time + state.turn_cost, false);
+  push(query, to, state.time + state.turn_cost, Next::expand);
 }
 
-void SafeIntervalSearch::push(const Query& query, std::uint32_t number, double cost,
-                              bool is_shortcut) {
+void SafeIntervalSearch::push(const Query& query, std::uint32_t number, double cost, Next next) {
   const double left = static_cast<double>(query.lengths[states_[number].cell]) / query.speed;
-  open_.push_back({cost + left, number, is_shortcut});
+  open_.push_back({cost + left, number, next});
   std::push_heap(open_.begin(), open_.end());
 }
 
@@ -215,15 +233,18 @@ std::uint32_t SafeIntervalSearch::state_of(const Place& place, const SpaceTimeGr
   return first_[cell];
 }
 
-void SafeIntervalSearch::finish(const Query& query, std::uint32_t last) {
+// Takes the path to a state, where the swarm waits until a time.
+void SafeIntervalSearch::finish(const Query& query, std::uint32_t last, double until) {
   const State& end = states_[last];
   if (last != 0) {
-    arrival_ = end.time + static_cast<double>(query.lengths[end.cell]) / query.speed;
+    arrival_ =
+        std::max(end.time, until) + static_cast<double>(query.lengths[end.cell]) / query.speed;
     cost_ = arrival_ + end.turn_cost;
   }
   for (std::uint32_t i = last; i != none; i = states_[i].parent)
     path_.push_back({states_[i].position, states_[i].time});
   std::reverse(path_.begin(), path_.end());
+  if (until > end.time) path_.push_back({end.position, until});
 }
 
 }  // namespace microswarm::planning

@@ -12,6 +12,7 @@
 #include "microswarm/core/execution/stop.hpp"
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/planning/space_time/space_time_grid.hpp"
+#include "microswarm/planning/space_time/turn_first.hpp"
 
 namespace microswarm::planning {
 
@@ -27,8 +28,9 @@ struct TimedPoint {
 /// earliest known arrival there. A successor is reached from the state that is expanded or straight
 /// from the parent of that state, with the earliest departure that permits it. Straight ways from a
 /// parent are tested when they would be expanded next (as by Lazy Theta*), at most one a state. The
-/// search ends at the goal or at the horizon of the grid, after which only standing cells count.
-/// Allocates only for larger searches than before; reserve() prevents that.
+/// search ends at the goal, or at the horizon of the grid, after which only standing cells count,
+/// on the way or waiting in a cell that is safe until then. Allocates only for larger searches than
+/// before; reserve() prevents that.
 class SafeIntervalSearch {
  public:
   using Cell = SpaceTimeGrid::Cell;
@@ -40,6 +42,7 @@ class SafeIntervalSearch {
     double speed = 1;                  ///< [µm/s]
     std::optional<double> heading{};   ///< course from which a turn costs [rad]
     double turn_cost = 0;              ///< of the first course's turn [s/rad]
+    TurnFirst turning{};               ///< time for turns
     std::span<const float> lengths{};  ///< from each cell to the goal without moving bodies [µm]
     double arrived = 0;                ///< length from which on the goal is reached [µm]
     int max_expansions = std::numeric_limits<int>::max();
@@ -74,10 +77,11 @@ class SafeIntervalSearch {
     int end = 0;                      ///< slot at which the safe interval ends
     bool closed = false;
   };
+  enum class Next { expand, test_shortcut, stay_to_horizon };
   struct Open {
     double cost;
     std::uint32_t state;
-    bool is_shortcut;  ///< whether a straight way is to be tested
+    Next next;
     friend bool operator<(const Open& a, const Open& b) {
       return a.cost != b.cost ? a.cost > b.cost : a.state > b.state;
     }
@@ -100,13 +104,14 @@ class SafeIntervalSearch {
                bool is_shortcut);
   bool is_useless(const SpaceTimeGrid& grid, std::uint32_t from, Cell to, bool is_shortcut) const;
   double cost_of_turn(const Query& query, Vec2 course) const;
+  double turn_delay(const Query& query, const State& from, Vec2 course) const;
   void note_shortcut(const Query& query, std::uint32_t from, std::uint32_t to, const Move& move);
   void relax(const SpaceTimeGrid& grid, const Query& query, std::uint32_t from, std::uint32_t to,
              const Move& move);
   void test_shortcut(const SpaceTimeGrid& grid, const Query& query, std::uint32_t state);
-  void push(const Query& query, std::uint32_t state, double cost, bool is_shortcut);
+  void push(const Query& query, std::uint32_t state, double cost, Next next);
   std::uint32_t state_of(const Place& place, const SpaceTimeGrid& grid, int end);
-  void finish(const Query& query, std::uint32_t last);
+  void finish(const Query& query, std::uint32_t last, double until = 0);
 
   std::vector<State> states_;          ///< the start is first
   std::vector<Open> open_;             ///< a heap
