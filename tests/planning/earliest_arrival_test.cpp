@@ -215,6 +215,21 @@ TEST(SafeIntervalSearch, WhereNothingLeadsOnItStays) {
   EXPECT_NEAR(search.arrival(), grid.horizon() + 12, 1e-6);
 }
 
+TEST(SafeIntervalSearch, StaysNowhereThatHasNoWayToTheGoal) {
+  SpaceTimeGrid grid({{0, 0}, {40, 20}}, 10, 1, 20);
+  grid.clear();
+  const std::vector<float> lengths(grid.size(), std::numeric_limits<float>::infinity());
+  const std::vector<Cell> entries{grid.at(1, 1)};
+  SafeIntervalSearch search;
+  EXPECT_EQ(search.find(grid, {.from = grid.position(grid.at(0, 1)),
+                               .stay_until = infinity,
+                               .entries = entries,
+                               .speed = 10,
+                               .lengths = lengths}),
+            Status::no_path);
+  EXPECT_TRUE(search.path().empty());
+}
+
 // It turns by the angle beyond a small one before it moves, at the start and at a corner.
 TEST(SafeIntervalSearch, TurnsTakeTimeAtALimitedRate) {
   const double rate = 2;

@@ -173,7 +173,8 @@ void SafeIntervalNavigator::replan(const Moment& moment, double now, double conf
     if (planner_.path().size() > 1) break;
   }
   const bool has_path = planner_.path().size() > 1;
-  if ((!has_path || planner_.is_coarse()) && takes_route(moment, now)) return;
+  const bool leads_on = has_path && !planner_.is_coarse() && !planner_.ends_in_stay();
+  if (!leads_on && takes_route(moment, now)) return;
   if (!has_path) {
     if (conflict < params_.tuning.checked_time) plan_.clear();
     return;

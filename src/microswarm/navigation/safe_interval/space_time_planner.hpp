@@ -38,6 +38,8 @@ class SpaceTimePlanner {
   std::span<const planning::TimedPoint> path() const { return search_.path(); }
   /// Whether the path ends at the goal, not at the horizon.
   bool ends_at_goal() const { return ends_at_goal_; }
+  /// Whether the swarm waits at the end of the path until the horizon.
+  bool ends_in_stay() const { return search_.ends_in_stay(); }
   /// Time left at the end of the path [s].
   double left() const { return left_; }
   /// Duration of the plan, with the cost of turning [s].

@@ -85,7 +85,7 @@ Status SafeIntervalSearch::find(const SpaceTimeGrid& grid, const Query& query, c
     }
     expand(grid, query, number);
     const State& expanded = states_[number];
-    if (expanded.end == SpaceTimeGrid::forever)
+    if (expanded.end == SpaceTimeGrid::forever && std::isfinite(left))
       push(query, number, grid.horizon() + expanded.turn_cost, Next::stay_to_horizon);
   }
   return Status::no_path;

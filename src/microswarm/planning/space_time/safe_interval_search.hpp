@@ -54,6 +54,10 @@ class SafeIntervalSearch {
   Status find(const SpaceTimeGrid& grid, const Query& query, const Stop& stop = {});
   /// Path of the last search from its start on; empty after `no_path`.
   std::span<const TimedPoint> path() const { return path_; }
+  /// Whether the swarm waits at the end of the path until the horizon.
+  bool ends_in_stay() const {
+    return path_.size() > 1 && path_.back().position == path_[path_.size() - 2].position;
+  }
   /// Time of arrival at the goal [s], beyond the end of the path without moving bodies.
   double arrival() const { return arrival_; }
   /// The same with the cost of turning [s].
