@@ -26,6 +26,19 @@ TEST(ContactMonitor, SeesADiscThatFliesThroughTheSwarmBetweenTwoTicks) {
   EXPECT_EQ(watch.obstacles().clearance, 0);
 }
 
+TEST(ContactMonitor, ADiscThatAppearsOnTheSwarmTouchesItThen) {
+  World world = world_of(open_room());
+  Track track{"tracks.csv", "1", {}};
+  track.samples = std::make_shared<const Samples>(Samples{{0.043, 9}, {{1000, 500}, {1100, 500}}});
+  world.obstacles = {disc(10, track)};
+  ContactMonitor watch(world);
+  const Way way{{0, {{1000, 500}, 0}, 40}, {0.1, {{1000, 500}, 0}, 40}};
+  const auto touches = watch.follow(0, way);
+  ASSERT_EQ(touches.size(), 1u);
+  EXPECT_NEAR(touches[0].t, 0.043, 1e-3);
+  EXPECT_LT(touches[0].clearance, 40);
+}
+
 TEST(ContactMonitor, LeastDistanceIsThatOfTheClosedForm) {
   Rng rng(3, Purpose::test);
   World world = world_of(open_room());

@@ -75,7 +75,7 @@ TEST(Dynabarn, DiscsAppearAgainWhereTheirLapBegins) {
   ASSERT_EQ(worlds.size(), 1u);
   EXPECT_EQ(worlds[0].level, scenes::DynabarnLevel::hard);
   const Scenario s = scenes::dynabarn_scenario(worlds[0], 200);
-  for (const double t : {0.0, 5.0, 15.0, 47.0, 99.9}) {
+  for (const double t : {0.0, 5.0, 10.0, 15.0, 47.0, 99.9}) {
     std::vector<Placement> present;
     for (const Obstacle& disc : s.obstacles) {
       EXPECT_LE(top_speed(disc.motion), 20 + 1e-9);
@@ -105,6 +105,9 @@ TEST(Dynabarn, BadFilesAreNamed) {
   EXPECT_TRUE(test::is_one_line_naming(complaint("h\na,1,1,1\n"),
                                        (folder / "worlds.csv").string() + ":2",
                                        {"hardlibobs_2", "no track"}));
+  EXPECT_TRUE(test::is_one_line_naming(complaint("h\nhardlibobs_2,1,1,1\n"),
+                                       (folder / "worlds.csv").string() + ":2",
+                                       {"hardlibobs_2", "0.1 s"}));
 }
 
 TEST(Dynabarn, TheSixtyWorldsAreTaken) {

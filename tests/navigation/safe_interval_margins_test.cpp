@@ -272,6 +272,46 @@ TEST(SafeIntervalMargins, ASlowTurnerTurnsRoundInACorridor) {
     }
 }
 
+// Between walls whose ends lie above and below the straight way, it turns by more than a right
+// angle at each.
+TEST(SafeIntervalMargins, ASlowTurnerTurnsInAFlow) {
+  const std::vector<Polygon> slalom{{{{700, 0}, {740, 0}, {740, 820}, {700, 820}}, {}},
+                                    {{{940, 180}, {980, 180}, {980, 1000}, {940, 1000}}, {}}};
+  for (const Vec2 flow : {Vec2{}, Vec2{0, -12}, Vec2{0, 12}, Vec2{-10, 5}}) {
+    LateDrive<SafeIntervalNavigator> drive{
+        .walls = slalom, .swarm = {50, 70, 1.5, 0.1}, .flow = flow};
+    drive.run(90);
+    EXPECT_TRUE(drive.arrived) << flow.x << ", " << flow.y;
+    EXPECT_LT(drive.time, 55) << flow.x << ", " << flow.y;
+    EXPECT_GT(drive.min_gap, 0) << flow.x << ", " << flow.y;
+  }
+}
+
+TEST(SafeIntervalMargins, ACommandToTurnHasTheHeadingOfTheMoveInAFlow) {
+  const SwarmResponse response{1, {0, -15}};
+  const Command move = response.command_for({0, 70}, 70);
+  EXPECT_NEAR(move.heading, std::asin(15.0 / 70), 1e-9);
+  const double slow = planning::TurnFirst::slow_share * 70;
+  const Command turn = response.command_for({0, slow}, 70);
+  EXPECT_EQ(turn.heading, move.heading);
+  EXPECT_EQ(turn.speed, slow);
+}
+
+TEST(SafeIntervalMargins, AStayLastsUntilItsEnd) {
+  KeptPlan plan(10);
+  plan.adopt(std::vector<planning::TimedPoint>{{{0, 0}, 0}, {{50, 0}, 5}, {{50, 0}, 16}}, 100, 7);
+  EXPECT_TRUE(plan.ends_in_stay());
+  EXPECT_FALSE(plan.is_stay());
+  EXPECT_NEAR(plan.duration({{0, 0}, 0}, 100), 16, 1e-9);
+  plan.advance({50, 0}, 1, 105);
+  EXPECT_TRUE(plan.is_stay());
+  EXPECT_NEAR(plan.wait(105), 11, 1e-9);
+  plan.advance({50, 0}, 1, 115.9);
+  EXPECT_TRUE(plan.is_stay());
+  plan.advance({50, 0}, 1, 116);
+  EXPECT_TRUE(plan.empty());
+}
+
 /// Discs that close in on a swarm that turns slowly, and a check of its next seconds.
 struct Closing {
   SafeIntervalParams params{.horizon = 2 * ObstacleForecast::slots * frame_time};
@@ -293,7 +333,8 @@ struct Closing {
                  .radius = swarm.radius,
                  .wall_clearance = 52,
                  .goal = {{1800, 500}, 30},
-                 .response = {}});
+                 .response = {},
+                 .time = frame.time()});
   }
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/scenes/dynabarn.hpp"
 
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -21,6 +22,7 @@ constexpr double um_a_metre = 100;
 constexpr double obstacle_radius = 0.5 * um_a_metre;
 constexpr double robot_radius = 0.3 * um_a_metre;
 constexpr double dynabarn_time_limit = 100;  // [s]
+constexpr double min_lap = 0.1;              // [s]
 constexpr std::uint64_t max_dynabarn_bytes = 64 << 20;
 
 /// Calls `take` with the cells of each row but the header.
@@ -73,6 +75,7 @@ void add_laps(const Samples& lap, std::vector<Obstacle>& obstacles) {
   for (double begin = 0; begin <= dynabarn_time_limit; begin += duration) {
     Samples shifted = lap;
     for (double& t : shifted.times) t += begin - lap.times.front();
+    shifted.times.back() = std::nextafter(shifted.times.back(), 0);  // then the next lap begins
     Track track{"tracks.csv", std::to_string(obstacles.size() + 1), {}};
     track.samples = std::make_shared<const Samples>(std::move(shifted));
     obstacles.push_back({DiscShape{obstacle_radius}, std::move(track)});
@@ -84,16 +87,18 @@ void add_laps(const Samples& lap, std::vector<Obstacle>& obstacles) {
 std::vector<DynabarnWorld> read_dynabarn(const std::filesystem::path& folder) {
   const Plugins plugins = read_plugins(folder / "tracks.csv");
   std::map<double, DynabarnWorld> worlds;
-  for_each_row(folder / "worlds.csv", 2,
-               [&](const Lines& lines, const std::vector<std::string_view>& cells) {
-                 DynabarnWorld& world = worlds[dynabarn_number(lines, cells[0])];
-                 const auto plugin = plugins.find(cells[1]);
-                 if (plugin == plugins.end()) lines.fail(quote(cells[1]) + " has no track");
-                 if (plugin->second.times.size() < 2)
-                   lines.fail(quote(cells[1]) + " has one key frame, at least 2 expected");
-                 world.level = level_of(lines, cells[1]);
-                 world.tracks.push_back(plugin->second);
-               });
+  for_each_row(
+      folder / "worlds.csv", 2,
+      [&](const Lines& lines, const std::vector<std::string_view>& cells) {
+        DynabarnWorld& world = worlds[dynabarn_number(lines, cells[0])];
+        const auto plugin = plugins.find(cells[1]);
+        if (plugin == plugins.end()) lines.fail(quote(cells[1]) + " has no track");
+        const std::vector<double>& times = plugin->second.times;
+        if (!(times.back() - times.front() >= min_lap))
+          lines.fail(quote(cells[1]) + " has a lap shorter than " + number_text(min_lap) + " s");
+        world.level = level_of(lines, cells[1]);
+        world.tracks.push_back(plugin->second);
+      });
   std::vector<DynabarnWorld> out;
   out.reserve(worlds.size());
   for (auto& [number, world] : worlds) out.push_back(std::move(world));

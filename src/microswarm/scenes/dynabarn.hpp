@@ -22,7 +22,8 @@ constexpr auto enum_names(DynabarnLevel) {
 }
 
 /// A world of DynaBARN (Nair et al., "DynaBARN: Benchmarking Metric Ground Navigation in Dynamic
-/// Environments", SSRR 2022): discs on tracks that begin again where they end.
+/// Environments", SSRR 2022): discs on tracks; at the end of one the disc disappears and
+/// appears at the begin.
 struct DynabarnWorld {
   DynabarnLevel level{};
   std::vector<Samples> tracks{};  ///< a lap each [s, µm], 100 µm for a metre

@@ -122,8 +122,9 @@ std::optional<ContactMonitor::Sample> ContactMonitor::first_touch(const Course& 
       open.push_back({middle, b});
       open.push_back({a, middle});
     } else if (!touch && b.gap < 0) {
-      // The gap decreases at its maximum rate here, hence linearly.
-      const double share = a.gap / (a.gap - b.gap);
+      // The gap decreases at its maximum rate here, hence linearly; a body that appears on the
+      // swarm has none before.
+      const double share = std::isinf(a.gap) ? 1 : a.gap / (a.gap - b.gap);
       touch = sample(course, obstacle, a.t + share * (b.t - a.t));
     }
   }

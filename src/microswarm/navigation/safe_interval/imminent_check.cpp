@@ -37,8 +37,10 @@ void ImminentCheck::begin(const Situation& situation) {
   committed_ =
       std::clamp(static_cast<int>(std::ceil(committed_time_ / forecast.step())), 1, samples_);
   commanded_ = std::clamp(static_cast<int>(std::ceil(tick_ / forecast.step())), 1, committed_);
+  const double passed = situation.time - std::exchange(time_, situation.time);
   kept_ = std::exchange(found_, std::nullopt);
-  if (kept_) kept_->switch_time -= tick_, kept_->checked -= tick_;
+  if (!(passed > 0 && passed < 1.5 * tick_)) kept_.reset();
+  if (kept_) kept_->switch_time -= passed, kept_->checked -= passed;
   present_hollow_gap_ =
       forecast.hollow_clearance(now_.pose.position, now_.radius + counted_gap) - now_.radius;
   near_.clear();
@@ -73,8 +75,8 @@ int ImminentCheck::samples_until(double time) const {
 
 double ImminentCheck::slow_speed() const { return planning::TurnFirst::slow_share * speed_; }
 
-bool ImminentCheck::turns_first(const Leg& leg, const Pose2& pose) const {
-  return leg.turns_first && turning_.applies(turn_between(leg.command.heading, pose.heading));
+bool ImminentCheck::turns_first(const Leg& leg, double given, const Pose2& pose) const {
+  return leg.turns_first && turning_.applies(turn_between(given, pose.heading));
 }
 
 /// Escape k: in one direction each, at full speed and, with a limited turn rate, turning first.
@@ -84,7 +86,8 @@ ImminentCheck::Leg ImminentCheck::escape(int k) const {
 
 Command ImminentCheck::begin_of(const Manoeuvre& manoeuvre) const {
   const Leg& leg = samples_until(manoeuvre.switch_time) > 0 ? manoeuvre.first : manoeuvre.second;
-  if (!turns_first(leg, now_.pose)) return leg.command;
+  const double given = now_.response.command_for(leg.command, speed_).heading;
+  if (!turns_first(leg, given, now_.pose)) return leg.command;
   return {leg.command.heading, std::min(leg.command.speed, slow_speed())};
 }
 
@@ -105,16 +108,18 @@ ImminentCheck::Outcome ImminentCheck::roll(Pose2 from, const Leg& leg, int first
     // The commitment ends at the goal; what comes near there later can be escaped from.
     const bool has_arrived =
         first == 0 && distance(out.end.position, now_.goal.centre) <= now_.goal.radius;
-    Pose2 next = has_arrived || stands
-                     ? out.end
-                     : now_.response.step(out.end, turns_first(leg, out.end) ? slow : given,
-                                          turning_.turn_rate, forecast.step());
+    Pose2 next =
+        has_arrived || stands
+            ? out.end
+            : now_.response.step(out.end, turns_first(leg, given.heading, out.end) ? slow : given,
+                                 turning_.turn_rate, forecast.step());
     Segment move{out.end.position, next.position};
     if (!stands && !(move.a == move.b) && !now_.map->is_free(move, now_.wall_clearance)) {
       if (s == first) out.least = -infinity;  // no start at all
       if (first > 0 || s < commanded_) return out;
       // The next command stops it before the wall.
       stands = true;
+      out.stood = s;
       next = out.end;
       move.b = move.a;
     }
@@ -172,7 +177,8 @@ std::optional<ImminentCheck::Leg> ImminentCheck::escape_after(const Pose2& from,
 std::optional<Command> ImminentCheck::kept_escape() {
   if (!kept_) return std::nullopt;
   const int until = roll(*kept_, false).until;
-  if (until < std::max(samples_until(kept_->checked), committed_)) return std::nullopt;
+  const auto promised = static_cast<int>(std::floor(kept_->checked / now_.forecast->step() + 1e-9));
+  if (until < std::max(promised, committed_)) return std::nullopt;
   kept_->checked = time_of(until);
   found_ = kept_;
   return begin_of(*kept_);
@@ -186,8 +192,12 @@ bool ImminentCheck::is_safe(const Command& command, Turns turns) {
       if (const int n = near_[k].turned; roll(now_.pose, {command}, 0, n, false, k).until < n)
         return false;
   const auto escape = escape_after(first.end, command, committed_);
-  if (escape) found_ = Manoeuvre{{command}, time_of(committed_), *escape, time_of(samples_)};
-  return escape.has_value();
+  if (!escape) return false;
+  found_ = Manoeuvre{{command}, time_of(committed_), *escape, time_of(samples_)};
+  if (first.stood)  // before a wall
+    found_ =
+        Manoeuvre{{command}, time_of(*first.stood), {{first.end.heading, 0}}, time_of(committed_)};
+  return true;
 }
 
 std::optional<Command> ImminentCheck::nearest_safe(const Command& wanted, const Command& last,

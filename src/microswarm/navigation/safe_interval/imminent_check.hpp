@@ -34,6 +34,7 @@ class ImminentCheck {
     double wall_clearance = 0;  ///< [µm]
     Disc goal{};                ///< where the swarm stops
     SwarmResponse response{};   ///< to the commands
+    double time = 0;            ///< at which the command takes effect [s]
   };
   void begin(const Situation& situation);
 
@@ -56,6 +57,7 @@ class ImminentCheck {
     int until = 0;     ///< first sample without the gap
     double least = 0;  ///< least gap, at most counted_gap [µm]
     Pose2 end{};
+    std::optional<int> stood{};  ///< sample at which it stopped before a wall
   };
   /// A body that may come near.
   struct Near {
@@ -81,7 +83,7 @@ class ImminentCheck {
     Leg first{};
     double switch_time = 0;  ///< from now [s]
     Leg second{};
-    double checked = 0;  ///< time in which it keeps the gaps [s]
+    double checked = 0;  ///< time that must be free for it to be continued [s]
   };
 
   Outcome roll(Pose2 from, const Leg& leg, int first, int last, bool in_contact_only,
@@ -93,7 +95,7 @@ class ImminentCheck {
   double time_of(int sample) const;
   int samples_until(double time) const;
   double slow_speed() const;
-  bool turns_first(const Leg& leg, const Pose2& pose) const;
+  bool turns_first(const Leg& leg, double given, const Pose2& pose) const;
   double required(const Near& near, int sample) const;
   Command direction(int k, int count, double share = 1) const;
 
@@ -111,7 +113,8 @@ class ImminentCheck {
   std::vector<Near> near_;
   std::vector<Choice> choices_;
   int last_escape_ = 0;             ///< the one that was free last time
-  std::optional<Manoeuvre> found_;  ///< with which the last command that was tested is safe
+  double time_ = 0;                 ///< of the situation [s]
+  std::optional<Manoeuvre> found_;  ///< that begins with the last command that was safe, or best
   std::optional<Manoeuvre> kept_;   ///< what is left of that of the last step
 };
 

@@ -54,6 +54,11 @@ class KeptPlan {
   bool is_last() const { return next_ + 1 == legs_.size(); }
   /// Whether the current leg is a stay.
   bool is_stay() const { return !empty() && leg().end == from_; }
+  /// Whether the last leg is a stay.
+  bool ends_in_stay() const {
+    if (empty()) return false;
+    return legs_.back().end == (is_last() ? from_ : legs_[legs_.size() - 2].end);
+  }
   /// Remaining legs.
   std::span<const Leg> legs() const { return std::span(legs_).subspan(next_); }
   /// Time that the swarm has still to wait at `now` [s].

@@ -89,7 +89,8 @@ Decision SafeIntervalNavigator::decide(const Moment& moment) {
                    radius_,
                    entry_clearance(moment.map(), pose.position),
                    {goal(), goal_tolerance()},
-                   response()});
+                   response(),
+                   now});
   plan_.advance(pose.position, 0.6 * tick_ * speed(), now);
   review(moment, now);
   path_.push_back(pose.position);
@@ -185,7 +186,8 @@ void SafeIntervalNavigator::replan(const Moment& moment, double now, double conf
     const bool is_used_up = plan_.duration(pose, now) < 0.5 * params_.horizon && plan_.left() > 0 &&
                             !planner_.ends_at_goal();
     const bool is_near = conflict < 0.5 * params_.tuning.checked_time;
-    if (!is_near && !is_used_up && planner_.cost() > kept - params_.switch_time) return;
+    const bool opens = plan_.ends_in_stay() && !planner_.ends_in_stay();
+    if (!is_near && !is_used_up && !opens && planner_.cost() > kept - params_.switch_time) return;
   }
   plan_.adopt(planner_.path(), now, planner_.ends_at_goal() ? 0 : planner_.left());
   if (planner_.ends_at_goal()) plan_.append(aim().position);

@@ -23,7 +23,7 @@ Issues validate(const SafeIntervalParams& params);
 
 /// Safe-interval navigator; see SafeIntervalParams. States: follow, avoid (an obstacle is near, or
 /// the command was replaced), wait (as planned, for an obstacle to pass), escape (no command is
-/// safe), hold, arrived, blind.
+/// safe, and none continues a safe manoeuvre), hold, arrived, blind.
 class SafeIntervalNavigator : public SteeringNavigator {
  public:
   using Params = SafeIntervalParams;

@@ -7,6 +7,7 @@
 #include "microswarm/contracts/command.hpp"
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/geometry/vec2.hpp"
+#include "microswarm/planning/space_time/turn_first.hpp"
 #include "microswarm/swarm/body/unicycle.hpp"
 
 namespace microswarm::navigation {
@@ -20,9 +21,12 @@ struct SwarmResponse {
   bool operator==(const SwarmResponse&) const = default;
 
   /// The command with which it moves as `wanted`: on its course if `max_speed` [µm/s] allows that,
-  /// and as fast as it allows. Holding stays holding.
+  /// and as fast as it allows. Holding stays holding, and a swarm that turns first turns to the
+  /// heading with which it moves at full speed.
   Command command_for(const Command& wanted, double max_speed) const {
     if (wanted.speed == 0 || *this == SwarmResponse{}) return wanted;
+    if (planning::TurnFirst::is_turn(wanted.speed, max_speed))
+      return {command_for({wanted.heading, max_speed}, max_speed).heading, wanted.speed};
     const Vec2 course = unit_vector(wanted.heading);
     Vec2 own = (wanted.speed * course - flow) / speed_factor;
     if (norm(own) > max_speed) {

@@ -15,6 +15,10 @@ struct TurnFirst {
 
   double turn_rate = infinity;  ///< [rad/s]
 
+  /// Whether a command of `speed` is one to turn, for a swarm of `max_speed`.
+  static bool is_turn(double speed, double max_speed) {
+    return speed <= 1.001 * slow_share * max_speed;
+  }
   /// Whether the swarm turns by `turn` [rad] before it moves.
   bool applies(double turn) const { return std::isfinite(turn_rate) && turn > small_turn; }
   /// Time that it turns before it moves [s].
