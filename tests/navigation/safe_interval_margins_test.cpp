@@ -338,7 +338,7 @@ struct Closing {
   }
 };
 
-// What a command was safe with stays possible, whatever else is lost.
+// One tick after a safe command, the escape with which it was safe can be continued.
 TEST(SafeIntervalMargins, TheEscapeOfASafeCommandIsKept) {
   Rng rng(11, Purpose::test);
   int safe = 0;
