@@ -148,7 +148,7 @@ TEST_F(Sweeps, TwoAtOnce) {
     const Outcome outcome = run({"sweep", "long.yaml"});
     EXPECT_EQ(outcome.code, 2);
     EXPECT_EQ(outcome.out, "");
-    EXPECT_EQ(outcome.err, "microswarm: long.db: another sweep is writing to it\n");
+    EXPECT_EQ(outcome.err, "microswarm: long.db: another process is writing to it\n");
     break;
   }
   EXPECT_TRUE(first.running());

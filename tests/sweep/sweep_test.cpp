@@ -55,7 +55,7 @@ TEST(Sweep, OneWriterAtATime) {
   {
     const SweepDatabase first(file, plan, {});
     EXPECT_EQ(experiment::error_of([&] { SweepDatabase(file, plan, {}); }),
-              file + ": another sweep is writing to it");
+              file + ": another process is writing to it");
     EXPECT_EQ(SweepReader(file).trials(), 0u);
   }
   EXPECT_EQ(run_alone(plan, file, 1).added, 8u);

@@ -79,7 +79,7 @@ WriterLock::WriterLock(const std::filesystem::path& file)
   if (::fcntl(file_.get(), F_OFD_SETLK, &lock) == 0) return;
   const int error = errno;
   if (error == EAGAIN || error == EACCES)
-    throw InputError(file.string(), "another sweep is writing to it");
+    throw InputError(file.string(), "another process is writing to it");
   throw InputError(file.string(), fmt::format("cannot lock: {}", reason(error)));
 }
 

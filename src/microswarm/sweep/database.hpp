@@ -29,7 +29,7 @@ std::string sql_name(std::string_view name);
 /// it when the process ends.
 class WriterLock {
  public:
-  /// Creates the file if necessary. Throws InputError "FILE: another sweep is writing to it",
+  /// Creates the file if necessary. Throws InputError "FILE: another process is writing to it",
   /// or "FILE: cannot write: REASON".
   explicit WriterLock(const std::filesystem::path& file);
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <string_view>
+#include <string>
 #include <vector>
 
 #include "microswarm/experiment/run/run_listener.hpp"
@@ -43,8 +43,15 @@ class ContactLog : public RunListener {
 struct ContactVerdict {
   RunEvent contact{};
   bool avoidable = false;
-  double decided = 0;            ///< time of the last tick at which it was avoidable [s]
-  std::string_view manoeuvre{};  ///< "hold", "retreat", "hold, retreat", "retreat, hold" or empty
+  double decided = 0;       ///< time of the last tick at which it was avoidable [s]
+  std::string manoeuvre{};  ///< "hold", "retreat", "hold, retreat", "retreat, hold" or empty
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.contact, plain("contact", "The contact."));
+    visit(self.avoidable, plain("avoidable", "Whether it could have been avoided."));
+    visit(self.decided, s("decided", "Time of the last decision that avoids it."));
+    visit(self.manoeuvre, plain("manoeuvre", "Manoeuvre that avoids it, or empty."));
+  }
 };
 
 /// Judges every contact of a run of KinematicPlant. A contact at t_c was avoidable if, from the

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "microswarm/core/maths/statistics.hpp"
+#include "microswarm/core/text/file.hpp"
 #include "microswarm/reproduce/figures.hpp"
 #include "microswarm/reproduce/radar/safety_campaign.hpp"
 #include "microswarm/reproduce/radar/safety_tables.hpp"
@@ -81,7 +82,8 @@ Race noisy(Race race) {
   return race;
 }
 
-CourseResult crossed(const Race& race, const ReproduceOptions& options, const Stop& stop) {
+CourseResult crossed(const Race& race, const ReproduceOptions& options, CrossingStore* store,
+                     const Stop& stop) {
   const Course& course = race.course;
   const Counts& counts = options.quick ? race.quick : race.full;
   CourseResult out{.course = course, .who = contestants(course.scenario(0)), .crossings = {}};
@@ -90,7 +92,7 @@ CourseResult crossed(const Race& race, const ReproduceOptions& options, const St
   for (const Contestant& who : out.who) worlds.push_back(counts.of(who.name));
   const Progress bar(options.progress, course.name);
   const auto progress = [&](double share) { bar.update(share); };
-  out.crossings = cross(course, out.who, worlds, progress, stop);
+  out.crossings = cross(course, out.who, worlds, store, progress, stop);
   if (options.quick) out.extent = "quick";
   if (stop()) out.extent = "interrupted";
   return out;
@@ -172,13 +174,29 @@ std::vector<report::ReproduceRow> raced(const std::string& figure, const std::ve
                                         const ReproduceOptions& options, const Stop& stop) {
   std::vector<report::ReproduceRow> rows;
   std::vector<CourseResult> results;
+  std::optional<CrossingStore> store;
+  if (!options.out.empty()) {
+    make_folder(options.out);
+    store.emplace(std::filesystem::path(options.out) / (figure + "-crossings.sqlite"));
+  }
   for (const Race& race : races) {
     if (stop()) break;
-    results.push_back(crossed(race, options, stop));
+    results.push_back(crossed(race, options, store ? &*store : nullptr, stop));
     add_rows(figure, results.back(), options, rows);
     if (figure == "fast") add_ratios(figure, results.back(), options, rows);
   }
-  if (!options.out.empty()) write_safety(results, options.out, figure);
+  if (!store) return rows;
+  write_safety(results, options.out, figure);
+  if (!options.note) return rows;
+  if (store->found() > 0)
+    options.note(fmt::format("{} crossings were read from {} and not run again", store->found(),
+                             store->name()));
+  if (store->outdated() > 0)
+    options.note(
+        fmt::format("{} crossings in {} were of another build or other worlds and were "
+                    "run again",
+                    store->outdated(), store->name()));
+  if (stop()) options.note("interrupted: the same command resumes it");
   return rows;
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <concepts>
 #include <mutex>
 #include <numeric>
@@ -108,7 +109,7 @@ Crossing crossed(const experiment::Scenario& scenario, const World& world, const
                  swarm_limits(scenario.swarm).max_speed;
   out.delta = metrics.avoidance.mean_cost;
   out.turning = metrics.turning;
-  out.min_gap = metrics.avoidance.min_gap;
+  if (std::isfinite(metrics.avoidance.min_gap)) out.min_gap = metrics.avoidance.min_gap;
   out.hold_time = metrics.hold_time;
   const std::vector<double>& steps = result.timing.steps;
   out.step = std::accumulate(steps.begin(), steps.end(), 0.0) /
@@ -117,13 +118,18 @@ Crossing crossed(const experiment::Scenario& scenario, const World& world, const
   return out;
 }
 
-}  // namespace
-
-int Crossing::avoidable() const {
-  return static_cast<int>(
-      std::count_if(contacts.begin(), contacts.end(),
-                    [](const experiment::ContactVerdict& v) { return v.avoidable; }));
+/// The stored crossing if there is one, otherwise that of a run, which is stored.
+Crossing crossed(const experiment::Scenario& scenario, const World& world, CrossingKey key,
+                 CrossingStore* store, const Stop& stop) {
+  if (!store) return crossed(scenario, world, stop);
+  key.input = crossing_input(scenario);
+  if (std::optional<Crossing> stored = store->find(key)) return *std::move(stored);
+  Crossing crossing = crossed(scenario, world, stop);
+  if (crossing.ran) store->add(key, crossing);
+  return crossing;
 }
+
+}  // namespace
 
 std::vector<Contestant> contestants(const experiment::Scenario& example) {
   std::vector<Contestant> out;
@@ -133,8 +139,8 @@ std::vector<Contestant> contestants(const experiment::Scenario& example) {
 }
 
 Crossings cross(const Course& course, const std::vector<Contestant>& who,
-                const std::vector<int>& counts, const std::function<void(double)>& progress,
-                const Stop& stop) {
+                const std::vector<int>& counts, CrossingStore* store,
+                const std::function<void(double)>& progress, const Stop& stop) {
   Crossings out(who.size());
   for (std::size_t k = 0; k < who.size(); ++k)
     out[k].resize(static_cast<std::size_t>(std::max(0, counts[k])));
@@ -150,7 +156,7 @@ Crossings cross(const Course& course, const std::vector<Contestant>& who,
     for (std::size_t k = 0; k < who.size() && !stop(); ++k) {
       if (seed >= out[k].size()) continue;
       scenario.navigator = who[k].params(scenario, course.passage_gap);
-      out[k][seed] = crossed(scenario, world, stop);
+      out[k][seed] = crossed(scenario, world, {course.name, who[k].name, seed, {}}, store, stop);
       ++crossings;
     }
     const std::lock_guard lock(mutex);

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "microswarm/experiment/run/contact_judge.hpp"
+#include "microswarm/reproduce/radar/crossing_store.hpp"
 #include "microswarm/scenes/avoidance_worlds.hpp"
 #include "microswarm/world/world.hpp"
 
@@ -33,32 +33,15 @@ struct Contestant {
 /// there are walls. The radar appears once more as published. Other parameters are defaults.
 std::vector<Contestant> contestants(const experiment::Scenario& example);
 
-/// Result of one run.
-struct Crossing {
-  bool ran = false;
-  Status status = Status::stopped;
-  bool arrived = false;  ///< reached the goal, with or without contacts
-  std::size_t obstacles = 0;
-  double time = 0;       ///< [s]
-  double straight = 0;   ///< time of the straight path at full speed [s]
-  double delta = 0;      ///< mean avoidance cost
-  double turning = 0;    ///< [rad]
-  double min_gap = 0;    ///< [µm]
-  double hold_time = 0;  ///< [s]
-  double step = 0;       ///< mean wall-clock time of a decision [s]
-  std::vector<experiment::ContactVerdict> contacts{};
-
-  int avoidable() const;
-};
-
 /// Results of one course, by contestant and seed.
 using Crossings = std::vector<std::vector<Crossing>>;
 
 /// Runs contestant k on the worlds of seeds 0 … counts[k] − 1, in parallel. The results do not
-/// depend on the number of threads. `progress` receives the completed fraction.
+/// depend on the number of threads. Crossings in `store` are not run again, and the others are
+/// added to it; null: no store. `progress` receives the completed fraction.
 Crossings cross(const Course& course, const std::vector<Contestant>& who,
-                const std::vector<int>& counts, const std::function<void(double)>& progress,
-                const Stop& stop);
+                const std::vector<int>& counts, CrossingStore* store,
+                const std::function<void(double)>& progress, const Stop& stop);
 
 /// Writes the scenario as stem.yaml, with stem-tracks.csv if it has tracks, for `microswarm run`.
 void write_scenario(experiment::Scenario scenario, const std::filesystem::path& folder,

@@ -65,7 +65,7 @@ struct RunRow {
   double straight = 0;
   double delta = 0;
   double turning = 0;
-  double min_gap = 0;
+  std::optional<double> min_gap;
   double hold = 0;
   std::uint64_t contacts = 0;
   int avoidable = 0;
@@ -212,7 +212,7 @@ std::string contacts_csv(const std::vector<CourseResult>& results) {
               .speed = contact.speed,
               .avoidable = v.avoidable,
               .decided = {},
-              .manoeuvre = std::string(v.manoeuvre)});
+              .manoeuvre = v.manoeuvre});
           if (v.avoidable) row.decided = v.decided;
         }
       });
