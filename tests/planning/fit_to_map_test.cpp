@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/planning/path/fit_to_map.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "microswarm/planning/path/planners.hpp"
@@ -10,6 +11,15 @@ namespace microswarm::planning {
 namespace {
 
 const IsGiven nothing = [](std::string_view) { return false; };
+const IsGiven clearance_only = [](std::string_view key) { return key == "clearance_um"; };
+
+/// One of every kind of planner.
+template <std::size_t... I>
+std::vector<PlannerParams> every_kind(std::index_sequence<I...>) {
+  return {std::variant_alternative_t<I, PlannerParams>{}...};
+}
+const std::vector<PlannerParams> kinds =
+    every_kind(std::make_index_sequence<std::variant_size_v<PlannerParams>>{});
 
 /// Four rooms in a row, joined by doors on alternating sides; `unit` is a tenth of a room [µm].
 scenes::RawWorld rooms(double unit) {
@@ -63,15 +73,11 @@ TEST(FitToMap, AMapWithoutSpaceChangesNothing) {
 }
 
 TEST(FitToMap, EveryPlannerCrossesMapsOfEverySize) {
-  const std::vector<PlannerParams> kinds{RrtParams{},    RrtStarParams{},   UniformRrtStarParams{},
-                                         AStarParams{},  ThetaStarParams{}, DrrtStarParams{},
-                                         FmtStarParams{}};
   for (const double unit : {0.3, 30.0, 3000.0}) {
     const Snapshot world = rooms(unit).snapshot();
     for (PlannerParams params : kinds) {
       std::visit([&](auto& p) { p.clearance = 0.2 * unit; }, params);
-      params = fit_to_map(params, world.map(),
-                          [](std::string_view key) { return key == "clearance_um"; });
+      params = fit_to_map(params, world.map(), clearance_only);
       Rng rng(1, Purpose::planner);
       const Plan found = plan(world, {{unit, unit}, 0}, {42 * unit, unit}, params, rng);
       EXPECT_EQ(found.status, Status::solved) << params.index() << " at " << unit;
@@ -106,7 +112,6 @@ using LatticeKinds = testing::Types<AStarParams, ThetaStarParams, RrtParams, Rrt
 TYPED_TEST_SUITE(FitToLattice, LatticeKinds);
 
 TYPED_TEST(FitToLattice, DoorsOfOneCellArePassed) {
-  const IsGiven clearance_only = [](std::string_view key) { return key == "clearance_um"; };
   const Vec2 origin{-314.159, 27.1828};
   const Snapshot world = rooms_on_cells(origin, 100, 8).snapshot();
   for (const double keeps : {5.0, 40.0, 48.0}) {
@@ -126,6 +131,26 @@ TYPED_TEST(FitToLattice, DoorsOfOneCellArePassed) {
     for (std::size_t i = 1; i < found.path.size(); ++i)
       EXPECT_TRUE(world.is_free(Segment{found.path[i - 1], found.path[i]}, keeps));
   }
+}
+
+// Two rooms with a thin wall between them, and a goal that is nearer to its other side than the
+// tolerance of a wide map.
+TEST(FitToMap, NoPathEndsOnTheOtherSideOfAWall) {
+  scenes::RawWorld rooms{.bounds = {{0, 0}, {2000, 1000}}};
+  rooms.walls = {scenes::rectangle({{999, 0}, {1001, 800}})};
+  const Snapshot world = rooms.snapshot();
+  for (const double keeps : {4.0, 8.0, 20.0})
+    for (const double away : {1.0, 10.0, 30.0})
+      for (PlannerParams params : kinds) {
+        const Vec2 goal{1001 + away, 300};
+        std::visit([&](auto& p) { p.clearance = keeps; }, params);
+        params = fit_to_map(params, world.map(), clearance_only);
+        Rng rng(1, Purpose::planner);
+        const Plan found = plan(world, {{100, 300}, 0}, goal, params, rng);
+        const std::string which = fmt::format("{} {} {}", params.index(), keeps, away);
+        ASSERT_EQ(found.status, Status::solved) << which;
+        EXPECT_GT(found.path.back().x, 1001) << which;
+      }
 }
 
 TEST(FitToMap, WidePassagesHaveCoarseCellsAndUniformSamples) {

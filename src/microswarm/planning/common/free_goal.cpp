@@ -44,6 +44,7 @@ double min_distance(Vec2 goal, Vec2 centre, double half) {
 /// Nearest free point among the centres of the squares or, with `pushing`, also beside them.
 std::optional<Vec2> search(const Snapshot& world, Vec2 goal, double tolerance, double clearance,
                            bool pushing) {
+  const GoalArea area(world.map(), goal, tolerance);
   std::optional<Vec2> best;
   double best_distance = tolerance;
   std::vector<Square> squares{{goal, tolerance, 0}};
@@ -61,7 +62,7 @@ std::optional<Vec2> search(const Snapshot& world, Vec2 goal, double tolerance, d
     const Vec2 position =
         pushing ? pushed(world, square.centre, clearance).value_or(square.centre) : square.centre;
     const double to_goal = distance(position, goal);
-    if (to_goal <= best_distance && world.is_free(position, clearance)) {
+    if (to_goal <= best_distance && world.is_free(position, clearance) && area.contains(position)) {
       best = position;
       best_distance = to_goal;
     }

@@ -4,11 +4,32 @@
 #include <optional>
 
 #include "microswarm/contracts/plan.hpp"
+#include "microswarm/geometry/distance.hpp"
+#include "microswarm/world/map/map.hpp"
 
 namespace microswarm::planning {
 
-/// The goal if it is free with the clearance, else approximately the nearest free point within
-/// `tolerance` [µm]. A free spot smaller than tolerance / 64 is found only by moving from its
+/// The places at which a goal counts as reached: within the tolerance [µm], and without a wall
+/// between. If the goal itself is in a wall, the distance alone counts.
+class GoalArea {
+ public:
+  /// The map must outlive the area.
+  GoalArea(const Map& map, Vec2 goal, double tolerance)
+      : map_(&map), goal_(goal), tolerance_(tolerance), in_wall_(!map.is_free(goal, 0)) {}
+
+  bool contains(Vec2 p) const {
+    return distance(p, goal_) <= tolerance_ && (in_wall_ || map_->is_free(Segment{p, goal_}, 0));
+  }
+
+ private:
+  const Map* map_;
+  Vec2 goal_;
+  double tolerance_;
+  bool in_wall_;
+};
+
+/// The goal if it is free with the clearance, else approximately the nearest free point of its
+/// area. A free spot smaller than tolerance / 64 is found only by moving from its
 /// surroundings along the clearance gradient, so one between several walls may be missed.
 std::optional<Vec2> free_goal(const Snapshot& world, Vec2 goal, double tolerance, double clearance);
 

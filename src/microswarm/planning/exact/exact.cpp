@@ -34,15 +34,16 @@ Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const ExactParams& para
       find_target(world, start.position, goal, params.goal_tolerance, params.clearance);
   if (target.fault) return target.blocked(start.position);
   Plan made{.status = Status::solved, .path = {start.position}};
-  if (distance(start.position, goal) <= params.goal_tolerance) return made;
+  const GoalArea area(world.map(), goal, params.goal_tolerance);
+  if (area.contains(start.position)) return made;
   ShortestPath found = find_kept(world, params.clearance, start.position, target.position, stop);
   made.status = found.status;
   if (found.status == Status::solved) made.arc_length = found.length;
   made.path = std::move(found.points);
   made.counts.iterations = found.expanded;
   made.counts.edge_checks = found.lines;
-  // A free point next to a blocked goal can lie behind the wall.
-  if (made.status == Status::no_path && distance(made.path.back(), goal) <= params.goal_tolerance)
+  // The free point next to a blocked goal can lie in a pocket.
+  if (made.status == Status::no_path && area.contains(made.path.back()))
     made.status = Status::solved;
   return made;
 }

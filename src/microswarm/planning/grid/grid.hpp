@@ -158,6 +158,7 @@ class GridSearch {
   GridSearch(const Snapshot& world, Vec2 start, Vec2 goal, Vec2 target, const GridParams& params)
       : world_(world),
         goal_(goal),
+        goal_area_(world.map(), goal, params.goal_tolerance),
         target_(target),
         params_(params),
         grid_(world.bounds(), start, params.origin, params.cell) {}
@@ -193,7 +194,7 @@ class GridSearch {
  protected:
   Vec2 position(Place p) const { return grid_.position(p); }
   double to_goal(Place p) const { return distance(position(p), goal_); }
-  bool is_at_goal(Place p) const { return to_goal(p) <= params_.goal_tolerance; }
+  bool is_at_goal(Place p) const { return goal_area_.contains(position(p)); }
   /// Opens a place at this cost, from which at least `left` remains [µm].
   void push(Place p, double cost, double left) {
     const double length = cost + std::max(0.0, left);
@@ -210,6 +211,7 @@ class GridSearch {
 
   const Snapshot& world_;
   Vec2 goal_;
+  GoalArea goal_area_;
   Vec2 target_;
   const GridParams& params_;
   Grid<Cell> grid_;

@@ -31,6 +31,7 @@ class FmtStar {
       : world_(world),
         start_(start),
         goal_(goal),
+        goal_area_(world.map(), goal, params.goal_tolerance),
         params_(params),
         rng_(rng),
         stop_(stop),
@@ -72,6 +73,7 @@ class FmtStar {
   const Snapshot& world_;
   Pose2 start_;
   Vec2 goal_;
+  GoalArea goal_area_;
   const FmtStarParams& params_;
   Rng& rng_;
   const Stop& stop_;
@@ -130,7 +132,7 @@ void FmtStar::grow() {
     std::pop_heap(open_.begin(), open_.end());
     const std::uint32_t node = open_.back().node;
     open_.pop_back();
-    if (distance(tree_[node].position, goal_) <= params_.goal_tolerance) {
+    if (goal_area_.contains(tree_[node].position)) {
       arrived_ = node;
       ended_ = Status::solved;
       return;

@@ -20,6 +20,7 @@ class RrtConnect {
         params_(params),
         rng_(rng),
         goal_(goal),
+        goal_area_(world.map(), goal, params.goal_tolerance),
         sampled_(world.bounds().grown(-params.clearance)),
         trees_{SearchTree(world.bounds(), start, {}), SearchTree(world.bounds(), {target, 0}, {})} {
   }
@@ -46,7 +47,7 @@ class RrtConnect {
  private:
   Vec2 end(std::size_t tree) const { return trees_[tree][met_[tree]].position; }
 
-  bool arrives() const { return distance(end(0), goal_) <= params_.goal_tolerance; }
+  bool arrives() const { return goal_area_.contains(end(0)); }
 
   bool is_free(Vec2 a, Vec2 b) {
     ++counts_.edge_checks;
@@ -61,7 +62,7 @@ class RrtConnect {
   }
 
   /// Anywhere; for the first tree, if the goal is blocked, sometimes beside it, since the place
-  /// found there for the other tree can be behind its wall.
+  /// found there for the other tree can be in a pocket.
   Vec2 sample(std::size_t tree) {
     constexpr double bias = 0.1;
     const Vec2 target = trees_[1][0].position;
@@ -118,6 +119,7 @@ class RrtConnect {
   const RrtConnectParams& params_;
   Rng& rng_;
   Vec2 goal_;
+  GoalArea goal_area_;
   Box sampled_;
   std::array<SearchTree, 2> trees_;     ///< from the start, from the goal
   std::array<std::uint32_t, 2> met_{};  ///< of each tree: its newest end

@@ -35,6 +35,7 @@ TreeGrowth::TreeGrowth(const Snapshot& world, Pose2 start, Vec2 goal, const Tree
       rng_(rng),
       stop_(stop),
       goal_(goal),
+      goal_area_(world.map(), goal, params.goal_tolerance),
       sampled_(world.bounds().grown(-params.clearance)),
       cost_(cost),
       tree_(world.bounds(), finite(start), cost) {

@@ -8,6 +8,7 @@
 
 #include "microswarm/core/maths/heap_entry.hpp"
 #include "microswarm/geometry/uniform_in.hpp"
+#include "microswarm/planning/common/free_goal.hpp"
 #include "microswarm/planning/trees/rrt_star.hpp"
 #include "microswarm/planning/trees/search_tree.hpp"
 
@@ -28,8 +29,8 @@ class TreeGrowth {
   /// Free point or, with the goal bias, the goal (if that is not free: a free point within its
   /// tolerance). Nothing if no free point was drawn.
   std::optional<Vec2> sample();
-  /// Whether `p` is within the goal tolerance.
-  bool arrives(Vec2 p) const { return distance(p, goal_) <= params_.goal_tolerance; }
+  /// Whether the goal is reached at `p`.
+  bool arrives(Vec2 p) const { return goal_area_.contains(p); }
   bool is_free(Segment edge);
   bool is_free(std::span<const Vec2> arc);
   /// Whether every arc of this length from `p` is clearly free, which then counts as a check.
@@ -63,6 +64,7 @@ class TreeGrowth {
   Rng& rng_;
   const Stop& stop_;
   Vec2 goal_;
+  GoalArea goal_area_;
   bool goal_is_free_ = false;
   Box sampled_;
   PathCost cost_;
