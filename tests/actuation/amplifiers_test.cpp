@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/core/maths/rng.hpp"
 #include "tests/actuation/support.hpp"
 
@@ -310,6 +311,30 @@ TEST(CoilDriveLaw, ATurnIsNeverColderThanAnIndependentIntegration) {
       ASSERT_GE(amplifiers.temperatures()[0], real - 5e-3) << trial << " " << k;
     }
   }
+}
+
+TEST(CoilHeat, TimeToTheLimitIsThatOfTheHeating) {
+  AmplifierParams d;
+  d.resistance = 1.5;
+  d.thermal_resistance = 2;
+  d.thermal_time = 300;
+  d.ambient = 22;
+  d.max_temperature = 90;
+  for (const double mean_square : {30.0, 60.0, 300.0, 1e4})
+    for (const double from : {22.0, 60.0, 89.0}) {
+      const double time = time_to_limit(d, from, mean_square);
+      ASSERT_TRUE(std::isfinite(time));
+      EXPECT_NEAR(temperature_later(d, from, mean_square, time), 90, 1e-6);
+      double now = from;  // in small steps
+      constexpr int steps = 1000;
+      for (int i = 0; i < steps; ++i) now = temperature_later(d, now, mean_square, time / steps);
+      EXPECT_NEAR(now, 90, 1e-6);
+    }
+  EXPECT_EQ(time_to_limit(d, 90, 30), 0);
+  EXPECT_EQ(time_to_limit(d, 95, 30), 0);
+  EXPECT_EQ(time_to_limit(d, 22, 1), infinity);
+  d.max_temperature.reset();
+  EXPECT_EQ(time_to_limit(d, 22, 1e4), infinity);
 }
 
 }  // namespace

@@ -30,6 +30,8 @@ class CoilTemperaturesTest : public testing::Test {
   Eigen::VectorXd at_start(bool cold = false) const {
     return CoilTemperatures(rig, cold).at_start();
   }
+  /// Temperatures of 50, 60 and 70 °C, kept by a program that ends at once.
+  void heat() const { CoilTemperatures(rig, false).take(Eigen::Vector3d(50, 60, 70)); }
   static void expect_near(const Eigen::VectorXd& found, const Eigen::Vector3d& expected,
                           double cooler = 1e-6) {
     ASSERT_EQ(found.size(), 3);
@@ -96,6 +98,84 @@ TEST_F(CoilTemperaturesTest, OfADamagedFileAreRefusedInALineThatSaysWhatHelps) {
   EXPECT_TRUE(test::is_one_line_naming(refused(), file().string(), {"2", "3", "coils_cold"}));
   expect_near(at_start(true), {22, 30, 22});
   expect_near(at_start(), {22, 30, 22});
+}
+
+TEST_F(CoilTemperaturesTest, ColdIsRefusedOfCoilsThatAreKnownToBeWarmer) {
+  expect_near(at_start(true), {22, 30, 22});
+  heat();
+  const std::string refusal = test::error_of([&] { at_start(true); });
+  EXPECT_TRUE(test::is_one_line_naming(refusal, "coils_cold", {file().string(), "70"})) << refusal;
+  expect_near(at_start(), {50, 60, 70}, 5);  // and nothing is forgotten
+  std::filesystem::remove(file());
+  expect_near(at_start(true), {22, 30, 22});
+}
+
+TEST_F(CoilTemperaturesTest, ColdIsBelievedWhereTheHeatWasAssumed) {
+  expect_near(at_start(), {80, 90, 22});
+  expect_near(at_start(), {80, 90, 22}, 5);  // still assumed, and written
+  expect_near(at_start(true), {22, 30, 22});
+}
+
+TEST_F(CoilTemperaturesTest, ColdIsRefusedOfCoilsThatWereDrivenFromAnAssumedHeat) {
+  {
+    CoilTemperatures driven(rig, false);
+    driven.take(driven.at_start() + Eigen::Vector3d(-20, -20, 9));
+  }
+  EXPECT_TRUE(test::names(test::error_of([&] { at_start(true); }), "coils_cold"));
+}
+
+// A calibration writes another file of the same coils.
+TEST_F(CoilTemperaturesTest, AreThoseOfTheCoilsNotOfTheirFile) {
+  const std::string kind = "coils: {type: helmholtz}\ndrives: [{max_temperature_degc: 80}]\n";
+  const auto rig_of = [&](const std::string& name, const std::string& id) {
+    folder.with(name + "-coils.yaml", id + kind);
+    return read_rig(folder.with(name + ".yaml", "coils: " + name + "-coils.yaml\n"));
+  };
+  const Rig first = rig_of("first", "");
+  CoilTemperatures(first, true).take(Eigen::Vector3d(50, 60, 70));
+  const Rig calibrated = rig_of("calibrated", "id: '" + coil_identity(first) + "'\n");
+  expect_near(CoilTemperatures(calibrated, false).at_start(), {50, 60, 70}, 5);
+  EXPECT_FALSE(CoilTemperatures(rig_of("other", "id: lab 2\n"), false).known());
+  CoilTemperatures(rig_of("other", "id: lab 2\n"), true);
+  EXPECT_TRUE(CoilTemperatures(rig_of("copy", "id: lab 2\n"), false).known());
+}
+
+TEST_F(CoilTemperaturesTest, AClockThatIsSetForwardsCoolsNothing) {
+  at_start(true);
+  heat();
+  ClockReading tomorrow = read_clocks();
+  tomorrow.wall += 86400;
+  expect_near(CoilTemperatures(rig, false, tomorrow).at_start(), {50, 60, 70}, 5);
+}
+
+TEST(ClockReading, OnlyWhatHasPassedForCertainIsAPause) {
+  constexpr double y2026 = 1.78e9;
+  struct Case {
+    const char* what;
+    ClockReading then, now;
+    double pause;
+  };
+  const Case cases[] = {
+      {"plain", {y2026, 100, "a"}, {y2026 + 60, 160, "a"}, 60},
+      {"suspended", {y2026, 100, "a"}, {y2026 + 3600, 3700, "a"}, 3600},
+      {"set forwards", {y2026, 100, "a"}, {y2026 + 86400, 120, "a"}, 20},
+      {"set back", {y2026, 100, "a"}, {y2026 - 3600, 160, "a"}, 0},
+      {"restarted", {y2026, 5000, "a"}, {y2026 + 7200, 30, "b"}, 7200},
+      {"restarted and set back", {y2026, 5000, "a"}, {y2026 - 7200, 30, "b"}, 30},
+      {"restarted, never set before", {1000, 5000, "a"}, {y2026, 30, "b"}, 30},
+      {"of a former version", {y2026, 0, ""}, {y2026 + 60, 160, "a"}, 60},
+      {"of a former version, set back", {y2026, 0, ""}, {y2026 - 60, 160, "a"}, 0},
+  };
+  for (const Case& c : cases) EXPECT_NEAR(certain_pause(c.then, c.now), c.pause, 1e-6) << c.what;
+}
+
+TEST(ClockReading, NamesTheStartOfThisComputer) {
+  const ClockReading a = read_clocks(), b = read_clocks();
+  EXPECT_EQ(a.boot, b.boot);
+  EXPECT_FALSE(a.boot.empty());
+  EXPECT_GT(a.uptime, 0);
+  EXPECT_LE(a.uptime, b.uptime);
+  EXPECT_LT(certain_pause(a, b), 60);
 }
 
 }  // namespace

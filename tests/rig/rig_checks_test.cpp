@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/rig/runtime/rig_checks.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -87,6 +88,22 @@ TEST_F(RigChecks, TheCoilsHoldTheFieldOrSayHowMuchOfIt) {
       check_field(test::coil_rig(folder, "[{max_current_a: 0.01}, {max_current_a: 0.01}, {}]"));
   EXPECT_FALSE(weak.good);
   EXPECT_TRUE(test::is_one_line_naming(weak.answer, "", {"mT"}));
+}
+
+// Two seconds from cold say nothing of an hour.
+TEST_F(RigChecks, HowLongTheCoilsHoldTheFieldIsTold) {
+  const auto held = [&](double thermal_resistance) {
+    const std::string drive = fmt::format(
+        "{{max_current_a: 10, resistance_ohm: 1, max_temperature_degc: 90, "
+        "thermal_time_s: 400, thermal_resistance_k_per_w: {}}}",
+        thermal_resistance);
+    return check_field(test::coil_rig(folder, fmt::format("[{0}, {0}, {0}]", drive))).answer;
+  };
+  EXPECT_TRUE(test::names(held(0.01), "indefinitely")) << held(0.01);
+  const std::string hot = held(20);
+  EXPECT_FALSE(test::names(hot, "indefinitely")) << hot;
+  EXPECT_TRUE(test::names(hot, "90 °C")) << hot;
+  EXPECT_TRUE(test::names(hot, "coil")) << hot;
 }
 
 TEST_F(RigChecks, MissingLimitsAreNamed) {

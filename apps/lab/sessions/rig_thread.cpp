@@ -130,6 +130,7 @@ void RigThread::begin_run(bool dry, std::uint64_t stops) {
   tell_rig();
   drives_ = !dry;
   live_ = std::make_shared<rig::LiveSession>(on, options);
+  if (!dry) opening_.live->coils_cold = false;  // said once, of the coils as they were then
   guard_.watch(live_, !dry, stops);
   if (!options.folder.empty())
     growing_ =

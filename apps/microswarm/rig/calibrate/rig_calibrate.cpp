@@ -10,6 +10,7 @@
 #include "microswarm/config/write.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/file.hpp"
+#include "microswarm/rig/runtime/coil_temperatures.hpp"
 #include "rig/calibrate/measure.hpp"
 #include "rig/rig.hpp"
 #include "support/options.hpp"
@@ -158,6 +159,7 @@ int calibrate(const CalibrateOptions& o, const Context& context) {
     if (const int code = measure(rig, o.measure, options, o.measured, context); code != ok)
       return code;
     if (!rig.system.name().empty()) system.name = rig.system.name();
+    system.id = rig::coil_identity(rig);
     // Drives of the file, since the rig's are limited by the driver's full scale too.
     system.amplifiers = actuation::read_coil_system(coils).amplifiers();
   }

@@ -43,6 +43,23 @@ double temperature_later(const AmplifierParams& d, double temperature, double me
   return temperature + rate * dt * (std::abs(x) < small ? 1 - 0.5 * x : (1 - maths::exp(-x)) / x);
 }
 
+double time_to_limit(const AmplifierParams& d, double temperature, double mean_square) {
+  if (!d.max_temperature || steady_temperature(d, mean_square) <= *d.max_temperature)
+    return infinity;
+  const auto is_below = [&](double t) {
+    return temperature_later(d, temperature, mean_square, t) < *d.max_temperature;
+  };
+  if (!is_below(0)) return 0;
+  double low = 0, high = d.thermal_time;
+  constexpr int halvings = 60;
+  for (int i = 0; i < halvings && is_below(high); ++i) low = high, high *= 2;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (is_below(middle) ? low : high) = middle;
+  }
+  return low;
+}
+
 double warmest_current(const AmplifierParams& d) {
   const double warmer = std::max(0.0, *d.max_temperature - d.ambient);
   const double per_square = d.thermal_resistance * hot_resistance(d);
@@ -54,6 +71,13 @@ double mean_square_to_limit(const AmplifierParams& d, double temperature, double
   const double keeps = maths::exp(-seconds / d.thermal_time);
   const double end = (*d.max_temperature - margin - temperature * keeps) / (1 - keeps);
   return (end - d.ambient) / (d.thermal_resistance * hot_resistance(d));
+}
+
+Eigen::VectorXd ambient(const std::vector<AmplifierParams>& amplifiers) {
+  Eigen::VectorXd least(static_cast<Eigen::Index>(amplifiers.size()));
+  for (std::size_t k = 0; k < amplifiers.size(); ++k)
+    least[static_cast<Eigen::Index>(k)] = amplifiers[k].ambient;
+  return least;
 }
 
 Eigen::VectorXd hottest(const std::vector<AmplifierParams>& amplifiers) {

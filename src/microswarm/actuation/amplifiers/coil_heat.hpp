@@ -20,6 +20,10 @@ double steady_temperature(const AmplifierParams& d, double mean_square);
 double temperature_later(const AmplifierParams& d, double temperature, double mean_square,
                          double dt);
 
+/// Time until the maximum temperature at this mean square current [A²], from `temperature` [s];
+/// infinity if it is never reached or there is none.
+double time_to_limit(const AmplifierParams& d, double temperature, double mean_square);
+
 /// Current at which the final temperature is the maximum temperature [A].
 double warmest_current(const AmplifierParams& d);
 
@@ -27,6 +31,9 @@ double warmest_current(const AmplifierParams& d);
 /// `seconds`, at the resistance of the hottest coil allowed; negative if it is too hot already.
 double mean_square_to_limit(const AmplifierParams& d, double temperature, double seconds,
                             double margin = 0);
+
+/// Ambient temperatures [°C].
+Eigen::VectorXd ambient(const std::vector<AmplifierParams>& amplifiers);
 
 /// Maximum temperatures [°C]; the ambient one for coils without a maximum.
 Eigen::VectorXd hottest(const std::vector<AmplifierParams>& amplifiers);

@@ -42,7 +42,7 @@ std::string place_text(const Eigen::Vector3d& v) {
 
 CoilSystem::CoilSystem(const CoilSystemParams& params, const KeyLocations& keys,
                        const std::filesystem::path& folder)
-    : folder_(folder), name_(params.name) {
+    : folder_(folder), name_(params.name), id_(params.id) {
   Issues coils;
   std::visit([&](const auto& kind) { add(kind, coils); }, params.coils);
   if (coils.empty()) check_names(coils);

@@ -117,11 +117,13 @@ struct MatrixCoils {
 /// Contents of a coil system file.
 struct CoilSystemParams {
   std::string name{};
+  std::string id{};
   std::variant<HelmholtzCoils, CubeCoils, LoopCoils, MpemCoils, VfieldCoils, MatrixCoils> coils{};
   std::vector<AmplifierParams> amplifiers{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.name, plain("name", "Name of the system."));
+    visit(self.id, plain("id", "Identity of the coils, whose heat is remembered."));
     visit(self.coils, plain("coils", "The coils, by kind.").needed());
     visit(self.amplifiers,
           plain("drives", "Amplifier and limits: one entry for all coils, or one each."));
@@ -163,6 +165,8 @@ class CoilSystem {
                       const std::filesystem::path& folder = {});
 
   const std::string& name() const { return name_; }
+  /// Identity that copies of the file keep; empty if it is not given.
+  const std::string& id() const { return id_; }
   std::size_t size() const { return names_.size(); }
   const std::vector<std::string>& coil_names() const { return names_; }
   /// One entry per coil.
@@ -192,6 +196,7 @@ class CoilSystem {
 
   std::filesystem::path folder_;
   std::string name_;
+  std::string id_;
   std::vector<std::string> names_;
   std::vector<AmplifierParams> amplifiers_;
   Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();

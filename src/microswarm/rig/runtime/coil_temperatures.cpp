@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <span>
 
 #include "microswarm/actuation/amplifiers/coil_heat.hpp"
 #include "microswarm/config/write.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/errors/input_names.hpp"
+#include "microswarm/core/maths/hash.hpp"
 #include "microswarm/core/text/file.hpp"
 
 namespace microswarm::rig {
@@ -22,27 +24,28 @@ namespace fs = std::filesystem;
 constexpr std::chrono::milliseconds between_entries{500};
 /// Maximum driving time after the last entry of a killed program, watchdog time included [s].
 constexpr double unwritten = 2;
+constexpr double cold_margin = 2;      // [K] above ambient at which coils count as cold
+constexpr double driven_margin = 0.2;  // [K] above their cooling from which coils were driven
 
 /// Contents of the file.
 struct KeptTemperatures {
   std::string coils;
-  double clock = 0;
+  ClockReading clock;
   bool driven = false;
+  bool assumed = false;
   std::vector<double> temperatures;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.coils, plain("coils", "File of the coil system.").needed());
-    visit(self.clock, s("clock", 0, 1e12, "Wall clock, from 1970.").needed());
+    visit(self.coils, plain("coils", "Identity of the coils.").needed());
+    visit(self.clock.wall, s("clock", 0, 1e12, "Wall clock, from 1970.").needed());
+    visit(self.clock.uptime, s("uptime", 0, 1e12, "Time since the computer started."));
+    visit(self.clock.boot, plain("boot", "Id of that start of the computer."));
     visit(self.driven, plain("driven", "A program drove the coils.").needed());
+    visit(self.assumed, plain("assumed", "Nothing was known, and no current flowed since."));
     visit(self.temperatures,
           degc("temperatures", -273, 1e4, "Temperatures of the coils.").needed());
   }
 };
-
-double wall_clock() {
-  using Clock = std::chrono::system_clock;
-  return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
-}
 
 fs::path state_folder() {
   if (const char* state = std::getenv("XDG_STATE_HOME"); state && *state == '/')
@@ -52,11 +55,11 @@ fs::path state_folder() {
   throw InputError("there is no folder for the coils' temperatures: set HOME or XDG_STATE_HOME");
 }
 
-/// Name of the file for a coil system: its name and a hash of its path (FNV-1a).
-std::string name_for(const fs::path& coils) {
-  std::uint64_t sum = 0xcbf29ce484222325;
-  for (const char c : coils.string()) sum = (sum ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-  return fmt::format("{}-{:016x}.yaml", coils.stem().string(), sum);
+/// Name of the file for coils: a name and a hash of their identity.
+std::string name_for(const std::string& coils) {
+  Hash hash;
+  hash.bytes(std::as_bytes(std::span(coils)));
+  return fmt::format("{}-{}.yaml", fs::path(coils).stem().string(), hash.hex());
 }
 
 /// Reads the file. A link could point to any file, so no message repeats its content.
@@ -81,29 +84,62 @@ bool is_there(const fs::path& file) { return fs::exists(fs::symlink_status(file)
 
 }  // namespace
 
-CoilTemperatures::CoilTemperatures(const Rig& rig, bool cold)
-    : coils_(fs::weakly_canonical(rig.folder / rig.params.coils).string()),
-      file_(state_folder() / name_for(coils_)) {
+std::string coil_identity(const Rig& rig) {
+  if (!rig.system.id().empty()) return rig.system.id();
+  return fs::weakly_canonical(rig.folder / rig.params.coils).string();
+}
+
+CoilTemperatures::CoilTemperatures(const Rig& rig, bool cold, const ClockReading& now)
+    : amplifiers_(rig.system.amplifiers()),
+      coils_(coil_identity(rig)),
+      file_(state_folder() / name_for(coils_)),
+      began_(now.uptime),
+      at_start_(actuation::ambient(amplifiers_)) {
   make_folder(file_.parent_path().string());
-  const auto& amplifiers = rig.system.amplifiers();
-  const auto coils = static_cast<Eigen::Index>(amplifiers.size());
-  at_start_.resize(coils);
-  for (Eigen::Index i = 0; i < coils; ++i)
-    at_start_[i] = amplifiers[static_cast<std::size_t>(i)].ambient;
-  if (!cold && !is_there(file_)) {
+  if (cold) {
+    require_nothing_warmer(now);
+  } else if (is_there(file_)) {
+    const Known known = read(now);
+    at_start_ = known.temperatures;
+    assumed_ = known.assumed;
+  } else {
     known_ = false;
-    at_start_ = actuation::hottest(amplifiers);
-  } else if (!cold) {
-    const KeptTemperatures kept = read_kept(file_, amplifiers.size());
-    Eigen::VectorXd then = Eigen::Map<const Eigen::VectorXd>(kept.temperatures.data(), coils)
-                               .cwiseMax(at_start_);  // no coil is below ambient temperature
-    if (kept.driven) then = actuation::heated(amplifiers, then, unwritten);
-    at_start_ = actuation::cooled(amplifiers, then,
-                                  wall_clock() - kept.clock - (kept.driven ? unwritten : 0));
+    assumed_ = true;
+    at_start_ = actuation::hottest(amplifiers_);
   }
   newest_ = at_start_;
   write(newest_, true);
   thread_ = std::thread([this] { run(); });
+}
+
+/// What the file says of the coils now.
+CoilTemperatures::Known CoilTemperatures::read(const ClockReading& now) const {
+  const KeptTemperatures kept = read_kept(file_, amplifiers_.size());
+  const auto coils = static_cast<Eigen::Index>(amplifiers_.size());
+  Eigen::VectorXd then = Eigen::Map<const Eigen::VectorXd>(kept.temperatures.data(), coils)
+                             .cwiseMax(actuation::ambient(amplifiers_));
+  if (kept.driven) then = actuation::heated(amplifiers_, then, unwritten);
+  const double pause = certain_pause(kept.clock, now);
+  return {actuation::cooled(amplifiers_, then, pause - (kept.driven ? unwritten : 0)), kept.assumed,
+          pause};
+}
+
+/// Throws InputError if the file knows a coil that is not cold.
+void CoilTemperatures::require_nothing_warmer(const ClockReading& now) const {
+  std::optional<Known> known;
+  try {
+    if (is_there(file_)) known = read(now);
+  } catch (const InputError&) {  // a damaged file knows nothing
+    return;
+  }
+  if (!known || known->assumed) return;
+  Eigen::Index warmest = 0;
+  const double warmer = (known->temperatures - actuation::ambient(amplifiers_)).maxCoeff(&warmest);
+  if (warmer <= cold_margin) return;
+  throw InputError(fmt::format(
+      "{}: a coil is at {:.3g} °C by {}, written {:.3g} s ago: leave it out, or remove that file "
+      "if you have measured that the coils are cold",
+      input_name("coils_cold"), known->temperatures[warmest], file_.string(), known->pause));
 }
 
 CoilTemperatures::~CoilTemperatures() {
@@ -129,6 +165,9 @@ void CoilTemperatures::take(const Eigen::VectorXd& temperatures) {
   const std::lock_guard lock(mutex_);
   if (!why_.empty()) throw InputError(why_);
   newest_ = temperatures;
+  const double since = read_clocks().uptime - began_;
+  const Eigen::VectorXd undriven = actuation::cooled(amplifiers_, at_start_, since);
+  if (assumed_ && (temperatures - undriven).maxCoeff() > driven_margin) assumed_ = false;
 }
 
 void CoilTemperatures::run() {
@@ -149,7 +188,7 @@ void CoilTemperatures::run() {
 
 void CoilTemperatures::write(const Eigen::VectorXd& temperatures, bool driven) const {
   const KeptTemperatures kept{
-      coils_, wall_clock(), driven, {temperatures.begin(), temperatures.end()}};
+      coils_, read_clocks(), driven, assumed_, {temperatures.begin(), temperatures.end()}};
   write_file_atomically(file_, to_yaml(kept), LinkAtFile::refused);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <atomic>
 #include <condition_variable>
 #include <filesystem>
 #include <mutex>
@@ -9,19 +10,25 @@
 #include <thread>
 
 #include "microswarm/rig/params/rig_params.hpp"
+#include "microswarm/rig/runtime/clock_reading.hpp"
 
 namespace microswarm::rig {
 
+/// Identity of a rig's coils: the `id` of their file, which copies of it keep, otherwise its path.
+std::string coil_identity(const Rig& rig);
+
 /// Temperatures of a rig's coils between runs, in a file of the user's state folder
-/// ($XDG_STATE_HOME/microswarm, or ~/.local/state/microswarm), one for each coil system file. A
-/// thread writes it twice a second while the coils are driven. Coils cool by the wall clock; for
-/// the time after a killed program's last entry the maximum current is assumed. Without an entry,
-/// the coils are assumed at their maximum temperatures. No coil is below ambient temperature.
+/// ($XDG_STATE_HOME/microswarm, or ~/.local/state/microswarm), one for each identity of coils. A
+/// thread writes it twice a second while the coils are driven. Coils cool by the time that has
+/// passed for certain; for the time after a killed program's last entry the maximum current is
+/// assumed. Without an entry, the coils are assumed at their maximum temperatures. No coil is below
+/// ambient temperature.
 class CoilTemperatures {
  public:
   /// Reads the file; with `cold`, the coils are at ambient temperature instead. Throws InputError,
-  /// one line, if the file is damaged or the folder cannot be written.
-  CoilTemperatures(const Rig& rig, bool cold);
+  /// one line, if the file is damaged or the folder cannot be written, and with `cold` if the file
+  /// knows that a coil is warmer.
+  CoilTemperatures(const Rig& rig, bool cold, const ClockReading& now = read_clocks());
   /// Writes the last temperatures and marks the coils as undriven.
   ~CoilTemperatures();
   CoilTemperatures(const CoilTemperatures&) = delete;
@@ -39,13 +46,24 @@ class CoilTemperatures {
   void take(const Eigen::VectorXd& temperatures);
 
  private:
+  struct Known {
+    Eigen::VectorXd temperatures;  ///< [°C]
+    bool assumed = false;
+    double pause = 0;  ///< since it was written [s]
+  };
+
+  Known read(const ClockReading& now) const;
+  void require_nothing_warmer(const ClockReading& now) const;
   void run();
   void write(const Eigen::VectorXd& temperatures, bool driven) const;
 
+  std::vector<actuation::AmplifierParams> amplifiers_;
   std::string coils_;
   std::filesystem::path file_;
+  double began_;  ///< uptime at the start [s]
   Eigen::VectorXd at_start_;
   bool known_ = true;
+  std::atomic<bool> assumed_{false};  ///< nothing was known, and no current flowed since
   std::mutex mutex_;
   std::condition_variable changed_;
   Eigen::VectorXd newest_;

@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "microswarm/actuation/amplifiers/coil_heat.hpp"
 #include "microswarm/actuation/coils/coil_controller.hpp"
 #include "microswarm/core/errors/input_names.hpp"
 #include "microswarm/core/execution/clock.hpp"
 #include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/infinity.hpp"
 
 namespace microswarm::rig {
 namespace {
@@ -31,29 +34,57 @@ std::string unlimited(const Rig& rig) {
                                    : "voltage and the temperature");
 }
 
-/// Minimum scale of the field by the limits while it turns in one direction.
-struct Weakening {
+/// Worst weakening of the field by the limits of the coils, and the time until one is too hot.
+struct FieldLoad {
   double scale = 1;
   bool reached = true;
+  double lasts = infinity;  ///< time to a coil's maximum temperature, from ambient [s]
+  std::size_t hottest = 0;  ///< that coil
 };
 
-Weakening field_weakening(const Rig& rig) {
+FieldLoad field_load(const Rig& rig) {
   constexpr double settled = 0.5;  // [s]
   constexpr double lasts = 2;      // [s]
   actuation::SimulatedCoilDriver driver(static_cast<int>(rig.system.size()),
                                         driver_full_scale(rig.params), coil_input(rig.params));
   actuation::CoilController controller(rig.system, rig.params.field, driver, 0);
-  Weakening most;
+  FieldLoad load;
   const double dt = 1 / rig.params.drive_rate;
-  for (const double heading : {0.0, 0.5 * pi, 1.0, -2.0}) {
-    controller.command(Command{heading, 1e9});
+  for (const Command command : {Command{0, 1e9}, Command{0.5 * pi, 1e9}, Command{1, 1e9},
+                                Command{-2, 1e9}, Command{0, 0}}) {
+    controller.command(command);
+    Eigen::ArrayXd squares = Eigen::ArrayXd::Zero(static_cast<Eigen::Index>(rig.system.size()));
+    int count = 0;
     for (int i = 0; i < static_cast<int>(lasts / dt); ++i) {
       const actuation::CoilOutput& output = controller.advance(dt);
-      if (i * dt > settled) most.scale = std::min(most.scale, output.scale);
-      most.reached = most.reached && output.reached;
+      load.reached = load.reached && output.reached;
+      if (i * dt <= settled) continue;
+      load.scale = std::min(load.scale, output.scale);
+      squares += output.currents.array().square();
+      ++count;
+    }
+    for (std::size_t k = 0; k < rig.system.size(); ++k) {
+      const actuation::AmplifierParams& d = rig.system.amplifiers()[k];
+      const double mean_square = squares[static_cast<Eigen::Index>(k)] / std::max(1, count);
+      const double time = actuation::time_to_limit(d, d.ambient, mean_square);
+      if (time < load.lasts) load.lasts = time, load.hottest = k;
     }
   }
-  return most;
+  return load;
+}
+
+std::string how_long(const Rig& rig, const FieldLoad& load) {
+  const auto& amplifiers = rig.system.amplifiers();
+  if (std::isfinite(load.lasts))
+    return fmt::format(" for {} from ambient temperature, then coil {} is at its {:.4g} °C",
+                       load.lasts < 60 ? fmt::format("{:.2g} s", load.lasts)
+                                       : fmt::format("{:.3g} min", std::floor(load.lasts / 6) / 10),
+                       rig.system.coil_names()[load.hottest],
+                       *amplifiers[load.hottest].max_temperature);
+  const bool is_limited = std::ranges::all_of(amplifiers, [](const actuation::AmplifierParams& a) {
+    return a.max_temperature.has_value();
+  });
+  return is_limited ? " indefinitely" : "";
 }
 
 /// Durations between frames, and the last frame.
@@ -80,14 +111,15 @@ Watched watch(vision::NewestFrame& camera, double seconds, const Stop& stop) {
 
 RigCheck check_field(const Rig& rig) {
   const double amplitude = rig.params.field.amplitude;
-  const Weakening most = field_weakening(rig);
-  if (!most.reached) return {"limits", false, "these coils cannot make every field that is needed"};
-  if (most.scale < 1)
+  const FieldLoad load = field_load(rig);
+  if (!load.reached) return {"limits", false, "these coils cannot make every field that is needed"};
+  if (load.scale < 1)
     return {"limits", false,
             fmt::format("the coils' limits weaken the field to {:.3g} mT, {:.6g} mT is meant",
-                        most.scale * amplitude, amplitude)};
+                        load.scale * amplitude, amplitude)};
   return {"limits", true,
-          fmt::format("the coils hold {:.6g} mT in every direction{}", amplitude, unlimited(rig))};
+          fmt::format("the coils hold {:.6g} mT in every direction{}{}", amplitude,
+                      how_long(rig, load), unlimited(rig))};
 }
 
 Issues missing_limits(const Rig& rig) {

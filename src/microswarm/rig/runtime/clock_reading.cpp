@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/rig/runtime/clock_reading.hpp"
+
+#include <time.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/file.hpp"
+
+namespace microswarm::rig {
+namespace {
+
+/// 2024-01-01, before any release of this program: a wall clock that shows less was never set.
+constexpr double earliest_wall = 1704067200;
+
+std::string boot_id() {
+  try {
+    std::string id = read_file("/proc/sys/kernel/random/boot_id");
+    while (!id.empty() && id.back() == '\n') id.pop_back();
+    return id;
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
+}  // namespace
+
+ClockReading read_clocks() {
+  static const std::string boot = boot_id();
+  using Clock = std::chrono::system_clock;
+  timespec up{};
+  ::clock_gettime(CLOCK_BOOTTIME, &up);
+  return {std::chrono::duration<double>(Clock::now().time_since_epoch()).count(),
+          static_cast<double>(up.tv_sec) + 1e-9 * static_cast<double>(up.tv_nsec), boot};
+}
+
+double certain_pause(const ClockReading& then, const ClockReading& now) {
+  const double wall = std::max(0.0, now.wall - then.wall);
+  if (then.boot.empty() || now.boot.empty()) return wall;
+  if (then.boot == now.boot) return std::max(0.0, std::min(wall, now.uptime - then.uptime));
+  return std::max(then.wall < earliest_wall ? 0 : wall, now.uptime);
+}
+
+}  // namespace microswarm::rig
