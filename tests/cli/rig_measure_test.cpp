@@ -25,8 +25,10 @@ class RigMeasure : public DrivenRig {
   RigMeasure() : device([this](actuation::CoilReply& reply) { return hear(reply); }) {
     write_coils("max_current_a: 12, max_voltage_v: 24, max_temperature_degc: 90");
     write_rig(device);
-    truth_A << 1.9, 0.1, -0.02, 0.05, 1.4, 0.3, -0.2, 0, 1.1;
+    // Within the tolerances beside 2.25, 2.29 and 2.31 mT/A of the coil file.
+    truth_A << 1.9, 0.1, -0.02, 0.05, 2.4, 0.3, -0.2, 0, 2.1;
     truth_G << 3, -1, 0.5, 0.2, 2, -0.4, 1, 0, 0.7, -2, 0.1, 0.9, 0.3, -0.6, 4;  // [T/m/A]
+    truth_G *= 0.01;
   }
 
   bool hear(const actuation::CoilReply& reply) {
@@ -60,6 +62,17 @@ class RigMeasure : public DrivenRig {
     ASSERT_TRUE(terminal.hears("then Enter")) << terminal.said();
     terminal.press("\r");
   }
+  /// No clamp meter is at hand.
+  static void skip_clamp(Terminal& terminal) {
+    ASSERT_TRUE(terminal.hears("by a clamp meter")) << terminal.said();
+    terminal.press("\r");
+  }
+  /// Answers `count` questions, from the first on.
+  void answer_first(Terminal& terminal, int count, const Eigen::Vector3d& position) {
+    answer(terminal, 1, position);
+    skip_clamp(terminal);
+    answer(terminal, count - 1, position);
+  }
   /// Answers `count` questions.
   void answer(Terminal& terminal, int count, const Eigen::Vector3d& position) {
     for (int i = 0; i < count; ++i) {
@@ -91,7 +104,7 @@ TEST_F(RigMeasure, AnOperatorIsGuidedToMatrixAndGradients) {
     ASSERT_TRUE(terminal.hears("then Enter")) << terminal.said();
     EXPECT_EQ(currents().norm(), 0);
     terminal.press("\r");
-    answer(terminal, 7, position);
+    position.isZero() ? answer_first(terminal, 7, position) : answer(terminal, 7, position);
   }
   EXPECT_EQ(terminal.wait(), 0) << terminal.said();
   EXPECT_EQ(rows(), 21u);
@@ -141,6 +154,7 @@ TEST_F(RigMeasure, WhatIsNoFieldIsAskedAgain) {
   terminal.press(
       "77\x15"
       "0.02 -0.03 0.0459\x7f\r");
+  skip_clamp(terminal);
   ASSERT_TRUE(terminal.hears("2/7: 4 A in x")) << terminal.said();
   EXPECT_TRUE(read("measured.csv").ends_with("0,0,0,0,0,0,0.02,-0.03,0.045,1,,,,0,0,0\n"));
   ASSERT_TRUE(terminal.hears(question));
@@ -159,7 +173,7 @@ TEST_F(RigMeasure, WhatWasMeasuredIsKeptAndItGoesOn) {
   {
     Terminal terminal(arguments(), at);
     begin(terminal);
-    answer(terminal, 2, {0, 0, 0});
+    answer_first(terminal, 2, {0, 0, 0});
     ASSERT_TRUE(terminal.hears(question));
     EXPECT_GT(currents().norm(), 3);
     terminal.press("1 2\x03");  // Ctrl-C amid an answer
@@ -193,6 +207,7 @@ TEST_F(RigMeasure, SilenceTurnsTheCoilsOff) {
   Terminal terminal(arguments({"--hold", "0.4"}), at);
   begin(terminal);
   answer(terminal, 1, {0, 0, 0});
+  skip_clamp(terminal);
   ASSERT_TRUE(terminal.hears(question));
   ASSERT_TRUE(terminal.hears("no answer in 0.4 s")) << terminal.said();
   EXPECT_EQ(currents().norm(), 0);
@@ -211,6 +226,7 @@ TEST_F(RigMeasure, EscStopsAtOnceAlsoAmidAnAnswer) {
   Terminal terminal(arguments(), at);
   begin(terminal);
   answer(terminal, 1, {0, 0, 0});
+  skip_clamp(terminal);
   ASSERT_TRUE(terminal.hears(question));
   const int sets = device.count(actuation::CoilMessage::set),
             stops = device.count(actuation::CoilMessage::stop);
@@ -232,6 +248,7 @@ TEST_F(RigMeasure, ADeviceThatFallsSilentIsAFaultAndTheRowsAreKept) {
   Terminal terminal(arguments({"--set", "driver.port=" + other.port()}), at);
   begin(terminal);
   answer(terminal, 1, {0, 0, 0});
+  skip_clamp(terminal);
   ASSERT_TRUE(terminal.hears(question)) << terminal.said();
   silent = true;
   EXPECT_EQ(terminal.wait(), 4) << terminal.said();
@@ -302,7 +319,7 @@ TEST_F(RigMeasure, ALimitOfTheDeviceIsToldAndItEnds) {
   {
     Terminal terminal(arguments(), at);
     begin(terminal);
-    answer(terminal, 3, {0, 0, 0});
+    answer_first(terminal, 3, {0, 0, 0});
     ASSERT_TRUE(terminal.hears("the device limits y to 2.")) << terminal.said();
     ASSERT_TRUE(terminal.hears("of 4 A")) << terminal.said();
     answer(terminal, 1, {0, 0, 0});
@@ -325,6 +342,7 @@ TEST_F(RigMeasure, ALimitOfTheDeviceIsToldAndItEnds) {
   *std::ranges::find(stronger, "4") = "4.5";
   Terminal again(stronger, at);
   begin(again);
+  skip_clamp(again);
   EXPECT_TRUE(again.hears("2/7: 4.5 A in x")) << again.said();
 }
 
@@ -382,16 +400,59 @@ TEST_F(RigMeasure, ADeadProbeGivesNoCalibration) {
   refused(fit, naming("m.csv", {"'y'"}));
 }
 
-TEST_F(RigMeasure, AnAnswerOfTheOtherSignIsTakenWithANote) {
+TEST_F(RigMeasure, AnImplausibleAnswerIsAskedForAgainAndTakenIfItIsTheSame) {
+  Terminal terminal(arguments(), at);
+  begin(terminal);
+  answer_first(terminal, 1, {0, 0, 0});
+  for (const auto& [typed, complaint] : std::vector<std::pair<std::string, std::string>>{
+           {"-7.6 0.2 -0.8\r", "a reversed coil or probe?"},
+           {"76 2 -8\r", "gauss instead of mT?"},
+           {"7.6 0.2 -0.8\r", ""}}) {
+    ASSERT_TRUE(terminal.hears("2/7: 4 A in x")) << terminal.said();
+    ASSERT_TRUE(terminal.hears(question)) << terminal.said();
+    EXPECT_EQ(rows(), 1u);
+    terminal.press(typed);
+    ASSERT_TRUE(terminal.hears(complaint)) << terminal.said();
+  }
+  for (int i = 0; i < 2; ++i) {
+    ASSERT_TRUE(terminal.hears("3/7: -4 A in x")) << terminal.said();
+    ASSERT_TRUE(terminal.hears(question)) << terminal.said();
+    EXPECT_EQ(rows(), 2u);
+    terminal.press("0 -7.6 0\r");
+  }
+  ASSERT_TRUE(terminal.hears("taken after 2 readings")) << terminal.said();
+  ASSERT_TRUE(terminal.hears("4/7: 4 A in y")) << terminal.said();
+  EXPECT_EQ(rows(), 3u);
+}
+
+TEST_F(RigMeasure, AClampMeterShowsAWrongFullScale) {
   Terminal terminal(arguments(), at);
   begin(terminal);
   answer(terminal, 1, {0, 0, 0});
-  ASSERT_TRUE(terminal.hears(question)) << terminal.said();
-  terminal.press("-5 0.1 0\r");
-  ASSERT_TRUE(terminal.hears("note: Bx expected +")) << terminal.said();
-  ASSERT_TRUE(terminal.hears("got -5 mT: a reversed coil or probe?")) << terminal.said();
-  ASSERT_TRUE(terminal.hears("3/7: ")) << terminal.said();
-  EXPECT_EQ(rows(), 2u);
+  ASSERT_TRUE(terminal.hears("4 A in x: amperes by a clamp meter")) << terminal.said();
+  terminal.press("much\r");
+  ASSERT_TRUE(terminal.hears("a current in A")) << terminal.said();
+  ASSERT_TRUE(terminal.hears("amperes by a clamp meter")) << terminal.said();
+  EXPECT_GT(currents().norm(), 3);
+  terminal.press("8.1\r");
+  EXPECT_EQ(terminal.wait(), 2) << terminal.said();
+  EXPECT_TRUE(names(terminal.said(), "driver.full_scale_a is 10, must be")) << terminal.said();
+  EXPECT_EQ(currents().norm(), 0);
+  EXPECT_EQ(rows(), 1u);
+}
+
+TEST_F(RigMeasure, EachCoilIsToldBesideTheFile) {
+  const Logger logger(at.folder / "probe.csv", [&] { return truth(); });
+  const Arguments probe = arguments({"--probe", "probe.csv", "--dwell", "0.2", "--other-stop"});
+  const Outcome told = run(probe);
+  EXPECT_EQ(told.code, 0) << told.err;
+  for (const char* coil : {"coil x: 0.85 times", "coil y: 1.0", "coil z: 0.9"})
+    EXPECT_TRUE(told.out.find(coil) != std::string::npos) << told.out;
+  Arguments json = probe;
+  json.emplace_back("--json");
+  const Json fit = Json::parse(run(json).out);
+  EXPECT_NEAR(fit["ratio_to_file"][0].get<double>(), 0.85, 0.02);
+  EXPECT_LT(fit["angle_to_file_deg"][2].get<double>(), 15);
 }
 
 TEST_F(RigMeasure, WhatCannotBeIsRefusedBeforeTheFirstCurrent) {

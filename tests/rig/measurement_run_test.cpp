@@ -187,23 +187,37 @@ TEST_F(MeasurementRuns, AStopEndsIt) {
   EXPECT_EQ(measure(driver, reader, Stop(&flag)).outcome, ended);
 }
 
-TEST_F(MeasurementRuns, AReadingOfTheOtherSignNamesItsAxis) {
-  Measurement made{
-      .outcome = measured, .reading = actuation::FieldReading{}, .expected = Eigen::Vector3d{}};
-  *made.expected = {1, -4, 0.1};
-  const auto axis = [&](double y) {
-    made.reading->mean = {-1, y, -1};
-    return reversed_axis(made, step);
+TEST_F(MeasurementRuns, AReadingIsDoubtedBesideTheFileAndWithoutTheBackground) {
+  Measurement made{.outcome = measured,
+                   .reading = actuation::FieldReading{},
+                   .expected = rig.system.at(step.position).total_field(step.currents)};
+  const Eigen::Vector3d background(0.5, -1, 0);
+  const auto doubt = [&](double factor) {
+    made.reading->mean = background + factor * *made.expected;
+    return reading_doubt(rig, made, step, background);
   };
-  EXPECT_EQ(axis(4), 1);
-  EXPECT_EQ(axis(0.5), 1);
-  EXPECT_FALSE(axis(0.3)) << "hardly any field";
-  EXPECT_FALSE(axis(-4));
-  step.currents[0] = 0;
-  EXPECT_FALSE(axis(4)) << "without current";
-  step.currents[0] = 2;
+  EXPECT_EQ(doubt(1), "");
+  EXPECT_EQ(doubt(0.75), "");
+  EXPECT_TRUE(test::names(doubt(10), "gauss")) << doubt(10);
+  EXPECT_TRUE(test::names(doubt(-1), "reversed")) << doubt(-1);
+  made.expected = Eigen::Vector3d::Zero();
+  EXPECT_EQ(doubt(1), "") << "without current";
   made.expected.reset();
-  EXPECT_FALSE(axis(4));
+  EXPECT_EQ(reading_doubt(rig, made, step, background), "") << "outside the workspace";
+}
+
+TEST_F(MeasurementRuns, TheBackgroundIsTheNewestReadingWithoutCurrent) {
+  actuation::MeasurementLog log(folder / "measured.csv", rig.system.coil_names());
+  std::vector<actuation::MeasurementStep> steps(2, step);
+  steps[0].currents.setZero();
+  MeasurementRun run(steps, log);
+  EXPECT_EQ(run.background(), Eigen::Vector3d::Zero());
+  for (const Eigen::Vector3d& mean : {Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(4, 5, 6)})
+    run.take({.outcome = measured,
+              .currents = run.next()->currents,
+              .reading = actuation::FieldReading{.mean = mean}},
+             true);
+  EXPECT_EQ(run.background(), Eigen::Vector3d(1, 2, 3));
 }
 
 TEST_F(MeasurementRuns, MissingStepsComeInOrderAndAttemptsWithoutOneEnd) {

@@ -73,6 +73,32 @@ std::optional<rig::FieldAnswer> TypedField::poll(double) {
   return std::nullopt;
 }
 
+TypedCurrent::TypedCurrent(AnswerLine& answers, const std::vector<std::string>& coils,
+                           const std::string& what)
+    : OperatedField(answers, coils),
+      question_(what + ": amperes by a clamp meter (Enter: none at hand): ") {}
+
+void TypedCurrent::begin(const rig::SettledCurrents& settled) {
+  OperatedField::begin(settled);
+  answers().ask(question_);
+}
+
+std::optional<rig::FieldAnswer> TypedCurrent::poll(double) {
+  using enum rig::MeasurementOutcome;
+  const auto line = answers().poll();
+  if (!line) return answers().ended() ? std::optional(rig::FieldAnswer{ended}) : std::nullopt;
+  const std::string_view text = trimmed(*line);
+  if (text == "q") return rig::FieldAnswer{ended};
+  const std::optional<double> value = parse_number(text);
+  if (text.empty() || value) {
+    if (value) current_ = std::abs(*value);
+    return rig::FieldAnswer{measured, {Eigen::Vector3d::Zero()}};
+  }
+  note("a current in A, Enter or q is needed, not {}\n", quote(text));
+  answers().ask(question_);
+  return std::nullopt;
+}
+
 void LoggedField::begin(const rig::SettledCurrents& settled) {
   OperatedField::begin(settled);
   probe_.skip_to_end();

@@ -46,6 +46,22 @@ class TypedField : public OperatedField {
   std::string question_;
 };
 
+/// A current that the operator reads from a clamp meter, or none.
+class TypedCurrent : public OperatedField {
+ public:
+  /// `what` names the current that should flow.
+  TypedCurrent(AnswerLine& answers, const std::vector<std::string>& coils, const std::string& what);
+
+  void begin(const rig::SettledCurrents& settled) override;
+  std::optional<rig::FieldAnswer> poll(double t) override;
+  /// Its amount [A]; empty if none was typed.
+  std::optional<double> current() const { return current_; }
+
+ private:
+  std::string question_;
+  std::optional<double> current_;
+};
+
 /// Fields that the logger of a probe writes, over `dwell` s.
 class LoggedField : public OperatedField {
  public:

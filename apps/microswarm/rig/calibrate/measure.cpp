@@ -7,6 +7,7 @@
 #include <chrono>
 #include <memory>
 #include <thread>
+#include <utility>
 
 #include "microswarm/actuation/coils/measurement_plan.hpp"
 #include "microswarm/actuation/coils/probe_file.hpp"
@@ -47,7 +48,10 @@ class Dialogue {
   std::optional<std::string> wait_for_line();
   std::optional<rig::MeasurementOutcome> move_to(const Eigen::Vector3d& position);
   rig::Measurement measure(const actuation::MeasurementStep& step);
+  rig::Measurement drive(const actuation::MeasurementStep& step, rig::FieldReader& reader);
   bool goes_on_after(const rig::Measurement& made, const actuation::MeasurementStep& step);
+  bool compare_with_clamp(const actuation::MeasurementStep& step);
+  bool is_doubted(const rig::Measurement& made, const actuation::MeasurementStep& step);
   std::string words_for(const actuation::MeasurementStep& step) const;
 
   const rig::Rig& rig_;
@@ -58,6 +62,9 @@ class Dialogue {
   std::optional<actuation::ProbeFile> probe_;
   std::unique_ptr<Bench> bench_;
   std::optional<Eigen::Vector3d> position_;  // of the probe
+  std::optional<Eigen::Vector3d> doubted_;   // last reading of this step [mT]
+  bool asks_for_clamp_ = false;
+  int doubts_ = 0;  // readings of this step in doubt
 };
 
 /// "no current" or "2 A in coil x".
@@ -101,15 +108,22 @@ std::optional<rig::MeasurementOutcome> Dialogue::move_to(const Eigen::Vector3d& 
 
 rig::Measurement Dialogue::measure(const actuation::MeasurementStep& step) {
   if (const auto end = move_to(step.position)) return {.outcome = *end};
+  if (asks_for_clamp_ && !step.currents.isZero(0)) {
+    asks_for_clamp_ = false;
+    if (!compare_with_clamp(step)) return {.outcome = rig::MeasurementOutcome::ended};
+  }
   const std::string what = fmt::format("{}/{}: {}", run_.made() + 1, run_.size(), words_for(step));
   if (probe_) note("{}\n", what);
   const std::vector<std::string> coils = rig_.system.coil_names();
   TypedField typed(answers_, coils, what);
   std::optional<LoggedField> logged;
   if (probe_) logged.emplace(answers_, coils, *probe_, o_.dwell);
+  return drive(step, logged ? static_cast<rig::FieldReader&>(*logged) : typed);
+}
+
+rig::Measurement Dialogue::drive(const actuation::MeasurementStep& step, rig::FieldReader& reader) {
   return rig::measure_field(
-      rig_, *bench_->driver, step, {o_.ramp, o_.settle, o_.hold},
-      logged ? static_cast<rig::FieldReader&>(*logged) : typed, bench_->temperatures,
+      rig_, *bench_->driver, step, {o_.ramp, o_.settle, o_.hold}, reader, bench_->temperatures,
       [this](const actuation::CoilOutput& output) {
         bench_->temperatures = output.temperatures;
         if (bench_->kept) bench_->kept->take(bench_->temperatures);
@@ -147,18 +161,61 @@ bool Dialogue::goes_on_after(const rig::Measurement& made, const actuation::Meas
   return false;
 }
 
+/// Asks once for the current in the first coil of a step by a clamp meter, which no program can
+/// know: fields, heat and every limit follow from it. Throws InputError if it is another than the
+/// device reports; false ends the measurement.
+bool Dialogue::compare_with_clamp(const actuation::MeasurementStep& step) {
+  constexpr double tolerance = 0.1;  // share of the current
+  TypedCurrent typed(answers_, rig_.system.coil_names(), words_for(step));
+  const rig::Measurement made = drive(step, typed);
+  if (made.outcome != rig::MeasurementOutcome::measured) return goes_on_after(made, step);
+  if (!typed.current()) return true;
+  Eigen::Index coil = 0;
+  const double reported = made.currents.cwiseAbs().maxCoeff(&coil);
+  if (std::abs(*typed.current() - reported) <= tolerance * reported) return true;
+  const double full_scale = rig::driver_full_scale(rig_.params);
+  throw InputError(fmt::format(
+      "{:.4g} A flow in {} where the device reports {:.4g} A: driver.full_scale_a is {:.4g}, must "
+      "be {:.3g}; until then every current, field and temperature is wrong by this factor",
+      *typed.current(), rig_.system.coil_names()[static_cast<std::size_t>(coil)], reported,
+      full_scale, full_scale * *typed.current() / reported));
+}
+
+/// Whether the reading is to be made again, since the coil file lets expect another. One that is
+/// much the same again is taken.
+bool Dialogue::is_doubted(const rig::Measurement& made, const actuation::MeasurementStep& step) {
+  constexpr double same = 0.1;  // share of the reading
+  constexpr int max_doubts = 3;
+  if (made.outcome != rig::MeasurementOutcome::measured) return false;
+  const Eigen::Vector3d mean = made.reading->mean;
+  const std::string doubt = rig::reading_doubt(rig_, made, step, run_.background());
+  const auto before = std::exchange(doubted_, std::nullopt);
+  if (doubt.empty()) {
+    doubts_ = 0;
+    return false;
+  }
+  if (++doubts_ >= max_doubts || (before && (*before - mean).norm() <= same * mean.norm())) {
+    note("note: {}: {}; taken after {} readings\n", words_for(step), doubt, doubts_);
+    doubts_ = 0;
+    return false;
+  }
+  note("note: ({:.4g}, {:.4g}, {:.4g}) mT for {} is {}. Once more\n", mean[0], mean[1], mean[2],
+       words_for(step), doubt);
+  doubted_ = mean;
+  return true;
+}
+
 int Dialogue::make() {
   if (!run_.next()) return ok;
   bench_ = std::make_unique<Bench>(rig_, o_.coils);
   note("{} measurements of {} are to be made. {}: coils to zero at once\n",
        run_.size() - run_.made(), run_.size(), probe_ ? "Space, e or Esc" : "Esc");
   if (!probe_) note("b: back, r: again, q: end; what was measured is kept\n");
+  asks_for_clamp_ = !probe_ && answers_.is_terminal() && run_.made() <= 1;
   while (run_.next()) {
     const actuation::MeasurementStep step = *run_.next();
     const rig::Measurement made = measure(step);
-    if (const auto axis = rig::reversed_axis(made, step))
-      note("note: B{} expected {:+.4g} mT, got {:.4g} mT: a reversed coil or probe?\n",
-           "xyz"[*axis], (*made.expected)[*axis], made.reading->mean[*axis]);
+    if (is_doubted(made, step)) continue;
     run_.take(made, answers_.is_terminal());
     bool goes_on = goes_on_after(made, step) && !stop_();
     if (run_.attempts() == rig::MeasurementRun::max_attempts) {

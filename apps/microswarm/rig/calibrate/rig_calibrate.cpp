@@ -7,8 +7,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "microswarm/actuation/coils/field_comparison.hpp"
 #include "microswarm/config/write.hpp"
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/rig/runtime/coil_temperatures.hpp"
 #include "rig/calibrate/measure.hpp"
@@ -36,7 +38,24 @@ struct Calibration {
   actuation::FittedMatrix fit;
   std::optional<actuation::FittedMatrix> uniform;  ///< fit without gradients, if `fit` has them
   std::optional<double> rms_with_gradients;  ///< [mT], if `fit` has none and they are determined
+  std::vector<actuation::FieldComparison> beside_file;  ///< of each coil, if they were driven
 };
+
+/// The fitted fields beside those of the rig's coil file, at the fit's centre.
+std::vector<actuation::FieldComparison> compare(const actuation::FittedMatrix& fit,
+                                                const actuation::CoilSystem& system) {
+  const Eigen::Map<const Eigen::Vector3d> centre(fit.coils.centre.data());
+  std::vector<actuation::FieldComparison> out;
+  if (!system.in_workspace(centre)) return out;
+  const actuation::Actuation expected = system.at(centre);
+  for (std::size_t k = 0; k < fit.coils.names.size(); ++k) {
+    const auto column = static_cast<Eigen::Index>(k);
+    out.push_back(actuation::compare_fields(
+        {fit.coils.field[0][k], fit.coils.field[1][k], fit.coils.field[2][k]},
+        expected.field.col(column)));
+  }
+  return out;
+}
 
 Json to_rows(const Eigen::MatrixXd& m) {
   Json rows = Json::array();
@@ -61,6 +80,10 @@ void tell_json(const Calibration& of) {
             {"field_error_mt_per_a", to_rows(fit.field_errors)},
             {"largest_error", nullptr}};
   if (const auto error = actuation::largest_error(fit)) json["largest_error"] = error->share;
+  for (const actuation::FieldComparison& coil : of.beside_file) {
+    json["ratio_to_file"].push_back(coil.ratio);
+    json["angle_to_file_deg"].push_back(degrees(coil.angle));
+  }
   if (of.uniform) {
     json["centre_um"] = fit.coils.centre;
     json["gradient_t_per_m_per_a"] = fit.coils.gradient;
@@ -91,6 +114,9 @@ void tell(const Calibration& of) {
     cli::print("  B{} = {:.6g} mT/A, without current {:.6g} mT; RMS residual {:.4g} mT\n", "xyz"[k],
                fmt::join(fit.coils.field[k], ", "), fit.coils.offset[k],
                fit.rms[static_cast<Eigen::Index>(k)]);
+  for (std::size_t k = 0; k < of.beside_file.size(); ++k)
+    cli::print("  coil {}: {:.3g} times the field of the rig's file, {:.2g}° from its direction\n",
+               fit.coils.names[k], of.beside_file[k].ratio, degrees(of.beside_file[k].angle));
   if (of.uniform) tell_gradients(of);
   cli::print("RMS residual {:.4g} mT; the worst is {:.4g} mT, line {}, at {} µm\n", fit.total_rms,
              fit.worst, worst.line, triple_text(worst.position));
@@ -120,8 +146,10 @@ Calibration fit_file(const std::string& file, const actuation::FitOptions& optio
 }
 
 int fit_and_tell(const CalibrateOptions& o, const actuation::FitOptions& options,
-                 actuation::CoilSystemParams system) {
-  const Calibration of = reading([&] { return fit_file(o.measured, options); });
+                 actuation::CoilSystemParams system,
+                 const std::optional<actuation::CoilSystem>& driven) {
+  Calibration of = reading([&] { return fit_file(o.measured, options); });
+  if (driven) of.beside_file = compare(of.fit, *driven);
   system.coils = of.fit.coils;
   if (!o.out.empty()) {
     write_file_atomically(o.out, to_yaml(system));
@@ -145,6 +173,7 @@ int fit_and_tell(const CalibrateOptions& o, const actuation::FitOptions& options
 int calibrate(const CalibrateOptions& o, const Context& context) {
   keep_input(o.out, o.measured);
   actuation::CoilSystemParams system;
+  std::optional<actuation::CoilSystem> driven;
   system.name = std::filesystem::path(o.measured).stem().string();
   actuation::FitOptions options{.offset = o.offset, .gradients = o.gradients, .centre = {}};
   if (!o.centre.empty()) options.centre = parse_triple(o.centre);
@@ -161,9 +190,10 @@ int calibrate(const CalibrateOptions& o, const Context& context) {
     if (!rig.system.name().empty()) system.name = rig.system.name();
     system.id = rig::coil_identity(rig);
     // Drives of the file, since the rig's are limited by the driver's full scale too.
-    system.amplifiers = actuation::read_coil_system(coils).amplifiers();
+    driven = actuation::read_coil_system(coils);
+    system.amplifiers = driven->amplifiers();
   }
-  return fit_and_tell(o, options, std::move(system));
+  return fit_and_tell(o, options, std::move(system), driven);
 }
 
 }  // namespace

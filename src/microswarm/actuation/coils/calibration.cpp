@@ -338,8 +338,8 @@ void require_effects(const FieldMeasurements& measured, const FittedMatrix& fit)
       measured.file,
       fmt::format(
           "the currents of {} do not change the field by more than its errors: are the probe and "
-          "these coils connected?",
-          fmt::join(without, ", ")));
+          "these coils connected? Line {} fits worst, by {:.3g} mT",
+          fmt::join(without, ", "), measured.rows[fit.worst_row].line, fit.worst));
 }
 
 }  // namespace microswarm::actuation

@@ -13,6 +13,7 @@ struct ClockReading {
   std::string boot{};  ///< id of this start of the computer; empty if it is not known
 };
 
+/// The clocks of this computer now.
 ClockReading read_clocks();
 
 /// Time that has passed for certain between two readings [s], at least 0. Within one start of the

@@ -112,7 +112,7 @@ CoilTemperatures::CoilTemperatures(const Rig& rig, bool cold, const ClockReading
   thread_ = std::thread([this] { run(); });
 }
 
-/// What the file says of the coils now.
+/// Temperatures by the file, now.
 CoilTemperatures::Known CoilTemperatures::read(const ClockReading& now) const {
   const KeptTemperatures kept = read_kept(file_, amplifiers_.size());
   const auto coils = static_cast<Eigen::Index>(amplifiers_.size());

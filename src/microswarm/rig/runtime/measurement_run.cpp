@@ -5,14 +5,16 @@
 #include <cmath>
 #include <utility>
 
+#include "microswarm/actuation/coils/field_comparison.hpp"
+
 namespace microswarm::rig {
 namespace {
 
 constexpr double max_settling = 10;  // after the ramp, until the currents are reached [s]
 constexpr double max_arriving = 1;   // time for which a device may report other currents [s]
 constexpr double weakened = 1 - 1e-6;
-constexpr double reversed_share = 0.1;  // share of the expected field, with opposite sign
-constexpr double resolution = 2e-3;     // share of full scale by which a device may differ
+constexpr double least_compared = 0.01;  // expected field that says something of a reading [mT]
+constexpr double resolution = 2e-3;      // share of full scale by which a device may differ
 
 /// The measurement of one step while its currents flow.
 class StepMeasurement {
@@ -126,15 +128,14 @@ Measurement measure_field(const Rig& rig, actuation::CoilDriver& driver,
       stop));
 }
 
-std::optional<Eigen::Index> reversed_axis(const Measurement& measurement,
-                                          const actuation::MeasurementStep& step) {
-  if (!measurement.expected || !measurement.reading || step.currents.isZero(0)) return std::nullopt;
-  Eigen::Index axis = 0;
-  const double most = measurement.expected->cwiseAbs().maxCoeff(&axis);
-  const double got = measurement.reading->mean[axis];
-  if (got * (*measurement.expected)[axis] >= 0 || std::abs(got) <= reversed_share * most)
-    return std::nullopt;
-  return axis;
+std::string reading_doubt(const Rig& rig, const Measurement& measurement,
+                          const actuation::MeasurementStep& step,
+                          const Eigen::Vector3d& background) {
+  if (!measurement.expected || !measurement.reading) return {};
+  const Eigen::Vector3d expected =
+      *measurement.expected - rig.system.at(step.position).offset.field;
+  if (expected.norm() < least_compared) return {};
+  return actuation::field_doubt(measurement.reading->mean - background, expected);
 }
 
 MeasurementRun::MeasurementRun(std::vector<actuation::MeasurementStep> steps,
@@ -152,6 +153,13 @@ void MeasurementRun::take(const Measurement& measurement, bool operated) {
   const bool person = operated && measurement.outcome != MeasurementOutcome::measured;
   attempts_ = person || missing_.size() < fewest_ ? 0 : attempts_ + 1;
   fewest_ = person ? missing_.size() : std::min(fewest_, missing_.size());
+}
+
+Eigen::Vector3d MeasurementRun::background() const {
+  const std::vector<actuation::FieldMeasurement>& rows = log_.measured().rows;
+  const auto newest = std::find_if(rows.rbegin(), rows.rend(),
+                                   [](const auto& row) { return row.currents.isZero(0); });
+  return newest == rows.rend() ? Eigen::Vector3d::Zero() : newest->field;
 }
 
 }  // namespace microswarm::rig

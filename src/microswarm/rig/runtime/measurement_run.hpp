@@ -80,10 +80,11 @@ Measurement measure_field(const Rig& rig, actuation::CoilDriver& driver,
                           const std::function<void(const actuation::CoilOutput&)>& listener,
                           const Stop& stop);
 
-/// Axis on which the mean of the readings has the opposite sign of the largest component of the
-/// expected field, as with a reversed coil or probe; nothing if it has not, or without current.
-std::optional<Eigen::Index> reversed_axis(const Measurement& measurement,
-                                          const actuation::MeasurementStep& step);
+/// Doubt about the reading of a step in words (field_doubt), beside the field that the rig's coil
+/// file predicts and less `background`, the reading without current [mT]; empty if there is none.
+std::string reading_doubt(const Rig& rig, const Measurement& measurement,
+                          const actuation::MeasurementStep& step,
+                          const Eigen::Vector3d& background);
 
 /// Order of the measurements that a log lacks, and the end of attempts that lead to nothing.
 class MeasurementRun {
@@ -103,6 +104,8 @@ class MeasurementRun {
   /// `operated`: a person decides at each step, so attempts are not counted. Throws InputError if
   /// the log cannot be written.
   void take(const Measurement& measurement, bool operated);
+  /// The newest reading without current [mT]; zero if there is none.
+  Eigen::Vector3d background() const;
   /// Consecutive attempts that made no measurement.
   int attempts() const { return attempts_; }
 
