@@ -54,8 +54,18 @@ TEST_F(CameraChecks, AVideoMayEndACameraMayNot) {
   EXPECT_TRUE(good("camera", 100'000));
 }
 
-TEST_F(CameraChecks, FramesComeAsOftenAsTheCameraSays) {
-  rig.params.camera = vision::CameraParams{};
+// A camera that is asked for 30 Hz may set 5 Hz and keep to that.
+TEST_F(CameraChecks, FramesComeAsOftenAsTheFileAsks) {
+  rig.params.camera = vision::CameraParams{.rate = 10};
+  EXPECT_TRUE(good("frames", 100'000));
+  EXPECT_TRUE(good("frames", 100'000, 10));
+  rig.params.camera = vision::CameraParams{.rate = 1000};
+  EXPECT_FALSE(good("frames", 100'000, 10));
+  EXPECT_FALSE(good("frames", 100'000));
+}
+
+TEST_F(CameraChecks, WhereTheFileAsksNothingTheCamerasRateCounts) {
+  rig.params.camera = vision::GenicamParams{};
   EXPECT_TRUE(good("frames", 100'000, 10));
   EXPECT_FALSE(good("frames", 100'000, 1000));
 }

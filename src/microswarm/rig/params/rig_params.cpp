@@ -108,6 +108,16 @@ std::optional<vision::AnyCameraParams> device_camera(const RigParams& rig) {
       rig.camera);
 }
 
+std::optional<double> asked_camera_rate(const RigParams& rig) {
+  return std::visit(
+      Overloaded{
+          [](const OneOf<SimulatedCamera, VideoCamera> auto&) { return std::optional<double>(); },
+          [](const OneOf<vision::CameraParams, vision::GenicamParams> auto& camera) {
+            return std::optional<double>(camera.rate);
+          }},
+      rig.camera);
+}
+
 bool shows_drawn_swarm(const RigParams& rig) {
   return std::visit(
       Overloaded{[](const SimulatedCamera&) { return true; },

@@ -147,6 +147,8 @@ CameraKind camera_kind(const RigParams& rig);
 
 /// The rig's camera if it is a device; nothing for a simulated one or a video.
 std::optional<vision::AnyCameraParams> device_camera(const RigParams& rig);
+/// Rate that the file asks of a camera that is a device [Hz]; empty if it leaves it as it is.
+std::optional<double> asked_camera_rate(const RigParams& rig);
 /// Whether the camera shows a simulated swarm: a simulated camera, Aravis's included.
 bool shows_drawn_swarm(const RigParams& rig);
 /// Detection of a silent, frozen or black camera of the rig.

@@ -156,11 +156,16 @@ std::vector<RigCheck> check_camera(vision::NewestFrame& camera, const Rig& rig,
                    status.frames, picture.width, picture.height, seen.seconds,
                    timed ? fmt::format("between frames {} (p50 / p95 / p99)", quantiles(seen.gaps))
                          : "too few to measure the time between them")});
-  if (const double usual = seen.gaps.quantile(0.5); rate && timed)
-    checks.push_back({"frames", usual <= 1.1 / *rate,
-                      fmt::format("{:.4g} ms apart as a rule, {:.6g} Hz means {:.4g}", 1e3 * usual,
-                                  *rate, 1e3 / *rate),
-                      false});
+  const std::optional<double> meant =
+      asked_camera_rate(rig.params) ? asked_camera_rate(rig.params) : rate;
+  if (const double usual = seen.gaps.quantile(0.5); meant && timed) {
+    std::string answer = fmt::format("{:.4g} ms apart as a rule, {:.6g} Hz means {:.4g}",
+                                     1e3 * usual, *meant, 1e3 / *meant);
+    if (rate && *rate < 0.99 * *meant)
+      answer += fmt::format(": camera.rate_hz is {:.6g}, the camera's driver sets {:.6g} Hz",
+                            *meant, *rate);
+    checks.push_back({"frames", usual <= 1.1 / *meant, answer, false});
+  }
   if (const double longest = seen.gaps.quantile(1); longest > rig.params.safety.max_frame_age)
     checks.push_back({"frames", false,
                       fmt::format("{:.3g} s apart, safety.max_frame_age_s is {:.6g}", longest,

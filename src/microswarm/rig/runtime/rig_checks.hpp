@@ -27,7 +27,8 @@ RigCheck check_field(const Rig& rig);
 /// Reports the limits that are missing in a coil system driven by a real device.
 Issues missing_limits(const Rig& rig);
 
-/// Observes the rig's camera for `seconds`: its state, and the time between frames.
+/// Observes the rig's camera for `seconds`: its state, and the time between frames beside the rate
+/// that the rig file asks for, or otherwise `rate`, that of the camera's driver [Hz].
 std::vector<RigCheck> check_camera(vision::NewestFrame& camera, const Rig& rig,
                                    std::optional<double> rate, double seconds,
                                    const Stop& stop = {});
