@@ -189,10 +189,36 @@ TEST(LineCoilDriver, SilenceAndGarbageAreNoAnswer) {
     // What comes after half a line belongs to it.
     EXPECT_EQ(driver->stop().confirmed, text.empty() || text.ends_with('\n'));
   };
-  answered("", "");
-  answered("ok 2 1 -2.5 0\n", "");
+  answered("", "nothing came back, messages sent: 1");
+  answered("ok 2 1 -2.5 0\n", "it answered another message");
   answered("\x1b[2Jhi\n", "it said '?[2Jhi', which is no answer");
-  answered("ok 3 1 -2.5 0", "");  // without its end
+  answered("ok 3 1 -2.5 0", "it said 'ok 3 1 -2.5 0', which is no answer");  // without its end
+  answered(std::string(9000, 'x'),
+           "it floods the line, 9000 bytes without an answer: '" + std::string(60, 'x') + "…'");
+}
+
+TEST(LineCoilDriver, LateAnswersAreSaidWithTheirDelayAndTheTimeAllowed) {
+  Server server(other("set", [](const Words& w) {
+    std::this_thread::sleep_for(milliseconds(70));
+    return Server::good(w);
+  }));
+  LineDriverParams p = quick();
+  p.reply_timeout = 0.05;
+  const auto driver = open(server, p);
+  for (int k = 0; k < max_missed_answers; ++k)
+    EXPECT_EQ(driver->drive(amperes), DriveStatus::no_answer);
+  const std::string& why = driver->report().reason;
+  EXPECT_TRUE(test::names(why, "its answer came after ")) << why;
+  EXPECT_TRUE(test::names(why, " ms, reply_timeout_s is 0.05")) << why;
+}
+
+TEST(LineCoilDriver, AConnectionThatIsResetIsSaidWithItsCause) {
+  Server server(other("set", [](const Words&) { return "reset"; }), true);
+  LineCoilDriver driver([&](double) { return connect_socket("localhost", server.port(), 2); },
+                        quick(), 3);
+  EXPECT_EQ(driver.drive(amperes), DriveStatus::gone);
+  EXPECT_TRUE(test::names(driver.report().reason, "Connection reset by peer"))
+      << driver.report().reason;
 }
 
 TEST(LineCoilDriver, ADriverThatWasOffIsArmedAgain) {
@@ -363,6 +389,7 @@ TEST_F(LineProgram, NeitherAFullPipeNorAFloodOfErrorsBlocks) {
     longest = std::max(longest, steady_seconds() - began);
   }
   EXPECT_LT(longest, 0.3);
+  EXPECT_EQ(deaf->report().reason, "it accepts no bytes");
   const auto loud =
       start(answering("head -c 1000000 /dev/zero | tr '\\0' x >&2; echo ok $n $rest"));
   EXPECT_EQ(loud->drive(amperes), DriveStatus::driven);

@@ -188,12 +188,14 @@ TEST_F(OwnDriver, ABugInItTurnsOffByItself) {
 }
 
 TEST_F(OwnDriver, ASilentOneEndsTheRun) {
-  ends_with("if driven >= 30 and any(answer[2:]): return", "does not answer");
+  ends_with("if driven >= 30 and any(answer[2:]): return",
+            "does not answer: nothing came back, messages sent: 3");
   expect_at_zero();
 }
 
 TEST_F(OwnDriver, OneThatIsSilentForEverEndsTheRunAndIsKilled) {
-  ends_with("if driven == 30: time.sleep(1000)", "does not answer");
+  ends_with("if driven == 30: time.sleep(1000)",
+            "does not answer: nothing came back, messages sent: 3");
 }
 
 TEST_F(OwnDriver, GarbageEndsTheRunAndIsNotPrintedRaw) {
@@ -201,7 +203,7 @@ TEST_F(OwnDriver, GarbageEndsTheRunAndIsNotPrintedRaw) {
       "if driven >= 30 and any(answer[2:]): return print('\\x1b[2J\\x07' + 'x' * 9, flush=True)",
       "it said '?[2J?xxxxxxxxx'");
   ends_with("if driven >= 30 and any(answer[2:]): return print('x' * 99999, flush=True)",
-            "does not answer");
+            "does not answer: it floods the line");
 }
 
 TEST_F(OwnDriver, LiesAboutItsValuesEndTheRun) {

@@ -48,7 +48,9 @@ class DriverSocket final : public LineConnection {
   }
   const std::string& name() const override { return name_; }
   ByteStream& stream() override { return *stream_; }
-  std::string ended() override { return stream_->ended() ? "has closed the connection" : ""; }
+  std::string ended() override {
+    return stream_->ended() ? "has closed the connection" + stream_->failure() : "";
+  }
 
  private:
   std::string name_;

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/execution/clock.hpp"
 #include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/text/text.hpp"
 
@@ -91,7 +92,8 @@ LineCoilDriver::LineCoilDriver(OpenConnection open, const LineDriverParams& para
       params_(params),
       report_{.currents =
                   std::vector<double>(static_cast<std::size_t>(params.channel_count(coils)))},
-      sent_(params.send == DriverInput::field ? 3 : report_.currents.size()) {
+      sent_(params.send == DriverInput::field ? 3 : report_.currents.size()),
+      missing_(params.reply_timeout) {
   greet(params_.connect_timeout);
 }
 
@@ -101,9 +103,7 @@ void LineCoilDriver::greet(double timeout) {
   };
   const auto reply = exchange("hello", timeout, {});
   if (!reply && gone_) throw HardwareError(report_.reason);
-  if (!reply)
-    fail(fmt::format("no answer within {:g} s{}{}", timeout, report_.reason.empty() ? "" : "; ",
-                     report_.reason));
+  if (!reply) fail(fmt::format("no answer within {:g} s; {}", timeout, report_.reason));
   if (reply->verdict != LineVerdict::ok) fail("refuses: " + reply->text);
   if (!is_zero(*reply))
     fail(fmt::format("acknowledges {} as its values, not {} zeros", to_list(reply->values), sent_));
@@ -257,22 +257,19 @@ bool LineCoilDriver::is_zero(const LineReply& reply) const {
 std::optional<LineReply> LineCoilDriver::exchange(std::string_view word, double timeout,
                                                   const Stop& gives_up,
                                                   std::span<const double> values) {
-  ++sequence_;
-  strange_.clear();
+  missing_.expect(++sequence_, steady_seconds());
   const std::string message =
       word == "hello" ? line_hello(sequence_, enum_name(params_.send), sent_,
                                    static_cast<int>(std::lround(1e3 * params_.watchdog)))
                       : line_message(word, sequence_, values);
-  std::optional<LineReply> reply;
-  if (connection_->stream().put(to_bytes(message), timeout, gives_up))
-    reply = answer(timeout, gives_up);
-  if (reply) return reply;
-  if (is_gone()) return std::nullopt;
-  const std::string words = connection_->last_words();
-  if (!strange_.empty())
-    report_.reason = fmt::format("it said '{}', which is no answer", strange_);
-  else if (!words.empty())
-    report_.reason = fmt::format("its last words: {}", words);
+  if (connection_->stream().put(to_bytes(message), timeout, gives_up)) {
+    missing_.sent();
+    if (auto reply = answer(timeout, gives_up)) {
+      missing_.answered();
+      return reply;
+    }
+  }
+  if (!is_gone()) report_.reason = missing_.text() + last_words();
   return std::nullopt;
 }
 
@@ -283,11 +280,12 @@ std::optional<LineReply> LineCoilDriver::answer(double timeout, const Stop& give
     if (left <= 0 || gives_up()) return std::nullopt;
     const auto byte = connection_->stream().get(std::min(left, stream_slice));
     if (!byte && is_gone()) return std::nullopt;
-    const auto line = byte ? reader_.take(*byte) : std::nullopt;
-    if (!line) continue;
-    auto reply = parse_line_reply(*line);
+    if (!byte) continue;
+    missing_.take(*byte);
+    const auto line = reader_.take(*byte);
+    auto reply = line ? parse_line_reply(*line) : std::nullopt;
     if (reply && reply->sequence == sequence_) return reply;
-    if (!reply) strange_ = one_line(*line, 60);
+    if (reply) missing_.other(reply->sequence, steady_seconds());
   }
 }
 
@@ -295,10 +293,13 @@ bool LineCoilDriver::is_gone() {
   const std::string ended = connection_->ended();
   if (ended.empty()) return false;
   gone_ = true;
-  const std::string words = connection_->last_words();
-  report_.reason = fmt::format("{} {}{}{}", connection_->name(), ended,
-                               words.empty() ? "" : "; its last words: ", words);
+  report_.reason = fmt::format("{} {}{}", connection_->name(), ended, last_words());
   return true;
+}
+
+std::string LineCoilDriver::last_words() {
+  const std::string words = connection_->last_words();
+  return words.empty() ? words : "; its last words: " + words;
 }
 
 }  // namespace microswarm::actuation

@@ -16,6 +16,7 @@
 #include "microswarm/actuation/drivers/coil_driver.hpp"
 #include "microswarm/actuation/drivers/line_connection.hpp"
 #include "microswarm/actuation/drivers/line_protocol.hpp"
+#include "microswarm/actuation/drivers/missing_answer.hpp"
 #include "microswarm/core/errors/issue.hpp"
 #include "microswarm/core/execution/stop.hpp"
 #include "microswarm/core/fields/fields.hpp"
@@ -128,6 +129,7 @@ class LineCoilDriver final : public CoilDriver {
                                     std::span<const double> values = {});
   std::optional<LineReply> answer(double timeout, const Stop& gives_up);
   bool is_gone();
+  std::string last_words();
 
   std::unique_ptr<DeviceLock> lock_;
   OpenConnection open_;
@@ -141,7 +143,7 @@ class LineCoilDriver final : public CoilDriver {
   bool armed_ = false;                         // armed by this driver and not stopped since
   bool gone_ = false;                          // permanently
   std::optional<StopReport> turned_off_anew_;  // by a second connection
-  std::string strange_;                        // last line that was no reply
+  MissingAnswer missing_;
 };
 
 }  // namespace microswarm::actuation
