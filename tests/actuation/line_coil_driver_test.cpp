@@ -210,6 +210,7 @@ TEST(LineCoilDriver, LateAnswersAreSaidWithTheirDelayAndTheTimeAllowed) {
   const std::string& why = driver->report().reason;
   EXPECT_TRUE(test::names(why, "its answer came after ")) << why;
   EXPECT_TRUE(test::names(why, " ms, reply_timeout_s is 0.05")) << why;
+  EXPECT_TRUE(driver->stop().good()) << "it is alive";
 }
 
 TEST(LineCoilDriver, AConnectionThatIsResetIsSaidWithItsCause) {
@@ -410,6 +411,34 @@ TEST_F(LineProgram, AStopThatIsNotAnsweredBeginsOnceMore) {
   }
   EXPECT_EQ(read_file(folder_ / "begun"), "one\none\n");
   EXPECT_FALSE(lives());
+}
+
+/// A card holds its current until the second one says zero: no patience after three misses.
+TEST_F(LineProgram, OneThatHangsOrFloodsInARunIsKilledAtOnce) {
+  LineDriverParams p = quick();
+  p.reply_timeout = 0.05;
+  for (const char* fault : {"sleep 99", "tr '\\0' x </dev/zero"}) {
+    const auto driver = start(std::string("trap '' TERM; ") + answering(fault), p);
+    const double began = steady_seconds();
+    for (int k = 0; k < max_missed_answers; ++k)
+      EXPECT_EQ(driver->drive(amperes), DriveStatus::no_answer) << driver->report().reason;
+    const StopReport zero = driver->stop();
+    EXPECT_TRUE(zero.confirmed) << fault;
+    EXPECT_LT(steady_seconds() - began, 0.8) << fault;
+    EXPECT_TRUE(test::names(zero.trouble, "did not answer stop")) << zero.trouble;
+    EXPECT_TRUE(test::names(trouble_text(*driver, DriveStatus::no_answer), "does not answer: "));
+  }
+}
+
+TEST_F(LineProgram, OneThatStillObeysStopIsNotKilled) {
+  LineDriverParams p = quick();
+  p.reply_timeout = 0.2;
+  const auto driver = start("echo one >>begun; " + answering(":"), p);
+  for (int k = 0; k < max_missed_answers; ++k)
+    EXPECT_EQ(driver->drive(amperes), DriveStatus::no_answer);
+  const StopReport zero = driver->stop();
+  EXPECT_TRUE(zero.good()) << zero.trouble;
+  EXPECT_EQ(read_file(folder_ / "begun"), "one\n");
 }
 
 /// Whatever a card may hold: nothing but zeros ends it.

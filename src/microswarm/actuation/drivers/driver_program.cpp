@@ -117,6 +117,7 @@ class DriverProgram final : public LineConnection {
     in_.close();
     // Not reaped before that, so that no other process gets its id.
     for (const int signal : {0, SIGTERM, SIGKILL}) {
+      if (killed_ && signal != SIGKILL) continue;
       if (signal != 0) ::kill(-process_, signal);
       if (is_over_within(patience)) break;
     }
@@ -130,6 +131,8 @@ class DriverProgram final : public LineConnection {
     hear();
     return last_line_;
   }
+
+  void give_up() noexcept override { killed_ = true; }
 
   std::string ended() override {
     siginfo_t info{};
@@ -155,7 +158,7 @@ class DriverProgram final : public LineConnection {
     const auto began = Stop::Clock::now();
     for (;;) {
       hear();
-      while (stream_->get(0)) {
+      while (stream_->get(0) && seconds_since(began) <= seconds) {  // it may send without end
       }
       siginfo_t info{};
       if (stream_->ended() && exited(info)) return true;
@@ -189,6 +192,7 @@ class DriverProgram final : public LineConnection {
 
   std::string name_;
   pid_t process_ = 0;
+  bool killed_ = false;
   Descriptor in_, out_, err_;
   std::optional<ByteStream> stream_;
   std::string line_, last_line_;  // of stderr: the incomplete line, and the last complete one

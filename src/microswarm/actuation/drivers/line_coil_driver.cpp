@@ -216,8 +216,15 @@ StopReport LineCoilDriver::stop() noexcept {
   interrupted_ = false;
   try {
     if (gone_) return begin_again("had ended");
-    const auto reply = exchange("stop", std::max(stop_wait, params_.reply_timeout), {});
-    if (!reply) return begin_again(gone_ ? "had ended" : "did not answer stop; it was ended");
+    const bool is_lost = misses_ >= max_missed_answers && !missing_.is_late();
+    const double wait =
+        is_lost ? params_.reply_timeout : std::max(stop_wait, params_.reply_timeout);
+    const auto reply = exchange("stop", wait, {});
+    if (!reply && gone_) return begin_again("had ended");
+    if (!reply) {
+      connection_->give_up();
+      return begin_again("did not answer stop; it was ended");
+    }
     if (reply->verdict != LineVerdict::ok || !is_zero(*reply))
       return begin_again("did not say zero to stop; it was ended");
     armed_ = false;
@@ -266,9 +273,11 @@ std::optional<LineReply> LineCoilDriver::exchange(std::string_view word, double 
     missing_.sent();
     if (auto reply = answer(timeout, gives_up)) {
       missing_.answered();
+      misses_ = 0;
       return reply;
     }
   }
+  if (!interrupted_) ++misses_;
   if (!is_gone()) report_.reason = missing_.text() + last_words();
   return std::nullopt;
 }

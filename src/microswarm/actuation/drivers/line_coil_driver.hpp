@@ -111,7 +111,9 @@ class LineCoilDriver final : public CoilDriver {
   Capabilities capabilities() const override;
   DriveStatus drive(const CoilRequest& request) override;
   const DeviceReport& report() const override { return report_; }
-  /// Waits at most 0.5 s for the confirmation, and about 4 s more if it connects again.
+  /// Waits at most 0.5 s for the confirmation, `reply_timeout` after three misses in a row that
+  /// were no late answers. What does not answer is killed at once; the next connection has 2 s for
+  /// its hello.
   StopReport stop() noexcept override;
   void interrupt() noexcept override { interrupted_ = true; }
 
@@ -141,6 +143,7 @@ class LineCoilDriver final : public CoilDriver {
   std::uint32_t sequence_ = 0;
   std::atomic<bool> interrupted_ = false;
   bool armed_ = false;                         // armed by this driver and not stopped since
+  int misses_ = 0;                             // consecutive messages without an answer
   bool gone_ = false;                          // permanently
   std::optional<StopReport> turned_off_anew_;  // by a second connection
   MissingAnswer missing_;

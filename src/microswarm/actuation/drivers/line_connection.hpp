@@ -27,6 +27,8 @@ class LineConnection {
   virtual std::string ended() = 0;
   /// Last line that the other side wrote outside the protocol, printable; empty without one.
   virtual std::string last_words() { return {}; }
+  /// From now on the destructor kills a program at once.
+  virtual void give_up() noexcept {}
 };
 
 /// Opens a connection within `timeout` seconds; throws HardwareError.

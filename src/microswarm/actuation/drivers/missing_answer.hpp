@@ -27,6 +27,8 @@ class MissingAnswer {
   void other(std::uint32_t number, double t);
   /// The last message was answered in time.
   void answered();
+  /// Whether answers come, but too late.
+  bool is_late() const { return late_.has_value(); }
   /// The reason, one printable line.
   std::string text() const;
 
