@@ -316,10 +316,10 @@ class LineProgram : public testing::Test {
   std::unique_ptr<LineCoilDriver> start(const std::string& script,
                                         const LineDriverParams& p = quick(),
                                         std::unique_ptr<DeviceLock> lock = nullptr) {
-    const int descriptor = lock ? lock->descriptor() : -1;
+    const std::vector<int> locks = lock ? lock->descriptors() : std::vector<int>();
     return std::make_unique<LineCoilDriver>(
         [=, this](double) {
-          return start_program({"sh", "-c", "echo $$ >pid; " + script}, folder_ / ".", descriptor);
+          return start_program({"sh", "-c", "echo $$ >pid; " + script}, folder_ / ".", locks);
         },
         p, 3, std::move(lock));
   }
@@ -489,17 +489,69 @@ TEST_F(LineProgram, OneThatHangsIsKilledAfterTheStop) {
 
 TEST_F(LineProgram, HasItsCoilsForItselfAlsoWhenItsHostIsGone) {
   write_file_atomically(folder_ / "coils", "x");
-  const auto lock = [&] { return std::make_unique<DeviceLock>(folder_ / "coils"); };
+  write_file_atomically(folder_ / "copy", "x");
+  const std::string key = (folder_ / ".").string();
+  const auto lock = [&](const std::string& file = "coils", const std::string& device = "") {
+    return std::make_unique<DeviceLock>(folder_ / file, LineDevice{"a program", key + device});
+  };
+  const auto refuses_both = [&] {
+    refuses([&] { lock("coils", "other"); }, (folder_ / "coils").string(), {"another program"});
+    refuses([&] { lock("copy"); }, "a program", {"another program"});
+  };
   {
     const auto driver = start(answering("echo ok $n $rest"), quick(), lock());
-    refuses(lock, (folder_ / "coils").string(), {"another program"});
+    refuses_both();
   }
   auto first = lock();
-  auto program = start_program({"sh", "-c", "sleep 1000"}, folder_ / ".", first->descriptor());
+  auto program = start_program({"sh", "-c", "sleep 1000"}, folder_ / ".", first->descriptors());
   first.reset();
-  refuses(lock, (folder_ / "coils").string(), {"another program"});
+  refuses_both();
   program.reset();
   lock();
+}
+
+/// A copy of the coil file is no second amplifier.
+TEST_F(LineProgram, ACommandHasOneHost) {
+  write_file_atomically(folder_ / "driver.sh", answering("echo ok $n $rest"));
+  std::filesystem::create_symlink(folder_ / "driver.sh", folder_ / "link.sh");
+  std::filesystem::create_directory(folder_ / "other");
+  write_file_atomically(folder_ / "other/driver.sh", answering("echo ok $n $rest"));
+  const auto site = [&](const std::string& coils, const std::string& folder = ".") {
+    write_file_atomically(folder_ / coils, "x");
+    return CoilSite{folder_ / folder, folder_ / coils, 3};
+  };
+  const auto program = [&](const std::string& file) {
+    ProgramDriverParams p;
+    p.command = {"sh", file, "a"};
+    return p;
+  };
+  {
+    const auto first = program("driver.sh").open(site("one"));
+    for (const char* again : {"driver.sh", "link.sh", "./driver.sh"})
+      refuses([&] { program(again).open(site("two")); }, std::string("sh ") + again + " a",
+              {"another program"});
+    program("driver.sh").open(site("three", "other"));
+  }
+  program("driver.sh").open(site("two"));
+}
+
+TEST(LineCoilDriver, AServerHasOneHost) {
+  for (const bool tcp : {false, true}) {
+    const test::Folder folder;
+    for (const char* coils : {"one", "two"}) write_file_atomically(folder / coils, "x");
+    Server server({}, tcp);
+    SocketDriverParams p;
+    p.host = tcp ? "localhost" : server.path();
+    p.port = server.port() > 0 ? server.port() : 1;
+    p.connect_timeout = 0.5;
+    const auto first = p.open({folder / ".", folder / "one", 3});
+    if (tcp) p.host = "127.0.0.1";
+    refuses(
+        [&] {
+          p.open({folder / ".", folder / "two", 3});
+        },
+        tcp ? "127.0.0.1:" + std::to_string(server.port()) : server.path(), {"another program"});
+  }
 }
 
 }  // namespace

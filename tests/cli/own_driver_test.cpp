@@ -337,6 +337,12 @@ TEST_F(OwnDriver, CoilsHaveOneHost) {
       run({"rig", "drive", "rig.yaml", "--field", "1,0,0", "--other-stop", "--coils-cold"});
   EXPECT_EQ(second.code, 4);
   EXPECT_TRUE(names(second.err, "coils.yaml: another program drives these coils")) << second.err;
+  // A copy of the coil file has the same driver.
+  fs::copy(at.folder / "coils.yaml", at.folder / "copy.yaml");
+  const Outcome copy = run({"rig", "drive", "rig.yaml", "--field", "1,0,0", "--other-stop",
+                            "--coils-cold", "--set", "coils=copy.yaml"});
+  EXPECT_EQ(copy.code, 4);
+  EXPECT_TRUE(names(copy.err, "python3 driver.py: another program drives")) << copy.err;
   program.send(SIGTERM);
   EXPECT_EQ(program.wait().code, 3);
 }

@@ -66,10 +66,10 @@ Issues ProgramDriverParams::validate(double drive_rate) const {
 }
 
 std::unique_ptr<CoilDriver> ProgramDriverParams::open(const CoilSite& site) const {
-  auto lock = std::make_unique<DeviceLock>(site.coils);
+  auto lock = std::make_unique<DeviceLock>(site.coils, to_device(command, site.folder));
   return std::make_unique<LineCoilDriver>(
-      [command = command, folder = site.folder, file = lock->descriptor()](double) {
-        return start_program(command, folder, file);
+      [command = command, folder = site.folder, locks = lock->descriptors()](double) {
+        return start_program(command, folder, locks);
       },
       *this, site.count, std::move(lock));
 }
@@ -77,11 +77,10 @@ std::unique_ptr<CoilDriver> ProgramDriverParams::open(const CoilSite& site) cons
 std::unique_ptr<CoilDriver> SocketDriverParams::open(const CoilSite& site) const {
   // A Unix socket's path is relative to the rig's file.
   const bool is_path = host.find('/') != std::string::npos;
+  const std::string at = is_path ? (site.folder / host).string() : host;
   return std::make_unique<LineCoilDriver>(
-      [host = is_path ? (site.folder / host).string() : host, port = port](double timeout) {
-        return connect_socket(host, port, timeout);
-      },
-      *this, site.count, std::make_unique<DeviceLock>(site.coils));
+      [at, port = port](double timeout) { return connect_socket(at, port, timeout); }, *this,
+      site.count, std::make_unique<DeviceLock>(site.coils, to_device(at, port)));
 }
 
 LineCoilDriver::LineCoilDriver(OpenConnection open, const LineDriverParams& params,
