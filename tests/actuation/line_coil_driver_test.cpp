@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the host makes of drivers of one's own: servers in this process, and programs of the shell.
+// What the host makes of drivers of one's own: servers in this process.
 #include "microswarm/actuation/drivers/line_coil_driver.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <atomic>
-#include <cerrno>
 #include <chrono>
-#include <csignal>
 #include <functional>
 #include <random>
 #include <thread>
@@ -16,7 +13,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/execution/clock.hpp"
 #include "microswarm/core/text/file.hpp"
-#include "tests/actuation/line_server.hpp"
+#include "tests/actuation/line_drivers.hpp"
 #include "tests/files.hpp"
 #include "tests/messages.hpp"
 
@@ -74,17 +71,6 @@ TEST(LineProtocol, LinesOfAnyLengthCostOnlyThemselves) {
         if (line->size() + 1 < line_protocol_length) found.push_back(*std::move(line));
     EXPECT_EQ(found, lines);
   }
-}
-
-using Server = test::LineServer;
-using Words = Server::Words;
-const std::array<double, 3> amperes{1, -2.5, 0};
-
-LineDriverParams quick() {
-  LineDriverParams p;
-  p.reply_timeout = 0.3;
-  p.connect_timeout = 2;
-  return p;
 }
 
 std::unique_ptr<LineCoilDriver> open(const Server& server, const LineDriverParams& p = quick()) {
@@ -189,10 +175,37 @@ TEST(LineCoilDriver, SilenceAndGarbageAreNoAnswer) {
     // What comes after half a line belongs to it.
     EXPECT_EQ(driver->stop().confirmed, text.empty() || text.ends_with('\n'));
   };
-  answered("", "");
-  answered("ok 2 1 -2.5 0\n", "");
+  answered("", "nothing came back, messages sent: 1");
+  answered("ok 2 1 -2.5 0\n", "it answered another message");
   answered("\x1b[2Jhi\n", "it said '?[2Jhi', which is no answer");
-  answered("ok 3 1 -2.5 0", "");  // without its end
+  answered("ok 3 1 -2.5 0", "it said 'ok 3 1 -2.5 0', which is no answer");  // without its end
+  answered(std::string(9000, 'x'),
+           "it floods the line, 9000 bytes without an answer: '" + std::string(60, 'x') + "…'");
+}
+
+TEST(LineCoilDriver, LateAnswersAreSaidWithTheirDelayAndTheTimeAllowed) {
+  Server server(other("set", [](const Words& w) {
+    std::this_thread::sleep_for(milliseconds(70));
+    return Server::good(w);
+  }));
+  LineDriverParams p = quick();
+  p.reply_timeout = 0.05;
+  const auto driver = open(server, p);
+  for (int k = 0; k < max_missed_answers; ++k)
+    EXPECT_EQ(driver->drive(amperes), DriveStatus::no_answer);
+  const std::string& why = driver->report().reason;
+  EXPECT_TRUE(test::names(why, "its answer came after ")) << why;
+  EXPECT_TRUE(test::names(why, " ms, reply_timeout_s is 0.05")) << why;
+  EXPECT_TRUE(driver->stop().good()) << "it is alive";
+}
+
+TEST(LineCoilDriver, AConnectionThatIsResetIsSaidWithItsCause) {
+  Server server(other("set", [](const Words&) { return "reset"; }), true);
+  LineCoilDriver driver([&](double) { return connect_socket("localhost", server.port(), 2); },
+                        quick(), 3);
+  EXPECT_EQ(driver.drive(amperes), DriveStatus::gone);
+  EXPECT_TRUE(test::names(driver.report().reason, "Connection reset by peer"))
+      << driver.report().reason;
 }
 
 TEST(LineCoilDriver, ADriverThatWasOffIsArmedAgain) {
@@ -260,16 +273,6 @@ TEST(LineCoilDriver, AnInterruptionDoesNotWaitForTheAnswer) {
   EXPECT_TRUE(driver->stop().confirmed);
 }
 
-template <class Open>
-void refuses(Open&& open, const std::string& position, const std::vector<std::string>& parts) {
-  try {
-    open();
-    FAIL() << position;
-  } catch (const HardwareError& e) {
-    EXPECT_TRUE(test::is_one_line_naming(e.what(), position, parts));
-  }
-}
-
 TEST(LineCoilDriver, WhoDoesNotConsentIsNamed) {
   Server old(other("hello", [](const Words& w) { return "refused " + w[1] + " version 1\n"; }));
   refuses([&] { open(old); }, old.path(), {"version 1"});
@@ -283,167 +286,23 @@ TEST(LineCoilDriver, WhoDoesNotConsentIsNamed) {
   refuses([&] { connect_socket("localhost", 1, 1); }, "localhost:1", {"refused"});
 }
 
-/// A program of the shell that does `then` with the word, number and rest of each message.
-class LineProgram : public testing::Test {
- protected:
-  std::unique_ptr<LineCoilDriver> start(const std::string& script,
-                                        const LineDriverParams& p = quick(),
-                                        std::unique_ptr<DeviceLock> lock = nullptr) {
-    const int descriptor = lock ? lock->descriptor() : -1;
-    return std::make_unique<LineCoilDriver>(
-        [=, this](double) {
-          return start_program({"sh", "-c", "echo $$ >pid; " + script}, folder_ / ".", descriptor);
+TEST(LineCoilDriver, AServerHasOneHost) {
+  for (const bool tcp : {false, true}) {
+    const test::Folder folder;
+    for (const char* coils : {"one", "two"}) write_file_atomically(folder / coils, "x");
+    Server server({}, tcp);
+    SocketDriverParams p;
+    p.host = tcp ? "localhost" : server.path();
+    p.port = server.port() > 0 ? server.port() : 1;
+    p.connect_timeout = 0.5;
+    const auto first = p.open({folder / ".", folder / "one", 3});
+    if (tcp) p.host = "127.0.0.1";
+    refuses(
+        [&] {
+          p.open({folder / ".", folder / "two", 3});
         },
-        p, 3, std::move(lock));
+        tcp ? "127.0.0.1:" + std::to_string(server.port()) : server.path(), {"another program"});
   }
-  static std::string answering(const std::string& set) {
-    return "while read word n rest; do case $word in set) " + set +
-           ";; *) echo ok $n 0 0 0;; esac; done";
-  }
-  /// Whether a process of the program's group is left.
-  bool lives() const {
-    const int group = std::stoi(read_file(folder_ / "pid"));
-    return ::kill(-group, 0) == 0;
-  }
-  test::Folder folder_;
-};
-
-TEST_F(LineProgram, IsStartedInItsFolderAndGoneInTheEnd) {
-  {
-    const auto driver = start(answering("echo ok $n $rest"));
-    EXPECT_EQ(driver->drive(amperes), DriveStatus::driven);
-    EXPECT_TRUE(lives());
-    EXPECT_NE(::getpgid(std::stoi(read_file(folder_ / "pid"))), ::getpgrp());
-  }
-  EXPECT_FALSE(lives());
-}
-
-TEST_F(LineProgram, ItsEndIsToldWithItsLastWords) {
-  const auto ended = [&](const std::string& how, const std::string& reason) {
-    const auto driver = start(answering(how));
-    const double began = steady_seconds();
-    EXPECT_EQ(driver->drive(amperes), DriveStatus::gone);
-    EXPECT_LT(steady_seconds() - began, 0.25);
-    EXPECT_TRUE(test::names(driver->report().reason, reason)) << driver->report().reason;
-    EXPECT_TRUE(driver->stop().confirmed);  // by another one, which drives nothing
-    EXPECT_EQ(driver->drive(amperes), DriveStatus::gone);
-    EXPECT_TRUE(test::names(driver->report().reason, reason)) << driver->report().reason;
-    EXPECT_TRUE(driver->stop().confirmed);
-  };
-  ended("printf 'Traceback\\n\\033[2Jno card\\n' >&2; exit 7",
-        "has ended with exit code 7; its last words: ?[2Jno card");
-  ended("printf 'no end' >&2; kill -9 $$", "was ended by signal 9");
-  ended("exec >&-; sleep 1", "has closed its output");
-}
-
-TEST_F(LineProgram, WhatCannotBeStartedOrEndsAtOnceIsNamed) {
-  refuses(
-      [&] {
-        start_program({"./none", "x"}, folder_ / ".");
-      },
-      "./none x", {"cannot be started"});
-  refuses([&] { start_program({"true"}, folder_ / "none"); }, "true", {"cannot be started"});
-  refuses([&] { start("echo no nidaqmx >&2; exit 1"); }, "",
-          {"exit code 1; its last words: no nidaqmx"});
-}
-
-TEST_F(LineProgram, NeitherAFullPipeNorAFloodOfErrorsBlocks) {
-  LineDriverParams p = quick();
-  p.channels = 64;
-  p.reply_timeout = 0.02;
-  const auto deaf = start(
-      "z=$(yes 0 | head -64); for k in 1 2; do read word n rest; echo ok $n $z; done; exec sleep "
-      "99",
-      p);
-  const std::vector<double> many(64, 1.0);
-  double longest = 0;
-  for (int k = 0; k < 120; ++k) {  // 77 kB
-    const double began = steady_seconds();
-    EXPECT_EQ(deaf->drive(many), DriveStatus::no_answer);
-    longest = std::max(longest, steady_seconds() - began);
-  }
-  EXPECT_LT(longest, 0.3);
-  const auto loud =
-      start(answering("head -c 1000000 /dev/zero | tr '\\0' x >&2; echo ok $n $rest"));
-  EXPECT_EQ(loud->drive(amperes), DriveStatus::driven);
-}
-
-TEST_F(LineProgram, AStopThatIsNotAnsweredBeginsOnceMore) {
-  const std::string script =
-      "echo one >>begun; while read word n rest; do case $word in stop) exec sleep 99;; "
-      "set) echo ok $n $rest;; *) echo ok $n 0 0 0;; esac; done";
-  {
-    const auto driver = start(script);
-    EXPECT_EQ(driver->drive(amperes), DriveStatus::driven);
-    const StopReport zero = driver->stop();
-    EXPECT_TRUE(zero.confirmed);
-    EXPECT_EQ(zero.trouble, "did not answer stop; it was ended, and a second one said zero");
-    EXPECT_EQ(driver->report().currents[1], 0);
-    EXPECT_EQ(driver->drive(amperes), DriveStatus::gone);
-  }
-  EXPECT_EQ(read_file(folder_ / "begun"), "one\none\n");
-  EXPECT_FALSE(lives());
-}
-
-/// Whatever a card may hold: nothing but zeros ends it.
-TEST_F(LineProgram, AStopWithoutZeroBeginsOnceMore) {
-  for (const char* said : {"ok $n 0 3 0", "ok $n 0 0", "ok $n nan nan nan", "ok $n", "off $n",
-                           "refused $n busy", "emergency $n", "limited $n 0.5 0 0"}) {
-    std::filesystem::remove(folder_ / "begun");
-    {
-      const auto driver =
-          start(std::string("echo one >>begun; while read word n rest; do case $word in stop) ") +
-                "echo " + said + ";; set) echo ok $n $rest;; *) echo ok $n 0 0 0;; esac; done");
-      EXPECT_EQ(driver->drive(amperes), DriveStatus::driven);
-      const StopReport zero = driver->stop();
-      EXPECT_TRUE(zero.confirmed) << said;
-      EXPECT_EQ(zero.trouble, "did not say zero to stop; it was ended, and a second one said zero");
-      EXPECT_EQ(driver->report().currents[1], 0);
-      EXPECT_EQ(driver->drive(amperes), DriveStatus::gone);
-    }
-    EXPECT_EQ(read_file(folder_ / "begun"), "one\none\n") << said;
-    EXPECT_FALSE(lives());
-  }
-}
-
-/// What the first one left of a line is not put before the answer of the second.
-TEST_F(LineProgram, HalfALineOfTheOneThatEndedIsForgotten) {
-  for (const char* last : {"printf 'ok 3 1 -2'; exit 1", "printf 'garbage'; kill -9 $$",
-                           "head -c 20000 /dev/zero | tr '\\0' x; exit 1"}) {
-    const auto driver = start(answering(last));
-    EXPECT_EQ(driver->drive(amperes), DriveStatus::gone) << last;
-    EXPECT_TRUE(driver->stop().confirmed) << last;
-  }
-  const auto flooded = start(
-      "while read word n rest; do case $word in stop) exec tr '\\0' x </dev/zero;; set) echo ok $n "
-      "$rest;; *) echo ok $n 0 0 0;; esac; done");
-  EXPECT_EQ(flooded->drive(amperes), DriveStatus::driven);
-  EXPECT_TRUE(flooded->stop().confirmed);
-}
-
-TEST_F(LineProgram, OneThatHangsIsKilledAfterTheStop) {
-  const double began = steady_seconds();
-  {
-    const auto driver = start("trap '' TERM; " + answering("echo ok $n $rest") + "; exec sleep 99");
-    EXPECT_EQ(driver->drive(amperes), DriveStatus::driven);
-  }
-  EXPECT_FALSE(lives());
-  EXPECT_LT(steady_seconds() - began, 4);
-}
-
-TEST_F(LineProgram, HasItsCoilsForItselfAlsoWhenItsHostIsGone) {
-  write_file_atomically(folder_ / "coils", "x");
-  const auto lock = [&] { return std::make_unique<DeviceLock>(folder_ / "coils"); };
-  {
-    const auto driver = start(answering("echo ok $n $rest"), quick(), lock());
-    refuses(lock, (folder_ / "coils").string(), {"another program"});
-  }
-  auto first = lock();
-  auto program = start_program({"sh", "-c", "sleep 1000"}, folder_ / ".", first->descriptor());
-  first.reset();
-  refuses(lock, (folder_ / "coils").string(), {"another program"});
-  program.reset();
-  lock();
 }
 
 }  // namespace

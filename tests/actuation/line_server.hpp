@@ -97,7 +97,9 @@ class LineServer {
             heard_.push_back(heard);
           }
           const std::string reply = answer_ ? answer_(heard) : good(heard);
-          if (reply == "close") {
+          if (reply == "close" || reply == "reset") {
+            const linger at_once{.l_onoff = reply == "reset", .l_linger = 0};
+            ::setsockopt(line, SOL_SOCKET, SO_LINGER, &at_once, sizeof at_once);
             ::close(line);
             return;
           }

@@ -76,7 +76,73 @@ TEST(SerialCoilDriverPty, APortThatVanishesIsSaidAtOnce) {
     other.await_input();
     other.close_line();
   });
-  EXPECT_EQ(refusal(other.port(), 30), other.port() + ": the port has vanished");
+  EXPECT_EQ(refusal(other.port(), 30),
+            other.port() + ": the port has vanished: Input/output error");
+}
+
+/// Trouble of a driver after so many requests that a device leaves without an answer.
+std::string trouble_of(SerialCoilDriver& driver, int requests = max_missed_answers) {
+  for (int k = 0; k < requests; ++k)
+    EXPECT_EQ(driver.drive(some_amperes), DriveStatus::no_answer) << k;
+  return trouble_text(driver, DriveStatus::no_answer);
+}
+
+TEST(SerialCoilDriverPty, ALineThatIsBrokenOneWayIsSaid) {
+  const test::Pty mute;
+  const std::string why = refusal(mute.port(), 0.1);
+  EXPECT_TRUE(test::names(why, "nothing came back, messages sent: ")) << why;
+  std::atomic<bool> silent = false;
+  test::FakeDevice device([&](CoilReply&) { return !silent; });
+  SerialCoilParams p = params_of(device);
+  p.attempts = 2;
+  SerialCoilDriver driver(p);
+  ASSERT_EQ(driver.drive(some_amperes), DriveStatus::driven);
+  silent = true;
+  EXPECT_EQ(trouble_of(driver),
+            "the coil driver does not answer: nothing came back, messages sent: 6");
+}
+
+TEST(SerialCoilDriverPty, AFloodIsSaidWithItsBytes) {
+  const test::Pty other;
+  std::jthread talks([&](const std::stop_token& stop) {
+    other.await_input();
+    while (!stop.stop_requested()) {
+      other.say(std::string(500, 'x'));
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+  });
+  const std::string why = refusal(other.port(), 0.5);
+  EXPECT_TRUE(test::names(why, "it floods the line")) << why;
+  EXPECT_TRUE(test::names(why, "bytes without an answer")) << why;
+}
+
+TEST(SerialCoilDriverPty, LateAnswersAreSaidWithTheirDelayAndTheTimeAllowed) {
+  std::atomic<int> late_ms = 0;
+  test::FakeDevice device([&](CoilReply&) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(late_ms));
+    return true;
+  });
+  SerialCoilParams p = params_of(device);
+  p.reply_timeout = 0.05;
+  p.attempts = 1;
+  SerialCoilDriver driver(p);
+  ASSERT_EQ(driver.drive(some_amperes), DriveStatus::driven);
+  late_ms = 70;
+  const std::string why = trouble_of(driver);
+  EXPECT_TRUE(test::names(why, "does not answer: its answer came after ")) << why;
+  EXPECT_TRUE(test::names(why, " ms, reply_timeout_s is 0.05")) << why;
+}
+
+/// The device does not obey what waited on the line.
+TEST(SerialCoilDriverPty, AMessageThatCameTooLateIsSaid) {
+  test::FakeDevice device([](CoilReply& reply) {
+    if (reply.to == CoilMessage::set) reply.result = CoilResult::stale;
+    return true;
+  });
+  SerialCoilDriver driver(params_of(device));
+  const std::string why = trouble_of(driver, 1);
+  EXPECT_TRUE(test::names(why, "too late")) << why;
+  EXPECT_TRUE(test::names(why, " ms, reply_timeout_s is 0.09")) << why;
 }
 
 TEST(SerialCoilDriverPty, ATripIsToldAlsoWhenTheCurrentsAreScaled) {

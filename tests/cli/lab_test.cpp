@@ -140,6 +140,32 @@ TEST_F(LabCommand, ServesScenariosRecordsAndSimulatedRigsUntilCtrlC) {
   }
 }
 
+/// Command lines are seen by all users.
+TEST_F(LabCommand, TheBrowsersCommandLineHasNoToken) {
+  const fs::path folder = at.folder / "user's own";
+  fs::create_directories(folder);
+  fs::create_directories(at.folder / "bin");
+  write("bin/xdg-open",
+        "#!/bin/sh\nstat -c %a \"$1\" >rights\ncat \"$1\" >page\necho \"$*\" >words.part\n"
+        "mv words.part words\n");
+  fs::permissions(at.folder / "bin/xdg-open", fs::perms::owner_all);
+  at.path = (at.folder / "bin").string() + ":" + std::getenv("PATH");
+  at.environment = {{"DISPLAY", ":0"}, {"XDG_RUNTIME_DIR", folder.string()}};
+  Program lab({"lab"}, at);
+  for (int i = 0; i < 6000 && !exists("words") && lab.running(); ++i) sleep_ms(10);
+  ASSERT_TRUE(exists("words"));
+  const std::string file = read("words").substr(0, read("words").find('\n'));
+  EXPECT_EQ(fs::path(file).parent_path(), folder) << file;
+  EXPECT_EQ(read("rights"), "600\n");
+  lab.send(SIGINT);
+  const Outcome outcome = lab.wait();
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const std::string url = outcome.out.substr(0, outcome.out.find('\n'));
+  EXPECT_NE(url.find("token="), std::string::npos);
+  EXPECT_NE(read("page").find("content=\"0; url=" + url + "\""), std::string::npos) << read("page");
+  EXPECT_FALSE(fs::exists(file));
+}
+
 TEST_F(LabCommand, CtrlCEndsItWhileALargeMapIsRead) {
   std::string map;
   for (int i = 0; i < 200'000; ++i)

@@ -188,12 +188,14 @@ TEST_F(OwnDriver, ABugInItTurnsOffByItself) {
 }
 
 TEST_F(OwnDriver, ASilentOneEndsTheRun) {
-  ends_with("if driven >= 30 and any(answer[2:]): return", "does not answer");
+  ends_with("if driven >= 30 and any(answer[2:]): return",
+            "does not answer: nothing came back, messages sent: 3");
   expect_at_zero();
 }
 
 TEST_F(OwnDriver, OneThatIsSilentForEverEndsTheRunAndIsKilled) {
-  ends_with("if driven == 30: time.sleep(1000)", "does not answer");
+  ends_with("if driven == 30: time.sleep(1000)",
+            "does not answer: nothing came back, messages sent: 3");
 }
 
 TEST_F(OwnDriver, GarbageEndsTheRunAndIsNotPrintedRaw) {
@@ -201,7 +203,7 @@ TEST_F(OwnDriver, GarbageEndsTheRunAndIsNotPrintedRaw) {
       "if driven >= 30 and any(answer[2:]): return print('\\x1b[2J\\x07' + 'x' * 9, flush=True)",
       "it said '?[2J?xxxxxxxxx'");
   ends_with("if driven >= 30 and any(answer[2:]): return print('x' * 99999, flush=True)",
-            "does not answer");
+            "does not answer: it floods the line");
 }
 
 TEST_F(OwnDriver, LiesAboutItsValuesEndTheRun) {
@@ -335,6 +337,12 @@ TEST_F(OwnDriver, CoilsHaveOneHost) {
       run({"rig", "drive", "rig.yaml", "--field", "1,0,0", "--other-stop", "--coils-cold"});
   EXPECT_EQ(second.code, 4);
   EXPECT_TRUE(names(second.err, "coils.yaml: another program drives these coils")) << second.err;
+  // A copy of the coil file has the same driver.
+  fs::copy(at.folder / "coils.yaml", at.folder / "copy.yaml");
+  const Outcome copy = run({"rig", "drive", "rig.yaml", "--field", "1,0,0", "--other-stop",
+                            "--coils-cold", "--set", "coils=copy.yaml"});
+  EXPECT_EQ(copy.code, 4);
+  EXPECT_TRUE(names(copy.err, "python3 driver.py: another program drives")) << copy.err;
   program.send(SIGTERM);
   EXPECT_EQ(program.wait().code, 3);
 }

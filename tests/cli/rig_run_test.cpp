@@ -129,7 +129,7 @@ TEST_F(RigRun, AfterAStandstillItIsNotDrivenOn) {
   FakeDevice device;
   write_rig(device);
   Program program(arguments({"--seconds", "15", "--set-rig", "safety.max_pause_s=0.3"}), at);
-  let_drive(device, 500);
+  let_drive(device, 1200);
   program.send(SIGSTOP);
   sleep_ms(800);
   const int before = device.count(actuation::CoilMessage::arm);
@@ -138,6 +138,7 @@ TEST_F(RigRun, AfterAStandstillItIsNotDrivenOn) {
   EXPECT_EQ(outcome.code, 4) << outcome.err;
   EXPECT_EQ(device.count(actuation::CoilMessage::arm), before);
   EXPECT_TRUE(names(outcome.out + outcome.err, "stood still")) << outcome.out << outcome.err;
+  EXPECT_FALSE(names(outcome.err, "times a second")) << "the standstill is no slow line";
 }
 
 TEST_F(RigRun, WhatTheCheckRefusesIsRefusedBeforeTheFirstCurrent) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The checks of a camera, which take real time.
+// The checks of a camera and of a coil driver, which take real time.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -7,6 +7,7 @@
 
 #include "microswarm/rig/runtime/rig_checks.hpp"
 #include "tests/rig/coil_rig.hpp"
+#include "tests/rig/live_rigs.hpp"
 
 namespace microswarm::rig {
 namespace {
@@ -68,6 +69,15 @@ TEST_F(CameraChecks, WhereTheFileAsksNothingTheCamerasRateCounts) {
   rig.params.camera = vision::GenicamParams{};
   EXPECT_TRUE(good("frames", 100'000, 10));
   EXPECT_FALSE(good("frames", 100'000, 1000));
+}
+
+TEST(DriverChecks, ZerosAreSentAsOftenAsCurrentsInARun) {
+  const test::Folder folder;
+  const auto log = std::make_shared<test::WatchedCoils::Log>();
+  test::WatchedCoils driver(log);
+  check_driver(driver, test::coil_rig(folder, "[{}, {}, {}]", {"drive_rate_hz=160"}), 0.3);
+  EXPECT_GE(log->drives, 2);
+  EXPECT_LE(log->drives, 49);
 }
 
 }  // namespace

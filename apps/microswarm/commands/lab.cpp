@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdlib>
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "commands/commands.hpp"
+#include "lab/net/address_file.hpp"
 #include "lab/net/server.hpp"
 #include "lab/sessions/record_watch.hpp"
 #include "microswarm/core/errors/error.hpp"
@@ -43,11 +46,15 @@ std::vector<fs::path> shipped_scenarios() {
   return {};
 }
 
-/// Opens the address in the user's browser, if there are a display and a program for it.
-void open_in_browser(const std::string& url) {
-  if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY")) return;
-  const std::string command = "xdg-open '" + url + "' >/dev/null 2>&1 &";
-  [[maybe_unused]] const int failed = std::system(command.c_str());  // the address was printed
+bool has_desktop() { return std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY"); }
+
+/// Opens the page in the user's browser, if there is a program for it.
+void open_in_browser(const lab::AddressFile& page) {
+  if (page.path().empty()) return;  // the address was printed
+  std::string quoted;
+  for (const char c : page.path().string()) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+  const std::string command = "xdg-open '" + quoted + "' >/dev/null 2>&1 &";
+  [[maybe_unused]] const int failed = std::system(command.c_str());
 }
 
 /// Content of the first page; opened once, so that its errors are reported before the server
@@ -99,7 +106,8 @@ int lab_command(const LabOptions& o, const Context& context) {
          o.listen);
   print("{}\n", server.url());
   flush_output();
-  if (!o.no_open) open_in_browser(server.url());
+  std::optional<lab::AddressFile> page;
+  if (!o.no_open && has_desktop()) open_in_browser(page.emplace(server.url()));
   const bool is_live = !o.rig.empty() && !o.simulate;
   std::optional<RigKeys> keys;
   if (is_live)
@@ -109,7 +117,10 @@ int lab_command(const LabOptions& o, const Context& context) {
   const bool has_ended = server.run(context.stop);
   // A session that still reads a large file has nothing to lose and cannot be stopped. A session
   // with a rig is waited for.
-  if (!has_ended && !is_live) std::_Exit(ok);
+  if (!has_ended && !is_live) {
+    page.reset();
+    std::_Exit(ok);
+  }
   return complete;
 }
 

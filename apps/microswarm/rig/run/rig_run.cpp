@@ -83,9 +83,9 @@ nlohmann::ordered_json timing_json(const rig::RigTiming& t,
 }
 
 /// Warns on stderr if the connection or the computer is too slow for the field.
-void note_pace(const rig::RigTiming& t, double seconds, const rig::RigParams& rig) {
-  const double rate = static_cast<double>(t.round_trip.count()) / std::max(seconds, 1e-3);
-  if (seconds < 1 || rate >= 0.8 * rig.drive_rate) return;
+void note_pace(const rig::RigTiming& t, const rig::RigParams& rig) {
+  const double rate = t.sent_rate();
+  if (t.sent_for < 1 || rate >= 0.8 * rig.drive_rate) return;
   note(
       "note: currents were sent {:.0f} times a second, drive_rate_hz is {:.6g}; the field "
       "turns {:.6g} times a second\n",
@@ -264,8 +264,7 @@ int rig_run(const RigRunOptions& o, const Context& context) {
   note_direction(timing);
   const int code =
       tell_run(session, {o.out, false, o.json, [&] { return timing_json(timing, video); }}, {});
-  if (const auto& frames = session.record().frames; !frames.empty())
-    note_pace(timing, frames.back().t - frames.front().t, on.rig.params);
+  note_pace(timing, on.rig.params);
   if (!o.json) tell(timing);
   if (!o.json && video && video->trouble.empty()) tell(*video);
   if (!at_zero) return hardware;

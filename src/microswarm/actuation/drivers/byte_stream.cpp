@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cmath>
 #include <csignal>
+#include <cstring>
 
 namespace microswarm::actuation {
 namespace {
@@ -48,7 +49,7 @@ bool ByteStream::put(std::span<const std::uint8_t> bytes, double timeout, const 
     if (left <= 0 || gives_up()) return false;
     if (!ready(out_, POLLOUT, std::min(left, stream_slice))) continue;
     const ssize_t n = write_without_signal(out_, bytes);
-    if (n < 0 && errno != EAGAIN && errno != EINTR) ended_ = true;
+    if (n < 0) end(n);
     if (ended_) return false;
     if (n > 0) bytes = bytes.subspan(static_cast<std::size_t>(n));
   }
@@ -59,12 +60,23 @@ std::optional<std::uint8_t> ByteStream::get(double timeout) {
   if (next_ == filled_) {
     if (!ready(in_, POLLIN, timeout)) return std::nullopt;
     const ssize_t n = ::read(in_, bytes_.data(), bytes_.size());
-    if (n == 0 || (n < 0 && errno != EAGAIN && errno != EINTR)) ended_ = true;
+    if (n <= 0) end(n);
     if (n <= 0) return std::nullopt;
     next_ = 0;
     filled_ = static_cast<std::size_t>(n);
   }
   return bytes_[next_++];
+}
+
+/// After a read or write that gave `n`: the stream ends unless it is only to be tried again.
+void ByteStream::end(ssize_t n) {
+  if (n < 0 && (errno == EAGAIN || errno == EINTR)) return;
+  if (error_ == 0 && n < 0) error_ = errno;
+  ended_ = true;
+}
+
+std::string ByteStream::failure() const {
+  return error_ == 0 ? std::string() : std::string(": ") + std::strerror(error_);
 }
 
 void ByteStream::discard(double timeout) {

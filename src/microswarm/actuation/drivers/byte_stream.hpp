@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <sys/types.h>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "microswarm/core/execution/stop.hpp"
 
@@ -27,12 +30,17 @@ class ByteStream {
   std::optional<std::uint8_t> get(double timeout);
   /// Discards all input for `timeout` seconds.
   void discard(double timeout);
-  /// Whether the other side has closed the stream.
+  /// Whether the other side has closed the stream, or it failed.
   bool ended() const { return ended_; }
+  /// Text of its failure, to follow another text: ": Input/output error"; empty if it did not fail.
+  std::string failure() const;
 
  private:
+  void end(ssize_t n);
+
   int in_, out_;
   bool ended_ = false;
+  int error_ = 0;  // errno
   std::array<std::uint8_t, 512> bytes_{};
   std::size_t next_ = 0, filled_ = 0;
 };

@@ -63,13 +63,13 @@ class Spawning {
   Spawning(const Spawning&) = delete;
   Spawning& operator=(const Spawning&) = delete;
 
-  void files(int in, int out, int err, int lock) {
-    constexpr int first = STDERR_FILENO + 1;
+  void files(int in, int out, int err, const std::vector<int>& locks) {
+    int next = STDERR_FILENO + 1;
     posix_spawn_file_actions_adddup2(&actions_, in, STDIN_FILENO);
     posix_spawn_file_actions_adddup2(&actions_, out, STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&actions_, err, STDERR_FILENO);
-    if (lock >= 0) posix_spawn_file_actions_adddup2(&actions_, lock, first);
-    posix_spawn_file_actions_addclosefrom_np(&actions_, lock >= 0 ? first + 1 : first);
+    for (const int lock : locks) posix_spawn_file_actions_adddup2(&actions_, lock, next++);
+    posix_spawn_file_actions_addclosefrom_np(&actions_, next);
   }
   void folder(const std::string& path) {
     posix_spawn_file_actions_addchdir_np(&actions_, path.c_str());
@@ -95,11 +95,11 @@ class Spawning {
 class DriverProgram final : public LineConnection {
  public:
   DriverProgram(const std::vector<std::string>& command, const std::filesystem::path& folder,
-                int lock)
-      : name_(one_line(fmt::format("{}", fmt::join(command, " ")), 80)) {
+                const std::vector<int>& locks)
+      : name_(to_device(command, folder).name) {
     Pipe in, out, err;
     Spawning spawning;
-    spawning.files(in.out.get(), out.in.get(), err.in.get(), lock);
+    spawning.files(in.out.get(), out.in.get(), err.in.get(), locks);
     if (!folder.empty()) spawning.folder(folder.string());
     const auto process = spawning.start(command);
     if (!process)
@@ -117,6 +117,7 @@ class DriverProgram final : public LineConnection {
     in_.close();
     // Not reaped before that, so that no other process gets its id.
     for (const int signal : {0, SIGTERM, SIGKILL}) {
+      if (killed_ && signal != SIGKILL) continue;
       if (signal != 0) ::kill(-process_, signal);
       if (is_over_within(patience)) break;
     }
@@ -130,6 +131,8 @@ class DriverProgram final : public LineConnection {
     hear();
     return last_line_;
   }
+
+  void give_up() noexcept override { killed_ = true; }
 
   std::string ended() override {
     siginfo_t info{};
@@ -155,7 +158,7 @@ class DriverProgram final : public LineConnection {
     const auto began = Stop::Clock::now();
     for (;;) {
       hear();
-      while (stream_->get(0)) {
+      while (stream_->get(0) && seconds_since(began) <= seconds) {  // it may send without end
       }
       siginfo_t info{};
       if (stream_->ended() && exited(info)) return true;
@@ -189,6 +192,7 @@ class DriverProgram final : public LineConnection {
 
   std::string name_;
   pid_t process_ = 0;
+  bool killed_ = false;
   Descriptor in_, out_, err_;
   std::optional<ByteStream> stream_;
   std::string line_, last_line_;  // of stderr: the incomplete line, and the last complete one
@@ -196,9 +200,21 @@ class DriverProgram final : public LineConnection {
 
 }  // namespace
 
+LineDevice to_device(const std::vector<std::string>& command, const std::filesystem::path& folder) {
+  LineDevice device{.name = one_line(fmt::format("{}", fmt::join(command, " ")), 80)};
+  std::error_code none;
+  for (const std::string& word : command) {
+    const std::filesystem::path file = folder / word;
+    const bool is_file = std::filesystem::is_regular_file(file, none);
+    device.key += (is_file ? std::filesystem::canonical(file, none).string() : word) + '\n';
+  }
+  return device;
+}
+
 std::unique_ptr<LineConnection> start_program(const std::vector<std::string>& command,
-                                              const std::filesystem::path& folder, int lock) {
-  return std::make_unique<DriverProgram>(command, folder, lock);
+                                              const std::filesystem::path& folder,
+                                              const std::vector<int>& locks) {
+  return std::make_unique<DriverProgram>(command, folder, locks);
 }
 
 }  // namespace microswarm::actuation

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/execution/clock.hpp"
 #include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/text/text.hpp"
 
@@ -65,10 +66,10 @@ Issues ProgramDriverParams::validate(double drive_rate) const {
 }
 
 std::unique_ptr<CoilDriver> ProgramDriverParams::open(const CoilSite& site) const {
-  auto lock = std::make_unique<DeviceLock>(site.coils);
+  auto lock = std::make_unique<DeviceLock>(site.coils, to_device(command, site.folder));
   return std::make_unique<LineCoilDriver>(
-      [command = command, folder = site.folder, file = lock->descriptor()](double) {
-        return start_program(command, folder, file);
+      [command = command, folder = site.folder, locks = lock->descriptors()](double) {
+        return start_program(command, folder, locks);
       },
       *this, site.count, std::move(lock));
 }
@@ -76,11 +77,10 @@ std::unique_ptr<CoilDriver> ProgramDriverParams::open(const CoilSite& site) cons
 std::unique_ptr<CoilDriver> SocketDriverParams::open(const CoilSite& site) const {
   // A Unix socket's path is relative to the rig's file.
   const bool is_path = host.find('/') != std::string::npos;
+  const std::string at = is_path ? (site.folder / host).string() : host;
   return std::make_unique<LineCoilDriver>(
-      [host = is_path ? (site.folder / host).string() : host, port = port](double timeout) {
-        return connect_socket(host, port, timeout);
-      },
-      *this, site.count, std::make_unique<DeviceLock>(site.coils));
+      [at, port = port](double timeout) { return connect_socket(at, port, timeout); }, *this,
+      site.count, std::make_unique<DeviceLock>(site.coils, to_device(at, port)));
 }
 
 LineCoilDriver::LineCoilDriver(OpenConnection open, const LineDriverParams& params,
@@ -91,7 +91,8 @@ LineCoilDriver::LineCoilDriver(OpenConnection open, const LineDriverParams& para
       params_(params),
       report_{.currents =
                   std::vector<double>(static_cast<std::size_t>(params.channel_count(coils)))},
-      sent_(params.send == DriverInput::field ? 3 : report_.currents.size()) {
+      sent_(params.send == DriverInput::field ? 3 : report_.currents.size()),
+      missing_(params.reply_timeout) {
   greet(params_.connect_timeout);
 }
 
@@ -101,9 +102,7 @@ void LineCoilDriver::greet(double timeout) {
   };
   const auto reply = exchange("hello", timeout, {});
   if (!reply && gone_) throw HardwareError(report_.reason);
-  if (!reply)
-    fail(fmt::format("no answer within {:g} s{}{}", timeout, report_.reason.empty() ? "" : "; ",
-                     report_.reason));
+  if (!reply) fail(fmt::format("no answer within {:g} s; {}", timeout, report_.reason));
   if (reply->verdict != LineVerdict::ok) fail("refuses: " + reply->text);
   if (!is_zero(*reply))
     fail(fmt::format("acknowledges {} as its values, not {} zeros", to_list(reply->values), sent_));
@@ -216,8 +215,15 @@ StopReport LineCoilDriver::stop() noexcept {
   interrupted_ = false;
   try {
     if (gone_) return begin_again("had ended");
-    const auto reply = exchange("stop", std::max(stop_wait, params_.reply_timeout), {});
-    if (!reply) return begin_again(gone_ ? "had ended" : "did not answer stop; it was ended");
+    const bool is_lost = misses_ >= max_missed_answers && !missing_.is_late();
+    const double wait =
+        is_lost ? params_.reply_timeout : std::max(stop_wait, params_.reply_timeout);
+    const auto reply = exchange("stop", wait, {});
+    if (!reply && gone_) return begin_again("had ended");
+    if (!reply) {
+      connection_->give_up();
+      return begin_again("did not answer stop; it was ended");
+    }
     if (reply->verdict != LineVerdict::ok || !is_zero(*reply))
       return begin_again("did not say zero to stop; it was ended");
     armed_ = false;
@@ -257,22 +263,21 @@ bool LineCoilDriver::is_zero(const LineReply& reply) const {
 std::optional<LineReply> LineCoilDriver::exchange(std::string_view word, double timeout,
                                                   const Stop& gives_up,
                                                   std::span<const double> values) {
-  ++sequence_;
-  strange_.clear();
+  missing_.expect(++sequence_, steady_seconds());
   const std::string message =
       word == "hello" ? line_hello(sequence_, enum_name(params_.send), sent_,
                                    static_cast<int>(std::lround(1e3 * params_.watchdog)))
                       : line_message(word, sequence_, values);
-  std::optional<LineReply> reply;
-  if (connection_->stream().put(to_bytes(message), timeout, gives_up))
-    reply = answer(timeout, gives_up);
-  if (reply) return reply;
-  if (is_gone()) return std::nullopt;
-  const std::string words = connection_->last_words();
-  if (!strange_.empty())
-    report_.reason = fmt::format("it said '{}', which is no answer", strange_);
-  else if (!words.empty())
-    report_.reason = fmt::format("its last words: {}", words);
+  if (connection_->stream().put(to_bytes(message), timeout, gives_up)) {
+    missing_.sent();
+    if (auto reply = answer(timeout, gives_up)) {
+      missing_.answered();
+      misses_ = 0;
+      return reply;
+    }
+  }
+  if (!interrupted_) ++misses_;
+  if (!is_gone()) report_.reason = missing_.text() + last_words();
   return std::nullopt;
 }
 
@@ -283,11 +288,12 @@ std::optional<LineReply> LineCoilDriver::answer(double timeout, const Stop& give
     if (left <= 0 || gives_up()) return std::nullopt;
     const auto byte = connection_->stream().get(std::min(left, stream_slice));
     if (!byte && is_gone()) return std::nullopt;
-    const auto line = byte ? reader_.take(*byte) : std::nullopt;
-    if (!line) continue;
-    auto reply = parse_line_reply(*line);
+    if (!byte) continue;
+    missing_.take(*byte);
+    const auto line = reader_.take(*byte);
+    auto reply = line ? parse_line_reply(*line) : std::nullopt;
     if (reply && reply->sequence == sequence_) return reply;
-    if (!reply) strange_ = one_line(*line, 60);
+    if (reply) missing_.other(reply->sequence, steady_seconds());
   }
 }
 
@@ -295,10 +301,13 @@ bool LineCoilDriver::is_gone() {
   const std::string ended = connection_->ended();
   if (ended.empty()) return false;
   gone_ = true;
-  const std::string words = connection_->last_words();
-  report_.reason = fmt::format("{} {}{}{}", connection_->name(), ended,
-                               words.empty() ? "" : "; its last words: ", words);
+  report_.reason = fmt::format("{} {}{}", connection_->name(), ended, last_words());
   return true;
+}
+
+std::string LineCoilDriver::last_words() {
+  const std::string words = connection_->last_words();
+  return words.empty() ? words : "; its last words: " + words;
 }
 
 }  // namespace microswarm::actuation

@@ -16,6 +16,7 @@
 #include "microswarm/actuation/drivers/coil_driver.hpp"
 #include "microswarm/actuation/drivers/line_connection.hpp"
 #include "microswarm/actuation/drivers/line_protocol.hpp"
+#include "microswarm/actuation/drivers/missing_answer.hpp"
 #include "microswarm/core/errors/issue.hpp"
 #include "microswarm/core/execution/stop.hpp"
 #include "microswarm/core/fields/fields.hpp"
@@ -110,7 +111,9 @@ class LineCoilDriver final : public CoilDriver {
   Capabilities capabilities() const override;
   DriveStatus drive(const CoilRequest& request) override;
   const DeviceReport& report() const override { return report_; }
-  /// Waits at most 0.5 s for the confirmation, and about 4 s more if it connects again.
+  /// Waits at most 0.5 s for the confirmation, `reply_timeout` after three misses in a row that
+  /// were no late answers. What does not answer is killed at once; the next connection has 2 s for
+  /// its hello.
   StopReport stop() noexcept override;
   void interrupt() noexcept override { interrupted_ = true; }
 
@@ -128,6 +131,7 @@ class LineCoilDriver final : public CoilDriver {
                                     std::span<const double> values = {});
   std::optional<LineReply> answer(double timeout, const Stop& gives_up);
   bool is_gone();
+  std::string last_words();
 
   std::unique_ptr<DeviceLock> lock_;
   OpenConnection open_;
@@ -139,9 +143,10 @@ class LineCoilDriver final : public CoilDriver {
   std::uint32_t sequence_ = 0;
   std::atomic<bool> interrupted_ = false;
   bool armed_ = false;                         // armed by this driver and not stopped since
+  int misses_ = 0;                             // consecutive messages without an answer
   bool gone_ = false;                          // permanently
   std::optional<StopReport> turned_off_anew_;  // by a second connection
-  std::string strange_;                        // last line that was no reply
+  MissingAnswer missing_;
 };
 
 }  // namespace microswarm::actuation

@@ -19,8 +19,6 @@
 #include "microswarm/core/execution/stop.hpp"
 #include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/core/maths/angles.hpp"
-#include "microswarm/core/text/lines.hpp"
-#include "microswarm/core/text/text.hpp"
 
 namespace microswarm::actuation {
 namespace {
@@ -31,8 +29,7 @@ using Clock = std::chrono::steady_clock;
 constexpr unsigned baud = 115200;
 constexpr double left_over = 0.03;  // [s] after opening; a reset takes longer
 constexpr std::chrono::seconds max_stop{2};
-constexpr int max_failures = 3;        // exchanges in a row
-constexpr std::size_t max_heard = 60;  // bytes quoted
+constexpr int max_failures = 3;  // exchanges in a row
 // A bootloader that received a byte listens for 5 s more.
 constexpr double silence_per_boot_time = 3;
 
@@ -85,7 +82,8 @@ std::unique_ptr<CoilDriver> SerialCoilParams::open(const CoilSite&) const {
 SerialCoilDriver::SerialCoilDriver(const SerialCoilParams& params)
     : params_(params),
       port_(std::make_unique<Port>(params.port)),
-      report_{.currents = std::vector<double>(coil_link_channels)} {
+      report_{.currents = std::vector<double>(coil_link_channels)},
+      missing_(params.reply_timeout) {
   hears_start(params_.boot_time);
   const std::array<std::uint8_t, 1> end{0};  // ends any partial message
   (*port_)->put(end, params_.reply_timeout, {});
@@ -98,9 +96,8 @@ SerialCoilDriver::SerialCoilDriver(const SerialCoilParams& params)
   if (!reply && (*port_)->ended())
     throw HardwareError(fmt::format("{}: {}", params_.port, report_.reason));
   if (!reply)
-    throw HardwareError(fmt::format("{}: no answer within {} s{}{}", params_.port,
-                                    params_.connect_timeout, report_.reason.empty() ? "" : "; ",
-                                    report_.reason));
+    throw HardwareError(fmt::format("{}: no answer within {} s; {}", params_.port,
+                                    params_.connect_timeout, report_.reason));
   if (reply->version != coil_link_version || reply->result != CoilResult::ok)
     throw HardwareError(fmt::format(
         "{0}: its firmware speaks version {1} of the protocol, this program {2}; renew it: make -C "
@@ -163,6 +160,9 @@ DriveStatus SerialCoilDriver::follow(CoilMessage message, const CoilAim& aim) {
   }
   if (!reply || reply->result == CoilResult::stale) {
     check_.forget();
+    if (reply)
+      report_.reason =
+          "a message came too late for it; " + late_answer_text(round_trip_, params_.reply_timeout);
     return DriveStatus::no_answer;
   }
   if (reply->result == CoilResult::not_armed) return refusal(*reply);
@@ -212,35 +212,30 @@ std::vector<std::uint8_t> SerialCoilDriver::to_bytes(CoilMessage message,
 // Resends the same message with the same number until it is answered; the device executes it once.
 std::optional<CoilReply> SerialCoilDriver::exchange(CoilMessage message, const CoilAim& aim) {
   if (message != CoilMessage::stop && keeps_silent()) return std::nullopt;
-  ++sequence_;
-  heard_.clear();
+  const double began = steady_seconds();
+  missing_.expect(++sequence_, began);
   const Stop gives_up = message == CoilMessage::stop ? Stop(max_stop) : Stop(&interrupted_);
   for (int k = 0; k < params_.attempts && !gives_up(); ++k) {
-    const auto began = Clock::now();
     if (!(*port_)->put(to_bytes(message, aim), params_.reply_timeout, gives_up)) continue;
+    missing_.sent();
     if (auto reply = answer_to(message, params_.reply_timeout, gives_up)) {
-      round_trip_ = seconds_since(began);
+      clock_at_ = steady_seconds();
+      round_trip_ = clock_at_ - began;
+      missing_.answered();
       failures_ = 0;
       report_.reason.clear();
       clock_ = reply->clock;
-      clock_at_ = steady_seconds();
       if (message == CoilMessage::waveform) report_.phase = 2 * pi * reply->phase / 65536;
       for (std::size_t c = 0; c < report_.currents.size(); ++c)
         report_.currents[c] = params_.full_scale * reply->outputs[c] / coil_link_full_scale;
       return reply;
     }
   }
-  report_.reason = silence();
+  report_.reason =
+      (*port_)->ended() ? "the port has vanished" + (*port_)->failure() : missing_.text();
   if (++failures_ >= max_failures)
     silent_until_ = steady_seconds() + silence_per_boot_time * params_.boot_time;
   return std::nullopt;
-}
-
-/// Text of what came in place of an answer; empty if nothing came.
-std::string SerialCoilDriver::silence() const {
-  if ((*port_)->ended()) return "the port has vanished";
-  if (heard_.empty()) return {};
-  return fmt::format("it said '{}', which is no answer", one_line(trimmed(heard_), max_heard));
 }
 
 bool SerialCoilDriver::keeps_silent() {
@@ -271,10 +266,10 @@ std::optional<CoilReply> SerialCoilDriver::answer_to(CoilMessage message, double
     const auto byte = (*port_)->get(std::min(left, stream_slice));
     if (!byte && (*port_)->ended()) return std::nullopt;
     if (!byte) continue;
-    if (heard_.size() <= max_heard) heard_ += static_cast<char>(*byte);
+    missing_.take(*byte);
     auto reply = reader_.take(*byte);
-    if (reply) heard_.clear();
     if (reply && reply->to == message && reply->sequence == sequence_) return reply;
+    if (reply) missing_.other(reply->sequence, steady_seconds());
   }
 }
 

@@ -12,6 +12,7 @@
 
 #include "microswarm/actuation/drivers/coil_driver.hpp"
 #include "microswarm/actuation/drivers/coil_link.hpp"
+#include "microswarm/actuation/drivers/missing_answer.hpp"
 #include "microswarm/actuation/drivers/output_check.hpp"
 #include "microswarm/core/errors/issue.hpp"
 #include "microswarm/core/execution/stop.hpp"
@@ -73,8 +74,6 @@ class SerialCoilDriver final : public CoilDriver {
 
   /// Status reported by the device; nothing if it does not answer.
   std::optional<CoilReply> ask_status();
-  /// Duration of the last exchange [s].
-  double round_trip() const { return round_trip_; }
 
  private:
   class Port;
@@ -88,7 +87,6 @@ class SerialCoilDriver final : public CoilDriver {
   std::optional<CoilReply> answer_to(CoilMessage message, double timeout, const Stop& gives_up);
   bool hears_start(double timeout);
   bool keeps_silent();
-  std::string silence() const;
   DriveStatus arm();
 
   SerialCoilParams params_;
@@ -100,8 +98,8 @@ class SerialCoilDriver final : public CoilDriver {
   double clock_at_ = 0;  // arrival of that reply [s], by steady_seconds()
   int begin_phase_ = 0;  // of the next waveform [turns / 65536]
   DeviceReport report_;
-  std::string heard_;  // start of what came since the last message and is no reply
-  double round_trip_ = 0;
+  MissingAnswer missing_;
+  double round_trip_ = 0;  // of the last exchange, from its first sending [s]
   std::atomic<bool> interrupted_ = false;
   int failures_ = 0;         // consecutive exchanges without an answer
   double silent_until_ = 0;  // [s], by steady_seconds()

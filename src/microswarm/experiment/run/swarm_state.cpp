@@ -22,11 +22,12 @@ void SwarmState::take(const Observation& seen, GoalMonitor& goal) {
             goal.left(truth->swarm.pose.position, truth->robots)};
     return;
   }
-  const double passed = seen.now - now_.t;
   now_.t = seen.now;
   if (!seen.swarm) return;
   const Pose2& pose = seen.swarm->pose;
+  const double passed = seen.now - seen_at_.value_or(seen.now);
   const double moved = distance(now_.pose.position, pose.position);
+  seen_at_ = seen.now;
   now_ = {seen.now, pose, scenario_.robots ? 0 : seen.swarm->radius,
           passed > 0 ? moved / passed : 0, goal.left(pose.position, seen.robots)};
 }

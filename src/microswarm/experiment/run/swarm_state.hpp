@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "microswarm/contracts/plant.hpp"
@@ -50,6 +51,7 @@ class SwarmState {
   const Scenario& scenario_;
   const Plant& plant_;
   Values now_;
+  std::optional<double> seen_at_;  // time of the last observed pose [s]
   bool was_seen_ = false;
   int unseen_ = 0;
 };

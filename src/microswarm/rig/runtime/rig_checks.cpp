@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
+#include <thread>
 
 #include "microswarm/actuation/amplifiers/coil_heat.hpp"
 #include "microswarm/actuation/coils/coil_controller.hpp"
@@ -176,20 +178,30 @@ std::vector<RigCheck> check_camera(vision::NewestFrame& camera, const Rig& rig,
 std::vector<RigCheck> check_driver(actuation::CoilDriver& driver, const Rig& rig, double seconds,
                                    const Stop& stop) {
   Durations times;
+  int exchanges = 0;
   int failures = 0;
+  int misses = 0;  // in a row
   int resumed = 0;
   std::string trouble;
+  std::string missing;
   const actuation::Capabilities device = driver.capabilities();
   const std::vector<double> no_currents(static_cast<std::size_t>(device.channels));
   const std::array<double, 3> no_field{};
   const actuation::CoilRequest nothing = actuation::constant_request(device, no_field, no_currents);
-  for (const double end = steady_seconds() + seconds; steady_seconds() < end && !stop();) {
+  const double rate = rig.params.drive_rate;
+  double due = steady_seconds();
+  for (const double end = due + seconds; due < end && !stop();) {
+    std::this_thread::sleep_for(std::chrono::duration<double>(due - steady_seconds()));
     const double began = steady_seconds();
     const actuation::DriveStatus status = driver.drive(nothing);
-    failures += status == actuation::DriveStatus::no_answer;
+    const double now = steady_seconds();
+    if (++exchanges > 1) times.add(now - began);  // the first one also arms
+    due = std::max(due + 1 / rate, now);
+    misses = status == actuation::DriveStatus::no_answer ? misses + 1 : 0;
+    failures += misses > 0;
+    if (misses > 0) missing = driver.report().reason;
     resumed += status == actuation::DriveStatus::resumed;
-    times.add(steady_seconds() - began);
-    const bool unanswered = failures >= actuation::max_missed_answers;
+    const bool unanswered = misses >= actuation::max_missed_answers;
     if (!actuation::trouble_text(status).empty() || unanswered)
       trouble = actuation::trouble_text(driver, status);
     if (status == actuation::DriveStatus::gone || unanswered) break;
@@ -199,9 +211,10 @@ std::vector<RigCheck> check_driver(actuation::CoilDriver& driver, const Rig& rig
   if (!trouble.empty()) checks.push_back({"driver", false, trouble});
   checks.push_back(
       {"driver", failures == 0,
-       fmt::format("{} exchanges with all currents at zero, {} without an answer; {} (p50 / p95 / "
-                   "p99)",
-                   times.count(), failures, quantiles(times))});
+       fmt::format("{} exchanges with all currents at zero, {} without an answer{}{}; {} (p50 / "
+                   "p95 / p99)",
+                   exchanges, failures, missing.empty() ? "" : ": ", missing, quantiles(times)),
+       false});
   if (resumed > 0)
     checks.push_back({"driver", false,
                       fmt::format("the coils had switched off by themselves {} times", resumed)});
@@ -210,7 +223,6 @@ std::vector<RigCheck> check_driver(actuation::CoilDriver& driver, const Rig& rig
                     : zero.good()   ? "confirmed"
                                     : zero.trouble});
   const double slow = times.quantile(0.99);
-  const double rate = rig.params.drive_rate;
   checks.push_back({"pace", slow < 1 / rate,
                     fmt::format("an exchange takes {:.2f} ms at p99, drive_rate_hz {:.6g} allows "
                                 "{:.2f}",

@@ -33,7 +33,8 @@ std::vector<RigCheck> check_camera(vision::NewestFrame& camera, const Rig& rig,
                                    std::optional<double> rate, double seconds,
                                    const Stop& stop = {});
 
-/// Sends zero currents to the device for `seconds`, then stops it.
+/// Sends zero currents to the device for `seconds`, at the rig's `drive_rate`, then stops it.
+/// Missed answers are borne as in a run.
 std::vector<RigCheck> check_driver(actuation::CoilDriver& driver, const Rig& rig, double seconds,
                                    const Stop& stop = {});
 

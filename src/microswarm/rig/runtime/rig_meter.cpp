@@ -16,6 +16,8 @@ void RigMeter::add_output(const CoilMoment& moment) {
   }
   timing_.coil_late.add(moment.late);
   timing_.round_trip.add(moment.round_trip);
+  timing_.sent_for = moment.t - first_.value_or(moment.t);
+  if (!first_) first_ = moment.t;
   timing_.unmade += !output.reached;
   timing_.limited += output.scale < 1 - 1e-9;
   timing_.min_scale = std::min(timing_.min_scale, output.scale);

@@ -19,6 +19,7 @@ struct RigTiming {
   Durations camera_to_current{};  ///< from a picture to the first currents that answer it
   Durations coil_late{};          ///< delay of currents after their due time
   Durations round_trip{};         ///< of the coil driver's exchanges
+  double sent_for = 0;            ///< from the first currents to the last [s]
   int resumed = 0;                ///< times the coils had switched off by themselves
   int unmade = 0;                 ///< fields that the coils cannot produce
   int limited = 0;                ///< fields weakened by the coils' limits
@@ -32,6 +33,11 @@ struct RigTiming {
   int unseen_frames = 0;          ///< frames processed in which robots were unseen
   int max_unseen = 0;             ///< maximum number of unseen robots in a frame
   std::optional<FollowDirection> direction{};  ///< of the swarm relative to its commands
+
+  /// Mean rate of currents while they were sent [Hz]; 0 for fewer than two.
+  double sent_rate() const {
+    return sent_for > 0 ? static_cast<double>(round_trip.count() - 1) / sent_for : 0;
+  }
 };
 
 /// Actions of the coils' device by itself.
@@ -67,8 +73,9 @@ class RigMeter {
   const double tick_;  // [s]
   mutable std::mutex mutex_;
   RigTiming timing_;
-  double device_scale_ = 1;  // of the last currents that the device reduced
-  double answered_ = 0;      // arrival of the newest picture with acknowledged currents [s]
+  double device_scale_ = 1;      // of the last currents that the device reduced
+  std::optional<double> first_;  // time of the first output [s]
+  double answered_ = 0;          // arrival of the newest picture with acknowledged currents [s]
   CoilLoadMeter load_;
 };
 
