@@ -9,7 +9,7 @@
 #include <cerrno>
 #include <cmath>
 #include <csignal>
-#include <cstring>
+#include <system_error>
 
 namespace microswarm::actuation {
 namespace {
@@ -76,7 +76,7 @@ void ByteStream::end(ssize_t n) {
 }
 
 std::string ByteStream::failure() const {
-  return error_ == 0 ? std::string() : std::string(": ") + std::strerror(error_);
+  return error_ == 0 ? std::string() : ": " + std::generic_category().message(error_);
 }
 
 void ByteStream::discard(double timeout) {
