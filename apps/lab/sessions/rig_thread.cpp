@@ -202,7 +202,8 @@ void RigThread::end_run() {
   if (drove) standing_.zero = live_->stop("the run has ended");
   try {
     if (!standing_.folder.empty())
-      live_->session().record_to(std::filesystem::path(standing_.folder) / record_name);
+      experiment::write_whole_record(live_->session().record(),
+                                     std::filesystem::path(standing_.folder) / record_name);
   } catch (const InputError& error) {
     lost += (lost.empty() ? "" : "; ") + std::string(error.what());
   }

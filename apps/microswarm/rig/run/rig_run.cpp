@@ -154,7 +154,7 @@ class DeviceNotes : public experiment::RunListener {
 void require_new(const std::filesystem::path& folder, const std::filesystem::path& video) {
   std::vector<std::filesystem::path> files;
   if (!folder.empty())
-    for (const char* name : {"run.h5", "commands.csv", "commands.csv.part"})
+    for (const char* name : {"run.h5", "run.part.h5", "commands.csv", "commands.csv.part"})
       files.push_back(folder / name);
   if (!video.empty()) files.insert(files.end(), {video, vision::VideoRecorder::times_file(video)});
   for (const std::filesystem::path& file : files)
