@@ -181,6 +181,10 @@ void RigThread::serve() {
 void RigThread::step() {
   const experiment::Tick* tick = live_->session().step(Stop(&ends_));
   if (tick) publisher_.take(*tick);
+  for (const std::string& text : live_->take_notes()) {
+    publisher_.standing.trouble = text;
+    publisher_.changed();
+  }
   if (tick && !tick->fault.empty()) standing_.why = tick->fault;
   pictures_.offer(live_->live().picture(), live_->live().scale(), tick ? tick->frame.t : 0);
   if (!tick || tick->end) {

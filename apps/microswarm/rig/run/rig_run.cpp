@@ -187,6 +187,7 @@ void drive(rig::LiveSession& live, const Stop& stop) {
   bool began = false;
   while (session.step(stop)) {
     if (!std::exchange(began, true)) note_regions(session);
+    note_each(live.take_notes());
     status.update();
   }
 }
@@ -248,7 +249,8 @@ int rig_run(const RigRunOptions& o, const Context& context) {
                              .video = o.video,
                              .without_limits = o.coils.without_limits,
                              .coils_cold = o.coils.coils_cold,
-                             .note = o.note});
+                             .note = o.note,
+                             .seconds = o.seconds});
   experiment::Session& session = live.session();
   note_each(live.warnings());
   note_virtual_obstacles(on);
