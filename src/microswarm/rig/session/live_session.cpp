@@ -77,13 +77,17 @@ constexpr double device_check = 0.3;    // [s]
 constexpr double disk_period = 10;      // between looks at the disk [s]
 constexpr double warned_before = 1800;  // the disk is full [s]
 
+/// Time after which a run has ended at the latest [s].
+double longest_time(const experiment::Scenario& scenario, const LiveOptions& options) {
+  return std::min(scenario.time_limit + scenario.hold_at_goal, options.seconds.value_or(infinity));
+}
+
 /// The options if what the longest run writes has space in its folder.
 LiveOptions with_space(LiveOptions options, const RigExperiment& on) {
   const experiment::Scenario& scenario = on.scenario();
-  const double longest =
-      std::min(scenario.time_limit + scenario.hold_at_goal, options.seconds.value_or(infinity));
   if (const auto free = options.folder.empty() ? std::nullopt : options.free_space(options.folder))
-    require_space(options.folder, needed_space(on.rig, scenario.tick, longest), *free);
+    require_space(options.folder,
+                  needed_space(on.rig, scenario.tick, longest_time(scenario, options)), *free);
   return options;
 }
 
@@ -189,13 +193,13 @@ std::string LiveSession::look_at_disk() {
   if (options_.folder.empty() || told_space_ || !tick || tick->frame.t < disk_due_) return {};
   disk_due_ = tick->frame.t + disk_period;
   const std::optional<double> free = options_.free_space(options_.folder);
-  const double soon =
-      needed_space(on_.rig, session_.scenario().tick, tick->frame.t + warned_before);
+  const experiment::Scenario& scenario = session_.scenario();
+  const double until = std::min(tick->frame.t + warned_before, longest_time(scenario, options_));
+  const double soon = needed_space(on_.rig, scenario.tick, until);
   if (!free || *free >= soon) return {};
   told_space_ = true;
   return fmt::format(
-      "{}: only {:.0f} MB are free on its disk, too little to write the record half "
-      "an hour from now",
+      "{}: only {:.0f} MB are free on its disk, too little for the record of the next half hour",
       options_.folder.string(), *free / 1e6);
 }
 
