@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "microswarm/config/yaml.hpp"
 #include "tests/config/sample.hpp"
 #include "tests/files.hpp"
@@ -63,9 +65,16 @@ TEST(Issues, AfterAMistakeInAVariantTheKeyIsRightAgain) {
 }
 
 TEST(Issues, AThousandEndTheReading) {
-  std::string text = "times_s: [";
-  for (int i = 0; i < 5000; ++i) text += "x, ";
-  EXPECT_EQ(issues_in(text + "]\nseed: -1\n").size(), 1000u);
+  std::string entries = "times_s: [", keys;
+  for (int i = 0; i < 5000; ++i) entries += "x, ";
+  for (int i = 0; i < 5000; ++i) keys += fmt::format("k{}: 1\n", i);
+  for (const std::string& text : {entries + "]\nseed: -1\n", keys}) {
+    const Issues issues = issues_in(text);
+    EXPECT_EQ(issues.size(), max_issues);
+    const std::string told = to_string(issues);
+    EXPECT_EQ(std::ranges::count(told, '\n'), 20);
+    EXPECT_TRUE(told.ends_with("\nand at least 980 more")) << told;
+  }
 }
 
 TEST(Issues, OfAnAssignmentHaveTheWholeKey) {

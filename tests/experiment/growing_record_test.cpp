@@ -58,8 +58,28 @@ TEST(GrowingRecords, AreWholeRecordsOfTheRunSoFar) {
   Session alone(open_experiment(long_flight(), {}));
   while (alone.record().frames.size() < session.record().frames.size()) alone.step();
   EXPECT_EQ(session.record().hash(), alone.record().hash());
-  growing.reset();
-  EXPECT_FALSE(std::filesystem::exists(part));
+}
+
+TEST(GrowingRecords, RemainUntilTheWholeRecordIsInPlace) {
+  const test::Folder folder;
+  const auto whole = folder / "run.h5", part = folder / "run.part.h5";
+  for (const bool is_written : {false, true, false}) {  // the last beside a record of before
+    std::filesystem::remove(part);
+    Session session(open_experiment(long_flight(), {}));
+    std::optional<GrowingRecord> growing(std::in_place, session, whole, 1ms);
+    ASSERT_TRUE(step_until(session, [&] { return std::filesystem::exists(part); }));
+    if (is_written) session.record_to(whole);
+    growing.reset();
+    EXPECT_EQ(std::filesystem::exists(part), !is_written);
+    if (!is_written) EXPECT_GT(read_record(part).frames.size(), 0u);
+  }
+  const auto no_file = folder / "full/run.h5";  // that nobody can write
+  std::filesystem::create_directories(no_file);
+  std::filesystem::copy_file(part, part_file(no_file));
+  const Record record = read_record(part);
+  const std::string told = to_string(test::issues_of([&] { write_whole_record(record, no_file); }));
+  EXPECT_NE(told.find(no_file.string() + ": cannot write"), std::string::npos) << told;
+  EXPECT_NE(told.find(part_file(no_file).string()), std::string::npos) << told;
 }
 
 /// Has a new phased goal in each step.

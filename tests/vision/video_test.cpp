@@ -14,7 +14,6 @@
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/formats/images/image.hpp"
 #include "microswarm/vision/camera/video_file_writer.hpp"
-#include "microswarm/vision/tracking/track_overlay.hpp"
 #include "microswarm/vision/tracking/video_tracker.hpp"
 #include "tests/files.hpp"
 #include "tests/vision/spots.hpp"
@@ -253,16 +252,6 @@ TEST(VideoTracker, PictureAndWorldAreEachOthersInverse) {
   const Vec2 p{12.25, 40.5};
   EXPECT_NEAR(distance(place_in_picture(place_in_world(p, 100, 0.35), 100, 0.35), p), 0, 1e-12);
   EXPECT_EQ(place_in_world({0, 99}, 100, 2), (Vec2{1, 1}));  // the lowest pixel on the left
-}
-
-TEST(TrackOverlay, DrawsOnAPictureOfItsSize) {
-  TrackOverlay overlay(0.5);
-  const VideoFrame frame{0, 0, {120, 90, 1, std::vector<std::uint8_t>(120 * 90, 50)}};
-  const formats::Image shown = overlay.draw(frame, {{.id = 3, .position = {30, 22}, .radius = 2}});
-  EXPECT_EQ(shown.width, 120);
-  EXPECT_EQ(shown.channels, 3);
-  const std::size_t ring = shown.index(59 + 6, 90 - 1 - 44);
-  EXPECT_NE(shown.pixels[ring], shown.pixels[ring + 2]);  // there is colour
 }
 
 // Real videos.

@@ -182,6 +182,10 @@ void RigThread::serve() {
 void RigThread::step() {
   const experiment::Tick* tick = live_->session().step(Stop(&ends_));
   if (tick) publisher_.take(*tick);
+  for (const std::string& text : live_->take_notes()) {
+    publisher_.standing.trouble = text;
+    publisher_.changed();
+  }
   if (tick && !tick->fault.empty()) standing_.why = tick->fault;
   pictures_.offer(live_->live().picture(), live_->live().scale(), tick ? tick->frame.t : 0);
   if (!tick || tick->end) {
@@ -203,7 +207,8 @@ void RigThread::end_run() {
   if (drove) standing_.zero = live_->stop("the run has ended");
   try {
     if (!standing_.folder.empty())
-      live_->session().record_to(std::filesystem::path(standing_.folder) / record_name);
+      experiment::write_whole_record(live_->session().record(),
+                                     std::filesystem::path(standing_.folder) / record_name);
   } catch (const InputError& error) {
     lost += (lost.empty() ? "" : "; ") + std::string(error.what());
   }

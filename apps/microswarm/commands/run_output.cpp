@@ -122,7 +122,7 @@ std::filesystem::path record_in(const std::filesystem::path& folder) { return fo
 
 void keep(const experiment::Record& record, const RunOutput& o,
           const report::ReportOptions& report) {
-  experiment::write_record(record, record_in(o.out));
+  experiment::write_whole_record(record, record_in(o.out));
   if (!o.no_report) report::write_run_report(record, o.out, report);
 }
 

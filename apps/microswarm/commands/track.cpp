@@ -96,7 +96,13 @@ vision::TrackResult follow(vision::FrameSource& source, const std::string& name,
   const auto show = [&](const vision::VideoFrame& frame,
                         const std::vector<vision::TrackRow>& rows) {
     if (frame.index == 0) first = frame.picture;
-    if (overlay) overlay->add(drawing.draw(frame, rows));
+    if (overlay) {
+      const formats::Image& shown = drawing.draw(frame, rows);
+      if (frame.index == 0 && shown.width != frame.picture.width)
+        note("note: overlay.mp4 is shrunk to {}x{} pixels: more than {} take gigabytes to encode\n",
+             shown.width, shown.height, vision::TrackOverlay::max_pixels);
+      overlay->add(shown);
+    }
     bar.update(all > 0 ? (frame.index + 1) / all : 0, fmt::format("{} robots", rows.size()));
   };
   return vision::track_video(source, name, settings, show, stop);

@@ -107,16 +107,15 @@ void ValueReader::fail(const YamlNode& at, std::string what, std::string value,
 
 template <class Body>
 void ValueReader::attempt(std::string_view part, Body&& body) {
-  constexpr std::size_t most = 1000;
   const std::size_t outer = key_.size();
   if (outer > 0) key_ += '.';
   key_ += part;
   try {
     body();
   } catch (const InputError& error) {
-    if (issues_.size() >= most) throw;
+    if (issues_.size() >= max_issues) throw;
     issues_.add(error.issues());
-    if (issues_.size() >= most) throw InputError(issues_);
+    if (issues_.size() >= max_issues) throw InputError(issues_);
   }
   key_.resize(outer);
 }

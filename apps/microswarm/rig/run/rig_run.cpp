@@ -154,7 +154,7 @@ class DeviceNotes : public experiment::RunListener {
 void require_new(const std::filesystem::path& folder, const std::filesystem::path& video) {
   std::vector<std::filesystem::path> files;
   if (!folder.empty())
-    for (const char* name : {"run.h5", "commands.csv", "commands.csv.part"})
+    for (const char* name : {"run.h5", "run.part.h5", "commands.csv", "commands.csv.part"})
       files.push_back(folder / name);
   if (!video.empty()) files.insert(files.end(), {video, vision::VideoRecorder::times_file(video)});
   for (const std::filesystem::path& file : files)
@@ -187,6 +187,7 @@ void drive(rig::LiveSession& live, const Stop& stop) {
   bool began = false;
   while (session.step(stop)) {
     if (!std::exchange(began, true)) note_regions(session);
+    note_each(live.take_notes());
     status.update();
   }
 }
@@ -248,7 +249,8 @@ int rig_run(const RigRunOptions& o, const Context& context) {
                              .video = o.video,
                              .without_limits = o.coils.without_limits,
                              .coils_cold = o.coils.coils_cold,
-                             .note = o.note});
+                             .note = o.note,
+                             .seconds = o.seconds});
   experiment::Session& session = live.session();
   note_each(live.warnings());
   note_virtual_obstacles(on);

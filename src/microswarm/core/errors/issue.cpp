@@ -14,7 +14,9 @@ std::string to_string(const Issues& issues) {
   std::string text;
   for (std::size_t i = 0; i < std::min(issues.size(), most); ++i)
     text += (i == 0 ? "" : "\n") + to_string(issues[i]);
-  if (issues.size() > most) text += "\nand " + std::to_string(issues.size() - most) + " more";
+  if (issues.size() > most)
+    text += (issues.size() < max_issues ? "\nand " : "\nand at least ") +
+            std::to_string(issues.size() - most) + " more";
   return text;
 }
 

@@ -55,6 +55,9 @@ class Issues {
   std::vector<Issue> list_;
 };
 
+/// Mistakes that a reader of a file looks for at most; it ends at the last of them.
+inline constexpr std::size_t max_issues = 1000;
+
 /// One line for each issue; only the first 20 are listed, the rest are counted.
 std::string to_string(const Issues& issues);
 

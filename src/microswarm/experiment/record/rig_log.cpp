@@ -52,6 +52,8 @@ void write_rig_log(io::Hdf5Writer& out, const RigLog& log) {
                "When the driver had the currents.");
   write_column(out, "/rig/currents/seen_s", log.pictured_at, "s",
                "Time of the picture that the currents answer.");
+  if (log.currents_until) out.attribute("/rig", "currents_until_s", *log.currents_until);
+  if (log.seen_until) out.attribute("/rig", "seen_until_s", *log.seen_until);
   if (log.latency) io::write_attributes(out, "/rig", type_of<RigLatency>(), &*log.latency);
   for (std::size_t c = 0; c < log.coils.size(); ++c) {
     const std::string path = current_path(c);
@@ -88,6 +90,12 @@ RigLog read_rig_log(const io::Hdf5Reader& in) {
       if (size != log.driven_at.size()) in.fail("/rig/currents has columns of different lengths");
     io::read_attributes(in, "/rig", type_of<RigLatency>(), &log.latency.emplace());
   }
+  const auto until = [&in](const char* name) {
+    return in.has_attribute("/rig", name) ? std::optional(in.number_attribute("/rig", name))
+                                          : std::nullopt;
+  };
+  log.currents_until = until("currents_until_s");
+  log.seen_until = until("seen_until_s");
   const auto count = static_cast<std::size_t>(coils);
   std::vector<std::vector<double>> columns;
   for (std::size_t c = 0; c < count; ++c) {

@@ -51,7 +51,9 @@ struct RigLog {
   std::vector<std::int64_t> bodies{};  ///< -1 for the swarm, otherwise an obstacle's number
   std::vector<Vec2> positions{};       ///< centres of the bodies [µm]
   std::vector<double> radii{};         ///< of circles around the bodies [µm]
-  std::optional<RigLatency> latency{};  ///< of the whole run, set at its end
+  std::optional<double> currents_until{};  ///< outputs after it are too many to be kept [s]
+  std::optional<double> seen_until{};      ///< sightings after it are too many to be kept [s]
+  std::optional<RigLatency> latency{};     ///< of the whole run, set at its end
 
   bool empty() const { return began.empty(); }
   void see(double t, std::int64_t body, Vec2 position, double radius);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/experiment/session/growing_record.hpp"
 
+#include <fmt/format.h>
 #include <sched.h>
 #include <sys/resource.h>
 
@@ -8,6 +9,8 @@
 #include <exception>
 #include <iterator>
 #include <system_error>
+
+#include "microswarm/core/errors/error.hpp"
 
 namespace microswarm::experiment {
 namespace {
@@ -47,6 +50,12 @@ void yield_to_others() {
   ::setpriority(PRIO_PROCESS, 0, 10);
 }
 
+/// The least time if there is no such file.
+std::filesystem::file_time_type last_written(const std::filesystem::path& file) {
+  std::error_code none;
+  return std::filesystem::last_write_time(file, none);
+}
+
 }  // namespace
 
 std::filesystem::path part_file(const std::filesystem::path& record) {
@@ -63,10 +72,23 @@ std::filesystem::path whole_file(const std::filesystem::path& part) {
   return whole.replace_filename(stem + part.extension().string());
 }
 
+void write_whole_record(const Record& record, const std::filesystem::path& file) {
+  try {
+    write_record(record, file);
+  } catch (const InputError& error) {
+    std::error_code none;
+    if (!std::filesystem::exists(part_file(file), none)) throw;
+    throw InputError(
+        fmt::format("{}; the record so far is kept as {}", error.what(), part_file(file).string()));
+  }
+}
+
 GrowingRecord::GrowingRecord(Session& session, const std::filesystem::path& record,
                              std::chrono::milliseconds period)
     : session_(session),
+      file_(record),
       part_(part_file(record)),
+      written_(last_written(record)),
       period_(period),
       frame_cost_(first_cost),
       whole_(session.record()),
@@ -84,7 +106,7 @@ GrowingRecord::~GrowingRecord() {
   }
   thread_.join();
   std::error_code ignored;
-  std::filesystem::remove(part_, ignored);
+  if (last_written(file_) != written_) std::filesystem::remove(part_, ignored);
 }
 
 void GrowingRecord::on_tick(const Tick& tick) {

@@ -18,9 +18,13 @@ std::filesystem::path part_file(const std::filesystem::path& record);
 /// Record of a part file: run.h5 for run.part.h5; empty for another file.
 std::filesystem::path whole_file(const std::filesystem::path& part);
 
+/// Writes the whole record of a run. Throws InputError, which names the part file if that remains.
+void write_whole_record(const Record& record, const std::filesystem::path& file);
+
 /// Writes the record so far of a session into the part file of its record, so that other programs
-/// can follow the run. The file is replaced atomically every few seconds and removed by the
-/// destructor; it remains if the program is killed. The session's thread only copies additions, for
+/// can follow the run. The file is replaced atomically every few seconds. The destructor removes it
+/// if the whole record was written meanwhile; otherwise, or if the program is killed, it remains.
+/// The session's thread only copies additions, for
 /// at most 2 % of its time; another thread writes. A run with too many frames a second for that is
 /// not written. A failure to write never affects the run.
 class GrowingRecord : public RunListener {
@@ -41,7 +45,9 @@ class GrowingRecord : public RunListener {
   void write_all();
 
   const Session& session_;
+  std::filesystem::path file_;
   std::filesystem::path part_;
+  std::filesystem::file_time_type written_;  ///< of a record of an earlier run
   std::chrono::milliseconds period_;
 
   // State of the session's thread.

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/rig/session/live_session.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <ctime>
 #include <utility>
 
 #include "microswarm/config/write.hpp"
+#include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/core/text/file.hpp"
 
 namespace microswarm::rig {
@@ -70,13 +73,29 @@ experiment::RigLatency rig_latency(const RigTiming& timing) {
           .missed_deadlines = timing.missed_deadlines};
 }
 
-constexpr std::size_t max_logged = 10'000'000;  // values
-constexpr double device_check = 0.3;            // [s]
+constexpr double device_check = 0.3;    // [s]
+constexpr double disk_period = 10;      // between looks at the disk [s]
+constexpr double warned_before = 1800;  // the disk is full [s]
+
+/// Time after which a run has ended at the latest [s].
+double longest_time(const experiment::Scenario& scenario, const LiveOptions& options) {
+  return std::min(scenario.time_limit + scenario.hold_at_goal, options.seconds.value_or(infinity));
+}
+
+/// The options if what the longest run writes has space in its folder.
+LiveOptions with_space(LiveOptions options, const RigExperiment& on) {
+  const experiment::Scenario& scenario = on.scenario();
+  if (const auto free = options.folder.empty() ? std::nullopt : options.free_space(options.folder))
+    require_space(options.folder,
+                  needed_space(on.rig, scenario.tick, longest_time(scenario, options)), *free);
+  return options;
+}
 
 }  // namespace
 
 LiveSession::LiveSession(RigExperiment on, const LiveOptions& options)
-    : on_(checked(std::move(on), options)),
+    : options_(with_space(options, on)),
+      on_(checked(std::move(on), options)),
       devices_(open_devices(on_, options.dry, options.idle)),
       kept_(make_log(on_.rig, options.note)),
       log_(options.folder, on_.rig.system, options.dry),
@@ -114,7 +133,11 @@ void LiveSession::open_coils(const LiveOptions& options) {
 
 /// Logs the detections of a new picture: the swarm and other bodies.
 void LiveSession::keep(const Detections& seen, double t) {
-  if (kept_.seen_at.size() >= max_logged) return;
+  if (kept_.seen_until) return;
+  if (kept_.seen_at.size() >= options_.max_logged) {
+    kept_.seen_until = kept_.seen_at.empty() ? 0 : kept_.seen_at.back();
+    return;
+  }
   if (seen.swarm) kept_.see(t, -1, seen.swarm->pose.position, seen.swarm->radius);
   for (const Body& body : seen.moving) {
     const Disc extent = enclosing_disc(body);
@@ -126,7 +149,11 @@ void LiveSession::keep(const Detections& seen, double t) {
 void LiveSession::keep(const CoilMoment& moment) {
   const double start = plant_->start();
   log_.add(moment, start);
-  if (kept_.currents.size() < max_logged) {
+  if (kept_.currents.size() >= options_.max_logged) {
+    if (!currents_full_)
+      kept_.currents_until = kept_.driven_at.empty() ? 0 : kept_.driven_at.back();
+    currents_full_ = true;
+  } else {
     kept_.driven_at.push_back(moment.t - start);
     kept_.answered_at.push_back(moment.driven - start);
     kept_.pictured_at.push_back(moment.seen - start);
@@ -144,6 +171,36 @@ std::string LiveSession::close() {
   }
   if (video_) video_->finish();
   return log_.finish(zero);
+}
+
+std::vector<std::string> LiveSession::take_notes() {
+  std::vector<std::string> notes;
+  if (currents_full_ && !std::exchange(told_currents_, true))
+    notes.push_back(
+        fmt::format("the record keeps {} values of the currents: later ones are in "
+                    "commands.csv only",
+                    options_.max_logged));
+  if (kept_.seen_until && !std::exchange(told_sightings_, true))
+    notes.push_back(
+        fmt::format("the record keeps {} sightings: later ones are left out", options_.max_logged));
+  if (std::string low = look_at_disk(); !low.empty()) notes.push_back(std::move(low));
+  return notes;
+}
+
+/// A line, once, if the disk will be full soon; empty otherwise.
+std::string LiveSession::look_at_disk() {
+  const experiment::Tick* const tick = session_.tick();
+  if (options_.folder.empty() || told_space_ || !tick || tick->frame.t < disk_due_) return {};
+  disk_due_ = tick->frame.t + disk_period;
+  const std::optional<double> free = options_.free_space(options_.folder);
+  const experiment::Scenario& scenario = session_.scenario();
+  const double until = std::min(tick->frame.t + warned_before, longest_time(scenario, options_));
+  const double soon = needed_space(on_.rig, scenario.tick, until);
+  if (!free || *free >= soon) return {};
+  told_space_ = true;
+  return fmt::format(
+      "{}: only {:.0f} MB are free on its disk, too little for the record of the next half hour",
+      options_.folder.string(), *free / 1e6);
 }
 
 std::optional<vision::RecordedVideo> LiveSession::video() const {

@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
+#include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "microswarm/experiment/session/session.hpp"
 #include "microswarm/rig/runtime/coil_temperatures.hpp"
 #include "microswarm/rig/runtime/command_log.hpp"
 #include "microswarm/rig/runtime/devices.hpp"
+#include "microswarm/rig/runtime/disk_space.hpp"
 #include "microswarm/rig/runtime/live_rig.hpp"
 #include "microswarm/rig/runtime/rig_checks.hpp"
 #include "microswarm/vision/camera/video_recorder.hpp"
@@ -26,6 +31,10 @@ struct LiveOptions {
   bool without_limits = false;  ///< allows a coil system without limits of current and temperature
   bool coils_cold = false;      ///< assumes the coils at ambient temperature
   std::string note{};           ///< operator's note, kept in the record
+  std::optional<double> seconds{};      ///< after which the run is stopped, for the space it needs
+  std::size_t max_logged = 10'000'000;  ///< values kept of the currents, and of the sightings
+  /// Space that is free for a folder [B]; another one for tests.
+  std::function<std::optional<double>(const std::filesystem::path&)> free_space = rig::free_space;
 };
 
 /// Live numbers of a run on a rig.
@@ -51,7 +60,8 @@ struct LiveStatus {
 class LiveSession {
  public:
   /// Checks and opens the rig's devices. Throws HardwareError if a device fails, InputError if rig
-  /// and scenario do not fit, if the coils cannot hold the field, or if a limit is missing.
+  /// and scenario do not fit, if the coils cannot hold the field, if a limit is missing, or if
+  /// the folder's disk has clearly too little space.
   LiveSession(RigExperiment on, const LiveOptions& options);
   ~LiveSession() = default;
   LiveSession(const LiveSession&) = delete;
@@ -65,11 +75,14 @@ class LiveSession {
   /// stop.
   actuation::StopReport stop(const std::string& why) { return plant_->stop(why); }
   /// Sets the coils to zero after the last tick, finishes the log and adds currents and detections
-  /// to the record, up to 10,000,000 values of each. Returns the reason of a failure, or an empty
+  /// to the record, up to `max_logged` values of each. Returns the reason of a failure, or an empty
   /// string.
   std::string close();
   /// After close(): the recorded video, if requested.
   std::optional<vision::RecordedVideo> video() const;
+  /// Notes that came up since the last call, each once: little space on the disk, more values
+  /// than the record keeps. To be called in the thread that steps.
+  std::vector<std::string> take_notes();
   /// Numbers of the newest tick; to be called in the thread that steps.
   LiveStatus status() const;
   const Rig& rig() const { return on_.rig; }
@@ -81,13 +94,18 @@ class LiveSession {
   void require(const std::vector<RigCheck>& checks);
   void keep(const Detections& seen, double t);
   void keep(const CoilMoment& moment);
+  std::string look_at_disk();
 
+  LiveOptions options_;
   RigExperiment on_;
   Devices devices_;
   experiment::RigLog kept_;  ///< currents are written by the coils' thread, the rest by the run's
   CommandLog log_;
   std::unique_ptr<vision::VideoRecorder> video_;
   std::vector<std::string> warnings_;
+  std::atomic<bool> currents_full_ = false;
+  bool told_currents_ = false, told_sightings_ = false, told_space_ = false;
+  double disk_due_ = 0;  ///< time of the next look at the disk [s]
   std::optional<CoilTemperatures> temperatures_;
   std::shared_ptr<LiveRig> plant_;
   experiment::Session session_;

@@ -29,16 +29,18 @@ std::string short_number(const char* form, double value) {
 
 double legend_size(const cv::Mat& picture) { return std::clamp(picture.cols / 1200.0, 0.35, 2.0); }
 
-void take_in_colour(const formats::Image& picture, formats::Image& colour) {
-  colour.width = picture.width;
-  colour.height = picture.height;
+void take_in_colour(const formats::Image& picture, PictureSize size, formats::Image& colour) {
+  colour.width = size.width;
+  colour.height = size.height;
   colour.channels = 3;
-  colour.pixels.resize(3 * static_cast<std::size_t>(picture.width) * picture.height);
-  cv::Mat out = as_mat(colour);
+  colour.pixels.resize(3 * static_cast<std::size_t>(size.width) * size.height);
+  cv::Mat small = as_mat(picture), out = as_mat(colour);
+  if (size != PictureSize{picture.width, picture.height})
+    cv::resize(as_mat(picture), small, out.size(), 0, 0, cv::INTER_AREA);
   if (picture.channels == 3)
-    as_mat(picture).copyTo(out);
+    small.copyTo(out);
   else
-    cv::cvtColor(as_mat(picture), out, cv::COLOR_GRAY2RGB);
+    cv::cvtColor(small, out, cv::COLOR_GRAY2RGB);
 }
 
 /// Draws the scale bar at the lower left, and time and count at the upper left.
@@ -77,13 +79,24 @@ double scale_bar_length(double width) {
   return ten;
 }
 
-void TrackOverlay::follow(const std::vector<TrackRow>& rows, int frame, int height) {
+PictureSize TrackOverlay::size(PictureSize of_pictures) {
+  const double width = of_pictures.width, height = of_pictures.height;
+  const double times = std::sqrt(max_pixels / (width * height));
+  if (times >= 1) return of_pictures;
+  const auto shrunk = [times](double side) {  // even, as encoders need it
+    return std::max(2, 2 * static_cast<int>(0.5 * times * side));
+  };
+  return {shrunk(width), shrunk(height)};
+}
+
+void TrackOverlay::follow(const std::vector<TrackRow>& rows, int frame, int height,
+                          double um_per_px) {
   for (const TrackRow& row : rows) {
     if (static_cast<std::size_t>(row.id) >= trails_.size()) trails_.resize(row.id + 1);
     auto& trail = trails_[row.id];
     if (!trail) trail.emplace();
     trail->last_frame = frame;
-    trail->places_px.push_back(place_in_picture(row.position, height, um_per_px_));
+    trail->places_px.push_back(place_in_picture(row.position, height, um_per_px));
     if (trail->places_px.size() > trail_length) trail->places_px.pop_front();
   }
   for (auto& trail : trails_)
@@ -92,8 +105,12 @@ void TrackOverlay::follow(const std::vector<TrackRow>& rows, int frame, int heig
 
 const formats::Image& TrackOverlay::draw(const VideoFrame& frame,
                                          const std::vector<TrackRow>& rows) {
-  follow(rows, frame.index, frame.picture.height);
-  take_in_colour(frame.picture, shown_);
+  const PictureSize shown = size({frame.picture.width, frame.picture.height});
+  const double times = std::max(shown.width, shown.height) * 1.0 /
+                       std::max(frame.picture.width, frame.picture.height);
+  const double um_per_px = um_per_px_ / times;
+  follow(rows, frame.index, shown.height, um_per_px);
+  take_in_colour(frame.picture, shown, shown_);
   cv::Mat picture = as_mat(shown_);
   for (const TrackRow& row : rows) {
     const Trail& trail = *trails_[row.id];
@@ -102,19 +119,19 @@ const formats::Image& TrackOverlay::draw(const VideoFrame& frame,
       cv::line(picture, fine(trail.places_px[i - 1]), fine(trail.places_px[i]), colour, 1,
                cv::LINE_AA, fraction_bits);
     const int radius =
-        static_cast<int>(std::lround((row.radius / um_per_px_ + 2) * (1 << fraction_bits)));
+        static_cast<int>(std::lround((row.radius / um_per_px + 2) * (1 << fraction_bits)));
     cv::circle(picture, fine(trail.places_px.back()), radius, colour, 1, cv::LINE_AA,
                fraction_bits);
   }
-  const double size = std::clamp(picture.cols / 1600.0, 0.3, 1.5);
+  const double text_size = std::clamp(picture.cols / 1600.0, 0.3, 1.5);
   if (rows.size() <= max_numbered)
     for (const TrackRow& row : rows) {
       const Vec2 at = trails_[row.id]->places_px.back();
-      const double beside = row.radius / um_per_px_ + 3;
+      const double beside = row.radius / um_per_px + 3;
       draw_text(picture, std::to_string(row.id),
-                {static_cast<int>(at.x + beside), static_cast<int>(at.y - beside)}, size);
+                {static_cast<int>(at.x + beside), static_cast<int>(at.y - beside)}, text_size);
     }
-  draw_legend(picture, um_per_px_, frame.t, rows.size());
+  draw_legend(picture, um_per_px, frame.t, rows.size());
   return shown_;
 }
 

@@ -11,12 +11,25 @@
 
 namespace microswarm::vision {
 
+/// Sides of a picture [px].
+struct PictureSize {
+  int width = 0;
+  int height = 0;
+  bool operator==(const PictureSize&) const = default;
+};
+
 /// Draws tracks over the pictures: a circle around each robot, its trail, its number where there is
 /// room, a scale bar, time and count.
 class TrackOverlay {
  public:
+  /// Pictures with more pixels are shrunk: H.264 encoders hold about a hundred of them in memory.
+  static constexpr int max_pixels = 2048 * 2048;
+  /// Size in the overlay of pictures that are so large.
+  static PictureSize size(PictureSize of_pictures);
+
   explicit TrackOverlay(double um_per_px) : um_per_px_(um_per_px) {}
-  /// The frame in colour with its robots `rows`. Valid until the next call.
+  /// The frame in colour with its robots `rows`, as large as size() says. Valid until the next
+  /// call.
   const formats::Image& draw(const VideoFrame& frame, const std::vector<TrackRow>& rows);
 
  private:
@@ -24,7 +37,7 @@ class TrackOverlay {
     int last_frame = 0;
     std::deque<Vec2> places_px;
   };
-  void follow(const std::vector<TrackRow>& rows, int frame, int height);
+  void follow(const std::vector<TrackRow>& rows, int frame, int height, double um_per_px);
 
   double um_per_px_;
   std::vector<std::optional<Trail>> trails_;  ///< by id; empty for robots not seen for long
