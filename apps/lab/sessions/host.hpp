@@ -27,6 +27,8 @@ struct RigOpening {
   bool without_limits = false;
   bool coils_cold = false;
   bool drawn_swarm = false;
+  /// Takes a line for the operator, from any thread.
+  std::function<void(const std::string&)> note = [](const std::string&) {};
 };
 
 /// Source of a session.

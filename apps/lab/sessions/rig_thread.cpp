@@ -38,8 +38,8 @@ RigThread::RigThread(Opening opening, Callbacks callbacks)
 RigThread::~RigThread() { finish(); }
 
 void RigThread::end() {
+  Host::end();  // first: what is stopped by this has no fault
   guard_.stop("the session was closed");
-  Host::end();
 }
 
 void RigThread::stop(const std::string& why) { guard_.stop(why); }
@@ -190,8 +190,8 @@ void RigThread::step() {
   }
 }
 
-/// Sets the coils to zero and keeps the record.
-void RigThread::end_run() {
+/// Sets the coils to zero and keeps the record; `failure` is an exception's reason.
+void RigThread::end_run(const std::string& failure) {
   Standing& standing = publisher_.standing;
   const bool drove = standing_.state == RigState::armed;
   standing.plays = false;
@@ -200,7 +200,12 @@ void RigThread::end_run() {
   std::string lost = live_->close();
   drives_ = false;
   if (standing_.why.empty()) standing_.why = to_string(live_->session().result().status);
-  if (drove) standing_.zero = live_->stop("the run has ended");
+  if (drove) {
+    standing_.zero = live_->stop("the run has ended");
+    const bool is_closed = ends_ && failure.empty() && standing_.zero->good();
+    const std::string fault = is_closed || !failure.empty() ? failure : live_->fault();
+    if (!fault.empty()) fault_command_.start(live_->rig(), fault, standing_.folder);
+  }
   try {
     if (!standing_.folder.empty())
       live_->session().record_to(std::filesystem::path(standing_.folder) / record_name);
@@ -214,7 +219,7 @@ void RigThread::end_run() {
 
 void RigThread::fail(const std::string& why) {
   guard_.stop(why);
-  if (runs()) end_run();
+  if (runs()) end_run(why);
   publisher_.standing.trouble = why;
   if (live_ || last_) publisher_.tell_standing(session());
   tell_rig();

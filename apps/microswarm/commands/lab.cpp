@@ -100,6 +100,8 @@ int lab_command(const LabOptions& o, const Context& context) {
   options.listen = o.listen;
   options.port = static_cast<std::uint16_t>(o.port);
   options.opening = to_opening(o);
+  if (options.opening && options.opening->live)
+    options.opening->live->note = [](const std::string& line) { note_each({line}); };
   lab::Server server(std::move(options));
   if (!o.listen.empty())
     note("warning: anybody who reaches {} and has the token can use this lab, unencrypted\n",

@@ -146,6 +146,15 @@ std::string LiveSession::close() {
   return log_.finish(zero);
 }
 
+std::string LiveSession::fault() {
+  std::string why(plant_->fault());
+  const actuation::StopReport zero = stop("the run has ended");
+  if (zero.good()) return why;
+  if (!why.empty()) why += "; ";
+  return why + "the coil driver " +
+         (zero.confirmed ? zero.trouble : "did not confirm that the coils are at zero");
+}
+
 std::optional<vision::RecordedVideo> LiveSession::video() const {
   return video_ ? std::optional(video_->finish()) : std::nullopt;
 }

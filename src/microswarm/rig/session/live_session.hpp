@@ -68,6 +68,8 @@ class LiveSession {
   /// to the record, up to 10,000,000 values of each. Returns the reason of a failure, or an empty
   /// string.
   std::string close();
+  /// After close(): why the run ended with a fault, or why zero is not sure; empty otherwise.
+  std::string fault();
   /// After close(): the recorded video, if requested.
   std::optional<vision::RecordedVideo> video() const;
   /// Numbers of the newest tick; to be called in the thread that steps.
