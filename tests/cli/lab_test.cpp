@@ -216,7 +216,7 @@ class LabRigCommand : public LabCommand {
   }
 };
 
-TEST_F(LabRigCommand, AFaultIsToldToTheCommandOfTheFile) {
+TEST_F(LabRigCommand, AFaultIsToldToTheCommandOfTheFileAndByTheExitCode) {
   RunningLab lab(arguments(), at);
   RigPage page(lab, at.folder / "runs");
   page.drive(0);
@@ -226,8 +226,22 @@ TEST_F(LabRigCommand, AFaultIsToldToTheCommandOfTheFile) {
   EXPECT_TRUE(names(read("told"), "no word from the page")) << read("told");
   EXPECT_TRUE(names(read("told"), fs::canonical(at.folder / "runs").string())) << read("told");
   const Outcome outcome = lab.end();
+  EXPECT_EQ(outcome.code, 4) << outcome.err;
   EXPECT_TRUE(names(outcome.err, "note: safety.on_fault: sh ended with exit code 7"))
       << outcome.err;
+}
+
+TEST_F(LabRigCommand, ItsLastRunThatDroveCounts) {
+  RunningLab lab(arguments(), at);
+  RigPage page(lab, at.folder / "runs");
+  page.drive(0);
+  page.await_records(1);
+  fs::remove(at.folder / "told");
+  page.drive(1);
+  page.ask(R"({"do": "end", "id": 2})");
+  page.await_records(2);
+  EXPECT_EQ(lab.end().code, 0);
+  EXPECT_FALSE(exists("told"));
 }
 
 TEST_F(LabRigCommand, CtrlCWhileItDrivesIsNoFault) {

@@ -27,6 +27,8 @@ struct RigOpening {
   bool without_limits = false;
   bool coils_cold = false;
   bool drawn_swarm = false;
+  /// Called after each run that drives the coils, when they are at zero: whether it had no fault.
+  std::function<void(bool good)> ended = [](bool) {};
   /// Takes a line for the operator, from any thread.
   std::function<void(const std::string&)> note = [](const std::string&) {};
 };

@@ -205,6 +205,7 @@ void RigThread::end_run(const std::string& failure) {
     const bool is_closed = ends_ && failure.empty() && standing_.zero->good();
     const std::string fault = is_closed || !failure.empty() ? failure : live_->fault();
     if (!fault.empty()) fault_command_.start(live_->rig(), fault, standing_.folder);
+    opening_.live->ended(fault.empty());
   }
   try {
     if (!standing_.folder.empty())
