@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "inputs.hpp"
+#include "notices.hpp"
 #include "program.hpp"
 
 namespace microswarm::test {
@@ -100,6 +101,7 @@ class RunningLab {
            "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n";
   }
   std::uint16_t port() const { return static_cast<std::uint16_t>(std::stoi("0" + port_)); }
+  void send(int signal) const { program_->send(signal); }
   /// Ends it by Ctrl-C.
   Outcome end() {
     program_->send(SIGINT);
@@ -250,6 +252,37 @@ TEST_F(LabRigCommand, CtrlCWhileItDrivesIsNoFault) {
   page.drive(0);
   EXPECT_EQ(lab.end().code, 0);
   EXPECT_FALSE(exists("told"));
+}
+
+TEST_F(LabRigCommand, WithoutCurrentsItsMainLoopGivesSignsOfLife) {
+  const Notices manager("@microswarm_lab_test_" + std::to_string(::getpid()));
+  manager.ask(at, 200);
+  RunningLab lab(arguments(), at);
+  EXPECT_TRUE(manager.hears("READY=1"));
+  EXPECT_GE(Notices::signs(manager.within(1500)), 5);
+  lab.send(SIGSTOP);
+  manager.within(100);
+  EXPECT_EQ(manager.within(600), std::vector<std::string>{});
+  lab.send(SIGCONT);
+  EXPECT_GE(Notices::signs(manager.within(1000)), 3);
+  EXPECT_EQ(lab.end().code, 0);
+  EXPECT_TRUE(manager.hears("STOPPING=1"));
+}
+
+TEST_F(LabRigCommand, SignsOfLifeGoOnFromRunToRun) {
+  const Notices manager("@microswarm_lab_test_" + std::to_string(::getpid()));
+  manager.ask(at, 200);
+  RunningLab lab(arguments(), at);
+  RigPage page(lab, at.folder / "runs");
+  page.drive(0);
+  const std::vector<std::string> driven = manager.within(0);
+  EXPECT_GE(Notices::signs(driven), 8);
+  EXPECT_TRUE(std::ranges::any_of(driven, [](const std::string& message) {
+    return message.starts_with("STATUS=") && names(message, "driven");
+  }));
+  EXPECT_TRUE(manager.hears("no word from the page"));
+  EXPECT_GE(Notices::signs(manager.within(1000)), 3);
+  EXPECT_EQ(lab.end().code, 4);
 }
 
 /// Command lines are seen by all users.

@@ -27,8 +27,10 @@ struct RigOpening {
   bool without_limits = false;
   bool coils_cold = false;
   bool drawn_swarm = false;
-  /// Called after each run that drives the coils, when they are at zero: whether it had no fault.
-  std::function<void(bool good)> ended = [](bool) {};
+  /// Called in the coils' thread after each output of a run that drives them.
+  std::function<void()> driven{};
+  /// Called after such a run with its fault, if any, when the coils are at zero.
+  std::function<void(const std::string& fault)> ended = [](const std::string&) {};
   /// Takes a line for the operator, from any thread.
   std::function<void(const std::string&)> note = [](const std::string&) {};
 };

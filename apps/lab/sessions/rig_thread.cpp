@@ -124,7 +124,8 @@ void RigThread::begin_run(bool dry, std::uint64_t stops) {
                                  .idle = dry,
                                  .folder = dry ? std::filesystem::path() : new_folder(),
                                  .without_limits = opening_.live->without_limits,
-                                 .coils_cold = opening_.live->coils_cold};
+                                 .coils_cold = opening_.live->coils_cold,
+                                 .driven = dry ? nullptr : opening_.live->driven};
   keep_last();
   standing_ = {.state = RigState::opening, .folder = options.folder.string()};
   tell_rig();
@@ -205,7 +206,7 @@ void RigThread::end_run(const std::string& failure) {
     const bool is_closed = ends_ && failure.empty() && standing_.zero->good();
     const std::string fault = is_closed || !failure.empty() ? failure : live_->fault();
     if (!fault.empty()) fault_command_.start(live_->rig(), fault, standing_.folder);
-    opening_.live->ended(fault.empty());
+    opening_.live->ended(fault);
   }
   try {
     if (!standing_.folder.empty())

@@ -14,6 +14,7 @@
 #include "rig/rig_notes.hpp"
 #include "rig/rig_settings.hpp"
 #include "support/options.hpp"
+#include "support/service_manager.hpp"
 
 namespace microswarm::cli {
 namespace {
@@ -100,9 +101,12 @@ int lab_command(const LabOptions& o, const Context& context) {
   options.listen = o.listen;
   options.port = static_cast<std::uint16_t>(o.port);
   options.opening = to_opening(o);
-  bool coils_good = true;  // of the last run that drove them
+  ServiceManager service;
+  options.lives = [&] { service.live(); };
+  std::string fault;  // of the last run that drove the coils
   if (options.opening && options.opening->live) {
-    options.opening->live->ended = [&](bool good) { coils_good = good; };
+    options.opening->live->driven = [&] { service.drive(); };
+    options.opening->live->ended = [&](const std::string& why) { service.rest(fault = why); };
     options.opening->live->note = [](const std::string& line) { note_each({line}); };
   }
   std::optional<lab::Server> server(std::in_place, std::move(options));
@@ -119,7 +123,9 @@ int lab_command(const LabOptions& o, const Context& context) {
     keys.emplace([&] { server->stop_rigs("the emergency key was pressed"); }, [](const Key&) {},
                  context.stop);
   if (keys && keys->are_there()) note("space, e or Esc: coils to zero at once, as on the page\n");
+  service.ready();
   const bool has_ended = server->run(context.stop);
+  service.stopping("the lab has ended");
   // A session that still reads a large file has nothing to lose and cannot be stopped. A session
   // with a rig is waited for.
   if (!has_ended && !is_live) {
@@ -128,7 +134,7 @@ int lab_command(const LabOptions& o, const Context& context) {
   }
   keys.reset();
   server.reset();
-  return coils_good ? complete : hardware;
+  return fault.empty() ? complete : hardware;
 }
 
 }  // namespace

@@ -18,6 +18,7 @@
 #include "rig/rig_settings.hpp"
 #include "rig/run/rig_operator.hpp"
 #include "rig/run/rig_status.hpp"
+#include "support/service_manager.hpp"
 
 namespace microswarm::cli {
 namespace {
@@ -223,7 +224,8 @@ void require_person(const rig::Rig& rig, const RigRunOptions& o) {
 /// Runs a session to its end, operated by keys; `failed` gets an exception's reason when the coils
 /// are at zero. Returns which data was lost, see LiveSession::close().
 std::string operate(rig::LiveSession& session, bool drives_coils, std::optional<double> seconds,
-                    const std::function<void(const std::string&)>& failed, const Context& context) {
+                    const std::function<void(const std::string&)>& failed, ServiceManager& service,
+                    const Context& context) {
   RigOperator person(session);
   const RigKeys keys([&] { session.stop("the emergency key was pressed"); },
                      [&](const Key& key) { person.press(key); }, context.stop);
@@ -232,9 +234,13 @@ std::string operate(rig::LiveSession& session, bool drives_coils, std::optional<
     drive(session, seconds ? context.within(*seconds) : context.stop);
   } catch (const std::exception& error) {
     session.stop(error.what());
+    service.stopping(error.what());
     failed(error.what());
     throw;
   }
+  const std::string why = session.fault();
+  service.stopping(why.empty() ? to_string(session.session().result().status)
+                               : std::string_view(why));
   return session.close();
 }
 
@@ -253,19 +259,24 @@ int rig_run(const RigRunOptions& o, const Context& context) {
   vision::set_picture_threads(1);
   rig::FaultCommand command([](const std::string& failed) { note("note: {}\n", failed); });
   const auto tell_fault = [&](const std::string& why) { command.start(on.rig, why, o.out); };
+  ServiceManager service;
   rig::LiveSession live(on, {.dry = o.dry_run,
                              .folder = o.out,
                              .video = o.video,
                              .without_limits = o.coils.without_limits,
                              .coils_cold = o.coils.coils_cold,
-                             .note = o.note});
+                             .note = o.note,
+                             .driven = [&] {
+                               service.ready();
+                               service.drive();
+                             }});
   experiment::Session& session = live.session();
   note_each(live.warnings());
   note_virtual_obstacles(on);
   if (o.dry_run) note("dry run: no current is sent to the coils\n");
   const auto growing = grow_record(session, o.out);
-  std::string lost =
-      operate(live, rig::has_coil_device(on.rig) && !o.dry_run, o.seconds, tell_fault, context);
+  std::string lost = operate(live, rig::has_coil_device(on.rig) && !o.dry_run, o.seconds,
+                             tell_fault, service, context);
   if (const std::string why = live.fault(); !why.empty()) tell_fault(why);
   const std::optional<vision::RecordedVideo> video = live.video();
   const rig::RigTiming timing = live.live().timing();

@@ -10,7 +10,7 @@
 
 namespace microswarm {
 
-/// Starts a program without a shell, in a process group of its own, with default signals.
+/// Starts a program without a shell, in its own process group, with default signals.
 class Spawning {
  public:
   Spawning();

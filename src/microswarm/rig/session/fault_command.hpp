@@ -11,7 +11,7 @@
 
 namespace microswarm::rig {
 
-/// Starts the command of a rig's `safety.on_fault`, and ends it after 10 s. Threads of its own wait
+/// Starts the command of a rig's `safety.on_fault`, and ends it after 10 s. Separate threads wait
 /// for it, so that it delays nothing.
 class FaultCommand {
  public:

@@ -81,6 +81,7 @@ LiveSession::LiveSession(RigExperiment on, const LiveOptions& options)
       kept_(make_log(on_.rig, options.note)),
       log_(options.folder, on_.rig.system, options.dry),
       video_(video_recorder(options.video, devices_.camera_rate)),
+      driven_(options.driven),
       plant_(std::make_shared<LiveRig>(
           on_.scenario(), on_.experiment.world.map, on_.rig, std::move(devices_.camera),
           devices_.scale, devices_.driver(),
@@ -134,6 +135,7 @@ void LiveSession::keep(const CoilMoment& moment) {
                           moment.output.acknowledged.end());
   }
   if (temperatures_) temperatures_->take(moment.output.temperatures);
+  if (driven_) driven_();
 }
 
 std::string LiveSession::close() {

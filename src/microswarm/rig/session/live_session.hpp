@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -26,6 +27,7 @@ struct LiveOptions {
   bool without_limits = false;  ///< allows a coil system without limits of current and temperature
   bool coils_cold = false;      ///< assumes the coils at ambient temperature
   std::string note{};           ///< operator's note, kept in the record
+  std::function<void()> driven{};  ///< called in the coils' thread after each output
 };
 
 /// Live numbers of a run on a rig.
@@ -68,7 +70,8 @@ class LiveSession {
   /// to the record, up to 10,000,000 values of each. Returns the reason of a failure, or an empty
   /// string.
   std::string close();
-  /// After close(): why the run ended with a fault, or why zero is not sure; empty otherwise.
+  /// Why the run ended with a fault, or why zero is not sure; empty otherwise. Sets the coils to
+  /// zero after the last tick.
   std::string fault();
   /// After close(): the recorded video, if requested.
   std::optional<vision::RecordedVideo> video() const;
@@ -91,6 +94,7 @@ class LiveSession {
   std::unique_ptr<vision::VideoRecorder> video_;
   std::vector<std::string> warnings_;
   std::optional<CoilTemperatures> temperatures_;
+  const std::function<void()> driven_;
   std::shared_ptr<LiveRig> plant_;
   experiment::Session session_;
 };
