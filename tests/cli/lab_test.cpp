@@ -93,6 +93,12 @@ class RunningLab {
            "\r\nConnection: close\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" +
            body;
   }
+  /// A request to close a session.
+  std::string closing(const std::string& session) const {
+    return "DELETE /api/sessions/" + session +
+           "?token=" + said_.substr(said_.find("token=") + 6, 32) +
+           " HTTP/1.1\r\nHost: 127.0.0.1:" + port_ + "\r\nConnection: close\r\n\r\n";
+  }
   /// A request for the stream of a session.
   std::string stream(const std::string& session) const {
     return "GET /api/stream/" + session + "?token=" + said_.substr(said_.find("token=") + 6, 32) +
@@ -121,8 +127,10 @@ class RigPage {
     const std::string opened = Loopback(lab.port()).ask(lab.opening("{}"));
     const std::size_t at = opened.find("\"session\":");
     EXPECT_NE(at, std::string::npos) << opened;
-    stream_.say(lab.stream(std::to_string(std::atoi(opened.c_str() + at + 10))));
+    number = std::to_string(std::atoi(opened.c_str() + at + 10));
+    stream_.say(lab.stream(number));
   }
+  std::string number;  ///< of the session
   /// Sends a request as a frame of WebSocket whose mask is 0.
   void ask(const std::string& request) {
     ASSERT_LT(request.size(), 126u);
@@ -252,6 +260,23 @@ TEST_F(LabRigCommand, CtrlCWhileItDrivesIsNoFault) {
   page.drive(0);
   EXPECT_EQ(lab.end().code, 0);
   EXPECT_FALSE(exists("told"));
+}
+
+TEST_F(LabRigCommand, ACommandThatHangsHoldsUpNoPage) {
+  Arguments hangs = arguments();
+  hangs.back() = "safety.on_fault=[sleep, '100']";
+  const Notices manager("@microswarm_lab_test_" + std::to_string(::getpid()));
+  manager.ask(at, 200);
+  RunningLab lab(hangs, at);
+  RigPage page(lab, at.folder / "runs");
+  page.drive(0);
+  page.await_records(1);
+  const std::string reply = Loopback(lab.port()).ask(lab.closing(page.number));
+  EXPECT_TRUE(reply.starts_with("HTTP/1.1 200 ")) << reply;
+  sleep_ms(500);  // until the session has ended
+  manager.within(0);
+  EXPECT_GE(Notices::signs(manager.within(1000)), 3);
+  EXPECT_EQ(lab.end().code, 4);
 }
 
 TEST_F(LabRigCommand, WithoutCurrentsItsMainLoopGivesSignsOfLife) {

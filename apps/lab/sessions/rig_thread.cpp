@@ -106,6 +106,7 @@ void RigThread::close() {
   if (runs()) end_run();
   guard_.release();
   live_.reset();
+  fault_command_.finish();  // not in the destructor, which runs in the thread of the pages
 }
 
 /// Reopens the rig.

@@ -17,7 +17,7 @@ class FaultCommand {
  public:
   /// `note` gets in one line what failed, from another thread.
   explicit FaultCommand(std::function<void(const std::string&)> note) : note_(std::move(note)) {}
-  /// Waits until the started commands have ended, 10 s at most.
+  /// As finish().
   ~FaultCommand() = default;
   FaultCommand(const FaultCommand&) = delete;
   FaultCommand& operator=(const FaultCommand&) = delete;
@@ -25,6 +25,8 @@ class FaultCommand {
   /// Starts the rig's command, if any, with the reason and the record's folder in its environment
   /// (MICROSWARM_FAULT and MICROSWARM_RECORD); to be called when the coils are at zero.
   void start(const Rig& rig, const std::string& reason, const std::filesystem::path& record);
+  /// Waits until the started commands have ended, 10 s at most.
+  void finish() { running_.clear(); }
 
  private:
   const std::function<void(const std::string&)> note_;
