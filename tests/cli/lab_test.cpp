@@ -5,10 +5,12 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
 
 #include "inputs.hpp"
+#include "notices.hpp"
 #include "program.hpp"
 
 namespace microswarm::test {
@@ -56,6 +58,13 @@ class Loopback {
     return reply;
   }
 
+  /// Forgets what has come.
+  void drain() const {
+    char some[65536];
+    while (::recv(socket_, some, sizeof some, MSG_DONTWAIT) > 0) {
+    }
+  }
+
  private:
   int socket_;
 };
@@ -84,7 +93,21 @@ class RunningLab {
            "\r\nConnection: close\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" +
            body;
   }
+  /// A request to close a session.
+  std::string closing(const std::string& session) const {
+    return "DELETE /api/sessions/" + session +
+           "?token=" + said_.substr(said_.find("token=") + 6, 32) +
+           " HTTP/1.1\r\nHost: 127.0.0.1:" + port_ + "\r\nConnection: close\r\n\r\n";
+  }
+  /// A request for the stream of a session.
+  std::string stream(const std::string& session) const {
+    return "GET /api/stream/" + session + "?token=" + said_.substr(said_.find("token=") + 6, 32) +
+           " HTTP/1.1\r\nHost: 127.0.0.1:" + port_ + "\r\nOrigin: http://127.0.0.1:" + port_ +
+           "\r\nConnection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
+           "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n";
+  }
   std::uint16_t port() const { return static_cast<std::uint16_t>(std::stoi("0" + port_)); }
+  void send(int signal) const { program_->send(signal); }
   /// Ends it by Ctrl-C.
   Outcome end() {
     program_->send(SIGINT);
@@ -95,6 +118,51 @@ class RunningLab {
   std::optional<Program> program_;
   std::string said_;
   std::string port_;
+};
+
+/// A page with the controls of a rig's lab, which writes its runs into a folder.
+class RigPage {
+ public:
+  RigPage(const RunningLab& lab, fs::path runs) : stream_(lab.port()), runs_(std::move(runs)) {
+    const std::string opened = Loopback(lab.port()).ask(lab.opening("{}"));
+    const std::size_t at = opened.find("\"session\":");
+    EXPECT_NE(at, std::string::npos) << opened;
+    number = std::to_string(std::atoi(opened.c_str() + at + 10));
+    stream_.say(lab.stream(number));
+  }
+  std::string number;  ///< of the session
+  /// Sends a request as a frame of WebSocket whose mask is 0.
+  void ask(const std::string& request) {
+    ASSERT_LT(request.size(), 126u);
+    stream_.say(std::string("\x81") + static_cast<char>(0x80 | request.size()) +
+                std::string(4, '\0') + request);
+  }
+  /// Drives the coils for a second, after `before` runs.
+  void drive(std::ptrdiff_t before) {
+    for (int i = 0; i < 3000 && count("") <= before; ++i) beat(i % 50 == 0);
+    for (int i = 0; i < 100; ++i) beat(false);
+  }
+  /// Until so many runs have a record.
+  void await_records(std::ptrdiff_t count_then) {
+    for (int i = 0; i < 3000 && count("run.h5") < count_then; ++i) sleep_ms(10);
+    EXPECT_EQ(count("run.h5"), count_then);
+  }
+
+ private:
+  void beat(bool arms) {
+    ask(R"({"do": "beat"})");
+    if (arms) ask(R"({"do": "arm", "id": 1})");
+    stream_.drain();
+    sleep_ms(10);
+  }
+  std::ptrdiff_t count(const std::string& file) const {
+    std::error_code none;
+    return std::ranges::count_if(fs::directory_iterator(runs_, none),
+                                 [&](const auto& run) { return fs::exists(run.path() / file); });
+  }
+
+  Loopback stream_;
+  fs::path runs_;
 };
 
 class LabCommand : public CommandLine {};
@@ -138,6 +206,108 @@ TEST_F(LabCommand, ServesScenariosRecordsAndSimulatedRigsUntilCtrlC) {
     EXPECT_EQ(outcome.code, 0);
     EXPECT_EQ(outcome.err, "");
   }
+}
+
+class LabRigCommand : public LabCommand {
+ protected:
+  Arguments arguments() const {
+    Arguments all{(shipped / "first_rig.yaml").string(), "--rig",
+                  (shipped / "rigs/vortex.yaml").string(), "--out", "runs"};
+    // A busy computer is no fault here.
+    for (const char* setting : {"lost_swarm_s=20", "max_frame_age_s=20", "deadman_s=20",
+                                "max_pause_s=20", "missed_deadlines=1000"})
+      all.insert(all.end(), {"--set-rig", std::string("safety.") + setting});
+    const std::string told = (at.folder / "told").string();
+    all.insert(all.end(), {"--set-rig",
+                           "safety.on_fault=[sh, -c, 'echo \"$MICROSWARM_FAULT\" "
+                           "\"$MICROSWARM_RECORD\" >" +
+                               told + "; exit 7']"});
+    return all;
+  }
+};
+
+TEST_F(LabRigCommand, AFaultIsToldToTheCommandOfTheFileAndByTheExitCode) {
+  RunningLab lab(arguments(), at);
+  RigPage page(lab, at.folder / "runs");
+  page.drive(0);
+  page.await_records(1);  // a page that is silent is a fault
+  for (int i = 0; i < 1000 && (!exists("told") || read("told").empty()); ++i) sleep_ms(10);
+  ASSERT_TRUE(exists("told"));
+  EXPECT_TRUE(names(read("told"), "no word from the page")) << read("told");
+  EXPECT_TRUE(names(read("told"), fs::canonical(at.folder / "runs").string())) << read("told");
+  const Outcome outcome = lab.end();
+  EXPECT_EQ(outcome.code, 4) << outcome.err;
+  EXPECT_TRUE(names(outcome.err, "note: safety.on_fault: sh ended with exit code 7"))
+      << outcome.err;
+}
+
+TEST_F(LabRigCommand, ItsLastRunThatDroveCounts) {
+  RunningLab lab(arguments(), at);
+  RigPage page(lab, at.folder / "runs");
+  page.drive(0);
+  page.await_records(1);
+  fs::remove(at.folder / "told");
+  page.drive(1);
+  page.ask(R"({"do": "end", "id": 2})");
+  page.await_records(2);
+  EXPECT_EQ(lab.end().code, 0);
+  EXPECT_FALSE(exists("told"));
+}
+
+TEST_F(LabRigCommand, CtrlCWhileItDrivesIsNoFault) {
+  RunningLab lab(arguments(), at);
+  RigPage page(lab, at.folder / "runs");
+  page.drive(0);
+  EXPECT_EQ(lab.end().code, 0);
+  EXPECT_FALSE(exists("told"));
+}
+
+TEST_F(LabRigCommand, ACommandThatHangsHoldsUpNoPage) {
+  Arguments hangs = arguments();
+  hangs.back() = "safety.on_fault=[sleep, '100']";
+  const Notices manager("@microswarm_lab_test_" + std::to_string(::getpid()));
+  manager.ask(at, 200);
+  RunningLab lab(hangs, at);
+  RigPage page(lab, at.folder / "runs");
+  page.drive(0);
+  page.await_records(1);
+  const std::string reply = Loopback(lab.port()).ask(lab.closing(page.number));
+  EXPECT_TRUE(reply.starts_with("HTTP/1.1 200 ")) << reply;
+  sleep_ms(500);  // until the session has ended
+  manager.within(0);
+  EXPECT_GE(Notices::signs(manager.within(1000)), 3);
+  EXPECT_EQ(lab.end().code, 4);
+}
+
+TEST_F(LabRigCommand, WithoutCurrentsItsMainLoopGivesSignsOfLife) {
+  const Notices manager("@microswarm_lab_test_" + std::to_string(::getpid()));
+  manager.ask(at, 200);
+  RunningLab lab(arguments(), at);
+  EXPECT_TRUE(manager.hears("READY=1"));
+  EXPECT_GE(Notices::signs(manager.within(1500)), 5);
+  lab.send(SIGSTOP);
+  manager.within(100);
+  EXPECT_EQ(manager.within(600), std::vector<std::string>{});
+  lab.send(SIGCONT);
+  EXPECT_GE(Notices::signs(manager.within(1000)), 3);
+  EXPECT_EQ(lab.end().code, 0);
+  EXPECT_TRUE(manager.hears("STOPPING=1"));
+}
+
+TEST_F(LabRigCommand, SignsOfLifeGoOnFromRunToRun) {
+  const Notices manager("@microswarm_lab_test_" + std::to_string(::getpid()));
+  manager.ask(at, 200);
+  RunningLab lab(arguments(), at);
+  RigPage page(lab, at.folder / "runs");
+  page.drive(0);
+  const std::vector<std::string> driven = manager.within(0);
+  EXPECT_GE(Notices::signs(driven), 8);
+  EXPECT_TRUE(std::ranges::any_of(driven, [](const std::string& message) {
+    return message.starts_with("STATUS=") && names(message, "driven");
+  }));
+  EXPECT_TRUE(manager.hears("no word from the page"));
+  EXPECT_GE(Notices::signs(manager.within(1000)), 3);
+  EXPECT_EQ(lab.end().code, 4);
 }
 
 /// Command lines are seen by all users.

@@ -164,6 +164,7 @@ class Server::Impl {
         io_.stop();
         return;
       }
+      options_.lives();
       hub_.reap();
       for (Tcp::acceptor* acceptor : std::exchange(refused_, {})) accept(*acceptor);
       if (Clock::now() >= swept_ + options_.limits.sweep_period) {

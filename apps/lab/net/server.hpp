@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,6 +22,7 @@ struct ServerOptions {
   std::string listen{};                        ///< address; empty for this computer alone
   std::uint16_t port = 0;                      ///< 0 for any free port
   Limits limits{};
+  std::function<void()> lives = [] {};  ///< called by the loop of input and output, every 50 ms
 };
 
 /// Serves the lab's page and its sessions by HTTP and WebSocket; docs/reference/lab-protocol.md

@@ -27,6 +27,12 @@ struct RigOpening {
   bool without_limits = false;
   bool coils_cold = false;
   bool drawn_swarm = false;
+  /// Called in the coils' thread after each output of a run that drives them.
+  std::function<void()> driven{};
+  /// Called after such a run with its fault, if any, when the coils are at zero.
+  std::function<void(const std::string& fault)> ended = [](const std::string&) {};
+  /// Takes a line for the operator, from any thread.
+  std::function<void(const std::string&)> note = [](const std::string&) {};
 };
 
 /// Source of a session.

@@ -38,8 +38,8 @@ RigThread::RigThread(Opening opening, Callbacks callbacks)
 RigThread::~RigThread() { finish(); }
 
 void RigThread::end() {
+  Host::end();  // first: what is stopped by this has no fault
   guard_.stop("the session was closed");
-  Host::end();
 }
 
 void RigThread::stop(const std::string& why) { guard_.stop(why); }
@@ -106,6 +106,7 @@ void RigThread::close() {
   if (runs()) end_run();
   guard_.release();
   live_.reset();
+  fault_command_.finish();  // not in the destructor, which runs in the thread of the pages
 }
 
 /// Reopens the rig.
@@ -124,7 +125,8 @@ void RigThread::begin_run(bool dry, std::uint64_t stops) {
                                  .idle = dry,
                                  .folder = dry ? std::filesystem::path() : new_folder(),
                                  .without_limits = opening_.live->without_limits,
-                                 .coils_cold = opening_.live->coils_cold};
+                                 .coils_cold = opening_.live->coils_cold,
+                                 .driven = dry ? nullptr : opening_.live->driven};
   keep_last();
   standing_ = {.state = RigState::opening, .folder = options.folder.string()};
   tell_rig();
@@ -194,8 +196,8 @@ void RigThread::step() {
   }
 }
 
-/// Sets the coils to zero and keeps the record.
-void RigThread::end_run() {
+/// Sets the coils to zero and keeps the record; `failure` is an exception's reason.
+void RigThread::end_run(const std::string& failure) {
   Standing& standing = publisher_.standing;
   const bool drove = standing_.state == RigState::armed;
   standing.plays = false;
@@ -204,7 +206,13 @@ void RigThread::end_run() {
   std::string lost = live_->close();
   drives_ = false;
   if (standing_.why.empty()) standing_.why = to_string(live_->session().result().status);
-  if (drove) standing_.zero = live_->stop("the run has ended");
+  if (drove) {
+    standing_.zero = live_->stop("the run has ended");
+    const bool is_closed = ends_ && failure.empty() && standing_.zero->good();
+    const std::string fault = is_closed || !failure.empty() ? failure : live_->fault();
+    if (!fault.empty()) fault_command_.start(live_->rig(), fault, standing_.folder);
+    opening_.live->ended(fault);
+  }
   try {
     if (!standing_.folder.empty())
       experiment::write_whole_record(live_->session().record(),
@@ -219,7 +227,7 @@ void RigThread::end_run() {
 
 void RigThread::fail(const std::string& why) {
   guard_.stop(why);
-  if (runs()) end_run();
+  if (runs()) end_run(why);
   publisher_.standing.trouble = why;
   if (live_ || last_) publisher_.tell_standing(session());
   tell_rig();

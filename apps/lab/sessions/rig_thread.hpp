@@ -11,6 +11,7 @@
 #include "lab/stream/picture_sender.hpp"
 #include "lab/stream/rig_stream.hpp"
 #include "microswarm/experiment/session/growing_record.hpp"
+#include "microswarm/rig/session/fault_command.hpp"
 
 namespace microswarm::lab {
 
@@ -45,7 +46,7 @@ class RigThread : public Host {
   void begin_run(bool dry, std::uint64_t stops);
   void keep_last();
   void step();
-  void end_run();
+  void end_run(const std::string& failure = {});
   void tell_rig();
   void tell_controls();
   std::filesystem::path new_folder() const;
@@ -65,6 +66,8 @@ class RigThread : public Host {
   Clock::time_point told_{};          ///< time of the last rig message
   PictureSender pictures_;
   RigGuard guard_;
+  rig::FaultCommand fault_command_{
+      [this](const std::string& failed) { opening_.live->note(failed); }};
 };
 
 }  // namespace microswarm::lab

@@ -14,6 +14,7 @@
 #include "rig/rig_notes.hpp"
 #include "rig/rig_settings.hpp"
 #include "support/options.hpp"
+#include "support/service_manager.hpp"
 
 namespace microswarm::cli {
 namespace {
@@ -100,28 +101,40 @@ int lab_command(const LabOptions& o, const Context& context) {
   options.listen = o.listen;
   options.port = static_cast<std::uint16_t>(o.port);
   options.opening = to_opening(o);
-  lab::Server server(std::move(options));
+  ServiceManager service;
+  options.lives = [&] { service.live(); };
+  std::string fault;  // of the last run that drove the coils
+  if (options.opening && options.opening->live) {
+    options.opening->live->driven = [&] { service.drive(); };
+    options.opening->live->ended = [&](const std::string& why) { service.rest(fault = why); };
+    options.opening->live->note = [](const std::string& line) { note_each({line}); };
+  }
+  std::optional<lab::Server> server(std::in_place, std::move(options));
   if (!o.listen.empty())
     note("warning: anybody who reaches {} and has the token can use this lab, unencrypted\n",
          o.listen);
-  print("{}\n", server.url());
+  print("{}\n", server->url());
   flush_output();
   std::optional<lab::AddressFile> page;
-  if (!o.no_open && has_desktop()) open_in_browser(page.emplace(server.url()));
+  if (!o.no_open && has_desktop()) open_in_browser(page.emplace(server->url()));
   const bool is_live = !o.rig.empty() && !o.simulate;
   std::optional<RigKeys> keys;
   if (is_live)
-    keys.emplace([&] { server.stop_rigs("the emergency key was pressed"); }, [](const Key&) {},
+    keys.emplace([&] { server->stop_rigs("the emergency key was pressed"); }, [](const Key&) {},
                  context.stop);
   if (keys && keys->are_there()) note("space, e or Esc: coils to zero at once, as on the page\n");
-  const bool has_ended = server.run(context.stop);
+  service.ready();
+  const bool has_ended = server->run(context.stop);
+  service.stopping("the lab has ended");
   // A session that still reads a large file has nothing to lose and cannot be stopped. A session
   // with a rig is waited for.
   if (!has_ended && !is_live) {
     page.reset();
     std::_Exit(ok);
   }
-  return complete;
+  keys.reset();
+  server.reset();
+  return fault.empty() ? complete : hardware;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `rig run` runs a scenario on a rig in real time.
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -7,6 +8,7 @@
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/rig/runtime/rig_checks.hpp"
+#include "microswarm/rig/session/fault_command.hpp"
 #include "microswarm/rig/session/live_session.hpp"
 #include "microswarm/vision/image/threads.hpp"
 #include "rig/keys/rig_keys.hpp"
@@ -16,6 +18,7 @@
 #include "rig/rig_settings.hpp"
 #include "rig/run/rig_operator.hpp"
 #include "rig/run/rig_status.hpp"
+#include "support/service_manager.hpp"
 
 namespace microswarm::cli {
 namespace {
@@ -219,15 +222,26 @@ void require_person(const rig::Rig& rig, const RigRunOptions& o) {
                          "driven for a drawn swarm; for a test, run with --drawn-swarm");
 }
 
-/// Runs a session to its end, operated by keys. Returns which data was lost, see
-/// LiveSession::close().
+/// Runs a session to its end, operated by keys; `failed` gets an exception's reason when the coils
+/// are at zero. Returns which data was lost, see LiveSession::close().
 std::string operate(rig::LiveSession& session, bool drives_coils, std::optional<double> seconds,
+                    const std::function<void(const std::string&)>& failed, ServiceManager& service,
                     const Context& context) {
   RigOperator person(session);
   const RigKeys keys([&] { session.stop("the emergency key was pressed"); },
                      [&](const Key& key) { person.press(key); }, context.stop);
   if (keys.are_there() || drives_coils) note_how_to_stop(keys.are_there(), RigOperator::keys);
-  drive(session, seconds ? context.within(*seconds) : context.stop);
+  try {
+    drive(session, seconds ? context.within(*seconds) : context.stop);
+  } catch (const std::exception& error) {
+    session.stop(error.what());
+    service.stopping(error.what());
+    failed(error.what());
+    throw;
+  }
+  const std::string why = session.fault();
+  service.stopping(why.empty() ? to_string(session.session().result().status)
+                               : std::string_view(why));
   return session.close();
 }
 
@@ -244,19 +258,28 @@ int rig_run(const RigRunOptions& o, const Context& context) {
   if (!o.overwrite) require_new(o.out, o.video);
   const OutFolder hold(o.out);
   vision::set_picture_threads(1);
+  rig::FaultCommand command([](const std::string& failed) { note("note: {}\n", failed); });
+  const auto tell_fault = [&](const std::string& why) { command.start(on.rig, why, o.out); };
+  ServiceManager service;
   rig::LiveSession live(on, {.dry = o.dry_run,
                              .folder = o.out,
                              .video = o.video,
                              .without_limits = o.coils.without_limits,
                              .coils_cold = o.coils.coils_cold,
                              .note = o.note,
-                             .seconds = o.seconds});
+                             .seconds = o.seconds,
+                             .driven = [&] {
+                               service.ready();
+                               service.drive();
+                             }});
   experiment::Session& session = live.session();
   note_each(live.warnings());
   note_virtual_obstacles(on);
   if (o.dry_run) note("dry run: no current is sent to the coils\n");
   const auto growing = grow_record(session, o.out);
-  std::string lost = operate(live, rig::has_coil_device(on.rig) && !o.dry_run, o.seconds, context);
+  std::string lost = operate(live, rig::has_coil_device(on.rig) && !o.dry_run, o.seconds,
+                             tell_fault, service, context);
+  if (const std::string why = live.fault(); !why.empty()) tell_fault(why);
   const std::optional<vision::RecordedVideo> video = live.video();
   const rig::RigTiming timing = live.live().timing();
   if (!lost.empty()) note("microswarm: {}\n", lost);

@@ -2,7 +2,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -17,6 +16,7 @@
 
 #include "microswarm/actuation/drivers/line_connection.hpp"
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/execution/spawning.hpp"
 #include "microswarm/core/text/lines.hpp"
 #include "microswarm/core/text/text.hpp"
 
@@ -42,56 +42,6 @@ Descriptor not_blocking(Descriptor end) {
   return end;
 }
 
-/// Attributes and file actions of posix_spawn.
-class Spawning {
- public:
-  Spawning() {
-    posix_spawn_file_actions_init(&actions_);
-    posix_spawnattr_init(&attributes_);
-    posix_spawnattr_setflags(
-        &attributes_, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
-    sigset_t every, none;
-    sigfillset(&every);
-    sigemptyset(&none);
-    posix_spawnattr_setsigdefault(&attributes_, &every);
-    posix_spawnattr_setsigmask(&attributes_, &none);
-  }
-  ~Spawning() {
-    posix_spawn_file_actions_destroy(&actions_);
-    posix_spawnattr_destroy(&attributes_);
-  }
-  Spawning(const Spawning&) = delete;
-  Spawning& operator=(const Spawning&) = delete;
-
-  void files(int in, int out, int err, const std::vector<int>& locks) {
-    int next = STDERR_FILENO + 1;
-    posix_spawn_file_actions_adddup2(&actions_, in, STDIN_FILENO);
-    posix_spawn_file_actions_adddup2(&actions_, out, STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&actions_, err, STDERR_FILENO);
-    for (const int lock : locks) posix_spawn_file_actions_adddup2(&actions_, lock, next++);
-    posix_spawn_file_actions_addclosefrom_np(&actions_, next);
-  }
-  void folder(const std::string& path) {
-    posix_spawn_file_actions_addchdir_np(&actions_, path.c_str());
-  }
-  /// Starts the process; on failure nothing, with errno set.
-  std::optional<pid_t> start(std::vector<std::string> command) {
-    std::vector<char*> arguments;
-    arguments.reserve(command.size() + 1);
-    for (std::string& word : command) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    pid_t process = 0;
-    errno =
-        ::posix_spawnp(&process, arguments[0], &actions_, &attributes_, arguments.data(), environ);
-    if (errno != 0) return std::nullopt;
-    return process;
-  }
-
- private:
-  posix_spawn_file_actions_t actions_{};
-  posix_spawnattr_t attributes_{};
-};
-
 class DriverProgram final : public LineConnection {
  public:
   DriverProgram(const std::vector<std::string>& command, const std::filesystem::path& folder,
@@ -100,7 +50,7 @@ class DriverProgram final : public LineConnection {
     Pipe in, out, err;
     Spawning spawning;
     spawning.files(in.out.get(), out.in.get(), err.in.get(), locks);
-    if (!folder.empty()) spawning.folder(folder.string());
+    if (!folder.empty()) spawning.folder(folder);
     const auto process = spawning.start(command);
     if (!process)
       throw HardwareError(fmt::format("{}: cannot be started: {}", name_, std::strerror(errno)));

@@ -49,6 +49,8 @@ Issues validate(const RigParams& rig, const actuation::CoilSystem& system) {
   issues.add_within("perception.scene.obstacles", validate(rig.perception.scene.obstacles));
   issues.add(
       std::visit([&](const auto& driver) { return driver.validate(rig.drive_rate); }, rig.driver));
+  if (const auto& command = rig.safety.on_fault; !command.empty() && command.front().empty())
+    issues.add({"safety.on_fault"}, "the program of safety.on_fault is empty");
   const int channels = channel_count(rig, system);
   if (static_cast<int>(system.size()) > channels)
     issues.add(

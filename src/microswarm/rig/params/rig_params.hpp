@@ -63,6 +63,7 @@ struct SafetyParams {
   double max_pause = 0.3;
   std::optional<double> follow_distance{};
   double min_follow_share = 0.25;
+  std::vector<std::string> on_fault{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.lost_swarm,
@@ -81,6 +82,7 @@ struct SafetyParams {
                                    "Distance that the swarm must follow; none: by its size."));
     visit(self.min_follow_share,
           plain("min_follow_share", 0, 1, "Share of it that must be seen; 0: not checked."));
+    visit(self.on_fault, plain("on_fault", "Program and its arguments, started after a fault."));
   }
 };
 

@@ -161,6 +161,7 @@ void LiveSession::keep(const CoilMoment& moment) {
                           moment.output.acknowledged.end());
   }
   if (temperatures_) temperatures_->take(moment.output.temperatures);
+  if (options_.driven) options_.driven();
 }
 
 std::string LiveSession::close() {
@@ -201,6 +202,15 @@ std::string LiveSession::look_at_disk() {
   return fmt::format(
       "{}: only {:.0f} MB are free on its disk, too little for the record of the next half hour",
       options_.folder.string(), *free / 1e6);
+}
+
+std::string LiveSession::fault() {
+  std::string why(plant_->fault());
+  const actuation::StopReport zero = stop("the run has ended");
+  if (zero.good()) return why;
+  if (!why.empty()) why += "; ";
+  return why + "the coil driver " +
+         (zero.confirmed ? zero.trouble : "did not confirm that the coils are at zero");
 }
 
 std::optional<vision::RecordedVideo> LiveSession::video() const {

@@ -35,6 +35,7 @@ struct LiveOptions {
   std::size_t max_logged = 10'000'000;  ///< values kept of the currents, and of the sightings
   /// Space that is free for a folder [B]; another one for tests.
   std::function<std::optional<double>(const std::filesystem::path&)> free_space = rig::free_space;
+  std::function<void()> driven{};  ///< called in the coils' thread after each output
 };
 
 /// Live numbers of a run on a rig.
@@ -78,6 +79,9 @@ class LiveSession {
   /// to the record, up to `max_logged` values of each. Returns the reason of a failure, or an empty
   /// string.
   std::string close();
+  /// Why the run ended with a fault, or why zero is not sure; empty otherwise. Sets the coils to
+  /// zero after the last tick.
+  std::string fault();
   /// After close(): the recorded video, if requested.
   std::optional<vision::RecordedVideo> video() const;
   /// Notes that came up since the last call, each once: little space on the disk, more values
