@@ -140,7 +140,11 @@ class RigPage {
   /// Drives the coils for a second, after `before` runs.
   void drive(std::ptrdiff_t before) {
     for (int i = 0; i < 3000 && count("") <= before; ++i) beat(i % 50 == 0);
-    for (int i = 0; i < 100; ++i) beat(false);
+    stay(1000);
+  }
+  /// Stays there for `ms`.
+  void stay(int ms) {
+    for (int i = 0; i < ms / 10; ++i) beat(false);
   }
   /// Until so many runs have a record.
   void await_records(std::ptrdiff_t count_then) {
@@ -292,6 +296,31 @@ TEST_F(LabRigCommand, WithoutCurrentsItsMainLoopGivesSignsOfLife) {
   EXPECT_GE(Notices::signs(manager.within(1000)), 3);
   EXPECT_EQ(lab.end().code, 0);
   EXPECT_TRUE(manager.hears("STOPPING=1"));
+}
+
+TEST_F(LabRigCommand, ALoopOfTheCoilsThatHangsGivesNoSignThoughThePageIsServed) {
+  const Notices manager("@microswarm_lab_test_" + std::to_string(::getpid()));
+  manager.ask(at, 200);
+  Arguments driven = arguments();
+  const std::string pid = (at.folder / "driver").string();
+  driven.insert(
+      driven.end(),
+      {"--drawn-swarm", "--without-limits", "--coils-cold", "--set-rig",
+       "driver={type: program, full_scale_a: 20, reply_timeout_s: 1, command: [sh, -c, "
+       "'echo $$ >" +
+           pid + "; exec python3 " MICROSWARM_SOURCE_DIR "/examples/drivers/line_driver.py']}"});
+  RunningLab lab(driven, at);
+  RigPage page(lab, at.folder / "runs");
+  page.drive(0);
+  EXPECT_GE(Notices::signs(manager.within(0)), 3);
+  ASSERT_TRUE(exists("driver"));
+  ::kill(std::stoi(read("driver")), SIGSTOP);
+  page.stay(100);
+  manager.within(0);
+  page.stay(700);
+  EXPECT_EQ(Notices::signs(manager.within(0)), 0);
+  ::kill(std::stoi(read("driver")), SIGCONT);
+  lab.end();
 }
 
 TEST_F(LabRigCommand, SignsOfLifeGoOnFromRunToRun) {

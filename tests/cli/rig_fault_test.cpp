@@ -113,7 +113,8 @@ TEST_F(RigFault, AnEndInOrderStartsNoCommand) {
 }
 
 TEST_F(RigFault, AnEmptyCommandIsRefused) {
-  refused(arguments({"--set-rig", "safety.on_fault=['']"}), naming("--set-rig safety.on_fault", {"empty"}));
+  refused(arguments({"--set-rig", "safety.on_fault=['']"}),
+          naming("--set-rig safety.on_fault", {"empty"}));
 }
 
 }  // namespace
