@@ -259,7 +259,9 @@ int rig_run(const RigRunOptions& o, const Context& context) {
   const OutFolder hold(o.out);
   vision::set_picture_threads(1);
   rig::FaultCommand command([](const std::string& failed) { note("note: {}\n", failed); });
-  const auto tell_fault = [&](const std::string& why) { command.start(on.rig, why, o.out); };
+  const auto tell_fault = [&](const std::string& why) {
+    if (!o.dry_run) command.start(on.rig, why, o.out);
+  };
   ServiceManager service;
   rig::LiveSession live(on, {.dry = o.dry_run,
                              .folder = o.out,
