@@ -145,11 +145,14 @@ TEST(FitToMap, NoPathEndsOnTheOtherSideOfAWall) {
         const Vec2 goal{1001 + away, 300};
         std::visit([&](auto& p) { p.clearance = keeps; }, params);
         params = fit_to_map(params, world.map(), clearance_only);
-        Rng rng(1, Purpose::planner);
-        const Plan found = plan(world, {{100, 300}, 0}, goal, params, rng);
-        const std::string which = fmt::format("{} {} {}", params.index(), keeps, away);
-        ASSERT_EQ(found.status, Status::solved) << which;
-        EXPECT_GT(found.path.back().x, 1001) << which;
+        // From afar, and along the wall.
+        for (const Vec2 start : {Vec2{100, 300}, Vec2{975, 100}}) {
+          Rng rng(1, Purpose::planner);
+          const Plan found = plan(world, {start, 0}, goal, params, rng);
+          const std::string which = fmt::format("{} {} {}", params.index(), keeps, away);
+          ASSERT_EQ(found.status, Status::solved) << which;
+          EXPECT_GT(found.path.back().x, 1001) << which;
+        }
       }
 }
 

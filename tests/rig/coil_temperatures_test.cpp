@@ -160,9 +160,10 @@ TEST(ClockReading, OnlyWhatHasPassedForCertainIsAPause) {
       {"suspended", {y2026, 100, "a"}, {y2026 + 3600, 3700, "a"}, 3600},
       {"set forwards", {y2026, 100, "a"}, {y2026 + 86400, 120, "a"}, 20},
       {"set back", {y2026, 100, "a"}, {y2026 - 3600, 160, "a"}, 0},
-      {"restarted", {y2026, 5000, "a"}, {y2026 + 7200, 30, "b"}, 7200},
-      {"restarted and set back", {y2026, 5000, "a"}, {y2026 - 7200, 30, "b"}, 30},
-      {"restarted, never set before", {1000, 5000, "a"}, {y2026, 30, "b"}, 30},
+      {"restarted", {y2026, 5000, "a", true}, {y2026 + 7200, 30, "b", true}, 7200},
+      {"restarted and set back", {y2026, 5000, "a", true}, {y2026 - 7200, 30, "b", true}, 30},
+      {"restarted, set by nobody then", {y2026, 5000, "a"}, {y2026 + 9e4, 30, "b", true}, 30},
+      {"restarted, set by nobody now", {y2026, 5000, "a", true}, {y2026 + 9e4, 30, "b"}, 30},
       {"of a former version", {y2026, 0, ""}, {y2026 + 60, 160, "a"}, 60},
       {"of a former version, set back", {y2026, 0, ""}, {y2026 - 60, 160, "a"}, 0},
   };

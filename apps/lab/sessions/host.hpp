@@ -25,7 +25,8 @@ struct RigOpening {
   std::filesystem::path
       out{};  ///< parent of the folders of runs that drive the coils; empty for none
   bool without_limits = false;
-  bool coils_cold = false;
+  /// The coils are at ambient temperature; said for one run of all sessions.
+  std::shared_ptr<std::atomic<bool>> coils_cold = std::make_shared<std::atomic<bool>>(false);
   bool drawn_swarm = false;
   /// Called in the coils' thread after each output of a run that drives them.
   std::function<void()> driven{};

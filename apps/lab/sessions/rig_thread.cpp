@@ -125,14 +125,14 @@ void RigThread::begin_run(bool dry, std::uint64_t stops) {
                                  .idle = dry,
                                  .folder = dry ? std::filesystem::path() : new_folder(),
                                  .without_limits = opening_.live->without_limits,
-                                 .coils_cold = opening_.live->coils_cold,
+                                 .coils_cold = *opening_.live->coils_cold,
                                  .driven = dry ? nullptr : opening_.live->driven};
   keep_last();
   standing_ = {.state = RigState::opening, .folder = options.folder.string()};
   tell_rig();
   drives_ = !dry;
   live_ = std::make_shared<rig::LiveSession>(on, options);
-  if (!dry) opening_.live->coils_cold = false;  // said once, of the coils as they were then
+  if (!dry) *opening_.live->coils_cold = false;  // said once, of the coils as they were then
   guard_.watch(live_, !dry, stops);
   if (!options.folder.empty())
     growing_ =

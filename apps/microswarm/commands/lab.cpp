@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <atomic>
 #include <cstdlib>
 #include <memory>
 #include <optional>
@@ -89,7 +90,7 @@ std::optional<lab::Opening> to_opening(const LabOptions& o) {
   if (error) throw InputError("--out " + o.out + ": cannot make the folder: " + error.message());
   opening.live = lab::RigOpening{.out = o.out,
                                  .without_limits = o.without_limits,
-                                 .coils_cold = o.coils_cold,
+                                 .coils_cold = std::make_shared<std::atomic<bool>>(o.coils_cold),
                                  .drawn_swarm = o.drawn_swarm};
   return opening;
 }

@@ -9,6 +9,7 @@
 #include <thread>
 #include <utility>
 
+#include "microswarm/actuation/amplifiers/coil_heat.hpp"
 #include "microswarm/actuation/coils/measurement_plan.hpp"
 #include "microswarm/actuation/coils/probe_file.hpp"
 #include "microswarm/core/errors/error.hpp"
@@ -173,6 +174,9 @@ bool Dialogue::compare_with_clamp(const actuation::MeasurementStep& step) {
   Eigen::Index coil = 0;
   const double reported = made.currents.cwiseAbs().maxCoeff(&coil);
   if (std::abs(*typed.current() - reported) <= tolerance * reported) return true;
+  // More current than was reckoned with has heated more, too.
+  if (*typed.current() > reported && bench_->kept)
+    bench_->kept->take(actuation::hottest(rig_.system.amplifiers()));
   const double full_scale = rig::driver_full_scale(rig_.params);
   throw InputError(fmt::format(
       "{:.4g} A flow in {} where the device reports {:.4g} A: driver.full_scale_a is {:.4g}, must "
@@ -186,7 +190,11 @@ bool Dialogue::compare_with_clamp(const actuation::MeasurementStep& step) {
 bool Dialogue::is_doubted(const rig::Measurement& made, const actuation::MeasurementStep& step) {
   constexpr double same = 0.1;  // share of the reading
   constexpr int max_doubts = 3;
-  if (made.outcome != rig::MeasurementOutcome::measured) return false;
+  if (made.outcome != rig::MeasurementOutcome::measured) {
+    doubted_.reset();
+    doubts_ = 0;
+    return false;
+  }
   const Eigen::Vector3d mean = made.reading->mean;
   const std::string doubt = rig::reading_doubt(rig_, made, step, run_.background());
   const auto before = std::exchange(doubted_, std::nullopt);

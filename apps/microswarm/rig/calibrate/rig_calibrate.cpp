@@ -48,6 +48,7 @@ std::vector<actuation::FieldComparison> compare(const actuation::FittedMatrix& f
   std::vector<actuation::FieldComparison> out;
   if (!system.in_workspace(centre)) return out;
   const actuation::Actuation expected = system.at(centre);
+  if (expected.field.colwise().norm().minCoeff() == 0) return out;  // nothing to compare with
   for (std::size_t k = 0; k < fit.coils.names.size(); ++k) {
     const auto column = static_cast<Eigen::Index>(k);
     out.push_back(actuation::compare_fields(

@@ -23,8 +23,9 @@
 namespace microswarm::actuation {
 namespace {
 
-constexpr double patience = 0.5;   // [s] before each stronger request to end
-constexpr double a_moment = 0.05;  // [s]
+constexpr double patience = 0.5;        // [s] before each stronger request to end
+constexpr double short_patience = 0.1;  // [s] with a program that does not answer
+constexpr double a_moment = 0.05;       // [s]
 
 struct Pipe {
   Pipe() {
@@ -67,9 +68,9 @@ class DriverProgram final : public LineConnection {
     in_.close();
     // Not reaped before that, so that no other process gets its id.
     for (const int signal : {0, SIGTERM, SIGKILL}) {
-      if (killed_ && signal != SIGKILL) continue;
+      if (killed_ && signal == 0) continue;
       if (signal != 0) ::kill(-process_, signal);
-      if (is_over_within(patience)) break;
+      if (is_over_within(killed_ ? short_patience : patience)) break;
     }
     for (int status = 0; ::waitpid(process_, &status, WNOHANG) < 0 && errno == EINTR;) {
     }

@@ -27,7 +27,7 @@ class LineConnection {
   virtual std::string ended() = 0;
   /// Last line that the other side wrote outside the protocol, printable; empty without one.
   virtual std::string last_words() { return {}; }
-  /// From now on the destructor kills a program at once.
+  /// From now on the destructor gives a program 0.1 s to end after SIGTERM, then kills it.
   virtual void give_up() noexcept {}
 };
 

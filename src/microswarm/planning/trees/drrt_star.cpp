@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/planning/trees/drrt_star.hpp"
+#include "microswarm/planning/common/free_goal.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -97,12 +98,16 @@ std::vector<Vec2> turned_path(const Snapshot& world, Pose2 start, std::span<cons
   return !shorter.chords.empty() && shorter.cost < path.cost ? shorter.chords : path.chords;
 }
 
-/// Ends the path where it comes within `tolerance` [µm] of the goal.
-void end_within(double tolerance, Vec2 goal, std::vector<Vec2>& path) {
+/// Ends the path where it comes within `tolerance` [µm] of the goal, without a wall between.
+void end_within(const Map& map, double tolerance, Vec2 goal, std::vector<Vec2>& path) {
+  constexpr double rounding = 1e-9;
+  const GoalArea area(map, goal, (1 + rounding) * tolerance);
   for (std::size_t i = 1; i < path.size(); ++i) {
     const double share = first_contact({path[i - 1], path[i]}, tolerance, Disc{goal, 0});
     if (share > 1) continue;
-    path[i] = path[i - 1] + share * (path[i] - path[i - 1]);
+    const Vec2 end = path[i - 1] + share * (path[i] - path[i - 1]);
+    if (!area.contains(end)) continue;
+    path[i] = end;
     path.resize(i + 1);
     return;
   }
@@ -132,7 +137,7 @@ Plan find_route(const Snapshot& world, Pose2 start, Vec2 goal, const DrrtStarPar
   Plan route = search((1 + rounding) * params.clearance);
   if (route.status != Status::solved) route = search(params.clearance);
   if (route.status == Status::solved)
-    end_within((1 - rounding) * params.goal_tolerance, goal, route.path);
+    end_within(world.map(), (1 - rounding) * params.goal_tolerance, goal, route.path);
   return route;
 }
 

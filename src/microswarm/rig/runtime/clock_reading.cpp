@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/rig/runtime/clock_reading.hpp"
 
+#include <sys/timex.h>
 #include <time.h>
 
 #include <algorithm>
@@ -12,9 +13,6 @@
 
 namespace microswarm::rig {
 namespace {
-
-/// 2024-01-01, before any release of this program: a wall clock that shows less was never set.
-constexpr double earliest_wall = 1704067200;
 
 std::string boot_id() {
   try {
@@ -33,15 +31,18 @@ ClockReading read_clocks() {
   using Clock = std::chrono::system_clock;
   timespec up{};
   ::clock_gettime(CLOCK_BOOTTIME, &up);
+  timex state{};
+  const bool synchronised = ::adjtimex(&state) >= 0 && (state.status & STA_UNSYNC) == 0;
   return {std::chrono::duration<double>(Clock::now().time_since_epoch()).count(),
-          static_cast<double>(up.tv_sec) + 1e-9 * static_cast<double>(up.tv_nsec), boot};
+          static_cast<double>(up.tv_sec) + 1e-9 * static_cast<double>(up.tv_nsec), boot,
+          synchronised};
 }
 
 double certain_pause(const ClockReading& then, const ClockReading& now) {
   const double wall = std::max(0.0, now.wall - then.wall);
   if (then.boot.empty() || now.boot.empty()) return wall;
   if (then.boot == now.boot) return std::max(0.0, std::min(wall, now.uptime - then.uptime));
-  return std::max(then.wall < earliest_wall ? 0 : wall, now.uptime);
+  return std::max(then.synchronised && now.synchronised ? wall : 0, now.uptime);
 }
 
 }  // namespace microswarm::rig

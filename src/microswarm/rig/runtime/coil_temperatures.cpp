@@ -15,6 +15,7 @@
 #include "microswarm/core/errors/input_names.hpp"
 #include "microswarm/core/maths/hash.hpp"
 #include "microswarm/core/text/file.hpp"
+#include "microswarm/core/text/text.hpp"
 
 namespace microswarm::rig {
 namespace {
@@ -40,6 +41,7 @@ struct KeptTemperatures {
     visit(self.clock.wall, s("clock", 0, 1e12, "Wall clock, from 1970.").needed());
     visit(self.clock.uptime, s("uptime", 0, 1e12, "Time since the computer started."));
     visit(self.clock.boot, plain("boot", "Id of that start of the computer."));
+    visit(self.clock.synchronised, plain("synchronised", "The wall clock followed another one."));
     visit(self.driven, plain("driven", "A program drove the coils.").needed());
     visit(self.assumed, plain("assumed", "Nothing was known, and no current flowed since."));
     visit(self.temperatures,
@@ -59,7 +61,10 @@ fs::path state_folder() {
 std::string name_for(const std::string& coils) {
   Hash hash;
   hash.bytes(std::as_bytes(std::span(coils)));
-  return fmt::format("{}-{}.yaml", fs::path(coils).stem().string(), hash.hex());
+  constexpr std::size_t longest = 100;
+  const std::string stem = fs::path(coils).stem().string();
+  const bool is_name = stem.size() <= longest && one_line(stem) == stem;
+  return fmt::format("{}-{}.yaml", is_name ? stem : "coils", hash.hex());
 }
 
 /// Reads the file. A link could point to any file, so no message repeats its content.
@@ -102,6 +107,7 @@ CoilTemperatures::CoilTemperatures(const Rig& rig, bool cold, const ClockReading
     const Known known = read(now);
     at_start_ = known.temperatures;
     assumed_ = known.assumed;
+    known_ = !known.assumed;
   } else {
     known_ = false;
     assumed_ = true;
@@ -120,19 +126,21 @@ CoilTemperatures::Known CoilTemperatures::read(const ClockReading& now) const {
                              .cwiseMax(actuation::ambient(amplifiers_));
   if (kept.driven) then = actuation::heated(amplifiers_, then, unwritten);
   const double pause = certain_pause(kept.clock, now);
-  return {actuation::cooled(amplifiers_, then, pause - (kept.driven ? unwritten : 0)), kept.assumed,
-          pause};
+  return {actuation::cooled(amplifiers_, then, pause - (kept.driven ? unwritten : 0)),
+          kept.assumed && !kept.driven, pause};
 }
 
 /// Throws InputError if the file knows a coil that is not cold.
 void CoilTemperatures::require_nothing_warmer(const ClockReading& now) const {
+  if (!is_there(file_)) return;
+  read_file(file_, max_yaml_bytes, LinkAtFile::refused);  // throws where it cannot be read
   std::optional<Known> known;
   try {
-    if (is_there(file_)) known = read(now);
+    known = read(now);
   } catch (const InputError&) {  // a damaged file knows nothing
     return;
   }
-  if (!known || known->assumed) return;
+  if (known->assumed) return;
   Eigen::Index warmest = 0;
   const double warmer = (known->temperatures - actuation::ambient(amplifiers_)).maxCoeff(&warmest);
   if (warmer <= cold_margin) return;

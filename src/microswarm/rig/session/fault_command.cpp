@@ -50,7 +50,9 @@ void FaultCommand::start(const Rig& rig, const std::string& reason,
   std::erase_if(running_,
                 [](const auto& one) { return one.wait_for(0s) == std::future_status::ready; });
   if (rig.params.safety.on_fault.empty()) return;
-  const std::string folder = record.empty() ? "" : std::filesystem::absolute(record).string();
+  std::error_code ignored;
+  const std::string folder =
+      record.empty() ? "" : std::filesystem::absolute(record, ignored).string();
   running_.push_back(std::async(
       std::launch::async,
       [this, command = rig.params.safety.on_fault, beside = rig.folder,
