@@ -132,7 +132,7 @@ CoilTemperatures::Known CoilTemperatures::read(const ClockReading& now) const {
 
 /// Throws InputError if the file knows a coil that is not cold.
 void CoilTemperatures::require_nothing_warmer(const ClockReading& now) const {
-  if (!is_there(file_)) return;
+  if (!is_there(file_) || fs::is_symlink(file_)) return;  // a link is no file of ours
   read_file(file_, max_yaml_bytes, LinkAtFile::refused);  // throws where it cannot be read
   std::optional<Known> known;
   try {
