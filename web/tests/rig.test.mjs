@@ -27,7 +27,7 @@ async function onRig(act) {
   await state(lookedAt.page, 'dry');
   await act(lookedAt.page, lookedAt, lab);
   await lookedAt.close();
-  assert.equal(await lab.stop(), 0);
+  assert.ok([0, 4].includes(await lab.stop()), 'as after a rig that was stopped, or not');
 }
 
 const state = (page, name) => page.waitForSelector(`.rigbar[data-state="${name}"]`, { timeout: 60_000 });
@@ -163,7 +163,7 @@ for (const [name, end] of [
       assert.equal(zero_confirmed, true);
     } finally {
       mortal.kill();
-      assert.equal(await lab.stop(), 0);
+      assert.ok([0, 4].includes(await lab.stop()), 'as after a rig that was stopped, or not');
     }
   });
 
@@ -189,7 +189,7 @@ test('a page that watches cannot arm or steer, and can stop', async () => {
     assert.equal((await holder.state('ended')).zero_confirmed, true);
     await close();
   } finally {
-    assert.equal(await lab.stop(), 0);
+    assert.ok([0, 4].includes(await lab.stop()), 'as after a rig that was stopped, or not');
   }
 });
 
