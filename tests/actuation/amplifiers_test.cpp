@@ -314,11 +314,8 @@ TEST(CoilDriveLaw, ATurnIsNeverColderThanAnIndependentIntegration) {
 }
 
 TEST(CoilHeat, TimeToTheLimitIsThatOfTheHeating) {
-  AmplifierParams d;
-  d.resistance = 1.5;
-  d.thermal_resistance = 2;
-  d.thermal_time = 300;
-  d.ambient = 22;
+  AmplifierParams d = limited();
+  d.temperature_coefficient = 0.00393;
   d.max_temperature = 90;
   for (const double mean_square : {30.0, 60.0, 300.0, 1e4})
     for (const double from : {22.0, 60.0, 89.0}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the host makes of drivers of one's own: servers in this process.
+// The line driver with servers, which are threads of this process.
 #include "microswarm/actuation/drivers/line_coil_driver.hpp"
 
 #include <gtest/gtest.h>

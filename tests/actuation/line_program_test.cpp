@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the host makes of drivers of one's own that are programs, here of the shell.
+// The line driver with programs, which are scripts of the shell.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -146,7 +146,7 @@ TEST_F(LineProgram, OneThatStillObeysStopIsNotKilled) {
   EXPECT_EQ(read_file(folder_ / "begun"), "one\n");
 }
 
-/// Whatever a card may hold: nothing but zeros ends it.
+/// A card that holds its outputs until it is sent zeros.
 TEST_F(LineProgram, AStopWithoutZeroBeginsOnceMore) {
   for (const char* said : {"ok $n 0 3 0", "ok $n 0 0", "ok $n nan nan nan", "ok $n", "off $n",
                            "refused $n busy", "emergency $n", "limited $n 0.5 0 0"}) {

@@ -288,12 +288,7 @@ TEST_F(LabRigCommand, WithoutCurrentsItsMainLoopGivesSignsOfLife) {
   manager.ask(at, 200);
   RunningLab lab(arguments(), at);
   EXPECT_TRUE(manager.hears("READY=1"));
-  EXPECT_GE(Notices::signs(manager.within(1500)), 5);
-  lab.send(SIGSTOP);
-  manager.within(100);
-  EXPECT_EQ(manager.within(600), std::vector<std::string>{});
-  lab.send(SIGCONT);
-  EXPECT_GE(Notices::signs(manager.within(1000)), 3);
+  manager.expect_signs_of(lab);
   EXPECT_EQ(lab.end().code, 0);
   EXPECT_TRUE(manager.hears("STOPPING=1"));
 }

@@ -53,6 +53,15 @@ class Notices {
         if (names(message, text)) return true;
     return false;
   }
+  /// Signs of life come, cease while the program is stopped, and come again.
+  void expect_signs_of(auto& program) const {
+    EXPECT_GE(signs(within(1500)), 5);
+    program.send(SIGSTOP);
+    within(100);
+    EXPECT_EQ(within(600), std::vector<std::string>{});
+    program.send(SIGCONT);
+    EXPECT_GE(signs(within(1000)), 3);
+  }
   static std::ptrdiff_t signs(const std::vector<std::string>& messages) {
     return std::ranges::count(messages, "WATCHDOG=1");
   }

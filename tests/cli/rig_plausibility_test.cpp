@@ -45,6 +45,25 @@ TEST_F(RigMeasure, AClampMeterShowsAWrongFullScale) {
   EXPECT_TRUE(names(terminal.said(), "driver.full_scale_a is 10, must be")) << terminal.said();
   EXPECT_EQ(currents().norm(), 0);
   EXPECT_EQ(rows(), 1u);
+  // Twice the current has heated four times as much.
+  const auto state = at.folder / ".state/microswarm";
+  const std::string kept = read_file(*fs::directory_iterator(state));
+  EXPECT_TRUE(names(kept, "90")) << kept;
+}
+
+TEST_F(RigMeasure, TheClampMeterIsAskedForAgainAndTheStepBeforeMayBe) {
+  Terminal terminal(arguments({"--hold", "0.6"}), at);
+  begin(terminal);
+  answer(terminal, 1, {0, 0, 0});
+  ASSERT_TRUE(terminal.hears("by a clamp meter")) << terminal.said();
+  ASSERT_TRUE(terminal.hears("no answer in 0.6 s")) << terminal.said();
+  terminal.press("\r");
+  ASSERT_TRUE(terminal.hears("by a clamp meter")) << terminal.said();
+  terminal.press("b\r");
+  answer(terminal, 1, {0, 0, 0});
+  skip_clamp(terminal);
+  ASSERT_TRUE(terminal.hears("2/7: 4 A in x")) << terminal.said();
+  EXPECT_EQ(rows(), 1u);
 }
 
 TEST_F(RigMeasure, EachCoilIsToldBesideTheFile) {

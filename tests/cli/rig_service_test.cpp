@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `rig run` tells a manager of services: that it drives, until its loop stops.
+// `rig run` under a manager of services: readiness, and signs of life of the loop that drives.
 #include <cstdlib>
 
 #include "driven_rig.hpp"
@@ -23,12 +23,7 @@ class RigService : public DrivenRig {
 TEST_F(RigService, SignsOfLifeEndWithTheProgram) {
   Program program(arguments(), at);
   ASSERT_TRUE(manager.hears("READY=1"));
-  EXPECT_GE(Notices::signs(manager.within(1500)), 5);
-  program.send(SIGSTOP);
-  manager.within(100);
-  EXPECT_EQ(manager.within(600), std::vector<std::string>{});
-  program.send(SIGCONT);
-  EXPECT_GE(Notices::signs(manager.within(1000)), 3);
+  manager.expect_signs_of(program);
   program.send(SIGINT);
   EXPECT_TRUE(manager.hears("STOPPING=1"));
   EXPECT_EQ(program.wait().code, 3);

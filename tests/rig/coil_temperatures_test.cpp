@@ -110,8 +110,38 @@ TEST_F(CoilTemperaturesTest, ColdIsRefusedOfCoilsThatAreKnownToBeWarmer) {
   expect_near(at_start(true), {22, 30, 22});
 }
 
+TEST_F(CoilTemperaturesTest, ColdIsNotBelievedOfAFileThatCannotBeRead) {
+  at_start(true);
+  const auto there = file();
+  std::filesystem::remove(there);
+  std::filesystem::create_directory(there);
+  EXPECT_TRUE(test::names(test::error_of([&] { at_start(true); }), there.string()));
+}
+
+TEST_F(CoilTemperaturesTest, ColdIsRefusedWhereAKilledProgramDroveFromAnAssumedHeat) {
+  at_start();
+  const auto kept = [&](bool driven) {
+    keep(never, driven, "[80, 90, 22]\nassumed: true");
+    return test::error_of([&] { at_start(true); });
+  };
+  EXPECT_TRUE(test::names(kept(true), "coils_cold"));
+  EXPECT_EQ(kept(false), "");
+}
+
+TEST_F(CoilTemperaturesTest, HaveAFileWhateverTheIdentity) {
+  for (const std::string id :
+       {std::string(300, 'a'), std::string("../../x"), std::string("a\tb")}) {
+    folder.with("odd-coils.yaml", "id: \"" + id + "\"\ncoils: {type: helmholtz}\n");
+    const Rig odd = read_rig(folder.with("odd.yaml", "coils: odd-coils.yaml\n"));
+    EXPECT_FALSE(CoilTemperatures(odd, false).known());
+    CoilTemperatures(odd, true);
+    EXPECT_TRUE(CoilTemperatures(odd, false).known());
+  }
+}
+
 TEST_F(CoilTemperaturesTest, ColdIsBelievedWhereTheHeatWasAssumed) {
   expect_near(at_start(), {80, 90, 22});
+  EXPECT_FALSE(CoilTemperatures(rig, false).known());
   expect_near(at_start(), {80, 90, 22}, 5);  // still assumed, and written
   expect_near(at_start(true), {22, 30, 22});
 }

@@ -139,7 +139,7 @@ TEST_F(RigChecks, ADriverThatAnswersIsGood) {
   EXPECT_TRUE(test::names(all.answer("driver"), "3")) << all.answer("driver");
 }
 
-/// As a run bears it.
+// A run ends at the third.
 TEST_F(RigChecks, UpToTwoMissedAnswersInARowAreNoted) {
   const Driven some =
       exchange({driven, no_answer, driven, no_answer, no_answer, driven, no_answer, driven});

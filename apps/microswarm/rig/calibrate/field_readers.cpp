@@ -46,6 +46,17 @@ void OperatedField::begin(const rig::SettledCurrents& settled) {
   if (!limited.empty()) note("note: the device limits {}\n", fmt::join(limited, ", "));
 }
 
+std::optional<rig::FieldAnswer> OperatedField::take_line(std::optional<std::string>& text) {
+  using enum rig::MeasurementOutcome;
+  const auto line = answers_.poll();
+  if (!line) return answers_.ended() ? std::optional(rig::FieldAnswer{ended}) : std::nullopt;
+  text = trimmed(*line);
+  if (*text == "q") return rig::FieldAnswer{ended};
+  if (*text == "r") return rig::FieldAnswer{repeat};
+  if (*text == "b") return rig::FieldAnswer{back};
+  return std::nullopt;
+}
+
 void TypedField::begin(const rig::SettledCurrents& settled) {
   OperatedField::begin(settled);
   if (const auto& b = settled.expected) {
@@ -58,16 +69,11 @@ void TypedField::begin(const rig::SettledCurrents& settled) {
 }
 
 std::optional<rig::FieldAnswer> TypedField::poll(double) {
-  using enum rig::MeasurementOutcome;
-  const auto line = answers().poll();
-  if (!line) return answers().ended() ? std::optional(rig::FieldAnswer{ended}) : std::nullopt;
-  const std::string_view text = trimmed(*line);
-  if (text == "q") return rig::FieldAnswer{ended};
-  if (text == "r") return rig::FieldAnswer{repeat};
-  if (text == "b") return rig::FieldAnswer{back};
+  std::optional<std::string> text;
+  if (const auto word = take_line(text); word || !text) return word;
   std::string why;
-  if (const auto field = field_in(std::string(text), why))
-    return rig::FieldAnswer{measured, {*field}};
+  if (const auto field = field_in(*text, why))
+    return rig::FieldAnswer{rig::MeasurementOutcome::measured, {*field}};
   note("{}\n", why);
   answers().ask(question_);
   return std::nullopt;
@@ -84,17 +90,12 @@ void TypedCurrent::begin(const rig::SettledCurrents& settled) {
 }
 
 std::optional<rig::FieldAnswer> TypedCurrent::poll(double) {
-  using enum rig::MeasurementOutcome;
-  const auto line = answers().poll();
-  if (!line) return answers().ended() ? std::optional(rig::FieldAnswer{ended}) : std::nullopt;
-  const std::string_view text = trimmed(*line);
-  if (text == "q") return rig::FieldAnswer{ended};
-  const std::optional<double> value = parse_number(text);
-  if (text.empty() || value) {
-    if (value) current_ = std::abs(*value);
-    return rig::FieldAnswer{measured, {Eigen::Vector3d::Zero()}};
-  }
-  note("a current in A, Enter or q is needed, not {}\n", quote(text));
+  std::optional<std::string> text;
+  if (const auto word = take_line(text); word || !text) return word;
+  current_ = parse_number(*text);
+  if (text->empty() || current_)
+    return rig::FieldAnswer{rig::MeasurementOutcome::measured, {Eigen::Vector3d::Zero()}};
+  note("a current in A, or Enter, is needed, not {}\n", quote(*text));
   answers().ask(question_);
   return std::nullopt;
 }

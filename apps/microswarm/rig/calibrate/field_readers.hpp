@@ -26,6 +26,9 @@ class OperatedField : public rig::FieldReader {
 
  protected:
   AnswerLine& answers() const { return answers_; }
+  /// Takes a line if there is one. Returns the answer that a word of the operator (q, r, b) or the
+  /// end of the input is; otherwise `text` is the line, or empty without one.
+  std::optional<rig::FieldAnswer> take_line(std::optional<std::string>& text);
 
  private:
   AnswerLine& answers_;
@@ -54,7 +57,7 @@ class TypedCurrent : public OperatedField {
 
   void begin(const rig::SettledCurrents& settled) override;
   std::optional<rig::FieldAnswer> poll(double t) override;
-  /// Its amount [A]; empty if none was typed.
+  /// The typed current [A]; empty if none was typed.
   std::optional<double> current() const { return current_; }
 
  private:

@@ -51,7 +51,7 @@ class Dialogue {
   rig::Measurement measure(const actuation::MeasurementStep& step);
   rig::Measurement drive(const actuation::MeasurementStep& step, rig::FieldReader& reader);
   bool goes_on_after(const rig::Measurement& made, const actuation::MeasurementStep& step);
-  bool compare_with_clamp(const actuation::MeasurementStep& step);
+  std::optional<rig::Measurement> compare_with_clamp(const actuation::MeasurementStep& step);
   bool is_doubted(const rig::Measurement& made, const actuation::MeasurementStep& step);
   std::string words_for(const actuation::MeasurementStep& step) const;
 
@@ -109,10 +109,8 @@ std::optional<rig::MeasurementOutcome> Dialogue::move_to(const Eigen::Vector3d& 
 
 rig::Measurement Dialogue::measure(const actuation::MeasurementStep& step) {
   if (const auto end = move_to(step.position)) return {.outcome = *end};
-  if (asks_for_clamp_ && !step.currents.isZero(0)) {
-    asks_for_clamp_ = false;
-    if (!compare_with_clamp(step)) return {.outcome = rig::MeasurementOutcome::ended};
-  }
+  if (asks_for_clamp_ && !step.currents.isZero(0))
+    if (const auto other = compare_with_clamp(step)) return *other;
   const std::string what = fmt::format("{}/{}: {}", run_.made() + 1, run_.size(), words_for(step));
   if (probe_) note("{}\n", what);
   const std::vector<std::string> coils = rig_.system.coil_names();
@@ -162,27 +160,31 @@ bool Dialogue::goes_on_after(const rig::Measurement& made, const actuation::Meas
   return false;
 }
 
-/// Asks once for the current in the first coil of a step by a clamp meter, which no program can
-/// know: fields, heat and every limit follow from it. Throws InputError if it is another than the
-/// device reports; false ends the measurement.
-bool Dialogue::compare_with_clamp(const actuation::MeasurementStep& step) {
+/// Asks once for the current of a step by a clamp meter, which no program can know: fields, heat
+/// and every limit follow from it. Throws InputError if it is another than the device reports.
+/// Returns the outcome that is none of these.
+std::optional<rig::Measurement> Dialogue::compare_with_clamp(
+    const actuation::MeasurementStep& step) {
   constexpr double tolerance = 0.1;  // share of the current
   TypedCurrent typed(answers_, rig_.system.coil_names(), words_for(step));
-  const rig::Measurement made = drive(step, typed);
-  if (made.outcome != rig::MeasurementOutcome::measured) return goes_on_after(made, step);
-  if (!typed.current()) return true;
+  rig::Measurement made = drive(step, typed);
+  made.reading.reset();  // of no field
+  if (made.outcome != rig::MeasurementOutcome::measured) return made;
+  asks_for_clamp_ = false;
+  if (!typed.current()) return std::nullopt;
   Eigen::Index coil = 0;
   const double reported = made.currents.cwiseAbs().maxCoeff(&coil);
-  if (std::abs(*typed.current() - reported) <= tolerance * reported) return true;
+  const double shown = std::abs(*typed.current());
+  if (std::abs(shown - reported) <= tolerance * reported) return std::nullopt;
   // More current than was reckoned with has heated more, too.
-  if (*typed.current() > reported && bench_->kept)
+  if (shown > reported && bench_->kept)
     bench_->kept->take(actuation::hottest(rig_.system.amplifiers()));
   const double full_scale = rig::driver_full_scale(rig_.params);
   throw InputError(fmt::format(
       "{:.4g} A flow in {} where the device reports {:.4g} A: driver.full_scale_a is {:.4g}, must "
       "be {:.3g}; until then every current, field and temperature is wrong by this factor",
-      *typed.current(), rig_.system.coil_names()[static_cast<std::size_t>(coil)], reported,
-      full_scale, full_scale * *typed.current() / reported));
+      shown, rig_.system.coil_names()[static_cast<std::size_t>(coil)], reported, full_scale,
+      full_scale * shown / reported));
 }
 
 /// Whether the reading is to be made again, since the coil file lets expect another. One that is

@@ -13,7 +13,7 @@
 
 namespace microswarm::reproduce {
 
-/// Which run a crossing is the result of.
+/// Key of a crossing: the run that it is the result of.
 struct CrossingKey {
   std::string_view course{};
   std::string_view navigator{};

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
+#include <string>
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/file.hpp"
