@@ -67,9 +67,13 @@ std::string name_for(const std::string& coils) {
   return fmt::format("{}-{}.yaml", is_name ? stem : "coils", hash.hex());
 }
 
-/// Reads the file. A link could point to any file, so no message repeats its content.
-KeptTemperatures read_kept(const fs::path& file, std::size_t coils) {
-  const std::string text = read_file(file, max_yaml_bytes, LinkAtFile::refused);
+/// Text of the file.
+std::string text_of(const fs::path& file) {
+  return read_file(file, max_yaml_bytes, LinkAtFile::refused);
+}
+
+/// Reads the text of the file. A link could point to any file, so no message repeats its content.
+KeptTemperatures read_kept(const std::string& text, const fs::path& file, std::size_t coils) {
   KeptTemperatures kept;
   try {
     kept = read_yaml_text<KeptTemperatures>(text, file.string());
@@ -104,7 +108,7 @@ CoilTemperatures::CoilTemperatures(const Rig& rig, bool cold, const ClockReading
   if (cold) {
     require_nothing_warmer(now);
   } else if (is_there(file_)) {
-    const Known known = read(now);
+    const Known known = read(text_of(file_), now);
     at_start_ = known.temperatures;
     assumed_ = known.assumed;
     known_ = !known.assumed;
@@ -118,9 +122,10 @@ CoilTemperatures::CoilTemperatures(const Rig& rig, bool cold, const ClockReading
   thread_ = std::thread([this] { run(); });
 }
 
-/// Temperatures by the file, now.
-CoilTemperatures::Known CoilTemperatures::read(const ClockReading& now) const {
-  const KeptTemperatures kept = read_kept(file_, amplifiers_.size());
+/// Temperatures by the text of the file, now.
+CoilTemperatures::Known CoilTemperatures::read(const std::string& text,
+                                               const ClockReading& now) const {
+  const KeptTemperatures kept = read_kept(text, file_, amplifiers_.size());
   const auto coils = static_cast<Eigen::Index>(amplifiers_.size());
   Eigen::VectorXd then = Eigen::Map<const Eigen::VectorXd>(kept.temperatures.data(), coils)
                              .cwiseMax(actuation::ambient(amplifiers_));
@@ -133,10 +138,10 @@ CoilTemperatures::Known CoilTemperatures::read(const ClockReading& now) const {
 /// Throws InputError if the file knows a coil that is not cold.
 void CoilTemperatures::require_nothing_warmer(const ClockReading& now) const {
   if (!is_there(file_) || fs::is_symlink(file_)) return;  // a link is no file of ours
-  read_file(file_, max_yaml_bytes, LinkAtFile::refused);  // throws where it cannot be read
+  const std::string text = text_of(file_);
   std::optional<Known> known;
   try {
-    known = read(now);
+    known = read(text, now);
   } catch (const InputError&) {  // a damaged file knows nothing
     return;
   }

@@ -52,7 +52,7 @@ class CoilTemperatures {
     double pause = 0;  ///< since it was written [s]
   };
 
-  Known read(const ClockReading& now) const;
+  Known read(const std::string& text, const ClockReading& now) const;
   void require_nothing_warmer(const ClockReading& now) const;
   void run();
   void write(const Eigen::VectorXd& temperatures, bool driven) const;
