@@ -129,7 +129,7 @@ TEST_F(CoilTemperaturesTest, ColdIsRefusedWhereAKilledProgramDroveFromAnAssumedH
 }
 
 TEST_F(CoilTemperaturesTest, HaveAFileWhateverTheIdentity) {
-  for (const std::string id :
+  for (const std::string& id :
        {std::string(300, 'a'), std::string("../../x"), std::string("a\tb")}) {
     folder.with("odd-coils.yaml", "id: \"" + id + "\"\ncoils: {type: helmholtz}\n");
     const Rig odd = read_rig(folder.with("odd.yaml", "coils: odd-coils.yaml\n"));

@@ -5,6 +5,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/rig/runtime/devices.hpp"
 #include "tests/files.hpp"
+#include "tests/messages.hpp"
 
 namespace microswarm::rig {
 namespace {
@@ -83,6 +84,16 @@ TEST_F(RigKinds, CamerasAreSimulatedDevicesOrVideos) {
   }
   EXPECT_EQ(open_rig_camera(rig("{type: simulated}")), nullptr);
   EXPECT_THROW(open_rig_camera(rig("{type: simulated}", all[3].camera)), InputError);
+}
+
+TEST_F(RigKinds, TheDeadmanGivesANavigatorTwoTicks) {
+  Rig any = rig("{type: simulated}");
+  EXPECT_EQ(deadman(any, 0.1), 0.5);
+  EXPECT_EQ(deadman(any, 2.5), 5);
+  any.params.safety.deadman = 3;
+  EXPECT_EQ(deadman(any, 0.1), 3);
+  EXPECT_EQ(deadman(any, 1.5), 3);
+  EXPECT_TRUE(test::names(test::error_of([&] { deadman(any, 2.5); }), "safety.deadman_s is 3"));
 }
 
 }  // namespace

@@ -105,6 +105,47 @@ TEST(SimulatedRig, ItWaitsForAValveThatTheCameraSees) {
   EXPECT_GT(waits.count * r.scene.scenario.tick, 10);  // [s]
 }
 
+TEST(SimulatedRig, AFaultOfARunEndsARehearsalToo) {
+  struct Case {
+    std::vector<std::string> rig_settings;
+    std::vector<std::string> settings;
+    std::string_view fault;
+  };
+  const Case cases[] = {
+      {{"camera.microscope.light_drift=0.6", "camera.microscope.light_period_s=5"},
+       {},
+       "the swarm was not found for "},
+      {{"safety.max_frame_age_s=0.2"},
+       {"sensing.observation_delay_s=0.4", "sensing.frame_timeout_s=1"},
+       "the newest picture is "},
+      {{"camera.speed_error=-0.9"}, {}, "the swarm does not follow: of "}};
+  for (const Case& c : cases) {
+    std::vector<std::string> rig_settings = coarse;
+    rig_settings.insert(rig_settings.end(), c.rig_settings.begin(), c.rig_settings.end());
+    const Rehearsal r("papers/radar/single.yaml", "vortex.yaml", rig_settings, c.settings);
+    SimulatedRig plant(r.scene.scenario, r.world, r.rig);
+    const experiment::RunResult result = r.in_rig(plant);
+    EXPECT_EQ(result.status, Status::fault) << c.fault;
+    EXPECT_TRUE(plant.fault().starts_with(c.fault)) << plant.fault();
+    // The coils stay at zero, whatever is commanded.
+    const Vec2 at = plant.ground_truth()->swarm.pose.position;
+    plant.apply({0, 1000}, 1);
+    EXPECT_EQ(plant.ground_truth()->swarm.pose.position, at) << c.fault;
+  }
+}
+
+TEST(SimulatedRig, ItAimsTheCoilsAtTheDetectedSwarm) {
+  const Rehearsal r("papers/radar/single.yaml", "vortex.yaml", coarse);
+  SimulatedRig plant(r.scene.scenario, r.world, r.rig);
+  plant.observe();
+  ASSERT_TRUE(plant.detections().swarm);
+  const Vec2 seen = plant.detections().swarm->pose.position;
+  const Vec2 truth = plant.ground_truth()->swarm.pose.position;
+  plant.apply({0, 0}, 0.1);
+  EXPECT_NE(seen, truth);
+  EXPECT_EQ(plant.aim(), place_among_coils(r.rig.system, *r.world.map, seen));
+}
+
 TEST(SimulatedRig, TheSameSeedGivesTheSameRun) {
   Rehearsal r("papers/radar/single.yaml", "vortex.yaml", coarse);
   r.scene.scenario.time_limit = 8;

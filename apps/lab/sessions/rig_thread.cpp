@@ -23,7 +23,8 @@ constexpr const char* record_name = "run.h5";
 /// Relaxes limits for a dry run, so that it continues while light and focus are adjusted.
 void be_patient(rig::SafetyParams& safety) {
   constexpr double long_time = 100;  // [s]
-  safety.lost_swarm = safety.max_frame_age = safety.max_pause = safety.deadman = long_time;
+  safety.lost_swarm = safety.max_frame_age = safety.max_pause = long_time;
+  safety.deadman = long_time;
   safety.missed_deadlines = 1'000'000;
 }
 

@@ -2,14 +2,17 @@
 // `rig simulate` compares scenarios through a simulated rig with the kinematic simulation.
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <span>
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/io/columns.hpp"
 #include "microswarm/rig/params/rig_experiment.hpp"
+#include "microswarm/rig/runtime/rig_checks.hpp"
 #include "microswarm/rig/simulation/rig_comparison.hpp"
 #include "rig/rig.hpp"
 #include "rig/rig_notes.hpp"
@@ -70,6 +73,19 @@ void note_same(const std::string& name, std::string_view where, std::size_t tria
        name, trials, where);
 }
 
+/// Notes what the rig did in the trials that only a rig does.
+void note_rig(const std::string& name, std::span<const rig::ComparedTrial> trials) {
+  double min_scale = 1;
+  for (const rig::ComparedTrial& trial : trials) {
+    min_scale = std::min(min_scale, trial.min_scale);
+    if (!trial.fault.empty())
+      note("note: {}: trial {} ended with a fault: {}\n", name, trial.trial, trial.fault);
+  }
+  if (min_scale < 1)
+    note("note: {}: the coils' limits weakened the field to {:.3g} of what was commanded\n", name,
+         min_scale);
+}
+
 int simulate_trials(const SimulateOptions& o, const Context& context) {
   if (o.scenario.empty() != o.rig.empty())
     throw InputError("rig simulate: a scenario and --rig go together");
@@ -83,6 +99,7 @@ int simulate_trials(const SimulateOptions& o, const Context& context) {
   for (const rig::RigExperiment& on : scenes) {
     note_field(on.rig, on.scenario());
     rig::simulated_camera(on.rig);
+    rig::require_field(on.rig);
   }
   const OutFolder hold(o.out);
   std::vector<rig::ComparisonRow> rows;
@@ -114,6 +131,7 @@ int simulate_trials(const SimulateOptions& o, const Context& context) {
     flush_output();
     if (kinematic.are_same) note_same(name, "without a rig", trials.size());
     if (rig.are_same) note_same(name, "through the rig", trials.size());
+    note_rig(name, trials);
     all = all && rig.arrived == o.trials;
   }
   if (!o.out.empty()) {

@@ -87,6 +87,19 @@ int channel_count(const RigParams& rig, const actuation::CoilSystem& system) {
                     rig.driver);
 }
 
+double deadman(const Rig& rig, double tick) {
+  constexpr double usual = 0.5;  // [s]
+  const double least = 2 * tick;
+  const double longest = rig.params.safety.deadman.value_or(std::max(usual, least));
+  if (longest < least)
+    throw rig.keys.error(
+        "safety.deadman_s",
+        fmt::format("safety.deadman_s is {:.6g}, a tick of the scenario {:.6g} s: it must be at "
+                    "least twice that",
+                    longest, tick));
+  return longest;
+}
+
 actuation::CoilInput coil_input(const RigParams& rig) {
   return std::visit([](const auto& driver) { return driver.input(); }, rig.driver);
 }

@@ -56,7 +56,7 @@ struct VideoCamera {
 struct SafetyParams {
   double lost_swarm = 0.5;
   double max_frame_age = 0.5;
-  double deadman = 0.5;
+  std::optional<double> deadman{};
   int missed_deadlines = 10;
   int max_trips = 1;
   double trip_window = 10;
@@ -71,7 +71,7 @@ struct SafetyParams {
     visit(self.max_frame_age, s("max_frame_age", 0.01, 100, "Maximum age of the newest frame.")
                                   .formerly("oldest_frame_s"));
     visit(self.deadman,
-          s("deadman", 0.02, 100, "Longest time without a new command of the navigator."));
+          s("deadman", 0.02, 100, "Longest time without a new command; none: 0.5 s, or 2 ticks."));
     visit(self.missed_deadlines,
           plain("missed_deadlines", 1, 1e6, "Maximum number of consecutive late ticks."));
     visit(self.max_trips,
@@ -139,6 +139,10 @@ double driver_full_scale(const RigParams& rig);
 
 /// Channels of the rig's driver, as many as the system has coils unless it says otherwise.
 int channel_count(const RigParams& rig, const actuation::CoilSystem& system);
+
+/// Longest time without a new command of a navigator with this tick [s]. Throws InputError if the
+/// rig's file names one that is shorter than two ticks.
+double deadman(const Rig& rig, double tick);
 
 /// Input of the rig's driver.
 actuation::CoilInput coil_input(const RigParams& rig);

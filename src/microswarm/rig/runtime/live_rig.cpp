@@ -3,7 +3,6 @@
 
 #include <fmt/core.h>
 
-#include <cassert>
 #include <utility>
 
 #include "microswarm/core/errors/error.hpp"
@@ -13,48 +12,17 @@
 namespace microswarm::rig {
 namespace {
 
-constexpr double first_frame = 5;                   // [s] timeout of the first frame
-constexpr double stretches_of_follow_distance = 6;  // over which a direction is estimated
+constexpr double first_frame = 5;  // [s] timeout of the first frame
 
 const RigParams& checked(const Rig& rig, const experiment::Scenario& scenario) {
   KeyLocations().require_none(validate(rig, scenario));
-  if (rig.params.safety.deadman < 2 * scenario.tick)
-    throw rig.keys.error(
-        "safety.deadman_s",
-        fmt::format("safety.deadman_s is {:.6g}, a tick of the scenario {:.6g} s: it must be at "
-                    "least twice that",
-                    rig.params.safety.deadman, scenario.tick));
   return rig.params;
 }
 
-CoilLoopLimits loop_limits(const RigParams& rig) {
-  const SafetyParams& safety = rig.safety;
-  return {rig.drive_rate, safety.deadman, safety.max_trips, safety.trip_window, safety.max_pause};
-}
-
-std::string why_not_found(const Detections& seen) {
-  if (!seen.not_found) return {};
-  std::string radii;
-  for (const double radius : seen.parts)
-    radii += fmt::format("{}{:.3g}", radii.empty() ? "" : " and ", radius);
-  switch (*seen.not_found) {
-    case NotFound::none:
-      return {};
-    case NotFound::several:
-      return " (there are several)";
-    case NotFound::far:
-      return " (what is seen is too far from where it was)";
-    case NotFound::size:
-      return " (what is seen is of another size)";
-    case NotFound::split:
-      return fmt::format(" (it split into parts of {} µm radius)", radii);
-    case NotFound::merged:
-      return fmt::format(" (it merged with another: they had {} µm radius)", radii);
-    case NotFound::robots:
-      return fmt::format(" ({} of {} robots are not seen)", seen.unseen, seen.robots.size());
-  }
-  assert(false);
-  return {};
+CoilLoopLimits loop_limits(const Rig& rig, double tick) {
+  const SafetyParams& safety = rig.params.safety;
+  return {rig.params.drive_rate, deadman(rig, tick), safety.max_trips, safety.trip_window,
+          safety.max_pause};
 }
 
 void check_picture(const Rig& rig, const experiment::Scenario& scenario,
@@ -84,11 +52,11 @@ LiveRig::LiveRig(const experiment::Scenario& scenario, std::shared_ptr<const Map
       camera_(std::move(camera), "camera", camera_watch(rig.params), listeners.pictures),
       controller_(rig.system, checked(rig, scenario).field, driver,
                   scenario.start ? scenario.start->heading : 0),
-      following_(rig.params.safety.min_follow_share),
+      sight_(rig.params.safety),
       listeners_(std::move(listeners)),
       start_(steady_seconds()),
       meter_(rig.system, scenario.tick),
-      coils_(controller_, loop_limits(rig.params), [this](const CoilMoment& moment) {
+      coils_(controller_, loop_limits(rig, scenario.tick), [this](const CoilMoment& moment) {
         meter_.add_output(moment);
         if (listeners_.coils) listeners_.coils(moment);
       }) {
@@ -152,16 +120,8 @@ void LiveRig::read_frame() {
   vision::take_channel(frame_.frame.picture, vision::VideoChannel::grey, grey_);
   detections_ = &perception_->process(grey_, seen_);
   const double took = steady_seconds() - began;
-  if (detections_->swarm) found_ = seen_;
-  const double distance =
-      rig_.params.safety.follow_distance.value_or(perception_->follow_distance());
-  angle_.take(detections_->commanded_distance, detections_->followed_distance,
-              detections_->across_distance, distance / stretches_of_follow_distance);
-  if (!following_.take(detections_->commanded_distance, detections_->followed_distance, distance))
-    fail(
-        fmt::format("the swarm does not follow: of {:.3g} µm that were commanded it went {:.3g} µm",
-                    following_.commanded(), following_.followed()));
-  meter_.add_picture(took, detections_->unseen, angle_.direction());
+  sight_.take(*detections_, seen_, perception_->follow_distance());
+  meter_.add_picture(took, detections_->unseen, sight_.direction());
 }
 
 void LiveRig::look_for_faults(double now) {
@@ -174,16 +134,10 @@ void LiveRig::look_for_faults(double now) {
     const std::string why = camera.why.empty() ? camera.why : ": " + camera.why;
     return fail("the camera has no more pictures" + why);
   }
-  const double age = now - seen_;
-  if (age > safety.max_frame_age)
-    return fail(
-        fmt::format("the newest picture is {:.2f} s old, allowed {} s", age, safety.max_frame_age));
-  if (now - found_ > safety.lost_swarm)
-    return fail(fmt::format("the swarm was not found for {:.2f} s{}, allowed {} s", now - found_,
-                            why_not_found(*detections_), safety.lost_swarm));
+  if (const std::string why = sight_.trouble(now); !why.empty()) return fail(why);
   if (missed_in_a_row_ >= safety.missed_deadlines)
     return fail(fmt::format("{} ticks in a row ended too late", missed_in_a_row_));
-  meter_.add_frame_age(age);
+  meter_.add_frame_age(now - seen_);
 }
 
 void LiveRig::apply(const Command& command, double dt) {

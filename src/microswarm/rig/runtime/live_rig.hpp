@@ -11,9 +11,9 @@
 #include "microswarm/rig/params/rig_params.hpp"
 #include "microswarm/rig/perception/perception.hpp"
 #include "microswarm/rig/runtime/coil_loop.hpp"
-#include "microswarm/rig/runtime/follow_monitor.hpp"
 #include "microswarm/rig/runtime/rig_meter.hpp"
 #include "microswarm/rig/runtime/tick_schedule.hpp"
+#include "microswarm/rig/safety/sight_monitor.hpp"
 #include "microswarm/vision/camera/newest_frame.hpp"
 
 namespace microswarm::rig {
@@ -82,8 +82,7 @@ class LiveRig : public Plant {
   TickSchedule schedule_;
   vision::NewestFrame camera_;
   actuation::CoilController controller_;
-  FollowMonitor following_;
-  FollowAngle angle_;
+  SightMonitor sight_;
   std::unique_ptr<Perception> perception_;
   vision::LiveFrame frame_;
   formats::Image grey_;
@@ -93,7 +92,6 @@ class LiveRig : public Plant {
   const Detections* detections_ = &unseen_;
   double start_;      // [s], by steady_seconds()
   double seen_ = 0;   // time of the newest frame [s]
-  double found_ = 0;  // time at which the swarm was last detected [s]
   double begun_ = 0;  // start of the tick [s]
   int missed_in_a_row_ = 0;
   std::string fault_;

@@ -124,6 +124,13 @@ RigCheck check_field(const Rig& rig) {
                       how_long(rig, load), unlimited(rig))};
 }
 
+void require_field(const Rig& rig) {
+  Issues issues;
+  if (const RigCheck field = check_field(rig); !field.good)
+    issues.add({"field.amplitude_mt", "field"}, field.answer);
+  rig.keys.require_none(issues);
+}
+
 Issues missing_limits(const Rig& rig) {
   Issues issues;
   const auto& amplifiers = rig.system.amplifiers();

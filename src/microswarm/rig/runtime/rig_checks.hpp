@@ -24,6 +24,9 @@ struct RigCheck {
 /// Checks whether the coils can hold the rig's field in every direction, from ambient temperature.
 RigCheck check_field(const Rig& rig);
 
+/// Throws InputError if `check_field` fails.
+void require_field(const Rig& rig);
+
 /// Reports the limits that are missing in a coil system driven by a real device.
 Issues missing_limits(const Rig& rig);
 

@@ -19,12 +19,9 @@ namespace {
 /// The experiment if its rig can make the field and has all limits. Disables the following check if
 /// no current is sent to the coils or a video plays.
 RigExperiment checked(RigExperiment on, const LiveOptions& options) {
-  Issues issues;
-  if (const RigCheck field = check_field(on.rig); !field.good)
-    issues.add({"field.amplitude_mt", "field"}, field.answer);
+  require_field(on.rig);
   if (has_coil_device(on.rig) && !options.dry && !options.without_limits)
-    issues.add(missing_limits(on.rig));
-  on.rig.keys.require_none(issues);
+    on.rig.keys.require_none(missing_limits(on.rig));
   if (options.dry || camera_kind(on.rig.params) == CameraKind::video)
     on.rig.params.safety.min_follow_share = 0;
   return on;
@@ -108,11 +105,21 @@ LiveSession::LiveSession(RigExperiment on, const LiveOptions& options)
               .pictures = video_ ? video_->input() : vision::FrameListener(),
               .detections = [this](const Detections& seen, double t) { keep(seen, t); }})),
       session_(on_.experiment, to_parts(on_.rig, plant_, options)) {
+  warn_of_slow_ticks();
   if (video_) video_->begin(plant_->start());
   if (device_camera(on_.rig.params))
     require(check_camera(plant_->camera(), on_.rig, devices_.camera_rate, device_check));
   if (has_coil_device(on_.rig) && !options.dry) open_coils(options);
   session_.rig_log() = kept_;
+}
+
+void LiveSession::warn_of_slow_ticks() {
+  const double tick = on_.scenario().tick;
+  if (tick <= on_.rig.params.safety.lost_swarm) return;
+  warnings_.push_back(fmt::format(
+      "the scenario's tick is {:.4g} s: pictures are judged that rarely, and without commands the "
+      "coils stop after {:.4g} s",
+      tick, deadman(on_.rig, tick)));
 }
 
 void LiveSession::require(const std::vector<RigCheck>& checks) {

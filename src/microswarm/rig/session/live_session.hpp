@@ -94,6 +94,7 @@ class LiveSession {
   const LiveRig& live() const { return *plant_; }
 
  private:
+  void warn_of_slow_ticks();
   void open_coils(const LiveOptions& options);
   void require(const std::vector<RigCheck>& checks);
   void keep(const Detections& seen, double t);

@@ -2,11 +2,13 @@
 #include "microswarm/rig/session/open_on_rig.hpp"
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/rig/runtime/rig_checks.hpp"
 #include "microswarm/rig/simulation/simulated_rig.hpp"
 
 namespace microswarm::rig {
 
 std::unique_ptr<experiment::Session> open_on_rig(const RigExperiment& on, std::uint32_t trial) {
+  require_field(on.rig);
   experiment::SessionParts parts{.trial = trial, .rig = rig_name(on.rig)};
   parts.plant = std::make_shared<SimulatedRig>(on.scenario(), on.experiment.world, on.rig, trial);
   return std::make_unique<experiment::Session>(on.experiment, std::move(parts));

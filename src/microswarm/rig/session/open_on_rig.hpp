@@ -20,7 +20,7 @@ struct RigSessionOptions {
 };
 
 /// Opens a session through a simulated rig, as fast as possible. Throws InputError if rig and
-/// scenario do not fit.
+/// scenario do not fit, or if the coils cannot hold the field.
 std::unique_ptr<experiment::Session> open_on_rig(const RigExperiment& on, std::uint32_t trial = 0);
 
 /// Opens a scenario through a simulated rig if one is named, otherwise as open_session. Throws

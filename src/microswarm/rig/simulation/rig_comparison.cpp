@@ -31,6 +31,8 @@ std::vector<ComparedTrial> compare_with_rig(const RigExperiment& on, int trials,
         static_cast<int>(i), experiment::simulate(scenario, world, {.trial = trial}, {}, stop),
         experiment::simulate(scenario, world, {.trial = trial, .plant = rig}, {}, stop)};
     if (stop()) return;
+    both.fault = rig->fault();
+    both.min_scale = rig->min_scale();
     results[i] = std::move(both);
     const std::lock_guard lock(mutex);
     if (progress) progress(++done / static_cast<double>(trials));
@@ -75,7 +77,8 @@ std::vector<ComparisonRow> comparison_rows(std::span<const ComparedTrial> trials
                       .status = result.status,
                       .time = result.metrics.time,
                       .contacts = static_cast<int>(result.metrics.contacts),
-                      .goal_distance = result.metrics.goal_distance});
+                      .goal_distance = result.metrics.goal_distance,
+                      .fault = is_rig ? both.fault : std::string()});
     }
   return rows;
 }

@@ -18,6 +18,8 @@ struct ComparedTrial {
   int trial = 0;
   experiment::RunResult kinematic{};
   experiment::RunResult rig{};
+  std::string fault{};   ///< why the run through the rig stopped; empty without a fault
+  double min_scale = 1;  ///< lowest scale of the rig's currents, imposed by the coils' limits
 };
 
 /// Runs the trials 0 to `trials` − 1 in both simulations, on `jobs` threads (0: one per core).
@@ -49,6 +51,7 @@ struct ComparisonRow {
   double time = 0;
   int contacts = 0;
   double goal_distance = 0;
+  std::string fault{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.scenario, plain("scenario", "Name of the scenario's file."));
@@ -59,6 +62,7 @@ struct ComparisonRow {
     visit(self.time, s("time", "Time of the run."));
     visit(self.contacts, plain("contacts", "Number of contacts."));
     visit(self.goal_distance, um("goal_distance", "Remaining distance."));
+    visit(self.fault, plain("fault", "Why the rig stopped; empty if it did not."));
   }
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/rig/simulation/simulated_rig.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -16,12 +17,19 @@ SimulatedRig::SimulatedRig(const experiment::Scenario& scenario, const World& wo
       simulator_(scenario, world, rig_, trial),
       map_(world.map),
       perception_(make_perception(rig_.params.perception, scenario, *map_,
-                                  simulator_.ground_truth().robots, simulator_.camera())) {}
+                                  scenario.robots ? scenario.robots->starts : std::vector<Vec2>{},
+                                  simulator_.camera())),
+      sight_(rig_.params.safety) {
+  deadman(rig_, scenario.tick);
+}
 
 Observation SimulatedRig::observe() {
   const RigSimulator::Shot shot = simulator_.capture();
   picture_ = &simulator_.render(shot);
   detections_ = &perception_->process(*picture_, shot.seen);
+  sight_.take(*detections_, shot.seen, perception_->follow_distance());
+  if (fault_.empty()) fault_ = sight_.trouble(shot.now);
+  if (!fault_.empty()) controller_.stop();
   return to_observation(*detections_,
                         std::make_shared<const Snapshot>(map_, shot.seen, detections_->moving),
                         shot.now, shot.seen);
@@ -30,12 +38,14 @@ Observation SimulatedRig::observe() {
 void SimulatedRig::apply(const Command& command, double dt) {
   const auto pieces = static_cast<int>(std::ceil(dt * rig_.params.drive_rate - 1e-9));
   const double piece = dt / pieces;
+  const Vec2 position =
+      detections_->swarm ? detections_->swarm->pose.position : map_->bounds().centre();
   controller_.command(command);
+  controller_.aim(place_among_coils(rig_.system, *map_, position));
   perception_->commanded(command, simulator_.ground_truth().now);
   simulator_.start_trajectory();
   for (int i = 0; i < pieces; ++i) {
-    controller_.aim(simulator_.position());
-    controller_.advance(piece);
+    if (fault_.empty()) min_scale_ = std::min(min_scale_, controller_.advance(piece).scale);
     simulator_.pass(driver_.report().currents, piece);
   }
 }

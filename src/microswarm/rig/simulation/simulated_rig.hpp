@@ -3,16 +3,20 @@
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
 
 #include "microswarm/actuation/coils/coil_controller.hpp"
 #include "microswarm/rig/perception/perception.hpp"
+#include "microswarm/rig/safety/sight_monitor.hpp"
 #include "microswarm/rig/simulation/rig_simulator.hpp"
 
 namespace microswarm::rig {
 
 /// A complete simulated rig, as fast as possible. A command becomes a field, the field becomes
 /// currents, RigSimulator applies them, and the navigator receives the detections in the
-/// microscope's picture.
+/// microscope's picture. Like a run, it aims the coils at the detected swarm, and SightMonitor ends
+/// it.
 class SimulatedRig : public Plant {
  public:
   /// `driver` must outlive the plant; if it is null, the coils are simulated. `trial` selects the
@@ -25,12 +29,17 @@ class SimulatedRig : public Plant {
   bool set_obstacles(const std::vector<Obstacle>& obstacles) override {
     return simulator_.set_obstacles(obstacles);
   }
+  std::string_view fault() const override { return fault_; }
   std::optional<GroundTruth> ground_truth() const override { return simulator_.ground_truth(); }
 
   /// The picture of the last observation.
   const formats::Image& picture() const { return *picture_; }
   const Detections& detections() const { return *detections_; }
   const actuation::CoilOutput& coils() const { return controller_.output(); }
+  /// Place among the coils at which the field is made [µm].
+  const Eigen::Vector3d& aim() const { return controller_.place(); }
+  /// Lowest scale of the currents so far, imposed by the limits of the coils.
+  double min_scale() const { return min_scale_; }
 
  private:
   const Rig rig_;
@@ -40,8 +49,12 @@ class SimulatedRig : public Plant {
   RigSimulator simulator_;
   std::shared_ptr<const Map> map_;
   std::unique_ptr<Perception> perception_;
+  SightMonitor sight_;
+  std::string fault_;
+  double min_scale_ = 1;
   const formats::Image* picture_ = nullptr;
-  const Detections* detections_ = nullptr;
+  Detections unseen_;  // before the first picture
+  const Detections* detections_ = &unseen_;
 };
 
 /// Simulated coils with the properties of the rig's driver, of any kind; opens no device.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/rig/runtime/follow_monitor.hpp"
+#include "microswarm/rig/safety/follow_monitor.hpp"
 
 #include <algorithm>
 #include <cmath>

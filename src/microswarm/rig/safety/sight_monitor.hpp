@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "microswarm/rig/params/rig_params.hpp"
+#include "microswarm/rig/perception/perception.hpp"
+#include "microswarm/rig/safety/follow_monitor.hpp"
+
+namespace microswarm::rig {
+
+/// Checks SafetyParams on what the pictures show: their age, a lost swarm, a swarm that does not
+/// follow its commands. A rig in real time and a simulated one end by the same checks.
+class SightMonitor {
+ public:
+  explicit SightMonitor(const SafetyParams& params)
+      : params_(params), following_(params.min_follow_share) {}
+
+  /// Takes the detections in a picture taken at `seen` [s]. `follow_distance`: commanded distance
+  /// over which following is judged, unless the parameters name one [µm].
+  void take(const Detections& detections, double seen, double follow_distance);
+
+  /// Why a run cannot continue at `now` [s], in words; empty if it can.
+  std::string trouble(double now) const;
+  /// Time at which the newest picture was taken [s]; 0 before the first.
+  double seen() const { return seen_; }
+  /// Direction of the swarm relative to its commands, if it is known.
+  std::optional<FollowDirection> direction() const { return angle_.direction(); }
+
+ private:
+  SafetyParams params_;
+  FollowMonitor following_;
+  FollowAngle angle_;
+  double seen_ = 0;            // time of the newest picture [s]
+  double found_ = 0;           // time of the newest one that shows the swarm [s]
+  std::string why_not_found_;  // in the newest picture
+  std::string does_not_follow_;
+};
+
+}  // namespace microswarm::rig
