@@ -31,7 +31,11 @@ class CoilTemperaturesTest : public testing::Test {
     return CoilTemperatures(rig, cold).at_start();
   }
   /// Temperatures of 50, 60 and 70 °C, kept by a program that ends at once.
-  void heat() const { CoilTemperatures(rig, false).take(Eigen::Vector3d(50, 60, 70)); }
+  void heat(bool confirmed = true) const {
+    CoilTemperatures driven(rig, false);
+    driven.take(Eigen::Vector3d(50, 60, 70));
+    driven.take(actuation::StopReport{.confirmed = confirmed});
+  }
   static void expect_near(const Eigen::VectorXd& found, const Eigen::Vector3d& expected,
                           double cooler = 1e-6) {
     ASSERT_EQ(found.size(), 3);
@@ -65,6 +69,7 @@ TEST_F(CoilTemperaturesTest, OutliveTheProgram) {
     CoilTemperatures driven(rig, false);
     EXPECT_TRUE(driven.known());
     driven.take(Eigen::Vector3d(50, 60, 70));
+    driven.take(actuation::StopReport{.confirmed = true});
   }
   expect_near(at_start(), {50, 60, 70}, 5);
 }
@@ -94,10 +99,27 @@ TEST_F(CoilTemperaturesTest, OfADamagedFileAreRefusedInALineThatSaysWhatHelps) {
   const auto refused = [&] { return test::error_of([&] { at_start(); }); };
   write_file_atomically(file(), "temperatures: hot\n");
   EXPECT_TRUE(test::is_one_line_naming(refused(), file().string(), {"coils_cold"}));
-  keep(never, false, "[50, 60]");
-  EXPECT_TRUE(test::is_one_line_naming(refused(), file().string(), {"2", "3", "coils_cold"}));
   expect_near(at_start(true), {22, 30, 22});
   expect_near(at_start(), {22, 30, 22});
+}
+
+TEST_F(CoilTemperaturesTest, OfAnotherNumberOfCoilsAreRefusedColdOrNot) {
+  at_start(true);
+  keep(never, false, "[50, 60]");
+  for (const bool cold : {false, true}) {
+    const std::string refused = test::error_of([&] { at_start(cold); });
+    EXPECT_TRUE(test::is_one_line_naming(refused, file().string(), {"2 temperatures", "3 coils"}));
+  }
+}
+
+TEST_F(CoilTemperaturesTest, CoilsAreDrivenUntilTheirZeroIsConfirmed) {
+  at_start(true);
+  heat();
+  EXPECT_TRUE(test::names(read_file(file()), "driven: false"));
+  heat(false);
+  EXPECT_TRUE(test::names(read_file(file()), "driven: true"));
+  at_start();  // a program that drives nothing ends
+  EXPECT_TRUE(test::names(read_file(file()), "driven: false"));
 }
 
 TEST_F(CoilTemperaturesTest, ColdIsRefusedOfCoilsThatAreKnownToBeWarmer) {
@@ -162,7 +184,11 @@ TEST_F(CoilTemperaturesTest, AreThoseOfTheCoilsNotOfTheirFile) {
     return read_rig(folder.with(name + ".yaml", "coils: " + name + "-coils.yaml\n"));
   };
   const Rig first = rig_of("first", "");
-  CoilTemperatures(first, true).take(Eigen::Vector3d(50, 60, 70));
+  {
+    CoilTemperatures driven(first, true);
+    driven.take(Eigen::Vector3d(50, 60, 70));
+    driven.take(actuation::StopReport{.confirmed = true});
+  }
   const Rig calibrated = rig_of("calibrated", "id: '" + coil_identity(first) + "'\n");
   expect_near(CoilTemperatures(calibrated, false).at_start(), {50, 60, 70}, 5);
   EXPECT_FALSE(CoilTemperatures(rig_of("other", "id: lab 2\n"), false).known());

@@ -115,6 +115,7 @@ int drive(Bench& bench, const rig::ManualCommand& command, const Context& contex
   const rig::ManualResult result = rig::drive_by_hand(bench.rig, *bench.driver, command,
                                                       bench.temperatures, listener, context.stop);
   bar.reset();
+  if (bench.kept) bench.kept->take(result.zero);
   if (!result.why.empty()) note("microswarm: {}\n", result.why);
   const bool at_zero = note_zero(result.zero);
   if (result.min_scale < 1 - 1e-9)

@@ -121,13 +121,15 @@ rig::Measurement Dialogue::measure(const actuation::MeasurementStep& step) {
 }
 
 rig::Measurement Dialogue::drive(const actuation::MeasurementStep& step, rig::FieldReader& reader) {
-  return rig::measure_field(
+  rig::Measurement made = rig::measure_field(
       rig_, *bench_->driver, step, {o_.ramp, o_.settle, o_.hold}, reader, bench_->temperatures,
       [this](const actuation::CoilOutput& output) {
         bench_->temperatures = output.temperatures;
         if (bench_->kept) bench_->kept->take(bench_->temperatures);
       },
       stop_);
+  if (bench_->kept) bench_->kept->take(made.zero);
+  return made;
 }
 
 /// Reports the outcome of a step, and asks where that needs an answer. False ends the measurement.
@@ -177,8 +179,10 @@ std::optional<rig::Measurement> Dialogue::compare_with_clamp(
   const double shown = std::abs(*typed.current());
   if (std::abs(shown - reported) <= tolerance * reported) return std::nullopt;
   // More current than was reckoned with has heated more, too.
-  if (shown > reported && bench_->kept)
+  if (shown > reported && bench_->kept) {
     bench_->kept->take(actuation::hottest(rig_.system.amplifiers()));
+    bench_->kept->take(made.zero);
+  }
   const double full_scale = rig::driver_full_scale(rig_.params);
   throw InputError(fmt::format(
       "{:.4g} A flow in {} where the device reports {:.4g} A: driver.full_scale_a is {:.4g}, must "

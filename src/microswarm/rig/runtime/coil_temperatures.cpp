@@ -18,15 +18,6 @@
 #include "microswarm/core/text/text.hpp"
 
 namespace microswarm::rig {
-namespace {
-
-namespace fs = std::filesystem;
-
-constexpr std::chrono::milliseconds between_entries{500};
-/// Maximum driving time after the last entry of a killed program, watchdog time included [s].
-constexpr double unwritten = 2;
-constexpr double cold_margin = 2;      // [K] above ambient at which coils count as cold
-constexpr double driven_margin = 0.2;  // [K] above their cooling from which coils were driven
 
 /// Contents of the file.
 struct KeptTemperatures {
@@ -48,6 +39,16 @@ struct KeptTemperatures {
           degc("temperatures", -273, 1e4, "Temperatures of the coils.").needed());
   }
 };
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::chrono::milliseconds between_entries{500};
+/// Maximum driving time after the last entry of a killed program, watchdog time included [s].
+constexpr double unwritten = 2;
+constexpr double cold_margin = 2;      // [K] above ambient at which coils count as cold
+constexpr double driven_margin = 0.2;  // [K] above their cooling from which coils were driven
 
 fs::path state_folder() {
   if (const char* state = std::getenv("XDG_STATE_HOME"); state && *state == '/')
@@ -73,7 +74,7 @@ std::string text_of(const fs::path& file) {
 }
 
 /// Reads the text of the file. A link could point to any file, so no message repeats its content.
-KeptTemperatures read_kept(const std::string& text, const fs::path& file, std::size_t coils) {
+KeptTemperatures read_kept(const std::string& text, const fs::path& file) {
   KeptTemperatures kept;
   try {
     kept = read_yaml_text<KeptTemperatures>(text, file.string());
@@ -81,12 +82,16 @@ KeptTemperatures read_kept(const std::string& text, const fs::path& file, std::s
     throw InputError(file.string(), "does not hold the temperatures of coils: remove it, or give " +
                                         input_name("coils_cold"));
   }
+  return kept;
+}
+
+/// Throws InputError if the temperatures are of another number of coils.
+void require_count(const KeptTemperatures& kept, const fs::path& file, std::size_t coils) {
   if (kept.temperatures.size() != coils)
     throw InputError(file.string(),
-                     fmt::format("{} temperatures, the system has {} coils: correct it, or "
-                                 "give {}",
-                                 kept.temperatures.size(), coils, input_name("coils_cold")));
-  return kept;
+                     fmt::format("{} temperatures, the system has {} coils: give the coils another "
+                                 "id, or remove the file if they are cold",
+                                 kept.temperatures.size(), coils));
 }
 
 bool is_there(const fs::path& file) { return fs::exists(fs::symlink_status(file)); }
@@ -108,7 +113,7 @@ CoilTemperatures::CoilTemperatures(const Rig& rig, bool cold, const ClockReading
   if (cold) {
     require_nothing_warmer(now);
   } else if (is_there(file_)) {
-    const Known known = read(text_of(file_), now);
+    const Known known = to_known(read_kept(text_of(file_), file_), now);
     at_start_ = known.temperatures;
     assumed_ = known.assumed;
     known_ = !known.assumed;
@@ -122,10 +127,10 @@ CoilTemperatures::CoilTemperatures(const Rig& rig, bool cold, const ClockReading
   thread_ = std::thread([this] { run(); });
 }
 
-/// Temperatures by the text of the file, now.
-CoilTemperatures::Known CoilTemperatures::read(const std::string& text,
-                                               const ClockReading& now) const {
-  const KeptTemperatures kept = read_kept(text, file_, amplifiers_.size());
+/// The kept temperatures, now.
+CoilTemperatures::Known CoilTemperatures::to_known(const KeptTemperatures& kept,
+                                                   const ClockReading& now) const {
+  require_count(kept, file_, amplifiers_.size());
   const auto coils = static_cast<Eigen::Index>(amplifiers_.size());
   Eigen::VectorXd then = Eigen::Map<const Eigen::VectorXd>(kept.temperatures.data(), coils)
                              .cwiseMax(actuation::ambient(amplifiers_));
@@ -139,20 +144,21 @@ CoilTemperatures::Known CoilTemperatures::read(const std::string& text,
 void CoilTemperatures::require_nothing_warmer(const ClockReading& now) const {
   if (!is_there(file_) || fs::is_symlink(file_)) return;  // a link is no file of ours
   const std::string text = text_of(file_);
-  std::optional<Known> known;
+  std::optional<KeptTemperatures> kept;
   try {
-    known = read(text, now);
+    kept = read_kept(text, file_);
   } catch (const InputError&) {  // a damaged file knows nothing
     return;
   }
-  if (known->assumed) return;
+  const Known known = to_known(*kept, now);
+  if (known.assumed) return;
   Eigen::Index warmest = 0;
-  const double warmer = (known->temperatures - actuation::ambient(amplifiers_)).maxCoeff(&warmest);
+  const double warmer = (known.temperatures - actuation::ambient(amplifiers_)).maxCoeff(&warmest);
   if (warmer <= cold_margin) return;
   throw InputError(fmt::format(
       "{}: a coil is at {:.3g} °C by {}, written {:.3g} s ago: leave it out, or remove that file "
       "if you have measured that the coils are cold",
-      input_name("coils_cold"), known->temperatures[warmest], file_.string(), known->pause));
+      input_name("coils_cold"), known.temperatures[warmest], file_.string(), known.pause));
 }
 
 CoilTemperatures::~CoilTemperatures() {
@@ -163,7 +169,7 @@ CoilTemperatures::~CoilTemperatures() {
   changed_.notify_all();
   thread_.join();
   try {
-    write(newest_, false);
+    write(newest_, !at_zero_);
   } catch (const std::exception&) {  // then the last entry remains
     return;
   }
@@ -178,9 +184,15 @@ void CoilTemperatures::take(const Eigen::VectorXd& temperatures) {
   const std::lock_guard lock(mutex_);
   if (!why_.empty()) throw InputError(why_);
   newest_ = temperatures;
+  at_zero_ = false;
   const double since = read_clocks().uptime - began_;
   const Eigen::VectorXd undriven = actuation::cooled(amplifiers_, at_start_, since);
   if (assumed_ && (temperatures - undriven).maxCoeff() > driven_margin) assumed_ = false;
+}
+
+void CoilTemperatures::take(const actuation::StopReport& stop) {
+  const std::lock_guard lock(mutex_);
+  at_zero_ = stop.confirmed;
 }
 
 void CoilTemperatures::run() {

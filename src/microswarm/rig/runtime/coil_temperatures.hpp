@@ -9,10 +9,13 @@
 #include <string>
 #include <thread>
 
+#include "microswarm/actuation/drivers/coil_driver.hpp"
 #include "microswarm/rig/params/rig_params.hpp"
 #include "microswarm/rig/runtime/clock_reading.hpp"
 
 namespace microswarm::rig {
+
+struct KeptTemperatures;
 
 /// Identity of a rig's coils: the `id` of their file, which copies of it keep, otherwise its path.
 std::string coil_identity(const Rig& rig);
@@ -26,10 +29,11 @@ std::string coil_identity(const Rig& rig);
 class CoilTemperatures {
  public:
   /// Reads the file; with `cold`, the coils are at ambient temperature instead. Throws InputError,
-  /// one line, if the file is damaged or the folder cannot be written, and with `cold` if the file
-  /// knows that a coil is warmer.
+  /// one line, if the file is damaged, is of another number of coils or the folder cannot be
+  /// written, and with `cold` if the file knows that a coil is warmer. With `cold` a damaged file
+  /// counts as none.
   CoilTemperatures(const Rig& rig, bool cold, const ClockReading& now = read_clocks());
-  /// Writes the last temperatures and marks the coils as undriven.
+  /// Writes the last temperatures, and that the coils are undriven if they were last seen at zero.
   ~CoilTemperatures();
   CoilTemperatures(const CoilTemperatures&) = delete;
   CoilTemperatures& operator=(const CoilTemperatures&) = delete;
@@ -45,6 +49,9 @@ class CoilTemperatures {
   /// if the file could not be written.
   void take(const Eigen::VectorXd& temperatures);
 
+  /// Takes a stop of the coils. Until one is confirmed, they count as driven.
+  void take(const actuation::StopReport& stop);
+
  private:
   struct Known {
     Eigen::VectorXd temperatures;  ///< [°C]
@@ -52,7 +59,7 @@ class CoilTemperatures {
     double pause = 0;  ///< since it was written [s]
   };
 
-  Known read(const std::string& text, const ClockReading& now) const;
+  Known to_known(const KeptTemperatures& kept, const ClockReading& now) const;
   void require_nothing_warmer(const ClockReading& now) const;
   void run();
   void write(const Eigen::VectorXd& temperatures, bool driven) const;
@@ -68,6 +75,7 @@ class CoilTemperatures {
   std::condition_variable changed_;
   Eigen::VectorXd newest_;
   bool over_ = false;
+  bool at_zero_ = true;
   std::string why_;  // why the file could not be written
   std::thread thread_;
 };

@@ -171,6 +171,12 @@ void LiveSession::keep(const CoilMoment& moment) {
   if (options_.driven) options_.driven();
 }
 
+actuation::StopReport LiveSession::stop(const std::string& why) {
+  actuation::StopReport zero = plant_->stop(why);
+  if (temperatures_) temperatures_->take(zero);
+  return zero;
+}
+
 std::string LiveSession::close() {
   const actuation::StopReport zero = stop("the run has ended");
   if (!kept_.empty()) {

@@ -74,7 +74,7 @@ class LiveSession {
   const std::vector<std::string>& warnings() const { return warnings_; }
   /// Sets the coils to zero permanently; callable from any thread. Returns the report of the first
   /// stop.
-  actuation::StopReport stop(const std::string& why) { return plant_->stop(why); }
+  actuation::StopReport stop(const std::string& why);
   /// Sets the coils to zero after the last tick, finishes the log and adds currents and detections
   /// to the record, up to `max_logged` values of each. Returns the reason of a failure, or an empty
   /// string.
