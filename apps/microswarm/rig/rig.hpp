@@ -29,6 +29,8 @@ Eigen::VectorXd parse_currents(const std::string& text, const actuation::CoilSys
 void add_rig_map(Command rig, Action& action);
 /// Adds `rig calibrate`.
 void add_rig_calibrate(Command rig, Action& action);
+/// Adds `rig heat`.
+void add_rig_heat(Command rig, Action& action);
 /// Adds `rig scale`.
 void add_rig_scale(Command rig, Action& action);
 /// Adds `rig cameras`.
