@@ -4,7 +4,7 @@
 
 #include "measured_rig.hpp"
 #include "microswarm/actuation/amplifiers/coil_heat.hpp"
-#include "microswarm/actuation/amplifiers/heat_fit.hpp"
+#include "microswarm/actuation/coils/heat_fit.hpp"
 
 namespace microswarm::test {
 namespace {

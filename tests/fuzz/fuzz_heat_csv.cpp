@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "microswarm/actuation/amplifiers/heat_fit.hpp"
+#include "microswarm/actuation/coils/heat_fit.hpp"
 #include "microswarm/core/errors/error.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

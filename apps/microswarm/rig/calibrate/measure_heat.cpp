@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "microswarm/actuation/amplifiers/coil_heat.hpp"
-#include "microswarm/actuation/amplifiers/heat_fit.hpp"
+#include "microswarm/actuation/coils/heat_fit.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/execution/clock.hpp"
 #include "microswarm/core/text/text.hpp"

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "microswarm/actuation/amplifiers/coil_heat.hpp"
-#include "microswarm/actuation/amplifiers/heat_fit.hpp"
+#include "microswarm/actuation/coils/heat_fit.hpp"
 #include "microswarm/config/write.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"

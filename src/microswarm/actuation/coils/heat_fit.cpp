@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/actuation/amplifiers/heat_fit.hpp"
+#include "microswarm/actuation/coils/heat_fit.hpp"
 
 #include <fmt/format.h>
 
@@ -15,6 +15,7 @@
 #include "microswarm/actuation/coils/text_rows.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/maths/infinity.hpp"
+#include "microswarm/core/maths/maths.hpp"
 #include "microswarm/core/text/csv.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/text.hpp"
@@ -65,9 +66,9 @@ class HeatResiduals {
 
   AmplifierParams coil_of(const Eigen::VectorXd& x) const {
     AmplifierParams coil = coil_;
-    coil.thermal_resistance = std::exp(x[0]);
-    coil.thermal_time = std::exp(x[1]);
-    if (has_voltages()) coil.resistance = std::exp(x[2]);
+    coil.thermal_resistance = maths::exp(x[0]);
+    coil.thermal_time = maths::exp(x[1]);
+    if (has_voltages()) coil.resistance = maths::exp(x[2]);
     return coil;
   }
 
@@ -125,9 +126,9 @@ Solution solve(const Problem& problem, const HeatLog& log, double resistance) {
   Solution best;
   for (const double share : {0.05, 0.2, 0.6}) {
     Eigen::VectorXd x(problem.inputs());
-    x[0] = std::log(30 / std::max(power, 1e-9));  // some 30 K
-    x[1] = std::log(share * span);
-    if (problem.has_voltages()) x[2] = std::log(resistance);
+    x[0] = maths::log(30 / std::max(power, 1e-9));  // some 30 K
+    x[1] = maths::log(share * span);
+    if (problem.has_voltages()) x[2] = maths::log(resistance);
     Problem own = problem;
     Eigen::LevenbergMarquardt<Problem> solver(own);
     constexpr int most_evaluations = 2000;
