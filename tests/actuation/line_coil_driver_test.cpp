@@ -10,6 +10,7 @@
 #include <random>
 #include <thread>
 
+#include "microswarm/actuation/coils/coil_controller.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/execution/clock.hpp"
 #include "microswarm/core/text/file.hpp"
@@ -52,6 +53,23 @@ TEST(LineProtocol, RepliesAreReadAndEverythingElseIsNone) {
                            "OK 1", "1 ok", "ok 1 \x1b[2J", "ok\a 1"})
     EXPECT_FALSE(parse_line_reply(none)) << none;
   EXPECT_FALSE(parse_line_reply("off 1 " + std::string(line_protocol_length, 'x')));
+}
+
+TEST(LineProtocol, TemperaturesFollowTheValues) {
+  const auto reply = parse_line_reply("limited 7 1 -2 t 45.5 - 22");
+  ASSERT_TRUE(reply);
+  EXPECT_EQ(reply->values, (std::vector<double>{1, -2}));
+  ASSERT_EQ(reply->temperatures.size(), 3u);
+  EXPECT_EQ(reply->temperatures[0], 45.5);
+  EXPECT_TRUE(std::isnan(reply->temperatures[1]));
+  EXPECT_EQ(reply->temperatures[2], 22);
+  EXPECT_TRUE(parse_line_reply("ok 7 1 t")->temperatures.empty());
+  EXPECT_TRUE(parse_line_reply("ok 7 1 2")->temperatures.empty());
+  for (const char* const odd :
+       {"ok 7 1 t hot", "ok 7 1 t nan", "ok 7 1 t -300", "ok 7 1 t 2e4", "ok 7 1 t 20 t 20"}) {
+    EXPECT_TRUE(parse_line_reply(odd)->temperatures.empty()) << odd;
+    EXPECT_EQ(parse_line_reply(odd)->values, std::vector<double>{1}) << odd;
+  }
 }
 
 TEST(LineProtocol, LinesOfAnyLengthCostOnlyThemselves) {
@@ -154,6 +172,31 @@ TEST(LineCoilDriver, ScaledValuesAreToldAndOtherValuesAreAFault) {
   answered("ok 3 1 -2.5", DriveStatus::mismatched, 0);
   answered("ok 3 1 -2.5 0 0", DriveStatus::mismatched, 0);
   answered("ok 3 1 nan 0", DriveStatus::mismatched, 0);
+}
+
+// A probe that shows more than the thermal model warms it, one that shows less does not cool it.
+TEST(LineCoilDriver, ProbesWarmTheThermalModel) {
+  std::atomic<bool> hot = false;
+  Server server(other("set", [&](const Words& words) {
+    std::string reply = Server::good(words);
+    reply.pop_back();
+    return reply + (hot ? " t 95 10 -\n" : " t 40 10 -\n");
+  }));
+  const auto driver = open(server);
+  CoilSystemParams params{.coils = HelmholtzCoils{}};
+  params.amplifiers = {AmplifierParams{.max_current = 5, .max_temperature = 90}};
+  const CoilSystem system(params);
+  CoilController controller(system, {}, *driver, 0);
+  controller.command(Eigen::VectorXd(Eigen::Vector3d(1, 1, 1)));
+  for (int i = 0; i < 10; ++i) controller.advance(0.1);
+  EXPECT_EQ(controller.output().scale, 1);
+  EXPECT_EQ(controller.temperatures()[0], 40);
+  EXPECT_NEAR(controller.temperatures()[1], 22, 0.1);
+  EXPECT_NEAR(controller.temperatures()[2], 22, 0.1);
+  hot = true;
+  for (int i = 0; i < 10; ++i) controller.advance(0.1);
+  EXPECT_EQ(controller.temperatures()[0], 95);
+  EXPECT_LT(controller.output().scale, 1e-6);
 }
 
 TEST(LineCoilDriver, AnAnswerToAnotherMessageIsNone) {

@@ -28,6 +28,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!reply) continue;
     require(reply->values.size() <= actuation::line_protocol_values);
     require(std::ranges::all_of(reply->values, [](double value) { return std::isfinite(value); }));
+    require(reply->temperatures.size() <= actuation::line_protocol_values);
+    require(std::ranges::none_of(reply->temperatures, [](double t) { return std::isinf(t); }));
     require(reply->text == one_line(reply->text, 1000));
   }
   return 0;

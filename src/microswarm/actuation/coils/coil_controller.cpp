@@ -69,12 +69,29 @@ const CoilOutput& CoilController::advance(double dt, double share) {
     send_currents(dt, share);
   misses_ = output_.status == DriveStatus::no_answer ? misses_ + 1 : 0;
   output_.currents = amplifiers_.currents();
-  output_.temperatures = amplifiers_.temperatures();
   if (is_acknowledged(output_.status)) {
+    mind_probes();
     output_.device_scale = driver_.report().scale;
     output_.acknowledged = output_.device_scale * output_.currents;
   }
+  output_.temperatures = amplifiers_.temperatures();
   return output_;
+}
+
+/// Warms the model where a probe shows more than it. A probe on a coil's surface shows less than
+/// the winding has, so it never cools the model.
+void CoilController::mind_probes() {
+  const std::vector<double>& probes = driver_.report().temperatures;
+  Eigen::VectorXd temperatures = amplifiers_.temperatures();
+  const auto count = std::min(probes.size(), static_cast<std::size_t>(temperatures.size()));
+  bool is_warmer = false;
+  for (std::size_t k = 0; k < count; ++k) {
+    double& model = temperatures[static_cast<Eigen::Index>(k)];
+    if (!(probes[k] > model)) continue;  // NaN without a probe
+    model = probes[k];
+    is_warmer = true;
+  }
+  if (is_warmer) amplifiers_.warm(temperatures);
 }
 
 /// Whether the device turns the setpoint's field.

@@ -22,7 +22,7 @@ struct CoilOutput {
   DriveStatus status = DriveStatus::driven;
   double device_scale = 1;         ///< by the device's own limits, as last acknowledged
   Eigen::VectorXd acknowledged{};  ///< currents that the device last acknowledged [A]
-  Eigen::VectorXd temperatures{};  ///< of the coils, by their thermal model [°C]
+  Eigen::VectorXd temperatures{};  ///< of the coils, by their thermal model and probes [°C]
 };
 
 /// Setpoint of the coils: a navigator's command, a constant field at the target position [mT],
@@ -31,7 +31,8 @@ using Setpoint = std::variant<Command, Eigen::Vector3d, Eigen::VectorXd>;
 
 /// Converts setpoints to coil currents. The field of commands changes continuously. The currents of
 /// a field are the minimum-norm solution at the target position (Eq 4 [global]). Currents are
-/// scaled to respect all limits, and sent by the driver; those of commands as a waveform, to a
+/// scaled to respect all limits, where a coil is as warm as its model or its probe says, whichever
+/// is more, and sent by the driver; those of commands as a waveform, to a
 /// device that makes them. The destructor sets all currents to zero, unless the device confirmed
 /// zero after the last output.
 class CoilController {
@@ -71,6 +72,7 @@ class CoilController {
 
  private:
   bool turns_on_device() const;
+  void mind_probes();
   Eigen::VectorXd make(const Eigen::Vector3d& field);
   Eigen::VectorXd wanted_currents(double dt);
   void send_currents(double dt, double share);

@@ -80,9 +80,12 @@ struct DeviceReport {
   std::vector<double> currents{};  ///< [A]; of a field, the coil system's model
   double scale = 1;                ///< by the device's own limits, of the last acknowledged
                                    ///< request, in [0, 1]
-  std::optional<double> phase{};   ///< of the waveform [rad]; empty if unknown
-  std::string reason{};            ///< cause of the last trouble, one printable line; empty if
-                                   ///< unknown
+  /// Temperatures of the channels' coils by probes, as last acknowledged [°C]; NaN for a coil
+  /// without one, empty for a device without probes.
+  std::vector<double> temperatures{};
+  std::optional<double> phase{};  ///< of the waveform [rad]; empty if unknown
+  std::string reason{};           ///< cause of the last trouble, one printable line; empty if
+                                  ///< unknown
 };
 
 /// Result of setting all currents to zero.

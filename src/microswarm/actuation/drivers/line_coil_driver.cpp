@@ -162,6 +162,7 @@ DriveStatus LineCoilDriver::follow(std::span<const double> values,
   const DriveStatus compared = compare(values, *reply, scale);
   if (compared == DriveStatus::mismatched) return compared;
   report_.scale = scale;
+  report_.temperatures = std::move(reply->temperatures);
   for (std::size_t i = 0; i < currents.size(); ++i) report_.currents[i] = scale * currents[i];
   return status == DriveStatus::driven ? compared : status;
 }

@@ -7,6 +7,8 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
+#include <span>
 #include <utility>
 
 #include "microswarm/core/text/lines.hpp"
@@ -30,14 +32,35 @@ std::string_view take_word(std::string_view& text) {
   return word;
 }
 
-std::vector<double> parse_values(std::string_view text) {
+std::vector<double> parse_values(std::span<const std::string_view> words) {
   std::vector<double> values;
-  for (const std::string_view word : words(text)) {
+  for (const std::string_view word : words) {
     const auto value = parse_number(word);
     if (!value || values.size() == line_protocol_values) return {};
     values.push_back(*value);
   }
   return values;
+}
+
+std::vector<double> parse_temperatures(std::span<const std::string_view> words) {
+  constexpr double least = -273.15, most = 1e4;  // [°C]
+  constexpr std::string_view none = "-";
+  std::vector<double> temperatures;
+  for (const std::string_view word : words) {
+    const auto value = word == none ? std::numeric_limits<double>::quiet_NaN() : parse_number(word);
+    if (!value || *value < least || *value > most || temperatures.size() == line_protocol_values)
+      return {};
+    temperatures.push_back(*value);
+  }
+  return temperatures;
+}
+
+/// Reads "V1 V2 …" and "V1 V2 … t T1 T2 …".
+void read_numbers(std::string_view text, LineReply& reply) {
+  const std::vector<std::string_view> all = words(text);
+  const auto mark = std::ranges::find(all, "t");
+  reply.values = parse_values({all.begin(), mark});
+  if (mark != all.end()) reply.temperatures = parse_temperatures({mark + 1, all.end()});
 }
 
 }  // namespace
@@ -72,7 +95,7 @@ std::optional<LineReply> parse_line_reply(std::string_view line) {
   if (number.empty() || error != std::errc{} || end != number.data() + number.size())
     return std::nullopt;
   if (reply.verdict == LineVerdict::ok || reply.verdict == LineVerdict::limited)
-    reply.values = parse_values(line);
+    read_numbers(line, reply);
   else
     reply.text = one_line(trimmed(line));
   return reply;

@@ -23,7 +23,10 @@ struct LineReply {
   LineVerdict verdict{};
   std::uint32_t sequence = 0;    ///< of the message that it answers
   std::vector<double> values{};  ///< applied values; empty if not finite or too many
-  std::string text{};            ///< reason of off, refused and emergency, one printable line
+  /// Temperatures of the channels' coils by probes [°C], NaN for a coil without one; empty if the
+  /// reply has none or one that is no temperature.
+  std::vector<double> temperatures{};
+  std::string text{};  ///< reason of off, refused and emergency, one printable line
 };
 
 /// The line "hello SEQUENCE VERSION SEND CHANNELS WATCHDOG_MS" with its end; `send` is a word.
