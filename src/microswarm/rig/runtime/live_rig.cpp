@@ -108,7 +108,7 @@ LiveRig::LiveRig(const experiment::Scenario& scenario, std::shared_ptr<const Map
 
 Observation LiveRig::observe() {
   begun_ = since_start();
-  if (fault_.empty()) take_frame();
+  if (fault_.why.empty()) take_frame();
   const double now = since_start();
   look_for_faults(now);
   if (listeners_.detections && seen_ > reported_) {
@@ -142,7 +142,7 @@ void LiveRig::take_frame() {
     schedule_.begin(is_new ? std::optional(frame_.taken - start_) : std::nullopt);
     if (is_new) read_frame();
   } catch (const HardwareError& e) {
-    fail(e.what());
+    fail(e.what(), FaultKind::camera);
   }
 }
 
@@ -160,29 +160,35 @@ void LiveRig::read_frame() {
   if (!following_.take(detections_->commanded_distance, detections_->followed_distance, distance))
     fail(
         fmt::format("the swarm does not follow: of {:.3g} µm that were commanded it went {:.3g} µm",
-                    following_.commanded(), following_.followed()));
+                    following_.commanded(), following_.followed()),
+        FaultKind::swarm);
   meter_.add_picture(took, detections_->unseen, angle_.direction());
 }
 
 void LiveRig::look_for_faults(double now) {
   const SafetyParams& safety = rig_.params.safety;
-  if (const std::string why = coils_.failure(); !why.empty()) return fail(why);
+  if (const Fault failure = coils_.fault(); !failure.why.empty())
+    return fail(failure.why, failure.kind);
   const vision::CameraStatus camera = camera_.status();
   if (camera.state == vision::CameraState::frozen || camera.state == vision::CameraState::black)
-    return fail(fmt::format("the camera's pictures are {}", enum_name(camera.state)));
+    return fail(fmt::format("the camera's pictures are {}", enum_name(camera.state)),
+                FaultKind::camera);
   if (camera.state == vision::CameraState::ended) {
     const std::string why = camera.why.empty() ? camera.why : ": " + camera.why;
-    return fail("the camera has no more pictures" + why);
+    return fail("the camera has no more pictures" + why, FaultKind::camera);
   }
   const double age = now - seen_;
   if (age > safety.max_frame_age)
     return fail(
-        fmt::format("the newest picture is {:.2f} s old, allowed {} s", age, safety.max_frame_age));
+        fmt::format("the newest picture is {:.2f} s old, allowed {} s", age, safety.max_frame_age),
+        FaultKind::camera);
   if (now - found_ > safety.lost_swarm)
     return fail(fmt::format("the swarm was not found for {:.2f} s{}, allowed {} s", now - found_,
-                            why_not_found(*detections_), safety.lost_swarm));
+                            why_not_found(*detections_), safety.lost_swarm),
+                FaultKind::swarm);
   if (missed_in_a_row_ >= safety.missed_deadlines)
-    return fail(fmt::format("{} ticks in a row ended too late", missed_in_a_row_));
+    return fail(fmt::format("{} ticks in a row ended too late", missed_in_a_row_),
+                FaultKind::computer);
   meter_.add_frame_age(age);
 }
 
@@ -198,9 +204,9 @@ void LiveRig::apply(const Command& command, double dt) {
   coils_.wait(schedule_.earliest() - since_start());
 }
 
-void LiveRig::fail(const std::string& why) {
-  stop(why);
-  if (fault_.empty()) fault_ = why;
+void LiveRig::fail(const std::string& why, FaultKind kind) {
+  coils_.stop(why, kind);
+  if (fault_.why.empty()) fault_ = {why, kind};
 }
 
 RigTiming LiveRig::timing() const {
