@@ -89,6 +89,26 @@ KeptTemperatures read_kept(const std::string& text, const fs::path& file, std::s
   return kept;
 }
 
+/// Content of the file, by now.
+struct Known {
+  Eigen::VectorXd temperatures;  ///< [°C]
+  bool assumed = false;
+  double pause = 0;  ///< since it was written [s]
+};
+
+/// Temperatures by the text of the file, now.
+Known known_by(const std::string& text, const fs::path& file,
+               const std::vector<actuation::AmplifierParams>& amplifiers, const ClockReading& now) {
+  const KeptTemperatures kept = read_kept(text, file, amplifiers.size());
+  const auto coils = static_cast<Eigen::Index>(amplifiers.size());
+  Eigen::VectorXd then = Eigen::Map<const Eigen::VectorXd>(kept.temperatures.data(), coils)
+                             .cwiseMax(actuation::ambient(amplifiers));
+  if (kept.driven) then = actuation::heated(amplifiers, then, unwritten);
+  const double pause = certain_pause(kept.clock, now);
+  return {actuation::cooled(amplifiers, then, pause - (kept.driven ? unwritten : 0)),
+          kept.assumed && !kept.driven, pause};
+}
+
 bool is_there(const fs::path& file) { return fs::exists(fs::symlink_status(file)); }
 
 }  // namespace
@@ -96,6 +116,12 @@ bool is_there(const fs::path& file) { return fs::exists(fs::symlink_status(file)
 std::string coil_identity(const Rig& rig) {
   if (!rig.system.id().empty()) return rig.system.id();
   return fs::weakly_canonical(rig.folder / rig.params.coils).string();
+}
+
+Eigen::VectorXd kept_temperatures(const Rig& rig, const ClockReading& now) {
+  const fs::path file = state_folder() / name_for(coil_identity(rig));
+  if (!is_there(file)) return actuation::hottest(rig.system.amplifiers());
+  return known_by(text_of(file), file, rig.system.amplifiers(), now).temperatures;
 }
 
 CoilTemperatures::CoilTemperatures(const Rig& rig, bool cold, const ClockReading& now)
@@ -108,7 +134,7 @@ CoilTemperatures::CoilTemperatures(const Rig& rig, bool cold, const ClockReading
   if (cold) {
     require_nothing_warmer(now);
   } else if (is_there(file_)) {
-    const Known known = read(text_of(file_), now);
+    const Known known = known_by(text_of(file_), file_, amplifiers_, now);
     at_start_ = known.temperatures;
     assumed_ = known.assumed;
     known_ = !known.assumed;
@@ -122,26 +148,13 @@ CoilTemperatures::CoilTemperatures(const Rig& rig, bool cold, const ClockReading
   thread_ = std::thread([this] { run(); });
 }
 
-/// Temperatures by the text of the file, now.
-CoilTemperatures::Known CoilTemperatures::read(const std::string& text,
-                                               const ClockReading& now) const {
-  const KeptTemperatures kept = read_kept(text, file_, amplifiers_.size());
-  const auto coils = static_cast<Eigen::Index>(amplifiers_.size());
-  Eigen::VectorXd then = Eigen::Map<const Eigen::VectorXd>(kept.temperatures.data(), coils)
-                             .cwiseMax(actuation::ambient(amplifiers_));
-  if (kept.driven) then = actuation::heated(amplifiers_, then, unwritten);
-  const double pause = certain_pause(kept.clock, now);
-  return {actuation::cooled(amplifiers_, then, pause - (kept.driven ? unwritten : 0)),
-          kept.assumed && !kept.driven, pause};
-}
-
 /// Throws InputError if the file knows a coil that is not cold.
 void CoilTemperatures::require_nothing_warmer(const ClockReading& now) const {
   if (!is_there(file_) || fs::is_symlink(file_)) return;  // a link is no file of ours
   const std::string text = text_of(file_);
   std::optional<Known> known;
   try {
-    known = read(text, now);
+    known = known_by(text, file_, amplifiers_, now);
   } catch (const InputError&) {  // a damaged file knows nothing
     return;
   }

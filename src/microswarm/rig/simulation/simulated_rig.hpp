@@ -31,6 +31,8 @@ class SimulatedRig : public Plant {
   const formats::Image& picture() const { return *picture_; }
   const Detections& detections() const { return *detections_; }
   const actuation::CoilOutput& coils() const { return controller_.output(); }
+  /// Sets the temperatures of the coils [°C].
+  void warm(const Eigen::VectorXd& temperatures) { controller_.warm(temperatures); }
 
  private:
   const Rig rig_;
