@@ -5,6 +5,7 @@
 #include "driven_rig.hpp"
 #include "microswarm/experiment/record/record.hpp"
 #include "notices.hpp"
+#include "terminal.hpp"
 
 namespace microswarm::test {
 namespace {
@@ -84,6 +85,7 @@ TEST_F(RigQueue, GoesOnAfterAPowerCutAndRunsNothingTwice) {
   const std::string csv = read("out/summary.csv");
   EXPECT_EQ(std::ranges::count(csv, '\n'), 5) << csv;
   EXPECT_TRUE(names(csv, "interrupted")) << csv;
+  EXPECT_TRUE(names(csv, "time budget")) << csv;
 
   const Outcome again = run(queue());
   EXPECT_EQ(again.code, 0) << again.err;
@@ -146,6 +148,29 @@ TEST_F(RigQueue, HotCoilsAreWaitedForAndAWaitWithoutEndIsRefused) {
   EXPECT_TRUE(names(outcome.err, "cooling: coil x 90.0 °C, 89.5 °C in about 3 s")) << outcome.err;
   write("queue.yaml", "entries: [{scenario: flight.yaml, start_below_degc: 20}]\n");
   refused(queue(), naming("queue.yaml:1:53", {"20", "ambient"}));
+}
+
+TEST_F(RigQueue, KeysEndIt) {
+  Arguments words = queue();
+  std::erase(words, "--other-stop");
+  std::erase(words, "--coils-cold");
+  for (const auto& [key, code] : {std::pair{"q", 3}, {" ", 4}}) {
+    Terminal terminal(words, at);  // the coils are taken at their limit, and cool for minutes
+    ASSERT_TRUE(terminal.hears("cooling: coil"));
+    ASSERT_TRUE(terminal.hears("cooling: coil"));  // in its status line
+    terminal.press(key);
+    EXPECT_EQ(terminal.wait(), code) << terminal.said();
+  }
+  fs::remove_all(at.folder / "out");
+  fs::remove_all(at.folder / ".state");
+  words.emplace_back("--coils-cold");
+  Terminal terminal(words, at);
+  ASSERT_TRUE(terminal.hears("coils to zero at once"));
+  let_drive("out/001-one-1");
+  terminal.press(" ");
+  EXPECT_EQ(terminal.wait(), 4) << terminal.said();
+  EXPECT_EQ(states(), (Names{"waiting", "waiting", "waiting"}));
+  expect_zero("out/001-one-1");
 }
 
 TEST_F(RigQueue, WhatIsMissingIsNamed) {

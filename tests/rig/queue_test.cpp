@@ -182,6 +182,7 @@ TEST_F(QueueTest, ARefusedRunFailsAndTheNextFollows) {
   EXPECT_EQ(run(open("entries: [{scenario: a.yaml}, {scenario: b.yaml}]\n")), QueueEnd::incomplete);
   EXPECT_EQ(ran.size(), 2u);
   EXPECT_EQ(state().items[0].note, "the start is outside");
+  EXPECT_TRUE(test::names(alarms.front(), "the queue goes on"));
 }
 
 TEST_F(QueueTest, WhatWouldEndTooLateIsLeftOut) {
@@ -191,6 +192,9 @@ TEST_F(QueueTest, WhatWouldEndTooLateIsLeftOut) {
   EXPECT_EQ(run(queue), QueueEnd::incomplete);  // 36 s
   EXPECT_EQ(ran, (Names{"001-a-1", "003-c-1"}));
   EXPECT_TRUE(test::names(state().items[1].note, "no time left"));
+  EXPECT_EQ(
+      std::ranges::count_if(told, [](const auto& line) { return test::names(line, "left out"); }),
+      1);
 }
 
 TEST_F(QueueTest, ItsEndIsTheNextTimeOfThatName) {
@@ -287,6 +291,10 @@ TEST_F(QueueTest, AChangedScenarioIsRunAnew) {
   EXPECT_EQ(run(open("entries: [{scenario: b.yaml}, {scenario: c.yaml}, {scenario: a.yaml}]\n")),
             QueueEnd::complete);
   EXPECT_EQ(ran, (Names{"002-c-1"}));
+  // What was left out and is there again is still done.
+  EXPECT_EQ(run(open("entries: [{scenario: b.yaml}]\n")), QueueEnd::complete);
+  EXPECT_EQ(run(open("entries: [{scenario: a.yaml}, {scenario: b.yaml}]\n")), QueueEnd::complete);
+  EXPECT_EQ(ran.size(), 1u);
 }
 
 TEST_F(QueueTest, ADamagedStateIsRefused) {

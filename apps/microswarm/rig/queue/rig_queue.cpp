@@ -110,6 +110,8 @@ class QueueRuns {
       attempt.reason = end.lost;
     } else if (end.status == Status::stopped && context_.stop.requested()) {
       attempt.end = rig::AttemptEnd::stopped;
+    } else if (end.status == Status::stopped) {
+      attempt.status = end.t < item.time_budget ? "ended by a key" : "time budget";
     }
     return attempt;
   }
@@ -188,7 +190,13 @@ int rig_queue(const RigQueueOptions& o, const Context& context) {
               note("microswarm: {}\n", why);
               if (!o.dry_run) command.start(rig, why, record);
             }};
-    end = rig::run_queue(queue, rig, o.rig, o.out, host);
+    rig::read_queue_state(o.out);  // a damaged one is bad input, one that cannot be written is not
+    try {
+      end = rig::run_queue(queue, rig, o.rig, o.out, host);
+    } catch (const InputError& error) {
+      host.alarm(std::string(error.what()) + "; the queue has stopped", {});
+      end = rig::QueueEnd::needs_person;
+    }
     service.stopping("the queue has ended");
   }
   const rig::QueueState state = rig::show_queue_state(o.out);

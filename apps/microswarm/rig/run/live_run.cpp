@@ -252,6 +252,7 @@ LiveRunEnd run_live(const rig::RigExperiment& on, const LiveRunOptions& o, const
     end.code = lost.empty() ? complete : bad_input;
   end.status = session.result().status;
   end.ending = ending(session.result());
+  if (session.tick()) end.t = session.tick()->frame.t;
   end.max_temperature = hottest.temperature();
   end.lost = std::move(lost);
   return end;

@@ -28,6 +28,7 @@ struct LiveRunEnd {
   int code = ok;  ///< exit code of `rig run`
   Status status = Status::running;
   std::string ending{};  ///< in words
+  double t = 0;          ///< of the last tick, on the record's clock [s]
   std::string fault{};   ///< empty without one
   rig::FaultKind kind = rig::FaultKind::none;
   std::optional<double> max_temperature{};  ///< of the coil nearest to its limit [°C]

@@ -41,6 +41,10 @@ bool is_open(const ItemStatus& item) {
          item.state != ItemState::dropped;
 }
 
+bool was_done(const ItemStatus& item) {
+  return std::ranges::count(item.attempts, AttemptEnd::done, &QueueAttempt::end) > 0;
+}
+
 class QueueRun {
  public:
   QueueRun(const Queue& queue, const Rig& rig, std::string rig_file, fs::path folder,
@@ -176,8 +180,9 @@ class QueueRun {
     if (!end_ || host_.wall() + queue_.items[i].time_budget <= *end_) return false;
     ItemStatus& item = state_.items[i];
     item.state = ItemState::waiting;
-    item.note = fmt::format("no time left before {}", date_of(*end_));
-    host_.tell(fmt::format("{}: left out, {}", label(item), item.note));
+    const std::string why = fmt::format("no time left before {}", date_of(*end_));
+    if (std::exchange(item.note, why) != why)
+      host_.tell(fmt::format("{}: left out, {}", label(item), why));
     return true;
   }
 
@@ -254,8 +259,11 @@ class QueueRun {
     const std::string first = label(item);
     std::string name = first;
     std::error_code none;
-    for (int n = 2; fs::exists(folder_ / name, none) && n < 100'000; ++n)
-      name = fmt::format("{}-attempt{}", first, n);
+    const auto is_taken = [&] {
+      return fs::exists(folder_ / name, none) ||
+             std::ranges::count(item.attempts, name, &QueueAttempt::folder) > 0;
+    };
+    for (int n = 2; is_taken() && n < 100'000; ++n) name = fmt::format("{}-attempt{}", first, n);
     return name;
   }
 
@@ -306,13 +314,15 @@ QueueState merge_state(const Queue& queue, const std::optional<QueueState>& befo
                     .repetition = of.repetition,
                     .scenario = of.scenario.string(),
                     .hash = of.hash};
-    const auto known = std::ranges::find_if(old, [&](const ItemStatus& one) {
-      return one.state != ItemState::dropped && one.hash == item.hash && one.name == item.name;
-    });
+    const auto known = std::ranges::find_if(
+        old, [&](const ItemStatus& one) { return one.hash == item.hash && one.name == item.name; });
     if (known != old.end()) {
       item.state = known->state;
       item.note = known->note;
       item.attempts = std::move(known->attempts);
+      item.forgiven = known->forgiven;
+      if (item.state == ItemState::dropped && was_done(item)) item.state = ItemState::done;
+      if (item.state == ItemState::dropped) item.state = ItemState::waiting;
       old.erase(known);
     } else if (before) {
       const bool changed = std::ranges::any_of(old, [&](const ItemStatus& one) {
