@@ -142,7 +142,7 @@ void LogParts::take(std::string_view lines) {
       count = end == std::string_view::npos ? 0 : end + 1;
     }
     const bool is_full = count == 0;
-    if (is_full && size_ == header_.size()) count = lines.find('\n') + 1;  // a line of any length
+    if (is_full && size_ <= header_.size()) count = lines.find('\n') + 1;  // a line of any length
     if (count > 0) {
       write(lines.substr(0, count));
       lines.remove_prefix(count);
