@@ -216,6 +216,7 @@ TEST_F(QueueTest, AFullDiskIsFoundBeforeARun) {
   const Queue queue = open("entries: [{scenario: a.yaml}]\n");
   EXPECT_EQ(run(queue), QueueEnd::needs_person);
   EXPECT_TRUE(ran.empty());
+  ASSERT_FALSE(alarms.empty());
   EXPECT_TRUE(test::names(alarms.back(), "0 MB are free")) << alarms.back();
   free = 1e12;
   EXPECT_EQ(run(queue), QueueEnd::complete);
