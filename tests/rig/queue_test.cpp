@@ -109,6 +109,15 @@ TEST_F(QueueTest, RepeatsInOrderAndOwnRulesBeforeTheCommonOnes) {
   EXPECT_EQ(std::ranges::count(csv, '\n'), 4) << csv;
 }
 
+TEST_F(QueueTest, TheSwarmMayBeAnywhereUnlessItsRuleSaysOtherwise) {
+  const Queue queue = open("entries: [{scenario: a.yaml}, {scenario: b.yaml, anywhere: false}]\n");
+  const auto may_be_anywhere = [&](const QueueItem& item) {
+    return open_item(item, folder / "rig.yaml", {}).rig.params.perception.start_anywhere;
+  };
+  EXPECT_TRUE(may_be_anywhere(queue.items[0]));
+  EXPECT_FALSE(may_be_anywhere(queue.items[1]));
+}
+
 TEST_F(QueueTest, MistakesAreToldBeforeAnythingRuns) {
   const auto refused = [&](const std::string& text, const std::string& key) {
     const std::string what = test::error_of([&] { open(text); });
