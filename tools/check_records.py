@@ -63,7 +63,7 @@ def stored():
 
 def shipped():
     """Every shipped scenario."""
-    folders = ("maps", "rigs", "sweeps")
+    folders = ("maps", "queues", "rigs", "sweeps")
     files = (file.relative_to(ROOT) for file in (ROOT / "scenarios").rglob("*.yaml"))
     return sorted(str(file) for file in files if file.parts[1] not in folders)
 

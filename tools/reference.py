@@ -24,6 +24,7 @@ KINDS = {
     "scenario": "`microswarm run FILE`; `--set KEY=VALUE` changes a key",
     "sweep": "`microswarm sweep FILE`",
     "rig": "`--rig FILE`; `--set-rig KEY=VALUE` changes a key",
+    "queue": "`microswarm rig queue FILE`",
     "coils": "the key `coils` of a rig, and `microswarm rig field`, `rig map`",
     "track": "`microswarm track --config FILE`, or `--set KEY=VALUE`",
     "global": "`microswarm global --set KEY=VALUE`",

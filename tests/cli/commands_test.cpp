@@ -198,13 +198,15 @@ TEST_F(Commands, SchemaIsJson) {
   EXPECT_NE(good({"schema", "--keys"}).find("max_speed_um_per_s"), std::string::npos);
   for (const auto& [kind, key] : {std::pair{"sweep", "scenario"},
                                   {"rig", "driver"},
+                                  {"queue", "entries"},
                                   {"coils", "drives"},
                                   {"track", "find"}}) {
     EXPECT_TRUE(Json::parse(good({"schema", kind})).at("properties").contains(key)) << kind;
     EXPECT_NE(good({"schema", kind, "--keys"}).find(key), std::string::npos) << kind;
   }
-  refused({"schema", "planet"}, naming("kind", {"scenario", "sweep", "rig", "coils", "track",
-                                                "global", "planet", "microswarm schema --help"}));
+  refused({"schema", "planet"},
+          naming("kind", {"scenario", "sweep", "rig", "queue", "coils", "track", "global", "planet",
+                          "microswarm schema --help"}));
 }
 
 }  // namespace

@@ -48,6 +48,8 @@ class JsonOutput : public CommandLine {};
 TEST_F(JsonOutput, EveryKeyIsOnItsPage) {
   write("flight.yaml", two_rooms());
   write("sweep.yaml", "scenario: flight.yaml\ntrials: 1\n");
+  write("queue.yaml", "entries: [{scenario: " MICROSWARM_SOURCE_DIR
+                      "/scenarios/first_rig.yaml, time_budget_s: 0.5}]\n");
   const std::string video = "samples/video";
   const std::vector<std::pair<std::string, Arguments>> commands{
       {"run", {"run", "flight.yaml", "--out", "out"}},
@@ -77,6 +79,8 @@ TEST_F(JsonOutput, EveryKeyIsOnItsPage) {
       {"rig", {"rig", "see", "samples/rig/frame.png"}},
       {"rig", {"rig", "see", "samples/rig/grid.png"}},
       {"rig", {"rig", "calibrate", "samples/coils/measured.csv", "--out", "coils.yaml"}},
+      {"queue of a rig",
+       {"rig", "queue", "queue.yaml", "--rig", "vortex", "--dry-run", "--out", "queue"}},
       {"reproduce", {"reproduce", "drrt/fig5a", "--quick"}}};
   for (auto [section, words] : commands) {
     words.emplace_back("--json");

@@ -45,6 +45,7 @@ TEST_F(LiveRigs, DroppedFramesAreNoFault) {
 TEST_F(LiveRigs, FrozenPicturesEndIt) {
   const experiment::RunResult result = go(6, [&](LiveRig&) { trouble->freeze = true; });
   EXPECT_EQ(fault_of(result), "the camera's pictures are frozen");
+  EXPECT_EQ(kind, FaultKind::camera);
   EXPECT_LT(zero_after, patience * 0.8);
 }
 
@@ -80,6 +81,7 @@ TEST_F(LiveRigs, DeadAmplifiersEndIt) {
   EXPECT_EQ(result.status, Status::fault);
   EXPECT_NE(result.state.find("the swarm does not follow: of 6"), std::string::npos)
       << result.state;
+  EXPECT_EQ(kind, FaultKind::swarm);
 }
 
 TEST_F(LiveRigs, ExchangedCoilsEndIt) {
@@ -137,6 +139,7 @@ TEST_F(LiveRigs, ASwarmThatLeavesThePictureEndsIt) {
   rig->params.safety.lost_swarm = 0.5;
   const experiment::RunResult result = go(6, [&](LiveRig&) { trouble->no_swarm = true; });
   EXPECT_TRUE(names(fault_of(result), "the swarm was not found for")) << result.state;
+  EXPECT_EQ(kind, FaultKind::swarm);
   EXPECT_LT(zero_after, patience * 1.2);
 }
 
@@ -153,6 +156,7 @@ TEST_F(LiveRigs, ASwarmThatSplitsEndsIt) {
 TEST_F(LiveRigs, AnUnpluggedCameraEndsIt) {
   const experiment::RunResult result = go(6, [&](LiveRig&) { trouble->unplug = true; });
   EXPECT_EQ(fault_of(result), "camera: unplugged");
+  EXPECT_EQ(kind, FaultKind::camera);
   EXPECT_LT(zero_after, patience * 0.8);
 }
 
@@ -160,6 +164,7 @@ TEST_F(LiveRigs, ASilentCoilDriverEndsIt) {
   const experiment::RunResult result =
       go(6, [&](LiveRig&) { coils->answer = actuation::DriveStatus::no_answer; });
   EXPECT_EQ(fault_of(result), "the coil driver does not answer");
+  EXPECT_EQ(kind, FaultKind::device);
 }
 
 TEST_F(LiveRigs, RefusedCurrentsEndIt) {
@@ -182,6 +187,7 @@ TEST_F(LiveRigs, TheEmergencyStopComesAtOnceFromAnyThread) {
   const experiment::RunResult result = go(6, [&](LiveRig& plant) { plant.stop("key"); });
   EXPECT_EQ(result.status, Status::fault);
   EXPECT_EQ(result.state, "key");
+  EXPECT_EQ(kind, FaultKind::person);
   EXPECT_LT(zero_after, patience * 0.1);
 }
 
@@ -224,6 +230,7 @@ TEST_F(LiveRigs, ALogThatCannotBeWrittenEndsIt) {
   const experiment::RunResult result = test::run(s, plant, *navigator);
   EXPECT_EQ(result.status, Status::fault);
   EXPECT_EQ(result.state, "commands.csv: cannot write: disk full");
+  EXPECT_EQ(plant.fault_kind(), FaultKind::disk);
   EXPECT_EQ(coils->strongest, 0);
 }
 

@@ -179,6 +179,7 @@ class LiveRigs : public ::testing::Test {
                   Stop(std::chrono::duration_cast<Stop::Clock::duration>(
                       std::chrono::duration<double>(seconds))));
     timing = plant.timing();
+    kind = plant.fault_kind();
     at_end = coils->strongest;
     position = simulator.swarm().pose.position;
     over = true;
@@ -214,6 +215,7 @@ class LiveRigs : public ::testing::Test {
   double at_end = -1;     // [A], when the run has ended
   Vec2 position;
   rig::RigTiming timing;
+  rig::FaultKind kind = rig::FaultKind::none;
 };
 
 /// How much later than meant coils may be at zero here: tests share the computer.

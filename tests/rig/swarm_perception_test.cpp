@@ -57,6 +57,33 @@ TEST(SwarmPerception, FollowsASwarmAmongObstacles) {
   }
 }
 
+TEST(SwarmPerception, AtFirstItMayBeAnywhereIfThatIsAllowed) {
+  const auto map = channel();
+  MicroscopeParams optics;
+  optics.um_per_px = 2;
+  const Vec2 far{800, 500};
+  for (const bool anywhere : {false, true}) {
+    Microscope microscope(optics, *map, 1, 0);
+    PerceptionParams params = eye_params();
+    params.start_anywhere = anywhere;
+    SwarmPerception perception(params, {.radius = 40, .max_speed = 100}, *map, {{200, 300}, 0.5},
+                               session_view(microscope));
+    const auto look = [&](Vec2 position, double t) {
+      return perception.process(
+          microscope.look(Snapshot(map, t, {}), SwarmPose{{position, 0}, 40}, {}), t);
+    };
+    const Detections first = look(far, 0);
+    EXPECT_EQ(first.swarm.has_value(), anywhere);
+    if (!anywhere) {
+      EXPECT_EQ(first.not_found, NotFound::far);
+      continue;
+    }
+    EXPECT_LT(distance(first.swarm->pose.position, far), 3);
+    EXPECT_EQ(first.swarm->pose.heading, 0.5) << "the way from its start is no motion";
+    EXPECT_FALSE(look({200, 300}, 0.1).swarm) << "only at first";
+  }
+}
+
 TEST(SwarmPerception, DiscsKeepTheirNumbersWhileTheirImagesJoin) {
   const auto map = channel();
   MicroscopeParams optics;

@@ -2,6 +2,7 @@
 import type { Page } from './page';
 import { call } from './connection';
 import { element } from './dom';
+import { queueSection } from './queue';
 import { themeSwitch } from './theme';
 import { upload } from './uploads';
 
@@ -13,6 +14,7 @@ interface Entry {
 interface Listing {
   scenarios: Entry[];
   open?: boolean;
+  queue?: boolean;
 }
 
 /** Opens an experiment and shows its page. */
@@ -92,12 +94,14 @@ export async function galleryPage(): Promise<Page> {
   const again = listing.open
     ? [element('button', { type: 'button', onclick: () => void attempt({}) }, 'Open the experiment of the command line')]
     : [];
+  const queue = listing.queue ? queueSection() : undefined;
   const root = element(
     'div',
     { class: 'gallery' },
     element('header', { class: 'top' }, element('h1', {}, 'microswarm lab'), search, ...again, element('button', { type: 'button', class: 'choose', onclick: () => chooser.click() }, 'Open a file …'), chooser, themeSwitch()),
     trouble,
     none,
+    ...(queue ? [queue.root] : []),
     element('p', { class: 'doc' }, 'Drop a photograph of vessels, a scenario or a record here.'),
     ...sections,
   );
@@ -106,7 +110,7 @@ export async function galleryPage(): Promise<Page> {
     event.preventDefault();
     void take(event.dataTransfer?.files[0]);
   });
-  return { root, leave: () => undefined };
+  return { root, leave: () => queue?.leave() };
 }
 
 /** The common folder of all. */

@@ -8,7 +8,9 @@
 #include "lab/net/assets.hpp"
 #include "lab/net/run_export.hpp"
 #include "lab/net/session_number.hpp"
+#include "microswarm/config/write.hpp"
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/rig/queue/queue_state.hpp"
 
 namespace microswarm::lab {
 namespace {
@@ -28,7 +30,20 @@ void list(Exchange& e, std::string_view) {
           {{"file", entry.file}, {"name", entry.name}, {"description", entry.description}});
     Json json{{"scenarios", std::move(list)}};
     if (e.shared().opening) json["open"] = true;
+    if (!e.shared().queue.empty()) json["queue"] = true;
     return respond(e.request(), json);
+  });
+}
+
+/// GET /api/queue: the state of a rig's queue, as `microswarm rig queue --status --json` prints it.
+void write_queue(Exchange& e, std::string_view) {
+  if (e.shared().queue.empty()) return e.nothing();
+  e.later([&e] {
+    const std::filesystem::path& folder = e.shared().queue;
+    std::error_code none;
+    if (!std::filesystem::exists(rig::queue_state_file(folder), none))
+      return json_text(e, to_json_text(rig::QueueState{.doing = "no queue has begun here yet"}));
+    return json_text(e, to_json_text(rig::show_queue_state(folder)));
   });
 }
 
@@ -232,8 +247,9 @@ struct Route {
 };
 
 /// The first that fits is taken.
-constexpr std::array<Route, 11> routes{
+constexpr std::array<Route, 12> routes{
     {{http::verb::get, "/api/scenarios", list},
+     {http::verb::get, "/api/queue", write_queue},
      {http::verb::get, "/api/thumbnail", draw_thumbnail},
      {http::verb::get, "/api/schema", write_schema},
      {http::verb::get, "/api/vessel-schema", write_vessel_schema},

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <boost/beast/http.hpp>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -24,7 +25,8 @@ struct Shared {
   Thumbnails& thumbnails;  ///< used by the worker
   Uploads& uploads;        ///< used by the worker
   const std::optional<Opening>& opening;
-  std::size_t& connections;  ///< number of open connections, without streams
+  const std::filesystem::path& queue;  ///< folder of a rig's queue; empty without one
+  std::size_t& connections;            ///< number of open connections, without streams
   /// Runs long work in another thread, which returns its result by post().
   std::function<void(std::function<void()>)> work;
   std::function<void(std::function<void()>)> post;

@@ -141,6 +141,7 @@ class Server::Impl {
             .thumbnails = thumbnails_,
             .uploads = uploads_,
             .opening = options_.opening,
+            .queue = options_.queue,
             .connections = connections_,
             .work =
                 [this](std::function<void()> work) {

@@ -19,6 +19,7 @@ namespace microswarm::lab {
 struct ServerOptions {
   std::vector<std::filesystem::path> folders;  ///< folders whose files may be listed and opened
   std::optional<Opening> opening{};            ///< experiment shown first
+  std::filesystem::path queue{};               ///< folder of a rig's queue that is shown
   std::string listen{};                        ///< address; empty for this computer alone
   std::uint16_t port = 0;                      ///< 0 for any free port
   Limits limits{};

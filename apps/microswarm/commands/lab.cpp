@@ -34,6 +34,7 @@ struct LabOptions {
   bool drawn_swarm = false;
   PhotoOptions photo;
   std::vector<std::string> folders;
+  std::string queue;
   std::string listen;
   int port = 0;
   bool no_open = false;
@@ -99,6 +100,9 @@ int lab_command(const LabOptions& o, const Context& context) {
   lab::ServerOptions options;
   options.folders = shipped_scenarios();
   for (const std::string& folder : o.folders) options.folders.emplace_back(folder);
+  options.queue = o.queue;
+  if (!o.queue.empty() && !fs::is_directory(o.queue))
+    throw InputError("--queue " + o.queue + ": is no folder: it is the --out of `rig queue`");
   options.listen = o.listen;
   options.port = static_cast<std::uint16_t>(o.port);
   options.opening = to_opening(o);
@@ -168,6 +172,8 @@ void add_lab(Command app, Action& action) {
                  "Folder whose scenarios and records are listed, beside the shipped ones")
       .type_name("FOLDER")
       .repeatable();
+  cmd.add_option("--queue", o->queue, "Folder of a `rig queue` whose state the gallery shows")
+      .type_name("FOLDER");
   cmd.add_option("--port", o->port, "Port of the page; 0: any that is free")
       .type_name("NUMBER")
       .check(whole(0, 65535));

@@ -179,14 +179,16 @@ int tell_run(const experiment::Session& session, const RunOutput& o,
     nlohmann::ordered_json json = run_json(result, hash);
     json["notes"] = session.notes();
     if (o.rig_timing) json["rig_timing"] = o.rig_timing();
-    print("{}\n", json.dump(2));
+    o.print(json.dump(2) + "\n");
   } else {
     const auto& robots = session.scenario().robots;
-    print("{}{}  record    {}\n", robots ? robots_summary(result, *robots) : summary(result),
-          hold_text(record), hash);
+    o.print(fmt::format("{}{}  record    {}\n",
+                        robots ? robots_summary(result, *robots) : summary(result),
+                        hold_text(record), hash));
     if (!o.out.empty() && !lost)
-      print("wrote {}\n",
-            (std::filesystem::path(o.out) / (o.no_report ? "run.h5" : "index.html")).string());
+      o.print(fmt::format(
+          "wrote {}\n",
+          (std::filesystem::path(o.out) / (o.no_report ? "run.h5" : "index.html")).string()));
   }
   if (lost && result.status != Status::fault) throw InputError(*lost);
   if (lost) note("microswarm: {}\n", lost->what());  // the other error is more serious

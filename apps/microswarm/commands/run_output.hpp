@@ -11,6 +11,7 @@
 #include "microswarm/experiment/session/growing_record.hpp"
 #include "microswarm/experiment/session/session.hpp"
 #include "microswarm/report/run_report.hpp"
+#include "support/cli.hpp"
 #include "support/options.hpp"
 
 namespace microswarm::cli {
@@ -21,6 +22,7 @@ struct RunOutput {
   bool no_report = false;
   bool json = false;
   std::function<nlohmann::ordered_json()> rig_timing{};  ///< timing of a real rig
+  std::function<void(std::string_view)> print = put;     ///< gets the result
 };
 
 /// Warns on stderr of unusual settings before a session runs.

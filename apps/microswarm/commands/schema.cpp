@@ -11,6 +11,7 @@
 #include "microswarm/experiment/queries/global_query.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/rig/params/rig_params.hpp"
+#include "microswarm/rig/queue/queue_params.hpp"
 #include "microswarm/sweep/sweep_file.hpp"
 #include "microswarm/vision/tracking/video_tracker.hpp"
 #include "support/options.hpp"
@@ -24,10 +25,11 @@ struct Kind {
   Type type;
 };
 
-std::array<Kind, 6> kinds() {
+std::array<Kind, 7> kinds() {
   return {{{"scenario", type_of<experiment::Scenario>()},
            {"sweep", type_of<sweep::Sweep>()},
            {"rig", type_of<rig::RigParams>()},
+           {"queue", type_of<rig::QueueParams>()},
            {"coils", type_of<actuation::CoilSystemParams>()},
            {"track", type_of<vision::TrackSettings>()},
            {"global", type_of<experiment::GlobalChoice>()}}};
@@ -90,8 +92,9 @@ void add_schema(Command app, Action& action) {
       "schema rig --keys");
   std::vector<std::string> names;
   for (const Kind& kind : kinds()) names.emplace_back(kind.name);
-  cmd.add_option("kind", *name,
-                 "Scenario, sweep, rig or coil system file, or the --set values of track or global")
+  cmd.add_option(
+         "kind", *name,
+         "Scenario, sweep, rig, queue or coil system file, or the --set values of track or global")
       .type_name("KIND")
       .check(any_word(names));
   cmd.add_flag("--keys", *keys, "Print a table with unit, default, range and meaning of each key");

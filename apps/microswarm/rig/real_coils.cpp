@@ -24,6 +24,15 @@ void require_emergency_stop(const CoilOptions& o) {
         "--other-stop (Ctrl-C and SIGTERM set the coils to zero, too)");
 }
 
+void require_person(const rig::Rig& rig, const CoilOptions& o, bool dry, bool drawn_swarm) {
+  if (dry || !rig::has_coil_device(rig)) return;
+  require_emergency_stop(o);
+  if (rig::shows_drawn_swarm(rig.params) && !drawn_swarm)
+    throw rig.keys.error("camera",
+                         "the camera is simulated and the coil driver is not: real coils would be "
+                         "driven for a drawn swarm; for a test, run with --drawn-swarm");
+}
+
 void note_how_to_stop(bool has_keys, const char* keys) {
   if (has_keys)
     note("space, e or Esc: coils to zero at once{}\n", keys);

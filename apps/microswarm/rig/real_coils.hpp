@@ -25,6 +25,9 @@ void add_coil_options(Command cmd, CoilOptions& o);
 /// Throws InputError without a terminal, so without an emergency key, unless --other-stop is given.
 void require_emergency_stop(const CoilOptions& o);
 
+/// Throws InputError unless driving the rig's coils is intended and somebody can stop them.
+void require_person(const rig::Rig& rig, const CoilOptions& o, bool dry, bool drawn_swarm);
+
 /// Prints on stderr how to stop: by the emergency keys, with further `keys`, or from elsewhere.
 void note_how_to_stop(bool has_keys, const char* keys);
 

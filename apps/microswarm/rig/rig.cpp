@@ -184,6 +184,7 @@ void add_rig(Command app, Action& action) {
   add_rig_drive(rig, action);
   add_rig_simulate(rig, action);
   add_rig_run(rig, action);
+  add_rig_queue(rig, action);
   add_rig_calibrate(rig, action);
   add_rig_heat(rig, action);
 }

@@ -43,6 +43,8 @@ void add_rig_drive(Command rig, Action& action);
 void add_rig_simulate(Command rig, Action& action);
 /// Adds `rig run`.
 void add_rig_run(Command rig, Action& action);
+/// Adds `rig queue`.
+void add_rig_queue(Command rig, Action& action);
 /// Adds `rig still`.
 void add_rig_still(Command rig, Action& action);
 /// Adds `rig see`.

@@ -25,6 +25,7 @@ constexpr FileKind kinds[] = {{"scenario", {"map", "navigator"}, "`microswarm ru
                               {"scenario", {"map", "goal_um"}, "`microswarm run` takes it"},
                               {"sweep", {"scenario", "trials"}, "`microswarm sweep` takes it"},
                               {"sweep", {"scenario", "grid"}, "`microswarm sweep` takes it"},
+                              {"queue", {"entries", "entries"}, "`microswarm rig queue` takes it"},
                               {"rig", {"coils", "driver"}, ""},
                               {"rig", {"coils", "camera"}, ""},
                               {"coil system", {"coils", "drives"}, "a rig's key 'coils' names it"},

@@ -60,6 +60,12 @@ double time_to_limit(const AmplifierParams& d, double temperature, double mean_s
   return low;
 }
 
+double time_to_cool(const AmplifierParams& d, double temperature, double to) {
+  if (temperature <= to) return 0;
+  if (to <= d.ambient) return infinity;
+  return d.thermal_time * maths::log((temperature - d.ambient) / (to - d.ambient));
+}
+
 double warmest_current(const AmplifierParams& d) {
   const double warmer = std::max(0.0, *d.max_temperature - d.ambient);
   const double per_square = d.thermal_resistance * hot_resistance(d);

@@ -24,6 +24,10 @@ double temperature_later(const AmplifierParams& d, double temperature, double me
 /// infinity if it is never reached or there is none.
 double time_to_limit(const AmplifierParams& d, double temperature, double mean_square);
 
+/// Time in which a coil without current cools from `temperature` to `to` [s]; 0 if it is not
+/// warmer, infinity if it never gets that cold.
+double time_to_cool(const AmplifierParams& d, double temperature, double to);
+
 /// Current at which the final temperature is the maximum temperature [A].
 double warmest_current(const AmplifierParams& d);
 

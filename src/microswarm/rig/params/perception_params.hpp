@@ -18,6 +18,7 @@ struct PerceptionParams {
   double position_noise = 8;
   double radius_tolerance = 0.35;
   double min_seen_robots = 0.5;
+  bool start_anywhere = false;
   bool moving_walls = false;
   vision::WallParams walls{};
   template <class Self, class V>
@@ -36,6 +37,8 @@ struct PerceptionParams {
                                        "Maximum relative deviation from its median radius."));
     visit(self.min_seen_robots,
           plain("min_seen_robots", 0, 1, "Share of the robots that must be seen."));
+    visit(self.start_anywhere,
+          plain("start_anywhere", "A swarm that is not near its start may be anywhere."));
     visit(self.moving_walls, plain("moving_walls", "Walls move: they are found in every picture."));
     visit(self.walls, plain("walls", "Appearance of walls that move."));
   }

@@ -93,7 +93,12 @@ vision::SeenScene SwarmPerception::find(const formats::Image& picture, double t)
     return {.swarm = find_beside_walls(picture, params.swarm), .obstacles = {}};
   params.obstacles.min_radius *= known_size;
   const std::vector<vision::Ring> expected = expected_discs(t);
-  vision::SeenScene scene = windows_.find(picture, params, prior(), expected);
+  vision::SwarmPrior prior = this->prior();
+  vision::SeenScene scene = windows_.find(picture, params, prior, expected);
+  if (params_.start_anywhere && !found_ && scene.swarm.sight == vision::SwarmSight::far) {
+    prior.at_px.reset();
+    scene = windows_.find(picture, params, prior, expected);
+  }
   for (const vision::SeenObstacle& seen : scene.obstacles)
     if (is_large_or_known(seen, expected))
       detections_.moving.push_back({.shape = seen.shape(scale_)});
@@ -152,6 +157,7 @@ void SwarmPerception::accept(const vision::Blob& swarm, const vision::SeenScene&
   const vision::Ring around = *vision::enclosing_circle(swarm.outline_px);
   const Vec2 position = scale_.to_world(around.centre_px);
   measure_following(position, t);
+  if (params_.start_anywhere && !found_) from_ = position;
   before_px_ = around.centre_px;
   found_ = t;
   texture_ = swarm.texture;

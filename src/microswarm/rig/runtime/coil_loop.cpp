@@ -7,9 +7,9 @@
 #include <exception>
 #include <utility>
 
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/execution/clock.hpp"
 #include "microswarm/rig/runtime/device_limits.hpp"
-#include "microswarm/rig/runtime/first_reason.hpp"
 #include "microswarm/rig/runtime/standstill.hpp"
 
 namespace microswarm::rig {
@@ -63,10 +63,10 @@ void CoilLoop::command(const Command& command, const Eigen::Vector3d& position, 
   changed_.notify_all();
 }
 
-actuation::StopReport CoilLoop::stop(const std::string& why) {
+actuation::StopReport CoilLoop::stop(const std::string& why, FaultKind kind) {
   std::unique_lock lock(mutex_);
-  if (why_.empty()) {
-    why_ = why;
+  if (why_.why.empty()) {
+    why_ = {why, kind};
     controller_.interrupt();
   }
   changed_.notify_all();
@@ -76,10 +76,10 @@ actuation::StopReport CoilLoop::stop(const std::string& why) {
 
 void CoilLoop::wait(double seconds) {
   std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, Seconds(std::max(0.0, seconds)), [this] { return !why_.empty(); });
+  changed_.wait_for(lock, Seconds(std::max(0.0, seconds)), [this] { return !why_.why.empty(); });
 }
 
-std::string CoilLoop::failure() const {
+Fault CoilLoop::fault() const {
   const std::lock_guard lock(mutex_);
   return why_;
 }
@@ -92,7 +92,7 @@ void CoilLoop::run() {
   Trips trips(limits_);
   DeviceLimits device_limits;
   std::unique_lock lock(mutex_);
-  while (why_.empty()) {
+  while (why_.why.empty()) {
     due += period;
     const double wait = std::max(0.0, Seconds(due - Clock::now()).count());
     if (!wait_until(lock, last + period / 2, due)) break;
@@ -109,21 +109,25 @@ void CoilLoop::run() {
                       .output = {},
                       .late = Seconds(now - due).count()};
     const Eigen::Vector3d position = place_;
-    why_ = first_reason({standstill.pass(wait), silence(moment.t)});
-    if (!why_.empty()) break;
+    why_ = first_fault(
+        {{standstill.pass(wait), FaultKind::computer}, {silence(moment.t), FaultKind::computer}});
+    if (!why_.why.empty()) break;
     is_new_ = false;
     lock.unlock();
-    const std::string failed = send(moment, position, Seconds(now - last).count());
+    const Fault failed = send(moment, position, Seconds(now - last).count());
     last = now;
     if (now > due + period) due = now;  // do not make up for missed outputs
     // An exchange without an answer takes long; one with an answer is short, or the coils were
     // off meanwhile.
     const bool answered = moment.output.status != actuation::DriveStatus::no_answer;
-    const std::string why = first_reason(
-        {failed, controller_.trouble(), standstill.pass(answered ? 0 : moment.round_trip),
-         device_limits.take(moment.t, moment.output), trips.take(moment)});
+    const Fault why =
+        first_fault({failed,
+                     {controller_.trouble(), FaultKind::device},
+                     {standstill.pass(answered ? 0 : moment.round_trip), FaultKind::computer},
+                     {device_limits.take(moment.t, moment.output), FaultKind::device},
+                     {trips.take(moment), FaultKind::device}});
     lock.lock();
-    if (why_.empty()) why_ = why;
+    if (why_.why.empty()) why_ = why;
   }
   lock.unlock();
   actuation::StopReport report = controller_.stop();
@@ -135,7 +139,7 @@ void CoilLoop::run() {
 /// Waits until `due`, or from `earliest` on for a new command. False if the loop is stopped.
 bool CoilLoop::wait_until(std::unique_lock<std::mutex>& lock, Clock::time_point earliest,
                           Clock::time_point due) {
-  const auto stopped = [this] { return !why_.empty(); };
+  const auto stopped = [this] { return !why_.why.empty(); };
   if (changed_.wait_until(lock, earliest, stopped)) return false;
   changed_.wait_until(lock, due, [&] { return is_new_ || stopped(); });
   return !stopped();
@@ -147,8 +151,8 @@ std::string CoilLoop::silence(double t) const {
   return silent > limits_.deadman ? fmt::format("no command for {:.2g} s", silent) : "";
 }
 
-/// Message of an exception; empty on success.
-std::string CoilLoop::send(CoilMoment& moment, const Eigen::Vector3d& position, double dt) {
+/// Message of an exception; empty on success. Only a listener throws InputError, for its log.
+Fault CoilLoop::send(CoilMoment& moment, const Eigen::Vector3d& position, double dt) {
   try {
     controller_.aim(position);
     controller_.command(moment.command);
@@ -158,8 +162,10 @@ std::string CoilLoop::send(CoilMoment& moment, const Eigen::Vector3d& position, 
     moment.round_trip = moment.driven - began;
     if (actuation::trouble_text(moment.output.status).empty() && listener_) listener_(moment);
     return {};
+  } catch (const InputError& e) {
+    return {e.what(), FaultKind::disk};
   } catch (const std::exception& e) {
-    return e.what();
+    return {e.what(), FaultKind::device};
   }
 }
 

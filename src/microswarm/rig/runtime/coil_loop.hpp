@@ -12,6 +12,7 @@
 
 #include "microswarm/actuation/coils/coil_controller.hpp"
 #include "microswarm/core/execution/clock.hpp"
+#include "microswarm/rig/safety/fault.hpp"
 
 namespace microswarm::rig {
 
@@ -59,12 +60,14 @@ class CoilLoop {
   void command(const Command& command, const Eigen::Vector3d& position, double seen = 0);
   /// Sets the coils to zero permanently; callable from any thread. Returns when they are at zero or
   /// cannot be reached, each time with the report of the first stop.
-  actuation::StopReport stop(const std::string& why);
+  actuation::StopReport stop(const std::string& why, FaultKind kind = FaultKind::person);
 
   /// Waits for `seconds`, or until the loop stops.
   void wait(double seconds);
   /// Why the coils were set to zero; empty while they are driven.
-  std::string failure() const;
+  std::string failure() const { return fault().why; }
+  /// The same with its kind.
+  Fault fault() const;
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -73,7 +76,7 @@ class CoilLoop {
   bool wait_until(std::unique_lock<std::mutex>& lock, Clock::time_point earliest,
                   Clock::time_point due);
   std::string silence(double t) const;
-  std::string send(CoilMoment& moment, const Eigen::Vector3d& position, double dt);
+  Fault send(CoilMoment& moment, const Eigen::Vector3d& position, double dt);
 
   actuation::CoilController& controller_;
   const CoilLoopLimits limits_;
@@ -86,7 +89,7 @@ class CoilLoop {
   double seen_ = 0;                  // arrival of its picture [s]
   bool is_new_ = false;              // whether it was not sent yet
   std::optional<double> commanded_;  // time of the last command [s]
-  std::string why_;                  // reason of the stop
+  Fault why_;                        // of the stop
   std::optional<actuation::StopReport> stopped_;
   std::thread thread_;
 };

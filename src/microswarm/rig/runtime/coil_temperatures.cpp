@@ -19,6 +19,16 @@
 
 namespace microswarm::rig {
 
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::chrono::milliseconds between_entries{500};
+/// Maximum driving time after the last entry of a killed program, watchdog time included [s].
+constexpr double unwritten = 2;
+constexpr double cold_margin = 2;      // [K] above ambient at which coils count as cold
+constexpr double driven_margin = 0.2;  // [K] above their cooling from which coils were driven
+
 /// Contents of the file.
 struct KeptTemperatures {
   std::string coils;
@@ -39,16 +49,6 @@ struct KeptTemperatures {
           degc("temperatures", -273, 1e4, "Temperatures of the coils.").needed());
   }
 };
-
-namespace {
-
-namespace fs = std::filesystem;
-
-constexpr std::chrono::milliseconds between_entries{500};
-/// Maximum driving time after the last entry of a killed program, watchdog time included [s].
-constexpr double unwritten = 2;
-constexpr double cold_margin = 2;      // [K] above ambient at which coils count as cold
-constexpr double driven_margin = 0.2;  // [K] above their cooling from which coils were driven
 
 fs::path state_folder() {
   if (const char* state = std::getenv("XDG_STATE_HOME"); state && *state == '/')
@@ -85,13 +85,28 @@ KeptTemperatures read_kept(const std::string& text, const fs::path& file) {
   return kept;
 }
 
-/// Throws InputError if the temperatures are of another number of coils.
-void require_count(const KeptTemperatures& kept, const fs::path& file, std::size_t coils) {
-  if (kept.temperatures.size() != coils)
+/// Content of the file, by now.
+struct Known {
+  Eigen::VectorXd temperatures;  ///< [°C]
+  bool assumed = false;
+  double pause = 0;  ///< since it was written [s]
+};
+
+/// The kept temperatures, now. Throws InputError if they are of another number of coils.
+Known known_by(const KeptTemperatures& kept, const fs::path& file,
+               const std::vector<actuation::AmplifierParams>& amplifiers, const ClockReading& now) {
+  if (kept.temperatures.size() != amplifiers.size())
     throw InputError(file.string(),
                      fmt::format("{} temperatures, the system has {} coils: give the coils another "
                                  "id, or remove the file if they are cold",
-                                 kept.temperatures.size(), coils));
+                                 kept.temperatures.size(), amplifiers.size()));
+  const auto coils = static_cast<Eigen::Index>(amplifiers.size());
+  Eigen::VectorXd then = Eigen::Map<const Eigen::VectorXd>(kept.temperatures.data(), coils)
+                             .cwiseMax(actuation::ambient(amplifiers));
+  if (kept.driven) then = actuation::heated(amplifiers, then, unwritten);
+  const double pause = certain_pause(kept.clock, now);
+  return {actuation::cooled(amplifiers, then, pause - (kept.driven ? unwritten : 0)),
+          kept.assumed && !kept.driven, pause};
 }
 
 bool is_there(const fs::path& file) { return fs::exists(fs::symlink_status(file)); }
@@ -101,6 +116,12 @@ bool is_there(const fs::path& file) { return fs::exists(fs::symlink_status(file)
 std::string coil_identity(const Rig& rig) {
   if (!rig.system.id().empty()) return rig.system.id();
   return fs::weakly_canonical(rig.folder / rig.params.coils).string();
+}
+
+Eigen::VectorXd kept_temperatures(const Rig& rig, const ClockReading& now) {
+  const fs::path file = state_folder() / name_for(coil_identity(rig));
+  if (!is_there(file)) return actuation::hottest(rig.system.amplifiers());
+  return known_by(read_kept(text_of(file), file), file, rig.system.amplifiers(), now).temperatures;
 }
 
 CoilTemperatures::CoilTemperatures(const Rig& rig, bool cold, const ClockReading& now)
@@ -113,7 +134,7 @@ CoilTemperatures::CoilTemperatures(const Rig& rig, bool cold, const ClockReading
   if (cold) {
     require_nothing_warmer(now);
   } else if (is_there(file_)) {
-    const Known known = to_known(read_kept(text_of(file_), file_), now);
+    const Known known = known_by(read_kept(text_of(file_), file_), file_, amplifiers_, now);
     at_start_ = known.temperatures;
     assumed_ = known.assumed;
     known_ = !known.assumed;
@@ -127,19 +148,6 @@ CoilTemperatures::CoilTemperatures(const Rig& rig, bool cold, const ClockReading
   thread_ = std::thread([this] { run(); });
 }
 
-/// The kept temperatures, now.
-CoilTemperatures::Known CoilTemperatures::to_known(const KeptTemperatures& kept,
-                                                   const ClockReading& now) const {
-  require_count(kept, file_, amplifiers_.size());
-  const auto coils = static_cast<Eigen::Index>(amplifiers_.size());
-  Eigen::VectorXd then = Eigen::Map<const Eigen::VectorXd>(kept.temperatures.data(), coils)
-                             .cwiseMax(actuation::ambient(amplifiers_));
-  if (kept.driven) then = actuation::heated(amplifiers_, then, unwritten);
-  const double pause = certain_pause(kept.clock, now);
-  return {actuation::cooled(amplifiers_, then, pause - (kept.driven ? unwritten : 0)),
-          kept.assumed && !kept.driven, pause};
-}
-
 /// Throws InputError if the file knows a coil that is not cold.
 void CoilTemperatures::require_nothing_warmer(const ClockReading& now) const {
   if (!is_there(file_) || fs::is_symlink(file_)) return;  // a link is no file of ours
@@ -150,7 +158,7 @@ void CoilTemperatures::require_nothing_warmer(const ClockReading& now) const {
   } catch (const InputError&) {  // a damaged file knows nothing
     return;
   }
-  const Known known = to_known(*kept, now);
+  const Known known = known_by(*kept, file_, amplifiers_, now);
   if (known.assumed) return;
   Eigen::Index warmest = 0;
   const double warmer = (known.temperatures - actuation::ambient(amplifiers_)).maxCoeff(&warmest);

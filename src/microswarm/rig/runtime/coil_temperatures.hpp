@@ -15,10 +15,12 @@
 
 namespace microswarm::rig {
 
-struct KeptTemperatures;
-
 /// Identity of a rig's coils: the `id` of their file, which copies of it keep, otherwise its path.
 std::string coil_identity(const Rig& rig);
+
+/// Temperatures of a rig's coils now by the file that CoilTemperatures keeps, one for each coil
+/// [°C]; the maximum ones without a file. Writes nothing. Throws InputError if it is damaged.
+Eigen::VectorXd kept_temperatures(const Rig& rig, const ClockReading& now = read_clocks());
 
 /// Temperatures of a rig's coils between runs, in a file of the user's state folder
 /// ($XDG_STATE_HOME/microswarm, or ~/.local/state/microswarm), one for each identity of coils. A
@@ -53,13 +55,6 @@ class CoilTemperatures {
   void take(const actuation::StopReport& stop);
 
  private:
-  struct Known {
-    Eigen::VectorXd temperatures;  ///< [°C]
-    bool assumed = false;
-    double pause = 0;  ///< since it was written [s]
-  };
-
-  Known to_known(const KeptTemperatures& kept, const ClockReading& now) const;
   void require_nothing_warmer(const ClockReading& now) const;
   void run();
   void write(const Eigen::VectorXd& temperatures, bool driven) const;

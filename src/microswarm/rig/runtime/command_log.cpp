@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/rig/runtime/command_log.hpp"
 
-#include <fmt/format.h>
-
-#include <cerrno>
 #include <cmath>
 #include <exception>
 #include <optional>
-#include <system_error>
 
-#include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/io/columns.hpp"
 
@@ -71,81 +66,53 @@ std::string log_line(const Commanded& before, const Eigen::VectorXd& currents,
   return line + "," + io::csv_line(columns<Driven>(), &after) + "\n";
 }
 
-/// Creates a new file, replacing one of this name. A link is not followed.
-std::FILE* create(const std::filesystem::path& file) {
-  std::error_code none;
-  std::filesystem::remove(file, none);
-  std::FILE* const made = std::fopen(file.c_str(), "wxe");
-  if (!made)
-    throw InputError(file.string(),
-                     fmt::format("cannot write: {}", std::generic_category().message(errno)));
-  return made;
+std::string log_head(const actuation::CoilSystem& system) {
+  std::string head = io::csv_head(columns<Commanded>());
+  for (const std::string& coil : system.coil_names()) head += ",i_" + coil + "_a";
+  return head + "," + io::csv_head(columns<Driven>()) + "\n";
 }
 
 }  // namespace
 
 CommandLog::CommandLog(const std::filesystem::path& folder, const actuation::CoilSystem& system,
-                       bool dry)
+                       bool dry, const LogLimits& limits)
     : coils_(system.size()), dry_(dry) {
-  if (folder.empty()) return;
-  file_ = folder / "commands.csv";
-  part_ = file_.string() + ".part";
-  out_.reset(create(part_));
-  std::string head = io::csv_head(columns<Commanded>());
-  for (const std::string& coil : system.coil_names()) head += ",i_" + coil + "_a";
-  write(head + "," + io::csv_head(columns<Driven>()) + "\n");
-}
-
-CommandLog::~CommandLog() {
-  const bool drove_nothing = out_ && !start_;
-  out_.reset();
-  std::error_code none;
-  if (drove_nothing) std::filesystem::remove(part_, none);
+  if (!folder.empty()) parts_.emplace(folder / "commands.csv", log_head(system), limits);
 }
 
 void CommandLog::add(const CoilMoment& m, double start) {
-  if (file_.empty()) return;
+  if (!parts_) return;
   start_ = start;
   const Eigen::Vector3d& b = m.output.wanted;
   std::optional<double> acknowledged;
   if (actuation::is_acknowledged(m.output.status))
     acknowledged = rounded(m.output.device_scale, 1e4);
-  write(log_line({.t = rounded(m.t - start, 1e4),
-                  .heading = m.command.heading,
-                  .speed = rounded(m.command.speed, 1e3),
-                  .bx = rounded(b.x(), 1e5),
-                  .by = rounded(b.y(), 1e5),
-                  .bz = rounded(b.z(), 1e5)},
-                 m.output.currents,
-                 {.scale = rounded(m.output.scale, 1e4),
-                  .device_scale = acknowledged,
-                  .status = std::string(dry_ ? "dry" : to_string(m.output.status)),
-                  .late = rounded(m.late, 1e6),
-                  .round_trip = rounded(m.round_trip, 1e6),
-                  .seen = rounded(m.seen - start, 1e4)}));
+  parts_->add(log_line({.t = rounded(m.t - start, 1e4),
+                        .heading = m.command.heading,
+                        .speed = rounded(m.command.speed, 1e3),
+                        .bx = rounded(b.x(), 1e5),
+                        .by = rounded(b.y(), 1e5),
+                        .bz = rounded(b.z(), 1e5)},
+                       m.output.currents,
+                       {.scale = rounded(m.output.scale, 1e4),
+                        .device_scale = acknowledged,
+                        .status = std::string(dry_ ? "dry" : to_string(m.output.status)),
+                        .late = rounded(m.late, 1e6),
+                        .round_trip = rounded(m.round_trip, 1e6),
+                        .seen = rounded(m.seen - start, 1e4)}));
 }
 
 std::string CommandLog::finish(const actuation::StopReport& zero) noexcept {
-  if (file_.empty()) return {};
+  if (!parts_) return {};
   try {
     if (start_)
-      write(log_line({.t = rounded(zero.at - *start_, 1e4)}, Eigen::VectorXd::Zero(coils_),
-                     {.status = dry_             ? "dry"
-                                : zero.confirmed ? "zero"
-                                                 : "zero_not_confirmed"}));
-    if (std::fclose(out_.release()) == 0) {
-      std::filesystem::rename(part_, file_);
-      return {};
-    }
-  } catch (const std::exception&) {  // reported below
-    out_.reset();
+      parts_->add(log_line({.t = rounded(zero.at - *start_, 1e4)}, Eigen::VectorXd::Zero(coils_),
+                           {.status = dry_             ? "dry"
+                                      : zero.confirmed ? "zero"
+                                                       : "zero_not_confirmed"}));
+  } catch (const std::exception&) {  // finish() below reports it
   }
-  return fmt::format("{}: write failed; partial log kept as {}", file_.string(), part_.string());
-}
-
-void CommandLog::write(const std::string& text) {
-  if (std::fwrite(text.data(), 1, text.size(), out_.get()) != text.size())
-    throw InputError(part_.string(), "cannot write");
+  return parts_->finish();
 }
 
 }  // namespace microswarm::rig

@@ -76,7 +76,7 @@ LiveRig::LiveRig(const experiment::Scenario& scenario, std::shared_ptr<const Map
 
 Observation LiveRig::observe() {
   begun_ = since_start();
-  if (fault_.empty()) take_frame();
+  if (fault_.why.empty()) take_frame();
   const double now = since_start();
   look_for_faults(now);
   if (listeners_.detections && seen_ > reported_) {
@@ -110,7 +110,7 @@ void LiveRig::take_frame() {
     schedule_.begin(is_new ? std::optional(frame_.taken - start_) : std::nullopt);
     if (is_new) read_frame();
   } catch (const HardwareError& e) {
-    fail(e.what());
+    fail(e.what(), FaultKind::camera);
   }
 }
 
@@ -126,17 +126,20 @@ void LiveRig::read_frame() {
 
 void LiveRig::look_for_faults(double now) {
   const SafetyParams& safety = rig_.params.safety;
-  if (const std::string why = coils_.failure(); !why.empty()) return fail(why);
+  if (const Fault failure = coils_.fault(); !failure.why.empty())
+    return fail(failure.why, failure.kind);
   const vision::CameraStatus camera = camera_.status();
   if (camera.state == vision::CameraState::frozen || camera.state == vision::CameraState::black)
-    return fail(fmt::format("the camera's pictures are {}", enum_name(camera.state)));
+    return fail(fmt::format("the camera's pictures are {}", enum_name(camera.state)),
+                FaultKind::camera);
   if (camera.state == vision::CameraState::ended) {
     const std::string why = camera.why.empty() ? camera.why : ": " + camera.why;
-    return fail("the camera has no more pictures" + why);
+    return fail("the camera has no more pictures" + why, FaultKind::camera);
   }
-  if (const std::string why = sight_.trouble(now); !why.empty()) return fail(why);
+  if (const Fault seen = sight_.fault(now); !seen.why.empty()) return fail(seen.why, seen.kind);
   if (missed_in_a_row_ >= safety.missed_deadlines)
-    return fail(fmt::format("{} ticks in a row ended too late", missed_in_a_row_));
+    return fail(fmt::format("{} ticks in a row ended too late", missed_in_a_row_),
+                FaultKind::computer);
   meter_.add_frame_age(now - seen_);
 }
 
@@ -152,9 +155,9 @@ void LiveRig::apply(const Command& command, double dt) {
   coils_.wait(schedule_.earliest() - since_start());
 }
 
-void LiveRig::fail(const std::string& why) {
-  stop(why);
-  if (fault_.empty()) fault_ = why;
+void LiveRig::fail(const std::string& why, FaultKind kind) {
+  coils_.stop(why, kind);
+  if (fault_.why.empty()) fault_ = {why, kind};
 }
 
 RigTiming LiveRig::timing() const {

@@ -49,7 +49,8 @@ class LiveRig : public Plant {
   void apply(const Command& command, double dt) override;
   /// Replaces the virtual obstacles; false if the rig cannot have any.
   bool set_obstacles(const std::vector<Obstacle>& obstacles) override;
-  std::string_view fault() const override { return fault_; }
+  std::string_view fault() const override { return fault_.why; }
+  FaultKind fault_kind() const { return fault_.kind; }
 
   /// Sets the coils to zero permanently; callable from any thread. A tick in progress ends with its
   /// picture, at most one camera period later. Returns the report of the first stop.
@@ -72,7 +73,7 @@ class LiveRig : public Plant {
   void read_frame();
   Snapshot world_then() const;
   void look_for_faults(double now);
-  void fail(const std::string& why);
+  void fail(const std::string& why, FaultKind kind);
   double since_start() const { return steady_seconds() - start_; }
 
   const Rig& rig_;
@@ -94,7 +95,7 @@ class LiveRig : public Plant {
   double seen_ = 0;   // time of the newest frame [s]
   double begun_ = 0;  // start of the tick [s]
   int missed_in_a_row_ = 0;
-  std::string fault_;
+  Fault fault_;
   RigMeter meter_;
   CoilLoop coils_;  // last member, since its thread uses the others
 };

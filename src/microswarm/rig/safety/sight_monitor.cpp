@@ -51,14 +51,16 @@ void SightMonitor::take(const Detections& detections, double seen, double follow
                     following_.commanded(), following_.followed());
 }
 
-std::string SightMonitor::trouble(double now) const {
-  if (!does_not_follow_.empty()) return does_not_follow_;
+Fault SightMonitor::fault(double now) const {
+  if (!does_not_follow_.empty()) return {does_not_follow_, FaultKind::swarm};
   if (const double age = now - seen_; age > params_.max_frame_age)
-    return fmt::format("the newest picture is {:.2f} s old, allowed {} s", age,
-                       params_.max_frame_age);
+    return {
+        fmt::format("the newest picture is {:.2f} s old, allowed {} s", age, params_.max_frame_age),
+        FaultKind::camera};
   if (now - found_ > params_.lost_swarm)
-    return fmt::format("the swarm was not found for {:.2f} s{}, allowed {} s", now - found_,
-                       why_not_found_, params_.lost_swarm);
+    return {fmt::format("the swarm was not found for {:.2f} s{}, allowed {} s", now - found_,
+                        why_not_found_, params_.lost_swarm),
+            FaultKind::swarm};
   return {};
 }
 

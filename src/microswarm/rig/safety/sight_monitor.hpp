@@ -6,6 +6,7 @@
 
 #include "microswarm/rig/params/rig_params.hpp"
 #include "microswarm/rig/perception/perception.hpp"
+#include "microswarm/rig/safety/fault.hpp"
 #include "microswarm/rig/safety/follow_monitor.hpp"
 
 namespace microswarm::rig {
@@ -21,8 +22,8 @@ class SightMonitor {
   /// over which following is judged, unless the parameters name one [µm].
   void take(const Detections& detections, double seen, double follow_distance);
 
-  /// Why a run cannot continue at `now` [s], in words; empty if it can.
-  std::string trouble(double now) const;
+  /// Why a run cannot continue at `now` [s]; no reason if it can.
+  Fault fault(double now) const;
   /// Time at which the newest picture was taken [s]; 0 before the first.
   double seen() const { return seen_; }
   /// Direction of the swarm relative to its commands, if it is known.

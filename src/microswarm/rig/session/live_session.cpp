@@ -226,6 +226,10 @@ std::string LiveSession::fault() {
          (zero.confirmed ? zero.trouble : "did not confirm that the coils are at zero");
 }
 
+FaultKind LiveSession::fault_kind() {
+  return stop("the run has ended").good() ? plant_->fault_kind() : FaultKind::device;
+}
+
 std::optional<vision::RecordedVideo> LiveSession::video() const {
   return video_ ? std::optional(video_->finish()) : std::nullopt;
 }

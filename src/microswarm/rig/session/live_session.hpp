@@ -82,6 +82,8 @@ class LiveSession {
   /// Why the run ended with a fault, or why zero is not sure; empty otherwise. Sets the coils to
   /// zero after the last tick.
   std::string fault();
+  /// Kind of that fault.
+  FaultKind fault_kind();
   /// After close(): the recorded video, if requested.
   std::optional<vision::RecordedVideo> video() const;
   /// Notes that came up since the last call, each once: little space on the disk, more values

@@ -28,7 +28,7 @@ Observation SimulatedRig::observe() {
   picture_ = &simulator_.render(shot);
   detections_ = &perception_->process(*picture_, shot.seen);
   sight_.take(*detections_, shot.seen, perception_->follow_distance());
-  if (fault_.empty()) fault_ = sight_.trouble(shot.now);
+  if (fault_.empty()) fault_ = sight_.fault(shot.now).why;
   if (!fault_.empty()) controller_.stop();
   return to_observation(*detections_,
                         std::make_shared<const Snapshot>(map_, shot.seen, detections_->moving),

@@ -40,6 +40,8 @@ class SimulatedRig : public Plant {
   const Eigen::Vector3d& aim() const { return controller_.place(); }
   /// Lowest scale of the currents so far, imposed by the limits of the coils.
   double min_scale() const { return min_scale_; }
+  /// Sets the temperatures of the coils [°C].
+  void warm(const Eigen::VectorXd& temperatures) { controller_.warm(temperatures); }
 
  private:
   const Rig rig_;
