@@ -8,6 +8,7 @@
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/execution/clock.hpp"
+#include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/rig/simulation/rig_simulator.hpp"
 
 namespace microswarm::rig {
@@ -84,7 +85,8 @@ LiveRig::LiveRig(const experiment::Scenario& scenario, std::shared_ptr<const Map
       camera_(std::move(camera), "camera", camera_watch(rig.params), listeners.pictures),
       controller_(rig.system, checked(rig, scenario).field, driver,
                   scenario.start ? scenario.start->heading : 0),
-      following_(rig.params.safety.min_follow_share),
+      following_(rig.params.safety.min_follow_share, rig.params.safety.max_follow_share),
+      watch_(rig.params.safety),
       listeners_(std::move(listeners)),
       start_(steady_seconds()),
       meter_(rig.system, scenario.tick),
@@ -102,8 +104,19 @@ LiveRig::LiveRig(const experiment::Scenario& scenario, std::shared_ptr<const Map
   if (has_virtual_) shown.obstacles.clear();
   perception_ = make_perception(rig.params.perception, shown, *world_.map, starts,
                                 {scale, picture.width, picture.height});
+  registration_ = std::make_shared<PictureRegistration>(
+      *world_.map, CameraView{scale, picture.width, picture.height});
+  vision::take_channel(picture, vision::VideoChannel::grey, grey_);
+  first_fit_ = registration_->fit(grey_, true);
+  const double detail = detail_of(grey_);
   start_ = steady_seconds();
   read_frame();
+  if (!first_fit_.unsure.empty())
+    registration_->keep_still(grey_, moving_rings(*detections_, scale_));
+  else
+    watch_.take({first_fit_, detail}, seen_);
+  const double limit = rig.params.safety.max_map_shift_px;
+  looks_ = std::make_unique<MapLooks>(registration_, limit > 0 ? limit : infinity);
 }
 
 Observation LiveRig::observe() {
@@ -158,10 +171,26 @@ void LiveRig::read_frame() {
   angle_.take(detections_->commanded_distance, detections_->followed_distance,
               detections_->across_distance, distance / stretches_of_follow_distance);
   if (!following_.take(detections_->commanded_distance, detections_->followed_distance, distance))
-    fail(
-        fmt::format("the swarm does not follow: of {:.3g} µm that were commanded it went {:.3g} µm",
-                    following_.commanded(), following_.followed()));
-  meter_.add_picture(took, detections_->unseen, angle_.direction());
+    fail(fmt::format(
+        "the swarm {}: of {:.3g} µm that were commanded it went {:.3g} µm",
+        following_.followed() > following_.commanded() ? "is too fast" : "does not follow",
+        following_.commanded(), following_.followed()));
+  const bool is_one_body = detections_->robots.empty();
+  const int unseen = is_one_body ? !detections_->swarm : detections_->unseen;
+  meter_.add_picture(took, unseen, angle_.direction());
+  watch_.take(grey_, *detections_, {scale_, grey_.width, grey_.height}, seen_);
+  if (const auto& direction = angle_.direction())
+    watch_.take_follow_share(direction->share, direction->sd);
+}
+
+/// Has the map looked at once a second, and again at once when it is in doubt.
+void LiveRig::look_at_map() {
+  constexpr double period = 1;  // [s]
+  if (const auto look = looks_->take()) {
+    watch_.take(look->first, look->second);
+    if (watch_.is_in_doubt()) look_due_ = seen_;
+  }
+  if (seen_ >= look_due_ && looks_->offer(grey_, seen_)) look_due_ = seen_ + period;
 }
 
 void LiveRig::look_for_faults(double now) {
@@ -181,6 +210,8 @@ void LiveRig::look_for_faults(double now) {
   if (now - found_ > safety.lost_swarm)
     return fail(fmt::format("the swarm was not found for {:.2f} s{}, allowed {} s", now - found_,
                             why_not_found(*detections_), safety.lost_swarm));
+  look_at_map();
+  if (const std::string why = watch_.fault(); !why.empty()) return fail(why);
   if (missed_in_a_row_ >= safety.missed_deadlines)
     return fail(fmt::format("{} ticks in a row ended too late", missed_in_a_row_));
   meter_.add_frame_age(age);
