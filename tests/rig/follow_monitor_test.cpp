@@ -62,6 +62,17 @@ std::optional<FollowDirection> measured(double share, double angle, double sprea
   return follow.direction();
 }
 
+TEST(FollowMonitor, MuchMoreThanTheCommandedDistanceIsNoFollowing) {
+  FollowMonitor limited(0.25, 2.5), unlimited(0.25);
+  for (int k = 0; k < 20; ++k) {
+    EXPECT_TRUE(limited.take(2, 4.8, 40));
+    EXPECT_TRUE(unlimited.take(2, 5.4, 40));
+  }
+  bool follows = true;
+  for (int k = 0; k < 20; ++k) follows = limited.take(2, 5.4, 40);
+  EXPECT_FALSE(follows);
+}
+
 TEST(FollowAngle, IsThatOfTheCameraAgainstTheCoils) {
   Rng rng(2, Purpose::test);
   for (const double angle : {-3.0, -0.5, 0.0, 0.2, 2.0})

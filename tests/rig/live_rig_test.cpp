@@ -140,6 +140,7 @@ TEST_F(LiveRigs, ASwarmThatLeavesThePictureEndsIt) {
   const experiment::RunResult result = go(6, [&](LiveRig&) { trouble->no_swarm = true; });
   EXPECT_TRUE(names(fault_of(result), "the swarm was not found for")) << result.state;
   EXPECT_LT(zero_after, patience * 1.2);
+  EXPECT_GE(timing.unseen_frames, 2);
 }
 
 TEST_F(LiveRigs, ASwarmThatSplitsEndsIt) {

@@ -203,6 +203,30 @@ TEST(RigWatch, ASwarmThatIsOftenUnseenIsToldAndAFault) {
 
 PictureFit fit_of(double shift_px) { return {.shift_px = shift_px, .seen_share = 1}; }
 
+TEST(RigWatch, LightAndSharpnessEndARun) {
+  const auto grey = [](int level) {
+    return formats::Image{16, 16, 1,
+                          std::vector<std::uint8_t>(256, static_cast<std::uint8_t>(level))};
+  };
+  const CameraView view{{}, 16, 16};
+  const Detections seen{.swarm = SwarmPose{}};
+  const auto fault = [&](int level, double contrast) {
+    RigWatch watch(SafetyParams{});
+    for (int k = 0; k < 50; ++k) {
+      watch.take(grey(k < 10 ? 100 : level), seen, view, 0.1 * k);
+      if (k % 10 != 0) continue;
+      PictureFit fit = fit_of(0);
+      fit.contrast = k < 10 ? 30 : contrast;
+      watch.take({fit, 0}, 0.1 * k);
+    }
+    return watch.fault();
+  };
+  EXPECT_EQ(fault(100, 30), "");
+  EXPECT_EQ(fault(60, 0.6 * 30), "") << "contrast relative to the light";
+  EXPECT_NE(fault(40, 0.4 * 30).find("the light is 40 %"), std::string::npos);
+  EXPECT_NE(fault(100, 10).find("the sharpness of the walls is 33 %"), std::string::npos);
+}
+
 TEST(RigWatch, TwoLooksBeyondTheLimitAreAFault) {
   MapWatch watch(5);
   for (const double shift : {0.1, 6.0, 0.2, 6.0}) watch.take(fit_of(shift));

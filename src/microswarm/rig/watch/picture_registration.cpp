@@ -16,6 +16,7 @@ namespace {
 
 constexpr int enough_edges = 60;
 constexpr double enough_seen = 0.35;            // share of the expected edges
+constexpr double enough_of_still = 0.5;         // share of a still's edges
 constexpr double above_chance = 2;              // times the share beside the expected places
 constexpr double largest_growth = 0.12;         // of a fit that is believed
 constexpr double largest_turn = 15 * pi / 180;  // [rad]
@@ -350,6 +351,8 @@ PictureFit PictureRegistration::fit(const formats::Image& picture, bool wide) co
   if (has_still_) {
     PictureFit still = to_fit(best_fit(calm, noise, still_, wide, true));
     still.by_walls = false;
+    if (still.unsure.empty() && still.seen_share < enough_of_still)
+      still.unsure = "much of what the run began with is no longer seen";
     return still;
   }
   PictureFit fit = to_fit(best_fit(calm, noise, with_border_, wide, false));
