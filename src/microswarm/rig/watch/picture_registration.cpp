@@ -364,13 +364,14 @@ PictureFit PictureRegistration::fit(const formats::Image& picture, bool wide) co
 }
 
 std::string fit_text(const PictureFit& fit) {
+  const auto tenths = [](double x) { return std::round(10 * x) / 10 + 0.0; };  // never -0
   const double turned = degrees(fit.rotation);
   const double larger = 100 * (fit.magnification - 1);
   std::string text = fmt::format(
       "{} up to {:.1f} px ({:.3g} µm) from {} place in the picture: displaced by ({:.1f}, {:.1f}) "
       "px in its middle",
       fit.by_walls ? "the walls are" : "what the run began with is", fit.shift_px, fit.shift_um,
-      fit.by_walls ? "their" : "its", fit.middle_px.x + 0.0, fit.middle_px.y + 0.0);
+      fit.by_walls ? "their" : "its", tenths(fit.middle_px.x), tenths(fit.middle_px.y));
   if (std::abs(turned) >= 0.05)
     text += fmt::format(", turned by {:.1f}° {}", std::abs(turned),
                         turned > 0 ? "clockwise" : "counter-clockwise");
