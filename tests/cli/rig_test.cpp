@@ -149,6 +149,21 @@ TEST_F(WholeRig, IsCheckedInWordsAndInJson) {
                   {"answer", "the coils' limits weaken the field to 0.27 mT, 8 mT is meant"}}));
 }
 
+TEST_F(WholeRig, ItsMapIsCheckedAgainstThePicture) {
+  const auto check = [&](const std::string& setting) {
+    return run({"rig", "check", rig("vortex.yaml"), "--seconds", "0.1", "--scenario",
+                MICROSWARM_SOURCE_DIR "/scenarios/papers/radar/micromaze.yaml", "--set",
+                "camera.type=simulated", "--set", "camera.microscope." + setting});
+  };
+  EXPECT_EQ(check("noise=3").code, 0);
+  const Outcome turned = check("turn_deg=5");
+  EXPECT_EQ(turned.code, 4);
+  EXPECT_TRUE(names(turned.out, "turned by 5.0° clockwise")) << turned.out;
+  const Outcome scaled = check("scale_error=0.02");
+  EXPECT_EQ(scaled.code, 4);
+  EXPECT_TRUE(names(scaled.out, "2.0 % larger than expected")) << scaled.out;
+}
+
 TEST_F(WholeRig, TheBenchToStartFromIsWholeButForItsDevices) {
   good({"rig", "check", rig("bench.yaml"), "--set", "driver.type=simulated", "--set",
         "driver.waveforms=true", "--set", "camera.type=simulated", "--seconds", "0.1"});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/rig/safety/follow_monitor.hpp"
+#include "microswarm/rig/watch/follow_monitor.hpp"
 
 #include <gtest/gtest.h>
 
@@ -60,6 +60,17 @@ std::optional<FollowDirection> measured(double share, double angle, double sprea
     follow.take(1, seen.x, seen.y, 10);
   }
   return follow.direction();
+}
+
+TEST(FollowMonitor, MuchMoreThanTheCommandedDistanceIsNoFollowing) {
+  FollowMonitor limited(0.25, 2.5), unlimited(0.25);
+  for (int k = 0; k < 20; ++k) {
+    EXPECT_TRUE(limited.take(2, 4.8, 40));
+    EXPECT_TRUE(unlimited.take(2, 5.4, 40));
+  }
+  bool follows = true;
+  for (int k = 0; k < 20; ++k) follows = limited.take(2, 5.4, 40);
+  EXPECT_FALSE(follows);
 }
 
 TEST(FollowAngle, IsThatOfTheCameraAgainstTheCoils) {

@@ -36,6 +36,21 @@ TEST(OpenOnRig, TheTrialSelectsTheStreamsOfTheRigToo) {
   EXPECT_NE(hash_of(*open_on_rig(on, 1)), hash_of(*open_on_rig(on, 2)));
 }
 
+TEST(OpenOnRig, ADisplacedCameraIsRefusedUnlessThereIsNoLimit) {
+  const std::vector<std::string> displaced{"camera.type=simulated",
+                                           "camera.microscope.shift_px=[8, 0]"};
+  const auto open = [&](const char* setting) {
+    std::vector<std::string> settings = displaced;
+    settings.push_back(setting);
+    open_on_rig(open_rig_experiment(s_channel, {"time_limit_s=1"}, shipped / "rigs/ribbon.yaml",
+                                    {settings, ""}));
+  };
+  EXPECT_NE(test::error_of([&] { open("camera.microscope.noise=3"); }).find("8.0 px"),
+            std::string::npos);
+  EXPECT_NO_THROW(open("safety.max_map_shift_px=0"));
+  EXPECT_NO_THROW(open("camera.microscope.moved_after_s=1"));
+}
+
 TEST(OpenOnRig, ValuesOfARigNeedARigAndRecordsNone) {
   EXPECT_THROW(open_on_rig(s_channel, {.rig_settings = {"drive_rate_hz=100"}}), InputError);
   const test::Folder folder;

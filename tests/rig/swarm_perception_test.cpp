@@ -11,7 +11,7 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/rng.hpp"
 #include "microswarm/navigation/radar/wait_zone.hpp"
-#include "microswarm/rig/safety/follow_monitor.hpp"
+#include "microswarm/rig/watch/follow_monitor.hpp"
 #include "microswarm/rig/simulation/microscope.hpp"
 #include "tests/rig/perceived.hpp"
 

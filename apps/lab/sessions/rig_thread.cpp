@@ -26,6 +26,7 @@ void be_patient(rig::SafetyParams& safety) {
   safety.lost_swarm = safety.max_frame_age = safety.max_pause = long_time;
   safety.deadman = long_time;
   safety.missed_deadlines = 1'000'000;
+  safety.max_light_change = safety.min_focus = safety.max_unseen_share = 0;  // not checked
 }
 
 }  // namespace

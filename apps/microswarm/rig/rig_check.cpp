@@ -5,6 +5,8 @@
 
 #include "microswarm/rig/runtime/devices.hpp"
 #include "microswarm/rig/runtime/rig_checks.hpp"
+#include "microswarm/rig/session/open_on_rig.hpp"
+#include "microswarm/rig/watch/map_check.hpp"
 #include "microswarm/vision/camera/newest_frame.hpp"
 #include "rig/rig.hpp"
 #include "rig/rig_settings.hpp"
@@ -17,6 +19,7 @@ using Json = nlohmann::ordered_json;
 
 struct CheckOptions {
   std::string rig;
+  std::string scenario;
   std::vector<std::string> settings;
   double seconds = 2;
   bool json = false;
@@ -53,15 +56,35 @@ void answer(Answers& answers, const std::vector<rig::RigCheck>& checks) {
   for (const rig::RigCheck& check : checks) answers.say(check.good, check.what, check.answer);
 }
 
-void ask_camera(const rig::Rig& rig, const CheckOptions& o, const Stop& stop, Answers& answers) {
-  if (rig::camera_kind(rig.params) == rig::CameraKind::simulated)
-    return answers.say(true, "camera", "simulated");
+void answer(Answers& answers, const rig::MapCheck& map) { answers.say(map.good, "map", map.text); }
+
+/// Compares the scenario's map with the newest picture.
+void ask_map(const rig::RigExperiment& on, vision::NewestFrame& camera, Answers& answers) {
+  constexpr double longest = 5;  // [s] to the next picture
+  vision::LiveFrame frame;
+  if (!on.rig.params.scale || !camera.wait(frame, longest)) return;
+  formats::Image grey;
+  vision::take_channel(frame.frame.picture, vision::VideoChannel::grey, grey);
+  const rig::PictureRegistration registration(*on.experiment.world.map,
+                                              {*on.rig.params.scale, grey.width, grey.height});
+  answer(answers,
+         rig::check_map(registration.fit(grey, true), on.rig.params.safety.max_map_shift_px));
+}
+
+void ask_camera(const rig::Rig& rig, const std::optional<rig::RigExperiment>& on,
+                const CheckOptions& o, const Stop& stop, Answers& answers) {
+  if (rig::camera_kind(rig.params) == rig::CameraKind::simulated) {
+    answers.say(true, "camera", "simulated");
+    if (on) answer(answers, rig::check_simulated_map(*on));
+    return;
+  }
   try {
     std::unique_ptr<vision::FrameSource> source = rig::open_rig_camera(rig);
     note_each(source->notes());
     const std::optional<double> rate = source->rate();
     vision::NewestFrame camera(std::move(source), "camera", rig::camera_watch(rig.params));
     answer(answers, rig::check_camera(camera, rig, rate, o.seconds, stop));
+    if (on) ask_map(*on, camera, answers);
   } catch (const std::runtime_error& e) {
     answers.say(false, "camera", e.what());
   }
@@ -81,13 +104,16 @@ void ask_driver(const rig::Rig& rig, const CheckOptions& o, const Stop& stop, An
 }
 
 int rig_check(const CheckOptions& o, const Stop& stop) {
-  const rig::Rig rig = rig::read_rig(o.rig, {o.settings, "--set"});
+  std::optional<rig::RigExperiment> on;
+  if (!o.scenario.empty())
+    on = rig::open_rig_experiment(o.scenario, {}, o.rig, {o.settings, "--set"});
+  const rig::Rig rig = on ? on->rig : rig::read_rig(o.rig, {o.settings, "--set"});
   Answers answers(o.json);
   answers.say(true, "coils", fmt::format("{}: {} coils", rig.system.name(), rig.system.size()));
   answer(answers, {rig::check_field(rig)});
   if (rig::has_coil_device(rig))
     for (const Issue& issue : rig::missing_limits(rig)) answers.say(false, "limits", issue.text);
-  ask_camera(rig, o, stop, answers);
+  ask_camera(rig, on, o, stop, answers);
   ask_driver(rig, o, stop, answers);
   if (stop()) return not_reached;
   answers.finish();
@@ -101,6 +127,10 @@ void add_rig_check(Command rig, Action& action) {
   Command cmd = rig.add_command("check", "Check camera, coil driver, limits and latency of a rig",
                                 "rig check scenarios/rigs/vortex.yaml");
   cmd.add_option("rig", o->rig, "Rig file (YAML)").required().type_name("FILE").input("rigs");
+  cmd.add_option("--scenario", o->scenario,
+                 "Scenario file (YAML): does its map lie over the camera's picture?")
+      .type_name("FILE")
+      .input("papers");
   add_rig_settings(cmd, "--set", o->settings);
   cmd.add_option("--seconds", o->seconds, "Test duration per device")
       .type_name("SECONDS")

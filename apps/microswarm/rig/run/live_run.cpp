@@ -32,13 +32,41 @@ void tell(const rig::RigTiming& t) {
     print("  {} of {} frames had their currents more than a tick later\n", t.late_currents,
           t.camera_to_current.count());
   if (t.unseen_frames > 0)
-    print("  robots were unseen in {} frames, at most {} of them\n", t.unseen_frames, t.max_unseen);
+    print("  the swarm or robots of it were unseen in {} of {} frames, at most {} of them\n",
+          t.unseen_frames, t.frames, t.max_unseen);
   if (t.direction)
     print(
         "  the swarm moved {:.0f} % of the commanded distance, {:+.1f} ± {:.1f}° off its "
         "direction\n",
         100 * t.direction->share, degrees(t.direction->angle), degrees(t.direction->sd));
   if (t.resumed > 0) print("  the coils had switched off by themselves {} times\n", t.resumed);
+}
+
+void tell(const rig::PictureState& state, const Durations& looks) {
+  print("  pictures: light {:.0f} to {:.0f} % of the start's, sharpness {}, map displaced by {}\n",
+        100 * state.lowest_light, 100 * state.highest_light,
+        state.focus ? fmt::format("{:.0f} % or more", 100 * state.lowest_focus) : "not known",
+        state.shift_px ? fmt::format("at most {:.1f} px", state.largest_shift_px)
+                       : "what is not known");
+  print("    a look at the map {}\n", rig::quantiles(looks));
+}
+
+nlohmann::ordered_json picture_json(const rig::PictureState& state, const Durations& looks) {
+  const auto optional = [](const std::optional<double>& value) {
+    return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+  };
+  return {{"light", state.light},
+          {"lowest_light", state.lowest_light},
+          {"highest_light", state.highest_light},
+          {"focus", optional(state.focus)},
+          {"lowest_focus", state.lowest_focus},
+          {"shift_px", optional(state.shift_px)},
+          {"largest_shift_px", state.largest_shift_px},
+          {"frames_without_swarm", state.unseen},
+          {"largest_unseen_share", state.highest_unseen_share},
+          {"follow_share", optional(state.follow_share)},
+          {"look_p50_ms", 1e3 * looks.quantile(0.5)},
+          {"look_longest_ms", 1e3 * looks.longest()}};
 }
 
 nlohmann::ordered_json timing_json(const rig::RigTiming& t,
@@ -237,14 +265,19 @@ LiveRunEnd run_live(const rig::RigExperiment& on, const LiveRunOptions& o, const
   const bool at_zero = note_zero(live.stop("the run has ended"));
   note_limits(timing);
   note_direction(timing);
-  end.code = tell_run(session,
-                      {.out = folder,
-                       .json = o.json,
-                       .rig_timing = [&] { return timing_json(timing, video); },
-                       .print = o.print},
-                      {});
+  note_each(live.take_notes());
+  const rig::PictureState pictures = live.live().picture_state();
+  const Durations looks = live.live().look_times();
+  const auto json = [&] {
+    nlohmann::ordered_json timing_of_run = timing_json(timing, video);
+    timing_of_run["pictures"] = picture_json(pictures, looks);
+    return timing_of_run;
+  };
+  end.code =
+      tell_run(session, {.out = folder, .json = o.json, .rig_timing = json, .print = o.print}, {});
   note_pace(timing, on.rig.params);
   if (!o.json) tell(timing);
+  if (!o.json) tell(pictures, looks);
   if (!o.json && video && video->trouble.empty()) tell(*video);
   if (!at_zero)
     end.code = hardware;

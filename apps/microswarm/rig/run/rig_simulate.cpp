@@ -13,6 +13,7 @@
 #include "microswarm/io/columns.hpp"
 #include "microswarm/rig/params/rig_experiment.hpp"
 #include "microswarm/rig/runtime/rig_checks.hpp"
+#include "microswarm/rig/session/open_on_rig.hpp"
 #include "microswarm/rig/simulation/rig_comparison.hpp"
 #include "rig/rig.hpp"
 #include "rig/rig_notes.hpp"
@@ -98,8 +99,8 @@ int simulate_trials(const SimulateOptions& o, const Context& context) {
                                               {pair.rig_settings, "--set-rig"}));
   for (const rig::RigExperiment& on : scenes) {
     note_field(on.rig, on.scenario());
-    rig::simulated_camera(on.rig);
     rig::require_field(on.rig);
+    rig::require_simulated_map(on);
   }
   const OutFolder hold(o.out);
   std::vector<rig::ComparisonRow> rows;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <string_view>
 
 #include "microswarm/io/hdf5_tables.hpp"
@@ -28,6 +29,49 @@ std::vector<double> every_nth(const std::vector<double>& values, std::size_t str
 std::string current_path(std::size_t coil) { return fmt::format("/rig/currents/i_{}_a", coil + 1); }
 
 constexpr std::int64_t max_coils = 64;
+
+/// Column of the table of pictures.
+struct PictureColumn {
+  const char* name;
+  double PictureRow::*value;
+  const char* unit;
+  const char* doc;
+};
+constexpr std::array<PictureColumn, 6> picture_columns{
+    {{"t_s", &PictureRow::t, "s", "Time of the picture."},
+     {"light", &PictureRow::light, "", "Mean grey value over that at the start."},
+     {"focus", &PictureRow::focus, "", "Sharpness of walls or details over that at the start."},
+     {"shift_px", &PictureRow::shift_px, "px",
+      "Displacement of the map at the workspace's worst corner; NaN: not known."},
+     {"unseen_share", &PictureRow::unseen_share, "",
+      "Share of the pictures of the last seconds in which the swarm was not found."},
+     {"follow_share", &PictureRow::follow_share, "",
+      "Distance that the swarm moved over that commanded, so far; NaN: not known."}}};
+
+std::string picture_path(const PictureColumn& column) {
+  return std::string("/rig/pictures/") + column.name;
+}
+
+void write_pictures(io::Hdf5Writer& out, const std::vector<PictureRow>& rows) {
+  out.attribute("/rig", "picture_rows", static_cast<std::int64_t>(rows.size()));
+  for (const PictureColumn& column : picture_columns) {
+    std::vector<double> values;
+    values.reserve(rows.size());
+    for (const PictureRow& row : rows) values.push_back(row.*column.value);
+    write_column(out, picture_path(column), values, column.unit, column.doc);
+  }
+}
+
+std::vector<PictureRow> read_pictures(const io::Hdf5Reader& in) {
+  if (!in.has_attribute("/rig", "picture_rows")) return {};  // of an older program
+  std::vector<PictureRow> rows(in.length(picture_path(picture_columns.front())));
+  for (const PictureColumn& column : picture_columns) {
+    const std::vector<double> values = in.numbers(picture_path(column));
+    if (values.size() != rows.size()) in.fail("/rig/pictures has columns of different lengths");
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].*column.value = values[i];
+  }
+  return rows;
+}
 
 }  // namespace
 
@@ -71,6 +115,7 @@ void write_rig_log(io::Hdf5Writer& out, const RigLog& log) {
   write_column(out, "/rig/seen/x_um", x, "µm", "Centre of the body.");
   write_column(out, "/rig/seen/y_um", y, "µm", "Centre of the body.");
   write_column(out, "/rig/seen/radius_um", log.radii, "µm", "Radius of a circle around the body.");
+  write_pictures(out, log.pictures);
 }
 
 RigLog read_rig_log(const io::Hdf5Reader& in) {
@@ -113,6 +158,7 @@ RigLog read_rig_log(const io::Hdf5Reader& in) {
   for (const std::size_t size : {log.bodies.size(), log.radii.size(), x.size(), y.size()})
     if (size != log.seen_at.size()) in.fail("/rig/seen has columns of different lengths");
   for (std::size_t i = 0; i < x.size(); ++i) log.positions.push_back({x[i], y[i]});
+  log.pictures = read_pictures(in);
   return log;
 }
 

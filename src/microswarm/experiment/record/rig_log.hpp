@@ -35,6 +35,16 @@ struct RigLatency {
   }
 };
 
+/// State of a rig's pictures at a time, relative to the start; NaN where it is not known.
+struct PictureRow {
+  double t = 0;             ///< [s]
+  double light = 1;         ///< mean grey value
+  double focus = 1;         ///< sharpness of walls or details
+  double shift_px = 0;      ///< displacement of the map at its worst corner
+  double unseen_share = 0;  ///< of the pictures of the last seconds
+  double follow_share = 0;  ///< distance moved over that commanded
+};
+
 /// Part of a record that describes the rig: circumstances of the run, currents, and detections of
 /// the camera. Times are those of the record's frames [s]. It is not part of the record's hash.
 struct RigLog {
@@ -51,6 +61,7 @@ struct RigLog {
   std::vector<std::int64_t> bodies{};  ///< -1 for the swarm, otherwise an obstacle's number
   std::vector<Vec2> positions{};       ///< centres of the bodies [µm]
   std::vector<double> radii{};         ///< of circles around the bodies [µm]
+  std::vector<PictureRow> pictures{};  ///< state of the pictures, about once a second
   std::optional<double> currents_until{};  ///< outputs after it are too many to be kept [s]
   std::optional<double> seen_until{};      ///< sightings after it are too many to be kept [s]
   std::optional<RigLatency> latency{};     ///< of the whole run, set at its end

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "microswarm/core/fields/fields.hpp"
+#include "microswarm/geometry/vec2.hpp"
 
 namespace microswarm::rig {
 
-/// Settings of a simulated microscope camera: scale, light, noise and contrasts.
+/// Settings of a simulated microscope camera: scale, light, noise, contrasts, and faults.
 struct MicroscopeParams {
   std::optional<double> um_per_px{};
   int margin = 16;
@@ -21,6 +24,11 @@ struct MicroscopeParams {
   double swarm_density = 2;
   double particle_diameter = 3;
   double robot_diameter = 7;
+  Vec2 shift_px{};
+  double turn = 0;
+  double scale_error = 0;
+  double moved_after = 0;
+  std::optional<double> frozen_after{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.um_per_px,
@@ -44,6 +52,13 @@ struct MicroscopeParams {
     visit(self.particle_diameter, px("particle_diameter", 1, 100, "Diameter of a particle clump."));
     visit(self.robot_diameter,
           px("robot_diameter", 1, 100, "Diameter of an individually tracked robot."));
+    visit(self.shift_px, px("shift", -1e4, 1e4, "Displacement that the rig does not know of."));
+    visit(self.turn, deg("turn", -180, 180, "Clockwise turn that the rig does not know of."));
+    visit(self.scale_error,
+          plain("scale_error", -0.9, 10, "Relative excess of all sizes, not known, either."));
+    visit(self.moved_after, s("moved_after", 0, 1e6, "Time from which these three hold."));
+    visit(self.frozen_after,
+          s("frozen_after", 0, 1e6, "Time from which only light and noise change; none: never."));
   }
 };
 

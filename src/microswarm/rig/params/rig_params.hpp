@@ -63,6 +63,12 @@ struct SafetyParams {
   double max_pause = 0.3;
   std::optional<double> follow_distance{};
   double min_follow_share = 0.25;
+  double max_follow_share = 2.5;
+  double max_map_shift_px = 5;
+  double max_light_change = 0.5;
+  double min_focus = 0.4;
+  double max_unseen_share = 0.5;
+  double frozen_swarm = 0.8;
   std::vector<std::string> on_fault{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
@@ -82,6 +88,18 @@ struct SafetyParams {
                                    "Distance that the swarm must follow; none: by its size."));
     visit(self.min_follow_share,
           plain("min_follow_share", 0, 1, "Share of it that must be seen; 0: not checked."));
+    visit(self.max_follow_share,
+          plain("max_follow_share", 0, 100, "Share of it that may be seen; 0: any."));
+    visit(self.max_map_shift_px,
+          px("max_map_shift", 0, 1e4, "Displacement of the map in the picture; 0: any."));
+    visit(self.max_light_change,
+          plain("max_light_change", 0, 0.99, "Share by which the light may change; 0: any."));
+    visit(self.min_focus,
+          plain("min_focus", 0, 1, "Sharpness relative to the start; 0: not checked."));
+    visit(self.max_unseen_share,
+          plain("max_unseen_share", 0, 1, "Share of pictures without the swarm; 0: any."));
+    visit(self.frozen_swarm,
+          s("frozen_swarm", 0, 100, "Time without a change at a driven swarm; 0: any."));
     visit(self.on_fault, plain("on_fault", "Program and its arguments, started after a fault."));
   }
 };

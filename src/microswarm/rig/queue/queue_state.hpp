@@ -12,7 +12,7 @@
 
 #include "microswarm/config/type.hpp"
 #include "microswarm/core/fields/fields.hpp"
-#include "microswarm/rig/safety/fault.hpp"
+#include "microswarm/rig/watch/fault.hpp"
 
 namespace microswarm::rig {
 

@@ -12,7 +12,7 @@
 
 #include "microswarm/actuation/coils/coil_controller.hpp"
 #include "microswarm/core/execution/clock.hpp"
-#include "microswarm/rig/safety/fault.hpp"
+#include "microswarm/rig/watch/fault.hpp"
 
 namespace microswarm::rig {
 

@@ -7,6 +7,7 @@
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/execution/clock.hpp"
+#include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/rig/simulation/rig_simulator.hpp"
 
 namespace microswarm::rig {
@@ -70,8 +71,19 @@ LiveRig::LiveRig(const experiment::Scenario& scenario, std::shared_ptr<const Map
   if (has_virtual_) shown.obstacles.clear();
   perception_ = make_perception(rig.params.perception, shown, *world_.map, starts,
                                 {scale, picture.width, picture.height});
+  registration_ = std::make_shared<PictureRegistration>(
+      *world_.map, CameraView{scale, picture.width, picture.height});
+  vision::take_channel(picture, vision::VideoChannel::grey, grey_);
+  first_fit_ = registration_->fit(grey_, true);
+  const double detail = detail_of(grey_);
   start_ = steady_seconds();
   read_frame();
+  if (!first_fit_.unsure.empty())
+    registration_->keep_still(grey_, moving_rings(*detections_, scale_));
+  else
+    sight_.watch().take({first_fit_, detail}, seen_);
+  const double limit = rig.params.safety.max_map_shift_px;
+  looks_ = std::make_unique<MapLooks>(registration_, limit > 0 ? limit : infinity);
 }
 
 Observation LiveRig::observe() {
@@ -120,8 +132,21 @@ void LiveRig::read_frame() {
   vision::take_channel(frame_.frame.picture, vision::VideoChannel::grey, grey_);
   detections_ = &perception_->process(grey_, seen_);
   const double took = steady_seconds() - began;
-  sight_.take(*detections_, seen_, perception_->follow_distance());
-  meter_.add_picture(took, detections_->unseen, sight_.direction());
+  sight_.take(grey_, *detections_, {scale_, grey_.width, grey_.height}, seen_,
+              perception_->follow_distance());
+  const bool is_one_body = detections_->robots.empty();
+  meter_.add_picture(took, is_one_body ? !detections_->swarm : detections_->unseen,
+                     sight_.direction());
+}
+
+/// Has the map looked at once a second, and again at once when it is in doubt.
+void LiveRig::look_at_map() {
+  constexpr double period = 1;  // [s]
+  if (const auto look = looks_->take()) {
+    sight_.watch().take(look->first, look->second);
+    if (sight_.watch().is_in_doubt()) look_due_ = seen_;
+  }
+  if (seen_ >= look_due_ && looks_->offer(grey_, seen_)) look_due_ = seen_ + period;
 }
 
 void LiveRig::look_for_faults(double now) {
@@ -136,6 +161,7 @@ void LiveRig::look_for_faults(double now) {
     const std::string why = camera.why.empty() ? camera.why : ": " + camera.why;
     return fail("the camera has no more pictures" + why, FaultKind::camera);
   }
+  look_at_map();
   if (const Fault seen = sight_.fault(now); !seen.why.empty()) return fail(seen.why, seen.kind);
   if (missed_in_a_row_ >= safety.missed_deadlines)
     return fail(fmt::format("{} ticks in a row ended too late", missed_in_a_row_),

@@ -11,9 +11,10 @@
 #include "microswarm/rig/params/rig_params.hpp"
 #include "microswarm/rig/perception/perception.hpp"
 #include "microswarm/rig/runtime/coil_loop.hpp"
+#include "microswarm/rig/runtime/map_looks.hpp"
 #include "microswarm/rig/runtime/rig_meter.hpp"
 #include "microswarm/rig/runtime/tick_schedule.hpp"
-#include "microswarm/rig/safety/sight_monitor.hpp"
+#include "microswarm/rig/watch/sight_monitor.hpp"
 #include "microswarm/vision/camera/newest_frame.hpp"
 
 namespace microswarm::rig {
@@ -67,8 +68,17 @@ class LiveRig : public Plant {
   const formats::Image& picture() const { return grey_; }
   const vision::CameraScale& scale() const { return scale_; }
   const Detections& detections() const { return *detections_; }
+  /// Place of the map in the first picture.
+  const PictureFit& first_fit() const { return first_fit_; }
+  /// State of the pictures: light, focus, map, unseen swarms.
+  PictureState picture_state() const { return sight_.watch().state(); }
+  /// Notes about the pictures that came up since the last call, one line each.
+  std::vector<std::string> take_notes() { return sight_.watch().take_notes(); }
+  /// Times of the looks at the map so far [s].
+  Durations look_times() const { return looks_->times(); }
 
  private:
+  void look_at_map();
   void take_frame();
   void read_frame();
   Snapshot world_then() const;
@@ -84,6 +94,10 @@ class LiveRig : public Plant {
   vision::NewestFrame camera_;
   actuation::CoilController controller_;
   SightMonitor sight_;
+  std::shared_ptr<PictureRegistration> registration_;
+  PictureFit first_fit_;
+  std::unique_ptr<MapLooks> looks_;
+  double look_due_ = 0;  // [s]
   std::unique_ptr<Perception> perception_;
   vision::LiveFrame frame_;
   formats::Image grey_;

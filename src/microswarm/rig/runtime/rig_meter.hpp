@@ -7,7 +7,7 @@
 #include "microswarm/core/execution/durations.hpp"
 #include "microswarm/rig/runtime/coil_load.hpp"
 #include "microswarm/rig/runtime/coil_loop.hpp"
-#include "microswarm/rig/safety/follow_monitor.hpp"
+#include "microswarm/rig/watch/follow_monitor.hpp"
 
 namespace microswarm::rig {
 

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <ctime>
+#include <limits>
 #include <utility>
 
 #include "microswarm/config/write.hpp"
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/core/text/file.hpp"
+#include "microswarm/rig/watch/map_check.hpp"
 
 namespace microswarm::rig {
 
@@ -22,8 +24,11 @@ RigExperiment checked(RigExperiment on, const LiveOptions& options) {
   require_field(on.rig);
   if (has_coil_device(on.rig) && !options.dry && !options.without_limits)
     on.rig.keys.require_none(missing_limits(on.rig));
-  if (options.dry || camera_kind(on.rig.params) == CameraKind::video)
-    on.rig.params.safety.min_follow_share = 0;
+  if (options.dry || camera_kind(on.rig.params) == CameraKind::video) {
+    SafetyParams& safety = on.rig.params.safety;
+    safety.min_follow_share = safety.max_follow_share = safety.frozen_swarm = 0;
+    safety.max_map_shift_px = 0;
+  }
   return on;
 }
 
@@ -92,6 +97,7 @@ LiveOptions with_space(LiveOptions options, const RigExperiment& on) {
 
 LiveSession::LiveSession(RigExperiment on, const LiveOptions& options)
     : options_(with_space(options, on)),
+      map_limit_(on.rig.params.safety.max_map_shift_px),
       on_(checked(std::move(on), options)),
       devices_(open_devices(on_, options.dry, options.idle)),
       kept_(make_log(on_.rig, options.note)),
@@ -106,6 +112,7 @@ LiveSession::LiveSession(RigExperiment on, const LiveOptions& options)
               .detections = [this](const Detections& seen, double t) { keep(seen, t); }})),
       session_(on_.experiment, to_parts(on_.rig, plant_, options)) {
   warn_of_slow_ticks();
+  require_map();
   if (video_) video_->begin(plant_->start());
   if (device_camera(on_.rig.params))
     require(check_camera(plant_->camera(), on_.rig, devices_.camera_rate, device_check));
@@ -131,6 +138,17 @@ void LiveSession::require(const std::vector<RigCheck>& checks) {
   }
 }
 
+/// Refuses a map that does not lie over the picture. Nothing is driven by a dry run or a video:
+/// there it is a warning.
+void LiveSession::require_map() {
+  const MapCheck check = check_map(plant_->first_fit(), map_limit_);
+  const bool drives = !options_.dry && camera_kind(on_.rig.params) != CameraKind::video;
+  if (!check.good && drives) throw on_.rig.keys.error("scale", check.text);
+  if (!check.good || !check.sure) warnings_.push_back(check.text);
+  if (!plant_->first_fit().unsure.empty())
+    warnings_.push_back("later pictures are compared with the first one of the run");
+}
+
 void LiveSession::open_coils(const LiveOptions& options) {
   require(check_driver(devices_.driver(), on_.rig, device_check));
   temperatures_.emplace(on_.rig, options.coils_cold);
@@ -140,6 +158,7 @@ void LiveSession::open_coils(const LiveOptions& options) {
 
 /// Logs the detections of a new picture: the swarm and other bodies.
 void LiveSession::keep(const Detections& seen, double t) {
+  keep_picture_state(t);
   if (kept_.seen_until) return;
   if (kept_.seen_at.size() >= options_.max_logged) {
     kept_.seen_until = kept_.seen_at.empty() ? 0 : kept_.seen_at.back();
@@ -150,6 +169,21 @@ void LiveSession::keep(const Detections& seen, double t) {
     const Disc extent = enclosing_disc(body);
     kept_.see(t, body.obstacle, extent.centre, extent.radius);
   }
+}
+
+void LiveSession::keep_picture_state(double t) {
+  constexpr double period = 1;  // [s]
+  constexpr std::size_t most = 1'000'000;
+  if (t < state_due_ || kept_.pictures.size() >= most) return;
+  state_due_ = t + period;
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  const PictureState state = plant_->picture_state();
+  kept_.pictures.push_back({.t = t,
+                            .light = state.light,
+                            .focus = state.focus.value_or(unknown),
+                            .shift_px = state.shift_px.value_or(unknown),
+                            .unseen_share = state.unseen_share,
+                            .follow_share = state.follow_share.value_or(unknown)});
 }
 
 /// In the coils' thread.
@@ -197,6 +231,7 @@ std::vector<std::string> LiveSession::take_notes() {
   if (kept_.seen_until && !std::exchange(told_sightings_, true))
     notes.push_back(
         fmt::format("the record keeps {} sightings: later ones are left out", options_.max_logged));
+  for (std::string& note : plant_->take_notes()) notes.push_back(std::move(note));
   if (std::string low = look_at_disk(); !low.empty()) notes.push_back(std::move(low));
   return notes;
 }

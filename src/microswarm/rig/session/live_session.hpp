@@ -87,7 +87,7 @@ class LiveSession {
   /// After close(): the recorded video, if requested.
   std::optional<vision::RecordedVideo> video() const;
   /// Notes that came up since the last call, each once: little space on the disk, more values
-  /// than the record keeps. To be called in the thread that steps.
+  /// than the record keeps, changes of the pictures. To be called in the thread that steps.
   std::vector<std::string> take_notes();
   /// Numbers of the newest tick; to be called in the thread that steps.
   LiveStatus status() const;
@@ -97,13 +97,16 @@ class LiveSession {
 
  private:
   void warn_of_slow_ticks();
+  void require_map();
   void open_coils(const LiveOptions& options);
   void require(const std::vector<RigCheck>& checks);
   void keep(const Detections& seen, double t);
+  void keep_picture_state(double t);
   void keep(const CoilMoment& moment);
   std::string look_at_disk();
 
   LiveOptions options_;
+  double map_limit_;  ///< [px], before checks are disabled
   RigExperiment on_;
   Devices devices_;
   experiment::RigLog kept_;  ///< currents are written by the coils' thread, the rest by the run's
@@ -112,7 +115,8 @@ class LiveSession {
   std::vector<std::string> warnings_;
   std::atomic<bool> currents_full_ = false;
   bool told_currents_ = false, told_sightings_ = false, told_space_ = false;
-  double disk_due_ = 0;  ///< time of the next look at the disk [s]
+  double disk_due_ = 0;   ///< time of the next look at the disk [s]
+  double state_due_ = 0;  ///< time of the next state of the pictures that is kept [s]
   std::optional<CoilTemperatures> temperatures_;
   std::shared_ptr<LiveRig> plant_;
   experiment::Session session_;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/execution/each_cpu.hpp"
@@ -59,11 +60,11 @@ Microscope::Microscope(const MicroscopeParams& params, const Map& map, std::uint
   scale_ = vision::upright_scale(height_ - params.margin, cell);
   scale_.origin_px += Vec2{static_cast<double>(params.margin), 0};
   scale_.origin_px = scale_.to_picture(-seen.lo);
-  const formats::Mask walls = walls_in_picture(map, scale_, width_, height_);
-  const std::size_t size = walls.cells.size();
-  ground_.reserve(size);
-  for (const std::uint8_t wall : walls.cells)
-    ground_.push_back(static_cast<float>(wall ? 1 - params.wall_depth : 1));
+  drawn_ = scale_;
+  ground_ = ground_of(map, scale_);
+  const std::size_t size = ground_.size();
+  if (params.shift_px != Vec2{} || params.turn != 0 || params.scale_error != 0)
+    moved_ground_ = ground_of(map, moved_scale());
   lamp_.reserve(size);
   for (int y = 0; y < height_; ++y)
     for (int x = 0; x < width_; ++x) {
@@ -81,13 +82,43 @@ Microscope::Microscope(const MicroscopeParams& params, const Map& map, std::uint
   picture_ = {width_, height_, 1, std::vector<std::uint8_t>(size)};
 }
 
+/// Shares of the light that pass the map's walls.
+std::vector<float> Microscope::ground_of(const Map& map, const vision::CameraScale& scale) const {
+  const formats::Mask walls = walls_in_picture(map, scale, width_, height_);
+  std::vector<float> ground;
+  ground.reserve(walls.cells.size());
+  for (const std::uint8_t wall : walls.cells)
+    ground.push_back(static_cast<float>(wall ? 1 - params_.wall_depth : 1));
+  return ground;
+}
+
+/// The scale with shift, turn and scale error about the picture's middle.
+vision::CameraScale Microscope::moved_scale() const {
+  const Vec2 middle{0.5 * (width_ - 1), 0.5 * (height_ - 1)};
+  vision::CameraScale moved = scale_;
+  moved.um_per_px /= 1 + params_.scale_error;
+  moved.rotation += params_.turn;
+  moved.origin_px = middle + params_.shift_px +
+                    (1 + params_.scale_error) * rotated(scale_.origin_px - middle, params_.turn);
+  return moved;
+}
+
 const formats::Image& Microscope::look(const Snapshot& world, const std::optional<SwarmPose>& swarm,
-                                       std::span<const Vec2> robots) {
+                                       std::span<const Vec2> robots, std::optional<double> t) {
+  const double now = t.value_or(world.time());
+  if (params_.frozen_after && now >= *params_.frozen_after && !view_.empty()) {
+    expose(world.time());
+    return picture_;
+  }
+  if (!moved_ground_.empty() && now >= params_.moved_after) {
+    ground_ = std::exchange(moved_ground_, {});
+    drawn_ = moved_scale();
+  }
   view_ = ground_;
   for (const Body& body : world.moving().bodies()) draw_body(body);
   if (swarm) draw_swarm({{swarm->pose.position, swarm_spin * world.time()}, swarm->radius});
   for (const Vec2 robot : robots)
-    draw_disc(scale_.to_picture(robot), 0.5 * params_.robot_diameter, params_.swarm_depth);
+    draw_disc(drawn_.to_picture(robot), 0.5 * params_.robot_diameter, params_.swarm_depth);
   if (params_.blur > 0) {
     cv::Mat view = as_floats(view_, width_, height_);
     vision::blurred(view, params_.blur).copyTo(view);
@@ -98,7 +129,7 @@ const formats::Image& Microscope::look(const Snapshot& world, const std::optiona
 
 void Microscope::draw_body(const Body& body) {
   std::visit(Overloaded{[&](const Disc& disc) {
-                          draw_disc(scale_.to_picture(disc.centre), disc.radius / scale_.um_per_px,
+                          draw_disc(drawn_.to_picture(disc.centre), disc.radius / drawn_.um_per_px,
                                     params_.obstacle_depth);
                         },
                         [&](const Polygon& polygon) { draw_polygon(polygon); }},
@@ -111,7 +142,7 @@ void Microscope::draw_polygon(const Polygon& polygon) {
     std::vector<cv::Point>& corners = rings.emplace_back();
     corners.reserve(ring.size());
     for (const Vec2 p : ring) {
-      const Vec2 at = (1 << corner_bits) * scale_.to_picture(p);
+      const Vec2 at = (1 << corner_bits) * drawn_.to_picture(p);
       corners.emplace_back(static_cast<int>(std::lround(at.x)),
                            static_cast<int>(std::lround(at.y)));
     }
@@ -126,8 +157,8 @@ void Microscope::draw_polygon(const Polygon& polygon) {
 
 void Microscope::draw_swarm(const SwarmPose& swarm) {
   const double grain = 0.5 * params_.particle_diameter;
-  const double reach = std::max(0.0, swarm.radius / scale_.um_per_px - grain);
-  const Vec2 middle = scale_.to_picture(swarm.pose.position);
+  const double reach = std::max(0.0, swarm.radius / drawn_.um_per_px - grain);
+  const Vec2 middle = drawn_.to_picture(swarm.pose.position);
   const Vec2 turn = unit_vector(swarm.pose.heading);
   const double clumps = params_.swarm_density * reach * reach / (grain * grain);
   const std::size_t count = std::min(max_particles, static_cast<std::size_t>(clumps) + 1);

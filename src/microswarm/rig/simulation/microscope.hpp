@@ -22,13 +22,15 @@ class Microscope {
   Microscope(const MicroscopeParams& params, const Map& map, std::uint64_t seed,
              std::uint32_t trial);
 
+  /// The scale that the rig is given; shift, turn and scale error of the parameters are not in it.
   const vision::CameraScale& scale() const { return scale_; }
   int width() const { return width_; }
   int height() const { return height_; }
 
-  /// Draws a swarm, robots, or both, at the snapshot's time. Valid until the next call.
+  /// Draws a swarm, robots, or both, under the light of the snapshot's time. Faults of the camera
+  /// begin by the time `t` [s]; none: the snapshot's. Valid until the next call.
   const formats::Image& look(const Snapshot& world, const std::optional<SwarmPose>& swarm,
-                             std::span<const Vec2> robots);
+                             std::span<const Vec2> robots, std::optional<double> t = std::nullopt);
 
  private:
   void draw_body(const Body& body);
@@ -36,9 +38,13 @@ class Microscope {
   void draw_swarm(const SwarmPose& swarm);
   void draw_disc(Vec2 at_px, double radius_px, double depth);
   void expose(double t);
+  std::vector<float> ground_of(const Map& map, const vision::CameraScale& scale) const;
+  vision::CameraScale moved_scale() const;
 
   MicroscopeParams params_;
   vision::CameraScale scale_;
+  vision::CameraScale drawn_;        // the true one
+  std::vector<float> moved_ground_;  // once it has moved; empty if it never does
   int width_;
   int height_;
   Rng rng_;

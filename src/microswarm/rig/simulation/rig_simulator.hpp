@@ -38,7 +38,7 @@ class RigSimulator {
   Shot capture();
   /// Picture of a shot, valid until the next. Does not access the changing state.
   const formats::Image& render(const Shot& shot) {
-    return microscope_.look(shot.world, shot.swarm, shot.robots);
+    return microscope_.look(shot.world, shot.swarm, shot.robots, shot.seen);
   }
 
   /// See Plant::set_obstacles.

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "microswarm/core/maths/infinity.hpp"
+
 namespace microswarm::rig {
 
 SimulatedRig::SimulatedRig(const experiment::Scenario& scenario, const World& world, Rig rig,
@@ -27,12 +29,31 @@ Observation SimulatedRig::observe() {
   const RigSimulator::Shot shot = simulator_.capture();
   picture_ = &simulator_.render(shot);
   detections_ = &perception_->process(*picture_, shot.seen);
-  sight_.take(*detections_, shot.seen, perception_->follow_distance());
+  look_at_map(shot.seen);
+  sight_.take(*picture_, *detections_, simulator_.camera(), shot.seen,
+              perception_->follow_distance());
   if (fault_.empty()) fault_ = sight_.fault(shot.now).why;
   if (!fault_.empty()) controller_.stop();
   return to_observation(*detections_,
                         std::make_shared<const Snapshot>(map_, shot.seen, detections_->moving),
                         shot.now, shot.seen);
+}
+
+/// Looks at the map in the first picture, then once a second, and at once when it is in doubt.
+void SimulatedRig::look_at_map(double seen) {
+  constexpr double period = 1;  // [s]
+  const double limit = rig_.params.safety.max_map_shift_px;
+  if (!registration_) {
+    registration_.emplace(*map_, simulator_.camera());
+    const PictureFit first = registration_->fit(*picture_, true);
+    if (!first.unsure.empty())
+      registration_->keep_still(*picture_, moving_rings(*detections_, simulator_.camera().scale));
+  } else if (seen < look_due_) {
+    return;
+  }
+  sight_.watch().take(rig::look_at_map(*registration_, *picture_, limit > 0 ? limit : infinity),
+                      seen);
+  look_due_ = sight_.watch().is_in_doubt() ? seen : seen + period;
 }
 
 void SimulatedRig::apply(const Command& command, double dt) {

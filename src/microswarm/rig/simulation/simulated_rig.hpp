@@ -5,11 +5,12 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "microswarm/actuation/coils/coil_controller.hpp"
 #include "microswarm/rig/perception/perception.hpp"
-#include "microswarm/rig/safety/sight_monitor.hpp"
 #include "microswarm/rig/simulation/rig_simulator.hpp"
+#include "microswarm/rig/watch/sight_monitor.hpp"
 
 namespace microswarm::rig {
 
@@ -43,7 +44,14 @@ class SimulatedRig : public Plant {
   /// Sets the temperatures of the coils [°C].
   void warm(const Eigen::VectorXd& temperatures) { controller_.warm(temperatures); }
 
+  /// State of the pictures: light, focus, map, unseen swarms.
+  PictureState picture_state() const { return sight_.watch().state(); }
+  /// Notes about the pictures that came up since the last call, one line each.
+  std::vector<std::string> take_notes() { return sight_.watch().take_notes(); }
+
  private:
+  void look_at_map(double seen);
+
   const Rig rig_;
   std::unique_ptr<actuation::CoilDriver> simulated_coils_;
   actuation::CoilDriver& driver_;
@@ -52,6 +60,8 @@ class SimulatedRig : public Plant {
   std::shared_ptr<const Map> map_;
   std::unique_ptr<Perception> perception_;
   SightMonitor sight_;
+  std::optional<PictureRegistration> registration_;
+  double look_due_ = 0;  // [s]
   std::string fault_;
   double min_scale_ = 1;
   const formats::Image* picture_ = nullptr;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/rig/safety/follow_monitor.hpp"
+#include "microswarm/rig/watch/follow_monitor.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,9 @@ bool FollowMonitor::take(double commanded, double followed, double distance) {
     followed_ -= steps_.front().followed;
     steps_.pop_front();
   }
-  return min_share_ <= 0 || commanded_ < distance || followed_ >= min_share_ * commanded_;
+  if (commanded_ < distance) return true;
+  return (min_share_ <= 0 || followed_ >= min_share_ * commanded_) &&
+         (max_share_ <= 0 || followed_ <= max_share_ * commanded_);
 }
 
 void FollowAngle::take(double commanded, double followed, double across, double stretch) {

@@ -6,26 +6,33 @@
 
 #include "microswarm/rig/params/rig_params.hpp"
 #include "microswarm/rig/perception/perception.hpp"
-#include "microswarm/rig/safety/fault.hpp"
-#include "microswarm/rig/safety/follow_monitor.hpp"
+#include "microswarm/rig/watch/fault.hpp"
+#include "microswarm/rig/watch/follow_monitor.hpp"
+#include "microswarm/rig/watch/rig_watch.hpp"
 
 namespace microswarm::rig {
 
 /// Checks SafetyParams on what the pictures show: their age, a lost swarm, a swarm that does not
-/// follow its commands. A rig in real time and a simulated one end by the same checks.
+/// follow its commands, and all that RigWatch sees. A rig in real time and a simulated one end by
+/// the same checks.
 class SightMonitor {
  public:
   explicit SightMonitor(const SafetyParams& params)
-      : params_(params), following_(params.min_follow_share) {}
+      : params_(params),
+        following_(params.min_follow_share, params.max_follow_share),
+        watch_(params) {}
 
-  /// Takes the detections in a picture taken at `seen` [s]. `follow_distance`: commanded distance
-  /// over which following is judged, unless the parameters name one [µm].
-  void take(const Detections& detections, double seen, double follow_distance);
+  /// Takes a grey picture of the time `seen` [s] and the detections in it. `follow_distance`:
+  /// commanded distance over which following is judged, unless the parameters name one [µm].
+  void take(const formats::Image& picture, const Detections& detections, const CameraView& view,
+            double seen, double follow_distance);
 
   /// Why a run cannot continue at `now` [s]; no reason if it can.
   Fault fault(double now) const;
   /// Time at which the newest picture was taken [s]; 0 before the first.
   double seen() const { return seen_; }
+  RigWatch& watch() { return watch_; }
+  const RigWatch& watch() const { return watch_; }
   /// Direction of the swarm relative to its commands, if it is known.
   std::optional<FollowDirection> direction() const { return angle_.direction(); }
 
@@ -33,6 +40,7 @@ class SightMonitor {
   SafetyParams params_;
   FollowMonitor following_;
   FollowAngle angle_;
+  RigWatch watch_;
   double seen_ = 0;            // time of the newest picture [s]
   double found_ = 0;           // time of the newest one that shows the swarm [s]
   std::string why_not_found_;  // in the newest picture

@@ -11,11 +11,14 @@ namespace microswarm::rig {
 /// fail.
 class FollowMonitor {
  public:
-  /// `min_share` of the commanded distance must be followed; 0 disables the check.
-  explicit FollowMonitor(double min_share) : min_share_(min_share) {}
+  /// `min_share` of the commanded distance must be followed, at most `max_share` of it; 0 disables
+  /// the check.
+  explicit FollowMonitor(double min_share, double max_share = 0)
+      : min_share_(min_share), max_share_(max_share) {}
 
   /// Takes the commanded distance between two pictures and the observed distance along it [µm].
-  /// Returns false if the swarm did not follow over the last `distance` µm commanded.
+  /// Returns false if the swarm did not follow over the last `distance` µm commanded, or went
+  /// farther.
   bool take(double commanded, double followed, double distance);
 
   double commanded() const { return commanded_; }  ///< within the window [µm]
@@ -28,6 +31,7 @@ class FollowMonitor {
   };
 
   double min_share_;
+  double max_share_;
   std::deque<Step> steps_;
   double commanded_ = 0;
   double followed_ = 0;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/rig/safety/sight_monitor.hpp"
+#include "microswarm/rig/watch/sight_monitor.hpp"
 
 #include <fmt/core.h>
 
 #include <cassert>
+#include <utility>
 
 namespace microswarm::rig {
 namespace {
@@ -37,7 +38,8 @@ std::string why_not_found(const Detections& seen) {
 
 }  // namespace
 
-void SightMonitor::take(const Detections& detections, double seen, double follow_distance) {
+void SightMonitor::take(const formats::Image& picture, const Detections& detections,
+                        const CameraView& view, double seen, double follow_distance) {
   seen_ = seen;
   if (detections.swarm) found_ = seen;
   why_not_found_ = why_not_found(detections);
@@ -46,9 +48,13 @@ void SightMonitor::take(const Detections& detections, double seen, double follow
               detections.across_distance, distance / stretches_of_follow_distance);
   if (!following_.take(detections.commanded_distance, detections.followed_distance, distance) &&
       does_not_follow_.empty())
-    does_not_follow_ =
-        fmt::format("the swarm does not follow: of {:.3g} µm that were commanded it went {:.3g} µm",
-                    following_.commanded(), following_.followed());
+    does_not_follow_ = fmt::format(
+        "the swarm {}: of {:.3g} µm that were commanded it went {:.3g} µm",
+        following_.followed() > following_.commanded() ? "is too fast" : "does not follow",
+        following_.commanded(), following_.followed());
+  watch_.take(picture, detections, view, seen);
+  if (const auto direction = angle_.direction())
+    watch_.take_follow_share(direction->share, direction->sd);
 }
 
 Fault SightMonitor::fault(double now) const {
@@ -61,6 +67,7 @@ Fault SightMonitor::fault(double now) const {
     return {fmt::format("the swarm was not found for {:.2f} s{}, allowed {} s", now - found_,
                         why_not_found_, params_.lost_swarm),
             FaultKind::swarm};
+  if (std::string why = watch_.fault(); !why.empty()) return {std::move(why), FaultKind::camera};
   return {};
 }
 
