@@ -7,7 +7,6 @@
 #include <cstdio>
 
 #include "microswarm/navigation/make.hpp"
-#include "microswarm/rig/watch/follow_monitor.hpp"
 #include "microswarm/rig/simulation/simulated_rig.hpp"
 #include "tests/rig/watched_scenes.hpp"
 #include "tests/runs.hpp"
@@ -29,46 +28,20 @@ struct WatchedRun {
 
 class Watcher : public experiment::RunListener {
  public:
-  Watcher(const RigExperiment& on, SimulatedRig& plant, WatchedRun& told)
-      : plant_(plant),
-        safety_(on.rig.params.safety),
-        watch_(safety_),
-        view_(RigSimulator(on.scenario(), on.experiment.world, on.rig).camera()),
-        registration_(*on.experiment.world.map, view_),
-        told_(told) {}
+  Watcher(SimulatedRig& plant, WatchedRun& told) : plant_(plant), told_(told) {}
 
   void on_tick(const experiment::Tick& tick) override {
-    const double t = tick.frame.t;
-    const Detections& seen = plant_.detections();
-    watch_.take(plant_.picture(), seen, view_, t);
-    if (t >= due_ || watch_.is_in_doubt()) {
-      due_ = t + 1;
-      PictureFit fit = registration_.fit(plant_.picture(), false);
-      if (!fit.unsure.empty() || fit.shift_px > safety_.max_map_shift_px)
-        fit = registration_.fit(plant_.picture(), true);
-      watch_.take({std::move(fit), detail_of(plant_.picture())}, t);
-    }
-    angle_.take(seen.commanded_distance, seen.followed_distance, seen.across_distance, 15);
-    if (const auto direction = angle_.direction())
-      watch_.take_follow_share(direction->share, direction->sd);
-    for (const std::string& note : watch_.take_notes()) told_.notes += note + "\n";
-    told_.state = watch_.state();
-    told_.ended = t;
-    if (told_.fault.empty()) {
-      told_.fault = watch_.fault();
-      told_.faulted = t;
-    }
+    for (const std::string& note : plant_.take_notes()) told_.notes += note + "\n";
+    told_.state = plant_.picture_state();
+    told_.ended = tick.frame.t;
+    if (!told_.fault.empty() || plant_.fault().empty()) return;
+    told_.fault = plant_.fault();
+    told_.faulted = tick.frame.t;
   }
 
  private:
   SimulatedRig& plant_;
-  SafetyParams safety_;
-  RigWatch watch_;
-  CameraView view_;
-  PictureRegistration registration_;
-  FollowAngle angle_;
   WatchedRun& told_;
-  double due_ = 0;
 };
 
 WatchedRun watched(const WatchedPair& pair, double seconds,
@@ -79,7 +52,7 @@ WatchedRun watched(const WatchedPair& pair, double seconds,
   const experiment::Scenario& s = on.scenario();
   SimulatedRig plant(s, on.experiment.world, on.rig);
   WatchedRun told;
-  Watcher watcher(on, plant, told);
+  Watcher watcher(plant, told);
   experiment::RunListener* const listeners[] = {&watcher};
   const auto navigator = navigation::make_navigator(s.navigator, experiment::navigation_task(s),
                                                     Rng(s.seed, Purpose::planner, 0));
@@ -263,8 +236,8 @@ TEST(RigWatch, DefocusIsTold) {
       const double contrast = registration.fit(picture, false).contrast;
       std::printf("blur %s: contrast %.3f, details %.4f\n", blur, contrast, detail_of(picture));
       if (sharp == 0) sharp = contrast;
-      if (blur[0] == '2') EXPECT_LT(contrast, 0.75 * sharp);
-      if (blur[0] == '4') EXPECT_LT(contrast, 0.45 * sharp);
+      const double allowed = blur[0] == '2' ? 0.75 : blur[0] == '4' ? 0.45 : 1.01;
+      EXPECT_LT(contrast, allowed * sharp);
     }
   }
 }

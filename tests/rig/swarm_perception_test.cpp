@@ -11,8 +11,8 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/rng.hpp"
 #include "microswarm/navigation/radar/wait_zone.hpp"
-#include "microswarm/rig/watch/follow_monitor.hpp"
 #include "microswarm/rig/simulation/microscope.hpp"
+#include "microswarm/rig/watch/follow_monitor.hpp"
 #include "tests/rig/perceived.hpp"
 
 namespace microswarm::rig {

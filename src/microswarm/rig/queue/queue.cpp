@@ -96,8 +96,8 @@ Issues validate(const QueueParams& queue) {
 
 /// Rules of an entry, completed by those of the queue.
 QueueRules completed(QueueRules own, const QueueRules& all) {
-  const auto complete = [](auto& value, const auto& common) {
-    if (!value) value = common;
+  const auto complete = [](auto& rule, const auto& common) {
+    if (!rule) rule = common;
   };
   complete(own.time_budget, all.time_budget);
   complete(own.start_below, all.start_below);
