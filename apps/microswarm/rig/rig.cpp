@@ -185,6 +185,7 @@ void add_rig(Command app, Action& action) {
   add_rig_simulate(rig, action);
   add_rig_run(rig, action);
   add_rig_calibrate(rig, action);
+  add_rig_identify(rig, action);
 }
 
 }  // namespace microswarm::cli

@@ -63,6 +63,11 @@ void CoilLoop::command(const Command& command, const Eigen::Vector3d& position, 
   changed_.notify_all();
 }
 
+void CoilLoop::set_frequency(double frequency) {
+  const std::lock_guard lock(mutex_);
+  frequency_ = frequency;
+}
+
 actuation::StopReport CoilLoop::stop(const std::string& why) {
   std::unique_lock lock(mutex_);
   if (why_.empty()) {
@@ -109,11 +114,12 @@ void CoilLoop::run() {
                       .output = {},
                       .late = Seconds(now - due).count()};
     const Eigen::Vector3d position = place_;
+    const std::optional<double> frequency = frequency_;
     why_ = first_reason({standstill.pass(wait), silence(moment.t)});
     if (!why_.empty()) break;
     is_new_ = false;
     lock.unlock();
-    const std::string failed = send(moment, position, Seconds(now - last).count());
+    const std::string failed = send(moment, position, frequency, Seconds(now - last).count());
     last = now;
     if (now > due + period) due = now;  // do not make up for missed outputs
     // An exchange without an answer takes long; one with an answer is short, or the coils were
@@ -148,8 +154,10 @@ std::string CoilLoop::silence(double t) const {
 }
 
 /// Message of an exception; empty on success.
-std::string CoilLoop::send(CoilMoment& moment, const Eigen::Vector3d& position, double dt) {
+std::string CoilLoop::send(CoilMoment& moment, const Eigen::Vector3d& position,
+                           std::optional<double> frequency, double dt) {
   try {
+    if (frequency) controller_.set_frequency(*frequency);
     controller_.aim(position);
     controller_.command(moment.command);
     const double began = steady_seconds();

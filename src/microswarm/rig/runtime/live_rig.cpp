@@ -157,10 +157,12 @@ void LiveRig::read_frame() {
       rig_.params.safety.follow_distance.value_or(perception_->follow_distance());
   angle_.take(detections_->commanded_distance, detections_->followed_distance,
               detections_->across_distance, distance / stretches_of_follow_distance);
-  if (!following_.take(detections_->commanded_distance, detections_->followed_distance, distance))
+  if (!following_.take(detections_->commanded_distance, detections_->followed_distance, distance)) {
+    lost_following_ = fault_.empty();
     fail(
         fmt::format("the swarm does not follow: of {:.3g} µm that were commanded it went {:.3g} µm",
                     following_.commanded(), following_.followed()));
+  }
   meter_.add_picture(took, detections_->unseen, angle_.direction());
 }
 

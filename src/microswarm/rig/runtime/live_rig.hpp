@@ -45,11 +45,15 @@ class LiveRig : public Plant {
   /// Sets the temperatures of the coils [°C], before the first command.
   void warm(const Eigen::VectorXd& temperatures) { controller_.warm(temperatures); }
   vision::NewestFrame& camera() { return camera_; }
+  /// Sets the frequency of the field [Hz], see FieldGenerator::set_frequency.
+  void set_field_frequency(double frequency) { coils_.set_frequency(frequency); }
   Observation observe() override;
   void apply(const Command& command, double dt) override;
   /// Replaces the virtual obstacles; false if the rig cannot have any.
   bool set_obstacles(const std::vector<Obstacle>& obstacles) override;
   std::string_view fault() const override { return fault_; }
+  /// Whether the fault is that the swarm did not follow its commands.
+  bool lost_following() const { return lost_following_; }
 
   /// Sets the coils to zero permanently; callable from any thread. A tick in progress ends with its
   /// picture, at most one camera period later. Returns the report of the first stop.
@@ -97,6 +101,7 @@ class LiveRig : public Plant {
   double begun_ = 0;  // start of the tick [s]
   int missed_in_a_row_ = 0;
   std::string fault_;
+  bool lost_following_ = false;
   RigMeter meter_;
   CoilLoop coils_;  // last member, since its thread uses the others
 };

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "microswarm/config/write.hpp"
+#include "microswarm/core/execution/clock.hpp"
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/core/text/file.hpp"
 
@@ -24,6 +25,8 @@ RigExperiment checked(RigExperiment on, const LiveOptions& options) {
     issues.add({"field.amplitude_mt", "field"}, field.answer);
   if (has_coil_device(on.rig) && !options.dry && !options.without_limits)
     issues.add(missing_limits(on.rig));
+  if (!options.dry && !options.uncommissioned)
+    issues.add(missing_commissioning(on.rig, commissioning_state(on.rig)));
   on.rig.keys.require_none(issues);
   if (options.dry || camera_kind(on.rig.params) == CameraKind::video)
     on.rig.params.safety.min_follow_share = 0;
@@ -96,6 +99,7 @@ LiveOptions with_space(LiveOptions options, const RigExperiment& on) {
 LiveSession::LiveSession(RigExperiment on, const LiveOptions& options)
     : options_(with_space(options, on)),
       on_(checked(std::move(on), options)),
+      commissioning_(commissioning_state(on_.rig)),
       devices_(open_devices(on_, options.dry, options.idle)),
       kept_(make_log(on_.rig, options.note)),
       log_(options.folder, on_.rig.system, options.dry),
@@ -112,6 +116,9 @@ LiveSession::LiveSession(RigExperiment on, const LiveOptions& options)
   if (device_camera(on_.rig.params))
     require(check_camera(plant_->camera(), on_.rig, devices_.camera_rate, device_check));
   if (has_coil_device(on_.rig) && !options.dry) open_coils(options);
+  kept_.commissioning = commissioning_.text;
+  if (const std::string state = to_text(commissioning_, std::time(nullptr)); !state.empty())
+    warnings_.push_back("commissioning: " + state);
   session_.rig_log() = kept_;
 }
 
@@ -162,6 +169,13 @@ void LiveSession::keep(const CoilMoment& moment) {
   }
   if (temperatures_) temperatures_->take(moment.output.temperatures);
   if (options_.driven) options_.driven();
+}
+
+void LiveSession::set_field_frequency(double frequency) {
+  if (!kept_.turning.empty() && kept_.turning.back() == frequency) return;
+  plant_->set_field_frequency(frequency);
+  kept_.turning_at.push_back(steady_seconds() - plant_->start());
+  kept_.turning.push_back(frequency);
 }
 
 std::string LiveSession::close() {
