@@ -42,7 +42,7 @@ TEST_F(CommissioningRecord, NamesWhatWasMeasuredByWhomAndWhen) {
   measure(Quantity::angle, "+15 ± 1°");
   EXPECT_EQ(commissioning_file(file).filename(), "rig.commissioning.yaml");
   EXPECT_EQ(text(commissioning_state(rig())),
-            "measured: gain 0.6 ± 0.01 times, angle +15 ± 1° by ann today; never measured: delay, "
+            "gain 0.6 ± 0.01 times, angle +15 ± 1° by ann today; never measured: delay, "
             "step_out");
   EXPECT_NE(text(commissioning_state(rig()), 3.5).find("by ann 3 days ago"), std::string::npos);
   EXPECT_NE(text(commissioning_state(rig()), 1.2).find("by ann 1 day ago"), std::string::npos);

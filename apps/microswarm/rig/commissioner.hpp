@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -19,5 +20,8 @@ std::string commissioner(const std::string& by);
 /// Adds entries to the commissioning record of a rig's file and prints on stderr what was added.
 void commission(const std::filesystem::path& rig_file,
                 const std::vector<rig::CommissioningEntry>& entries);
+
+/// The state of a record for --json.
+nlohmann::ordered_json commissioning_json(const rig::CommissioningState& state);
 
 }  // namespace microswarm::cli

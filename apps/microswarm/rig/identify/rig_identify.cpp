@@ -110,9 +110,10 @@ int tell_and_write(const Identification& of, const IdentifyOptions& o, const Con
   return ok;
 }
 
-/// Throws InputError unless the values can be written into the rig's file.
+/// Throws InputError unless the values can be written into the rig's file, and its record.
 void require_editable(const IdentifyOptions& o, const rig::Rig& rig) {
   if (!o.write) return;
+  rig::read_commissioning(o.rig);
   std::vector<Setting> settings;
   for (const rig::MeasuredValue& value : rig::measured_values(
            rig.params, rig.params, {.gain = {1, 0}}, {.levels = {}, .followed = 1, .lost = 2}))

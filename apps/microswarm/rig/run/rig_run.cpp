@@ -11,6 +11,7 @@
 #include "microswarm/rig/session/fault_command.hpp"
 #include "microswarm/rig/session/live_session.hpp"
 #include "microswarm/vision/image/threads.hpp"
+#include "rig/commissioner.hpp"
 #include "rig/keys/rig_keys.hpp"
 #include "rig/real_coils.hpp"
 #include "rig/rig.hpp"
@@ -289,8 +290,10 @@ int rig_run(const RigRunOptions& o, const Context& context) {
   const bool at_zero = note_zero(live.stop("the run has ended"));
   note_limits(timing);
   note_direction(timing);
-  const int code =
-      tell_run(session, {o.out, false, o.json, [&] { return timing_json(timing, video); }}, {});
+  const int code = tell_run(session,
+                            {o.out, false, o.json, [&] { return timing_json(timing, video); },
+                             [&] { return commissioning_json(live.commissioning()); }},
+                            {});
   note_pace(timing, on.rig.params);
   if (!o.json) tell(timing);
   if (!o.json && video && video->trouble.empty()) tell(*video);

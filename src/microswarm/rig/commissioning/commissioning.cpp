@@ -182,7 +182,7 @@ CommissioningState commissioning_state(const Rig& rig) {
 
 std::string to_text(const CommissioningState& state, std::time_t now) {
   std::vector<std::string> parts;
-  if (!state.valid.empty()) parts.push_back("measured: " + measured_text(state.valid, now));
+  if (!state.valid.empty()) parts.push_back(measured_text(state.valid, now));
   if (!state.stale.empty())
     parts.push_back("stale, keys have changed since: " + names(state.stale));
   if (!state.missing.empty()) {

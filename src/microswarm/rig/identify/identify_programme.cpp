@@ -158,7 +158,7 @@ bool IdentifyProgramme::is_far(Vec2 seen) const { return distance(seen, middle_)
 
 IdentifyStep IdentifyProgramme::go_back(double t, Vec2 seen) {
   const Vec2 way = middle_ - seen;
-  const bool there = norm(way) < 0.2 * plan_.side();
+  const bool there = norm(way) < 0.1 * plan_.side();
   if (there || t - since_ > longest_way_back) {
     begin(after_, t);
     return hold();
@@ -170,8 +170,7 @@ std::optional<IdentifyStep> IdentifyProgramme::drive(double t, Vec2 seen) {
   if (part_ == Part::back) return go_back(t, seen);
   if (part_ == Part::rest) return std::nullopt;
   if (part_ == Part::square) return drive_square(t, seen);
-  const IdentifyStep step = sweep(t, seen);
-  return part_ == Part::rest ? std::nullopt : std::optional(step);
+  return sweep(t, seen);
 }
 
 IdentifyStep IdentifyProgramme::drive_square(double t, Vec2 seen) {
@@ -210,7 +209,7 @@ IdentifyStep IdentifyProgramme::sweep(double t, Vec2 seen) {
   if (t - since_ < plan_.dwell && !is_far(seen)) return step;
   end_direction(t, seen);
   if (part_ == Part::back) return go_back(t, seen);
-  return part_ == Part::rest ? hold() : sweep_step();
+  return sweep_step();
 }
 
 void IdentifyProgramme::end_direction(double t, Vec2 seen) {
@@ -227,10 +226,10 @@ void IdentifyProgramme::end_direction(double t, Vec2 seen) {
   }
   best_ = std::max(best_, commanded_ > 0 ? moved_ / commanded_ : 0);
   moved_ = commanded_ = 0;
-  if (behind || ++level_ == plan_.frequencies.size())
-    begin(Part::rest, t);
-  else if (is_far(seen) || distance(seen, middle_) > 1.5 * plan_.speed * plan_.dwell)
-    after_ = Part::sweep, begin(Part::back, t);
+  const bool ends = behind || ++level_ == plan_.frequencies.size();
+  const bool off = is_far(seen) || distance(seen, middle_) > 1.5 * plan_.speed * plan_.dwell;
+  after_ = ends ? Part::rest : Part::sweep;
+  if (ends || off) begin(Part::back, t);
 }
 
 /// Whether the swarm is slower than at the levels before, as far as a few sightings show.
