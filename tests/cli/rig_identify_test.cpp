@@ -63,6 +63,10 @@ TEST_F(RigIdentify, WritesWhatItMeasuredAndEntersItInTheRecord) {
   const Outcome flown = run({"rig", "run", "dish.yaml", "--rig", "rig.yaml", "--seconds", "0.5",
                              "--json", "--out", "flight"});
   EXPECT_TRUE(names(flown.err, "by ann today")) << flown.err;
+  EXPECT_EQ(run({"rig", "identify", "rig.yaml", "--record", "out/run.h5", "--set-rig",
+                 "field.kind=oscillating"})
+                .code,
+            2);
   EXPECT_EQ(nlohmann::json::parse(flown.out)["commissioning"]["measured"][0]["by"], "ann");
   const experiment::Record record = experiment::read_record(at.folder / "flight/run.h5");
   EXPECT_NE(record.rig_log.commissioning.find("by: ann"), std::string::npos);
@@ -140,6 +144,22 @@ TEST_F(RigIdentify, DrivenByHandItIsFitted) {
   EXPECT_EQ(terminal.wait(), 0) << terminal.said();
   EXPECT_TRUE(names(terminal.said(), "no sweep was driven")) << terminal.said();
   EXPECT_NE(read("rig.yaml").find("delay_s: "), std::string::npos) << terminal.said();
+}
+
+TEST_F(RigIdentify, ADeviceThatFallsSilentIsAFaultAndNothingIsWritten) {
+  std::atomic<bool> silent = false;
+  FakeDevice device([&](actuation::CoilReply&) { return !silent; });
+  write_rig(device);
+  const std::string before = read("rig.yaml");
+  Program program(
+      identify({"--write", "--other-stop", "--drawn-swarm", "--coils-cold", "--out", "out"}), at);
+  let_drive(device, 1500);
+  silent = true;
+  const Outcome outcome = program.wait();
+  EXPECT_EQ(outcome.code, 4) << outcome.err;
+  EXPECT_EQ(read("rig.yaml"), before);
+  EXPECT_FALSE(exists("rig.commissioning.yaml"));
+  EXPECT_TRUE(exists("out/run.h5"));
 }
 
 TEST_F(RigIdentify, AStoppedSwarmIsNotWritten) {

@@ -36,12 +36,11 @@ TEST(YamlEdit, AddsWhatIsMissing) {
 }
 
 TEST(YamlEdit, RefusesWhatItCannotDoForCertain) {
-  for (const char* text : {"field: 5\n", "field: {speed: \"5\"}\n", "field: {speed: [5]}\n", "",
-                           "[1, 2]\n", "text: >\n  speed\n  is 5\n"}) {
+  for (const char* text :
+       {"field: 5\n", "field: {speed: \"5\"}\n", "field: {speed: [5]}\n", "", "[1, 2]\n",
+        "text: >\n  speed\n  is 5\n", "field:\n  text: |\n    of the field\nname: a\n"}) {
     try {
-      const std::string result = edited(text, {{"field.speed", "6"}});
-      EXPECT_NE(result.find("speed: 6"), result.npos);
-      EXPECT_EQ(std::string(text).substr(0, 5), "text:") << result;
+      ADD_FAILURE() << edited(text, {{"field.speed", "6"}});
     } catch (const InputError& e) {
       EXPECT_NE(std::string(e.what()).find("field.speed: 6"), std::string::npos) << e.what();
     }

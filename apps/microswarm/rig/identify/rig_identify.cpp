@@ -35,6 +35,14 @@ struct IdentifyOptions {
 /// Fits a record. Throws InputError if nothing follows from it.
 Identification identify(const experiment::Record& record, const rig::RigParams& file) {
   Identification of{.response = rig::RecordedResponse(record)};
+  const rig::RigParams& driven = of.response.rig;
+  if (driven.field.kind != file.field.kind)
+    throw InputError(
+        fmt::format("the record is of a field that is {}, the rig's file has one that "
+                    "is {}",
+                    enum_name(driven.field.kind), enum_name(file.field.kind)));
+  if (driven.name != file.name)
+    note("note: the record is of the rig '{}', the file of '{}'\n", driven.name, file.name);
   auto fit = rig::fit_response(of.response.data);
   if (!fit) throw InputError("too few sightings of a driven swarm: nothing follows from it");
   of.fit = std::move(*fit);
