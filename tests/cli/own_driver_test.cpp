@@ -106,7 +106,6 @@ class OwnDriver : public DrivenRig {
   }
 };
 
-/// That nothing of the rig was measured yet, and how to stop.
 bool says_no_more_than_usual(const std::string& err) {
   return err.starts_with("note: commissioning: never measured") && names(err, "\nto stop") &&
          std::ranges::count(err, '\n') == 2;
