@@ -123,7 +123,8 @@ TEST_F(Examples, AllRunInTheirOrderInAnEmptyFolder) {
     if (is_of("bench") &&
         !fs::exists(fs::path(MICROSWARM_PROGRAM).parent_path() / "microswarm-bench"))
       continue;
-    const bool is_long = is_of("lab") || is_of("learn") || is_of("bench");  // works until Ctrl-C
+    const bool is_long = is_of("lab") || is_of("learn") || is_of("bench") ||
+                         is_of("rig identify");  // works until Ctrl-C, or for a minute
     const std::string line = is_of("lab") ? example + " --no-open" : example;
     Program program({"-e", "-c", (is_long ? "exec " : "") + line.substr(2)}, shell());
     if (is_long) {

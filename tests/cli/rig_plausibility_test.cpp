@@ -51,6 +51,19 @@ TEST_F(RigMeasure, AClampMeterShowsAWrongFullScale) {
   EXPECT_TRUE(names(kept, "90")) << kept;
 }
 
+TEST_F(RigMeasure, AClampMeterThatAgreesIsInTheCommissioningRecord) {
+  Terminal terminal(arguments({"--by", "ann"}), at);
+  begin(terminal);
+  answer(terminal, 1, {0, 0, 0});
+  ASSERT_TRUE(terminal.hears("amperes by a clamp meter")) << terminal.said();
+  terminal.press("4.05\r");
+  ASSERT_TRUE(terminal.hears("2/7: 4 A in x")) << terminal.said();
+  const std::string record = read("rig.commissioning.yaml");
+  EXPECT_NE(record.find("what: current"), std::string::npos) << record;
+  EXPECT_NE(record.find("4.05 A of 4 A"), std::string::npos) << record;
+  EXPECT_NE(record.find("by: ann"), std::string::npos) << record;
+}
+
 TEST_F(RigMeasure, TheClampMeterIsAskedForAgainAndTheStepBeforeMayBe) {
   Terminal terminal(arguments({"--hold", "0.6"}), at);
   begin(terminal);
@@ -71,6 +84,7 @@ TEST_F(RigMeasure, EachCoilIsToldBesideTheFile) {
   const Arguments probe = arguments({"--probe", "probe.csv", "--dwell", "0.2", "--other-stop"});
   const Outcome told = run(probe);
   EXPECT_EQ(told.code, 0) << told.err;
+  EXPECT_NE(read("rig.commissioning.yaml").find("what: field"), std::string::npos);
   for (const char* coil : {"coil x: 0.85 times", "coil y: 1.0", "coil z: 0.9"})
     EXPECT_TRUE(told.out.find(coil) != std::string::npos) << told.out;
   Arguments json = probe;

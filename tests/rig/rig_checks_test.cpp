@@ -98,6 +98,15 @@ TEST_F(RigChecks, TheCoilsHoldTheFieldOrSayHowMuchOfIt) {
   EXPECT_TRUE(test::is_one_line_naming(weak.answer, "", {"mT"}));
 }
 
+TEST_F(RigChecks, AFieldThatTheSwarmCannotFollowIsRefused) {
+  Rig rig = test::coil_rig(folder, limited);
+  rig.params.field.step_out_frequency = rig.params.field.frequency;
+  EXPECT_TRUE(check_field(rig).good);
+  rig.params.field.step_out_frequency = 0.99 * rig.params.field.frequency;
+  EXPECT_FALSE(check_field(rig).good);
+  EXPECT_TRUE(test::is_one_line_naming(check_field(rig).answer, "", {"step_out_frequency_hz"}));
+}
+
 // Two seconds from cold say nothing of an hour.
 TEST_F(RigChecks, HowLongTheCoilsHoldTheFieldIsTold) {
   const auto held = [&](double thermal_resistance) {

@@ -260,6 +260,7 @@ TEST_F(FirstRig, FromABareBoardToARun) {
     // A busy computer stalls for longer than the board's watchdog waits.
     for (int again = 0; said.code == 4 && again < 10; ++again) {
       fs::remove_all(folder / "my/run1");
+      fs::remove_all(folder / "my/identify");
       said = run(command, bench.get());
     }
     if (std::getenv("MICROSWARM_VERBOSE"))
@@ -278,6 +279,15 @@ TEST_F(FirstRig, FromABareBoardToARun) {
     }
     if (dry) {
       EXPECT_EQ(bench->largest(), (std::array<double, 6>{}));
+    }
+    if (is("microswarm rig identify")) {
+      const std::string found = read_file(folder / "my/bench.yaml");
+      for (const char* key : {"speed_per_pitch_um_per_s: ", "heading_offset_deg: ", "delay_s: "})
+        EXPECT_NE(found.find(key), std::string::npos) << found;
+      EXPECT_LT(distance(bench->swarm(), before), 60);
+      const std::string record = read_file(folder / "my/bench.commissioning.yaml");
+      for (const char* what : {"field", "scale", "gain", "angle", "delay", "step_out"})
+        EXPECT_NE(record.find(std::string("what: ") + what), std::string::npos) << record;
     }
     if (is("microswarm rig run") && !dry) {
       EXPECT_GT(bench->largest()[0], 1);

@@ -179,6 +179,7 @@ int tell_run(const experiment::Session& session, const RunOutput& o,
     nlohmann::ordered_json json = run_json(result, hash);
     json["notes"] = session.notes();
     if (o.rig_timing) json["rig_timing"] = o.rig_timing();
+    if (o.commissioning) json["commissioning"] = o.commissioning();
     o.print(json.dump(2) + "\n");
   } else {
     const auto& robots = session.scenario().robots;

@@ -21,8 +21,9 @@ struct RunOutput {
   std::string out;  ///< folder for run.h5 and the report; empty for none
   bool no_report = false;
   bool json = false;
-  std::function<nlohmann::ordered_json()> rig_timing{};  ///< timing of a real rig
-  std::function<void(std::string_view)> print = put;     ///< gets the result
+  std::function<nlohmann::ordered_json()> rig_timing{};     ///< timing of a real rig
+  std::function<nlohmann::ordered_json()> commissioning{};  ///< state of a rig's record
+  std::function<void(std::string_view)> print = put;        ///< gets the result
 };
 
 /// Warns on stderr of unusual settings before a session runs.

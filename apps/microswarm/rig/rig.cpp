@@ -187,6 +187,7 @@ void add_rig(Command app, Action& action) {
   add_rig_queue(rig, action);
   add_rig_calibrate(rig, action);
   add_rig_heat(rig, action);
+  add_rig_identify(rig, action);
 }
 
 }  // namespace microswarm::cli

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // `rig check` tests every device and value of a rig file.
+#include <ctime>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "microswarm/rig/commissioning/commissioning.hpp"
 #include "microswarm/rig/runtime/devices.hpp"
 #include "microswarm/rig/runtime/rig_checks.hpp"
 #include "microswarm/rig/session/open_on_rig.hpp"
@@ -113,6 +115,9 @@ int rig_check(const CheckOptions& o, const Stop& stop) {
   answer(answers, {rig::check_field(rig)});
   if (rig::has_coil_device(rig))
     for (const Issue& issue : rig::missing_limits(rig)) answers.say(false, "limits", issue.text);
+  const rig::CommissioningState commissioning = rig::commissioning_state(rig);
+  if (const std::string state = to_text(commissioning, std::time(nullptr)); !state.empty())
+    answers.say(rig::missing_commissioning(rig, commissioning).empty(), "measured", state);
   ask_camera(rig, on, o, stop, answers);
   ask_driver(rig, o, stop, answers);
   if (stop()) return not_reached;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Guided measurement of the coils' fields for `rig calibrate --measure`.
 #include "rig/calibrate/measure.hpp"
+#include "rig/commissioner.hpp"
 
 #include <fmt/ranges.h>
 
@@ -177,7 +178,13 @@ std::optional<rig::Measurement> Dialogue::compare_with_clamp(
   Eigen::Index coil = 0;
   const double reported = made.currents.cwiseAbs().maxCoeff(&coil);
   const double shown = std::abs(*typed.current());
-  if (std::abs(shown - reported) <= tolerance * reported) return std::nullopt;
+  if (std::abs(shown - reported) <= tolerance * reported) {
+    commission(rig_.file,
+               {rig::commissioning_entry(
+                   rig::Quantity::current, fmt::format("{:.3g} A of {:.3g} A", shown, reported),
+                   commissioner(o_.by), rig::key_fingerprint(rig_, rig::Quantity::current))});
+    return std::nullopt;
+  }
   // More current than was reckoned with has heated more, too.
   if (shown > reported && bench_->kept) {
     bench_->kept->take(actuation::hottest(rig_.system.amplifiers()));

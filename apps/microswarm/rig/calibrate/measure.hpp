@@ -25,6 +25,7 @@ struct MeasureOptions {
   std::string probe;
   double dwell = 1;
   CoilOptions coils;
+  std::string by;  ///< person in the commissioning record
 };
 
 /// Adds these options to `rig calibrate`.

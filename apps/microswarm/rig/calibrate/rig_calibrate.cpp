@@ -14,6 +14,7 @@
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/rig/runtime/coil_temperatures.hpp"
 #include "rig/calibrate/measure.hpp"
+#include "rig/commissioner.hpp"
 #include "rig/rig.hpp"
 #include "support/options.hpp"
 
@@ -168,6 +169,11 @@ int fit_and_tell(const CalibrateOptions& o, const actuation::FitOptions& options
   else
     tell(of);
   if (!o.json && !o.out.empty()) cli::print("wrote {}\n", o.out);
+  if (!o.out.empty() && !o.measure.rig.empty())
+    commission(o.measure.rig,
+               {rig::commissioning_entry(
+                   rig::Quantity::field, fmt::format("RMS residual {:.3g} mT", of.fit.total_rms),
+                   commissioner(o.measure.by), rig::key_fingerprint(system))});
   return ok;
 }
 
@@ -220,6 +226,7 @@ void add_rig_calibrate(Command rig, Action& action) {
       .needs(gradients);
   add_json(cmd, o->json);
   add_measure_options(cmd, o->measure);
+  add_by(cmd, o->measure.by);
   cmd.callback(
       [o, &action] { action = [o](const Context& context) { return calibrate(*o, context); }; });
 }

@@ -13,6 +13,7 @@
 #include "microswarm/vision/calibration/calibration_grid.hpp"
 #include "microswarm/vision/calibration/lens_distortion.hpp"
 #include "rig/camera/still.hpp"
+#include "rig/commissioner.hpp"
 #include "rig/rig.hpp"
 #include "support/options.hpp"
 
@@ -33,6 +34,7 @@ struct ScaleOptions {
   std::string origin;
   bool mirrored = false;
   std::string out;
+  std::string by;
   bool json = false;
 };
 
@@ -137,6 +139,12 @@ int scale(const ScaleOptions& o) {
   const vision::CameraScale& s = fit.scale;
   const std::string yaml = to_yaml(ScalePiece{s});
   if (!o.out.empty()) write_file_atomically(o.out, yaml);
+  if (!o.out.empty() && !o.rig.empty())
+    commission(o.rig, {rig::commissioning_entry(
+                          rig::Quantity::scale,
+                          fmt::format("{:.5g} µm a pixel, rotation {:.2f}°", s.um_per_px,
+                                      s.rotation * 180 / std::numbers::pi),
+                          commissioner(o.by), rig::key_fingerprint(s))});
   if (o.json) {
     Json json{{"scale",
                {{"um_per_px", s.um_per_px},
@@ -212,6 +220,7 @@ void add_rig_scale(Command rig, Action& action) {
   cmd.add_flag("--mirrored", o->mirrored, "World y points down in the picture");
   cmd.add_option("--out", o->out, "Write the scale to this file (YAML), for use in a rig file")
       .type_name("FILE");
+  add_by(cmd, o->by);
   add_json(cmd, o->json);
   cmd.callback([o, &action] { action = [o](const Context&) { return scale(*o); }; });
 }

@@ -10,6 +10,7 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/vision/image/threads.hpp"
+#include "rig/commissioner.hpp"
 #include "rig/keys/rig_keys.hpp"
 #include "rig/run/rig_operator.hpp"
 #include "rig/run/rig_status.hpp"
@@ -273,8 +274,13 @@ LiveRunEnd run_live(const rig::RigExperiment& on, const LiveRunOptions& o, const
     timing_of_run["pictures"] = picture_json(pictures, looks);
     return timing_of_run;
   };
-  end.code =
-      tell_run(session, {.out = folder, .json = o.json, .rig_timing = json, .print = o.print}, {});
+  end.code = tell_run(session,
+                      {.out = folder,
+                       .json = o.json,
+                       .rig_timing = json,
+                       .commissioning = [&] { return commissioning_json(live.commissioning()); },
+                       .print = o.print},
+                      {});
   note_pace(timing, on.rig.params);
   if (!o.json) tell(timing);
   if (!o.json) tell(pictures, looks);

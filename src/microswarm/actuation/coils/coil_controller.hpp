@@ -47,6 +47,8 @@ class CoilController {
 
   /// Sets the setpoint; it is a command that keeps `heading` at the start.
   void command(Setpoint setpoint);
+  /// Sets the frequency of the field of commands [Hz], see FieldGenerator::set_frequency.
+  void set_frequency(double frequency) { generator_.set_frequency(frequency); }
   /// Sets the temperatures of the coils [°C].
   void warm(const Eigen::VectorXd& temperatures) { amplifiers_.warm(temperatures); }
   const Eigen::VectorXd& temperatures() const { return amplifiers_.temperatures(); }  ///< [°C]

@@ -21,16 +21,19 @@ constexpr double max_haste = 2;  // times the commanded speed, while making up d
 }  // namespace
 
 FieldGenerator::FieldGenerator(const FieldGeneratorParams& params, double heading)
-    : params_(params), heading_(heading), wanted_heading_(heading) {
+    : params_(params),
+      heading_(heading - params.heading_offset),
+      wanted_heading_(heading - params.heading_offset) {
   if (params.kind != FieldKind::rolling) frequency_ = params.frequency;
   update_field();
 }
 
 void FieldGenerator::command(const Command& command) {
   const double speed = std::max(command.speed, 0.0);
-  if (speed > 0) wanted_heading_ = command.heading;
+  const double heading = command.heading - params_.heading_offset;
+  if (speed > 0) wanted_heading_ = heading;
   if (params_.kind == FieldKind::rolling) {
-    velocity_ = std::min(speed, params_.max_speed()) * unit_vector(command.heading);
+    velocity_ = std::min(speed, params_.max_speed()) * unit_vector(heading);
     if (speed == 0) owed_ = {};
   } else {
     wanted_pitch_ = std::min(speed / params_.speed_per_pitch, params_.max_pitch);  // Eq 2 [radar]
@@ -87,6 +90,11 @@ TurningField FieldGenerator::turning() const { return {field_at(0), field_at(pi 
 void FieldGenerator::follow_phase(double phase) {
   constexpr double share = 0.1;
   phase_ = std::fmod(phase_ + share * wrap(phase - phase_) + 2 * pi, 2 * pi);
+}
+
+void FieldGenerator::set_frequency(double frequency) {
+  params_.frequency = frequency;
+  if (params_.kind != FieldKind::rolling) frequency_ = frequency;
 }
 
 void FieldGenerator::update_field() { field_ = field_at(phase_); }

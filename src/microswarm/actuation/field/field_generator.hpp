@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -33,6 +34,8 @@ struct FieldGeneratorParams {
   double length_per_turn = 20;
   double max_turn_rate = radians(360);
   double max_pitch_rate = radians(30);
+  double heading_offset = 0;
+  std::optional<double> step_out_frequency{};
   /// Largest speed that the field can be commanded [µm/s].
   double max_speed() const {
     return kind == FieldKind::rolling ? length_per_turn * frequency : speed_per_pitch * max_pitch;
@@ -52,6 +55,10 @@ struct FieldGeneratorParams {
           deg_per_s("max_turn_rate", 1e-3, 1e6, "Maximum rate of change of the heading."));
     visit(self.max_pitch_rate,
           deg_per_s("max_pitch_rate", 1e-3, 1e6, "Maximum rate of change of the pitch."));
+    visit(self.heading_offset,
+          deg("heading_offset", -180, 180, "Swarm's direction against the field's heading."));
+    visit(self.step_out_frequency,
+          hz("step_out_frequency", 1e-6, 1e4, "Largest frequency that the swarm follows."));
   }
 };
 
@@ -65,7 +72,8 @@ struct TurningField {
 /// rolling field follows the commanded path if it can turn by 90° much faster than commands change.
 /// The displacement missed while the heading turns, and the displacement of the turn itself, are
 /// tracked and made up at up to twice the commanded speed. The tracked displacement is limited to
-/// half of `length_per_turn`. The field rolls backwards rather than turn by more than 90°.
+/// half of `length_per_turn`. The field rolls backwards rather than turn by more than 90°. The
+/// field's heading is the commanded one less `heading_offset`.
 class FieldGenerator {
  public:
   FieldGenerator(const FieldGeneratorParams& params, double heading);
@@ -82,7 +90,9 @@ class FieldGenerator {
   /// Moves the phase by a tenth of what it lacks to `phase` [rad], that of a device which turns the
   /// field by its own clock. A jump would disturb what a rolling field makes up.
   void follow_phase(double phase);
-  double heading() const { return heading_; }      ///< [rad]
+  /// Sets the turns per second, or their maximum for a rolling field [Hz]; the phase continues.
+  void set_frequency(double frequency);
+  double heading() const { return heading_; }      ///< of the field [rad]
   double pitch() const { return pitch_; }          ///< [rad]
   double phase() const { return phase_; }          ///< [rad], in [0, 2π)
   double frequency() const { return frequency_; }  ///< [Hz], negative when rolling backwards

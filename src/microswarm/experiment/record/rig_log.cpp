@@ -88,6 +88,17 @@ void write_rig_log(io::Hdf5Writer& out, const RigLog& log) {
   out.attribute("/rig/file", "description", "All parameters of the rig, YAML.");
   out.text("/rig/coil_system", log.coils_file);
   out.attribute("/rig/coil_system", "description", "The coil system's file, YAML.");
+  if (!log.commissioning.empty()) {
+    out.attribute("/rig", "commissioned", std::int64_t{1});
+    out.text("/rig/commissioning", log.commissioning);
+    out.attribute("/rig/commissioning", "description", "The rig's commissioning record, YAML.");
+  }
+  if (!log.turning_at.empty()) {
+    out.attribute("/rig", "frequency_changes", static_cast<std::int64_t>(log.turning.size()));
+    write_column(out, "/rig/turning/t_s", log.turning_at, "s", "Time of the change.");
+    write_column(out, "/rig/turning/frequency_hz", log.turning, "Hz",
+                 "Frequency of the field from then on.");
+  }
   out.attribute("/rig", "began", log.began);
   out.attribute("/rig", "note", log.note);
   out.attribute("/rig", "coils", static_cast<std::int64_t>(log.coils.size()));
@@ -125,6 +136,13 @@ RigLog read_rig_log(const io::Hdf5Reader& in) {
   log.note = in.text_attribute("/rig", "note");
   log.rig_file = in.text("/rig/file");
   log.coils_file = in.text("/rig/coil_system");
+  if (in.has_attribute("/rig", "commissioned")) log.commissioning = in.text("/rig/commissioning");
+  if (in.has_attribute("/rig", "frequency_changes")) {
+    log.turning_at = in.numbers("/rig/turning/t_s");
+    log.turning = in.numbers("/rig/turning/frequency_hz");
+    if (log.turning.size() != log.turning_at.size())
+      in.fail("/rig/turning has columns of different lengths");
+  }
   const std::int64_t coils = in.integer_attribute("/rig", "coils");
   if (coils < 0 || coils > max_coils) in.fail("attribute coils of /rig is out of range");
   log.driven_at = in.numbers("/rig/currents/t_s");

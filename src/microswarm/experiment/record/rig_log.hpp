@@ -52,7 +52,10 @@ struct RigLog {
   std::string note{};                  ///< of the operator
   std::string rig_file{};              ///< all parameters of the rig as YAML, its scale included
   std::string coils_file{};            ///< text of the coil system's file, with the calibration
+  std::string commissioning{};         ///< the rig's commissioning record, YAML; may be empty
   std::vector<std::string> coils{};    ///< names
+  std::vector<double> turning_at{};    ///< times of changes of the field's frequency [s]
+  std::vector<double> turning{};       ///< frequencies from these times on [Hz]
   std::vector<double> driven_at{};     ///< times of the outputs [s]
   std::vector<double> answered_at{};   ///< times of the driver's acknowledgements [s]
   std::vector<double> pictured_at{};   ///< arrival of the pictures that they answer [s]

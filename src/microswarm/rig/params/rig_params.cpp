@@ -75,7 +75,7 @@ Rig read_rig(const std::filesystem::path& file, const Settings& settings) {
         return amplifier.max_current.has_value();
       });
   system.limit_current(driver_full_scale(params));
-  return {std::move(params), std::move(system), input_folder(file), keys, limits_current};
+  return {std::move(params), std::move(system), input_folder(file), keys, limits_current, file};
 }
 
 double driver_full_scale(const RigParams& rig) {

@@ -31,12 +31,21 @@ struct SimulatedCamera {
   MicroscopeParams microscope{};
   double rate = 60;
   double speed_error = 0;
+  double direction_error = 0;
+  double delay_error = 0;
+  std::optional<double> step_out_frequency{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.microscope, plain("microscope", "Properties of the simulated images."));
     visit(self.rate, hz("rate", 0.1, 1000, "Frame rate of a run in real time."));
     visit(self.speed_error,
           plain("speed_error", -0.9, 10, "Relative excess of the swarm's speed over the model."));
+    visit(self.direction_error,
+          deg("direction_error", -180, 180, "Angle of the swarm's motion against the model's."));
+    visit(self.delay_error,
+          s("delay_error", 0, 10, "Delay of the swarm's motion beyond the model's."));
+    visit(self.step_out_frequency, hz("step_out_frequency", 1e-6, 1e4,
+                                      "The swarm's step-out frequency; none: the model's."));
   }
 };
 
@@ -69,6 +78,7 @@ struct SafetyParams {
   double min_focus = 0.4;
   double max_unseen_share = 0.5;
   double frozen_swarm = 0.8;
+  bool require_commissioning = false;
   std::vector<std::string> on_fault{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
@@ -100,6 +110,8 @@ struct SafetyParams {
           plain("max_unseen_share", 0, 1, "Share of pictures without the swarm; 0: any."));
     visit(self.frozen_swarm,
           s("frozen_swarm", 0, 100, "Time without a change at a driven swarm; 0: any."));
+    visit(self.require_commissioning,
+          plain("require_commissioning", "Refuse a run unless all was measured."));
     visit(self.on_fault, plain("on_fault", "Program and its arguments, started after a fault."));
   }
 };
@@ -116,6 +128,7 @@ struct RigParams {
   std::string name{};
   std::string coils{};
   actuation::FieldGeneratorParams field{};
+  double delay = 0;
   double drive_rate = 200;
   CoilDriverParams driver{};
   std::variant<SimulatedCamera, vision::CameraParams, vision::GenicamParams, VideoCamera> camera{};
@@ -128,6 +141,7 @@ struct RigParams {
     visit(self.name, plain("name", "Name of the rig."));
     visit(self.coils, plain("coils", "File of the coil system, beside this one.").needed());
     visit(self.field, plain("field", "Conversion of commands to a magnetic field."));
+    visit(self.delay, s("delay", 0, 10, "Time from a command to the motion that it causes."));
     visit(self.drive_rate,
           hz("drive_rate", 20, 1e4, "Rate of current updates; at least 10 per field turn."));
     visit(self.driver, plain("driver", "Device that drives the coils."));
@@ -150,6 +164,7 @@ struct Rig {
   /// Whether the coil system's file limits the current of every coil, apart from the driver's full
   /// scale.
   bool limits_current = false;
+  std::filesystem::path file{};  ///< the rig's file
 };
 
 /// Current of a channel at full output [A].

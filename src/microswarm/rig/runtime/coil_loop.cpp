@@ -63,6 +63,11 @@ void CoilLoop::command(const Command& command, const Eigen::Vector3d& position, 
   changed_.notify_all();
 }
 
+void CoilLoop::set_frequency(double frequency) {
+  const std::lock_guard lock(mutex_);
+  frequency_ = frequency;
+}
+
 actuation::StopReport CoilLoop::stop(const std::string& why, FaultKind kind) {
   std::unique_lock lock(mutex_);
   if (why_.why.empty()) {
@@ -109,12 +114,13 @@ void CoilLoop::run() {
                       .output = {},
                       .late = Seconds(now - due).count()};
     const Eigen::Vector3d position = place_;
+    const std::optional<double> frequency = frequency_;
     why_ = first_fault(
         {{standstill.pass(wait), FaultKind::computer}, {silence(moment.t), FaultKind::computer}});
     if (!why_.why.empty()) break;
     is_new_ = false;
     lock.unlock();
-    const Fault failed = send(moment, position, Seconds(now - last).count());
+    const Fault failed = send(moment, position, frequency, Seconds(now - last).count());
     last = now;
     if (now > due + period) due = now;  // do not make up for missed outputs
     // An exchange without an answer takes long; one with an answer is short, or the coils were
@@ -152,8 +158,10 @@ std::string CoilLoop::silence(double t) const {
 }
 
 /// Message of an exception; empty on success. Only a listener throws InputError, for its log.
-Fault CoilLoop::send(CoilMoment& moment, const Eigen::Vector3d& position, double dt) {
+Fault CoilLoop::send(CoilMoment& moment, const Eigen::Vector3d& position,
+                     std::optional<double> frequency, double dt) {
   try {
+    if (frequency) controller_.set_frequency(*frequency);
     controller_.aim(position);
     controller_.command(moment.command);
     const double began = steady_seconds();

@@ -58,6 +58,8 @@ class CoilLoop {
   /// Sets the command and the position of the swarm among the coils [µm]. `seen` is the arrival of
   /// the picture that it answers [s], by steady_seconds().
   void command(const Command& command, const Eigen::Vector3d& position, double seen = 0);
+  /// Sets the frequency of the field from the next output on [Hz]; callable from any thread.
+  void set_frequency(double frequency);
   /// Sets the coils to zero permanently; callable from any thread. Returns when they are at zero or
   /// cannot be reached, each time with the report of the first stop.
   actuation::StopReport stop(const std::string& why, FaultKind kind = FaultKind::person);
@@ -76,7 +78,8 @@ class CoilLoop {
   bool wait_until(std::unique_lock<std::mutex>& lock, Clock::time_point earliest,
                   Clock::time_point due);
   std::string silence(double t) const;
-  Fault send(CoilMoment& moment, const Eigen::Vector3d& position, double dt);
+  Fault send(CoilMoment& moment, const Eigen::Vector3d& position, std::optional<double> frequency,
+             double dt);
 
   actuation::CoilController& controller_;
   const CoilLoopLimits limits_;
@@ -87,6 +90,7 @@ class CoilLoop {
   Command command_;
   Eigen::Vector3d place_;
   double seen_ = 0;                  // arrival of its picture [s]
+  std::optional<double> frequency_;  // of the field [Hz], if it was set
   bool is_new_ = false;              // whether it was not sent yet
   std::optional<double> commanded_;  // time of the last command [s]
   Fault why_;                        // of the stop

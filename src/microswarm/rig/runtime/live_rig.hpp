@@ -46,12 +46,16 @@ class LiveRig : public Plant {
   /// Sets the temperatures of the coils [°C], before the first command.
   void warm(const Eigen::VectorXd& temperatures) { controller_.warm(temperatures); }
   vision::NewestFrame& camera() { return camera_; }
+  /// Sets the frequency of the field [Hz], see FieldGenerator::set_frequency.
+  void set_field_frequency(double frequency) { coils_.set_frequency(frequency); }
   Observation observe() override;
   void apply(const Command& command, double dt) override;
   /// Replaces the virtual obstacles; false if the rig cannot have any.
   bool set_obstacles(const std::vector<Obstacle>& obstacles) override;
   std::string_view fault() const override { return fault_.why; }
   FaultKind fault_kind() const { return fault_.kind; }
+  /// Whether the swarm did not follow its commands.
+  bool lost_following() const { return sight_.lost_following(); }
 
   /// Sets the coils to zero permanently; callable from any thread. A tick in progress ends with its
   /// picture, at most one camera period later. Returns the report of the first stop.

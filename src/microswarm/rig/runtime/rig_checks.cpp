@@ -112,6 +112,12 @@ Watched watch(vision::NewestFrame& camera, double seconds, const Stop& stop) {
 }  // namespace
 
 RigCheck check_field(const Rig& rig) {
+  const actuation::FieldGeneratorParams& field = rig.params.field;
+  if (field.step_out_frequency && field.frequency > *field.step_out_frequency * (1 + 1e-9))
+    return {"limits", false,
+            fmt::format("the field turns {:.6g} times a second, the swarm follows up to {:.6g} "
+                        "(field.step_out_frequency_hz)",
+                        field.frequency, *field.step_out_frequency)};
   const double amplitude = rig.params.field.amplitude;
   const FieldLoad load = field_load(rig);
   if (!load.reached) return {"limits", false, "these coils cannot make every field that is needed"};

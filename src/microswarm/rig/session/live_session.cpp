@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "microswarm/config/write.hpp"
+#include "microswarm/core/execution/clock.hpp"
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/rig/watch/map_check.hpp"
@@ -24,6 +25,8 @@ RigExperiment checked(RigExperiment on, const LiveOptions& options) {
   require_field(on.rig);
   if (has_coil_device(on.rig) && !options.dry && !options.without_limits)
     on.rig.keys.require_none(missing_limits(on.rig));
+  if (!options.dry && !options.uncommissioned)
+    on.rig.keys.require_none(missing_commissioning(on.rig, commissioning_state(on.rig)));
   if (options.dry || camera_kind(on.rig.params) == CameraKind::video) {
     SafetyParams& safety = on.rig.params.safety;
     safety.min_follow_share = safety.max_follow_share = safety.frozen_swarm = 0;
@@ -99,6 +102,7 @@ LiveSession::LiveSession(RigExperiment on, const LiveOptions& options)
     : options_(with_space(options, on)),
       map_limit_(on.rig.params.safety.max_map_shift_px),
       on_(checked(std::move(on), options)),
+      commissioning_(commissioning_state(on_.rig)),
       devices_(open_devices(on_, options.dry, options.idle)),
       kept_(make_log(on_.rig, options.note)),
       log_(options.folder, on_.rig.system, options.dry),
@@ -117,6 +121,9 @@ LiveSession::LiveSession(RigExperiment on, const LiveOptions& options)
   if (device_camera(on_.rig.params))
     require(check_camera(plant_->camera(), on_.rig, devices_.camera_rate, device_check));
   if (has_coil_device(on_.rig) && !options.dry) open_coils(options);
+  kept_.commissioning = commissioning_.text;
+  if (const std::string state = to_text(commissioning_, std::time(nullptr)); !state.empty())
+    warnings_.push_back("commissioning: " + state);
   session_.rig_log() = kept_;
 }
 
@@ -209,6 +216,13 @@ actuation::StopReport LiveSession::stop(const std::string& why) {
   actuation::StopReport zero = plant_->stop(why);
   if (temperatures_) temperatures_->take(zero);
   return zero;
+}
+
+void LiveSession::set_field_frequency(double frequency) {
+  if (!kept_.turning.empty() && kept_.turning.back() == frequency) return;
+  plant_->set_field_frequency(frequency);
+  kept_.turning_at.push_back(steady_seconds() - plant_->start());
+  kept_.turning.push_back(frequency);
 }
 
 std::string LiveSession::close() {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "microswarm/experiment/session/session.hpp"
+#include "microswarm/rig/commissioning/commissioning.hpp"
 #include "microswarm/rig/runtime/coil_temperatures.hpp"
 #include "microswarm/rig/runtime/command_log.hpp"
 #include "microswarm/rig/runtime/devices.hpp"
@@ -29,6 +30,7 @@ struct LiveOptions {
       folder{};  ///< folder of commands.csv; empty: the coil outputs are not logged
   std::filesystem::path video{};  ///< file for the camera's video; empty for none
   bool without_limits = false;  ///< allows a coil system without limits of current and temperature
+  bool uncommissioned = false;  ///< allows a rig that was not measured, to measure it
   bool coils_cold = false;      ///< assumes the coils at ambient temperature
   std::string note{};           ///< operator's note, kept in the record
   std::optional<double> seconds{};      ///< after which the run is stopped, for the space it needs
@@ -75,6 +77,11 @@ class LiveSession {
   /// Sets the coils to zero permanently; callable from any thread. Returns the report of the first
   /// stop.
   actuation::StopReport stop(const std::string& why);
+  /// Sets the frequency of the field [Hz] and records the change; to be called in the thread that
+  /// steps.
+  void set_field_frequency(double frequency);
+  /// State of the rig's commissioning record when the session was opened.
+  const CommissioningState& commissioning() const { return commissioning_; }
   /// Sets the coils to zero after the last tick, finishes the log and adds currents and detections
   /// to the record, up to `max_logged` values of each. Returns the reason of a failure, or an empty
   /// string.
@@ -108,6 +115,7 @@ class LiveSession {
   LiveOptions options_;
   double map_limit_;  ///< [px], before checks are disabled
   RigExperiment on_;
+  CommissioningState commissioning_;
   Devices devices_;
   experiment::RigLog kept_;  ///< currents are written by the coils' thread, the rest by the run's
   CommandLog log_;

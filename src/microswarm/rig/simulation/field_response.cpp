@@ -13,6 +13,8 @@ namespace microswarm::rig {
 namespace {
 
 constexpr double rolling_inertia = 0.02;  // [s] response time of a body
+constexpr double turn_inertia = 0.1;      // [s] over which turns are averaged
+constexpr double reversal_inertia = 0.5;  // [s] the same for a field that reverses
 constexpr double flat_pitch = 1e-3;       // [rad] a smaller pitch defines no heading
 
 }  // namespace
@@ -20,19 +22,47 @@ constexpr double flat_pitch = 1e-3;       // [rad] a smaller pitch defines no he
 Command FieldResponse::step(const Eigen::Vector3d& field, double dt) {
   const Eigen::Vector3d from = before_;
   before_ = field;
-  if (from.norm() < params_.min_amplitude || field.norm() < params_.min_amplitude) {
+  Command motion = driven(from, field, dt);
+  if (params_.step_out) motion.speed *= followed_share(from, field, dt);
+  if (params_.heading_offset != 0) motion.heading += params_.heading_offset;
+  return params_.delay > 0 ? delayed(motion, dt) : motion;
+}
+
+Command FieldResponse::driven(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double dt) {
+  if (from.norm() < params_.min_amplitude || to.norm() < params_.min_amplitude) {
     turn_.clear();
     return {heading_, 0};
   }
   switch (params_.kind) {
     case actuation::FieldKind::rolling:
-      return rolling(from, field, dt);
+      return rolling(from, to, dt);
     case actuation::FieldKind::rotating:
-      return rotating(from, field, dt);
+      return rotating(from, to, dt);
     case actuation::FieldKind::oscillating:
-      return oscillating(field, dt);
+      return oscillating(to, dt);
   }
   return {};
+}
+
+/// Share of the field's turns that the body follows.
+double FieldResponse::followed_share(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                                     double dt) {
+  const double product = from.norm() * to.norm();
+  const bool oscillates = params_.kind == actuation::FieldKind::oscillating;
+  const double angle =
+      product > 0 ? maths::atan2(from.cross(to).norm(), from.dot(to)) : 0;  // [rad]
+  const double inertia = oscillates ? reversal_inertia : turn_inertia;
+  if (dt > 0) turn_rate_ += std::min(1.0, dt / inertia) * (angle / dt - turn_rate_);
+  const double f = turn_rate_ / (2 * pi), most = *params_.step_out;
+  return f > most ? (f - std::sqrt(f * f - most * most)) / f : 1;
+}
+
+/// The motion of `delay` ago.
+Command FieldResponse::delayed(const Command& command, double dt) {
+  later_.push_back({t_ + params_.delay, command});
+  t_ += dt;
+  while (later_.size() > 1 && later_[1].t <= t_ - dt + 1e-9) later_.pop_front();
+  return later_.front().t <= t_ - dt + 1e-9 ? later_.front().command : Command{command.heading, 0};
 }
 
 Command FieldResponse::rolling(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double dt) {

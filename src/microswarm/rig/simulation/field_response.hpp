@@ -12,7 +12,8 @@ namespace microswarm::rig {
 
 /// Estimates the motion that a field drives. Rotating fields: the plane of rotation over the last
 /// turn is pitched towards the heading, speed = c · pitch. Oscillating fields: the same with the
-/// axis of oscillation. Rolling fields: the body rolls with the field.
+/// axis of oscillation. Rolling fields: the body rolls with the field. Above the step-out frequency
+/// f₀ a body lags and slips: of f turns it follows f − √(f² − f₀²).
 class FieldResponse {
  public:
   explicit FieldResponse(const FieldResponseParams& params) : params_(params) {}
@@ -27,6 +28,9 @@ class FieldResponse {
     Eigen::Vector3d sum;
   };
 
+  Command driven(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double dt);
+  double followed_share(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double dt);
+  Command delayed(const Command& command, double dt);
   Command rolling(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double dt);
   Command rotating(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double dt);
   Command oscillating(const Eigen::Vector3d& field, double dt);
@@ -38,6 +42,14 @@ class FieldResponse {
   Eigen::Vector3d before_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d axis_ = Eigen::Vector3d::UnitX();  // axis of oscillation
   double heading_ = 0;
+  double turn_rate_ = 0;  // of the field, averaged [rad/s]
+  /// A command and the time at which it is executed.
+  struct Later {
+    double t;
+    Command command;
+  };
+  std::deque<Later> later_;
+  double t_ = 0;  // [s]
 };
 
 }  // namespace microswarm::rig

@@ -29,11 +29,16 @@ experiment::Scenario true_scenario(experiment::Scenario scenario, const Rig& rig
 
 FieldResponseParams field_response(const RigParams& rig) {
   const auto* camera = std::get_if<SimulatedCamera>(&rig.camera);
-  const double faster = 1 + (camera ? camera->speed_error : 0);
+  const SimulatedCamera truth = camera ? *camera : SimulatedCamera();
+  const double faster = 1 + truth.speed_error;
   return {.kind = rig.field.kind,
           .frequency = rig.field.frequency,
           .speed_per_pitch = faster * rig.field.speed_per_pitch,
-          .length_per_turn = faster * rig.field.length_per_turn};
+          .length_per_turn = faster * rig.field.length_per_turn,
+          .heading_offset = rig.field.heading_offset + truth.direction_error,
+          .delay = rig.delay + truth.delay_error,
+          .step_out =
+              truth.step_out_frequency ? truth.step_out_frequency : rig.field.step_out_frequency};
 }
 
 }  // namespace

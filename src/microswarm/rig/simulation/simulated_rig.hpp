@@ -33,6 +33,9 @@ class SimulatedRig : public Plant {
   std::string_view fault() const override { return fault_; }
   std::optional<GroundTruth> ground_truth() const override { return simulator_.ground_truth(); }
 
+  /// Sets the frequency of the field [Hz], see FieldGenerator::set_frequency.
+  void set_field_frequency(double frequency) { controller_.set_frequency(frequency); }
+
   /// The picture of the last observation.
   const formats::Image& picture() const { return *picture_; }
   const Detections& detections() const { return *detections_; }

@@ -31,6 +31,8 @@ class SightMonitor {
   Fault fault(double now) const;
   /// Time at which the newest picture was taken [s]; 0 before the first.
   double seen() const { return seen_; }
+  /// Whether the swarm did not follow its commands, or went farther.
+  bool lost_following() const { return !does_not_follow_.empty(); }
   RigWatch& watch() { return watch_; }
   const RigWatch& watch() const { return watch_; }
   /// Direction of the swarm relative to its commands, if it is known.
