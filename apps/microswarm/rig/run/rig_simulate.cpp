@@ -18,21 +18,14 @@
 #include "rig/rig.hpp"
 #include "rig/rig_notes.hpp"
 #include "rig/rig_settings.hpp"
+#include "rig/run/error_table.hpp"
 #include "support/options.hpp"
 
 namespace microswarm::cli {
 namespace {
 
-/// A scenario and its rig.
-struct Pair {
-  std::string scenario;
-  std::string rig;
-  std::vector<std::string> settings{};  ///< settings of the scenario
-  std::vector<std::string> rig_settings{};
-};
-
 /// Default scenarios: every kind of navigator, in the papers' scenarios.
-std::vector<Pair> usual_pairs() {
+std::vector<RigPair> usual_pairs() {
   const std::string papers = (scenario_folder() / "papers").string() + "/";
   const std::string rigs = (scenario_folder() / "rigs").string() + "/";
   return {
@@ -58,9 +51,10 @@ struct SimulateOptions {
   std::string out;
   int trials = 5;
   int jobs = 0;
+  bool errors = false;
 };
 
-std::vector<Pair> paired_values(const SimulateOptions& o) {
+std::vector<RigPair> paired_values(const SimulateOptions& o) {
   if (o.scenario.empty()) return usual_pairs();
   return {{o.scenario, o.rig, o.settings, o.rig_settings}};
 }
@@ -90,11 +84,12 @@ void note_rig(const std::string& name, std::span<const rig::ComparedTrial> trial
 int simulate_trials(const SimulateOptions& o, const Context& context) {
   if (o.scenario.empty() != o.rig.empty())
     throw InputError("rig simulate: a scenario and --rig go together");
-  const std::vector<Pair> pairs = paired_values(o);
+  const std::vector<RigPair> pairs = paired_values(o);
+  if (o.errors) return simulate_errors(pairs, o.trials, o.jobs, o.out, context);
   std::vector<rig::RigExperiment>
       scenes;  // open all first, so that errors are reported before any run
   scenes.reserve(pairs.size());
-  for (const Pair& pair : pairs)
+  for (const RigPair& pair : pairs)
     scenes.push_back(rig::open_rig_experiment(pair.scenario, {pair.settings, "--set"}, pair.rig,
                                               {pair.rig_settings, "--set-rig"}));
   for (const rig::RigExperiment& on : scenes) {
@@ -109,7 +104,7 @@ int simulate_trials(const SimulateOptions& o, const Context& context) {
         "contacts", "time s", "arrived", "contacts", "time s");
   bool all = true;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const Pair& pair = pairs[k];
+    const RigPair& pair = pairs[k];
     const std::filesystem::path file = pair.scenario;
     std::vector<rig::ComparedTrial> trials;
     {
@@ -166,7 +161,10 @@ void add_rig_simulate(Command rig, Action& action) {
   cmd.add_option("--jobs", o->jobs, "Number of threads; 0: one per core")
       .type_name("NUMBER")
       .check(whole(0, 1024));
-  cmd.add_option("--out", o->out, "Folder for simulation.csv").type_name("FOLDER");
+  cmd.add_flag(
+      "--errors", o->errors,
+      "Through the rig only, with errors that its file does not know, one after the other");
+  cmd.add_option("--out", o->out, "Folder for simulation.csv or errors.csv").type_name("FOLDER");
   cmd.callback([o, &action] {
     action = [o](const Context& context) { return simulate_trials(*o, context); };
   });
