@@ -45,6 +45,7 @@ class Identification : public testing::TestWithParam<Kind> {
     double reached = 0;  // [µm] from the start
     double least_gap = 1e9;
     double seconds = 0;
+    std::string fault{};  ///< of the rig
   };
   /// Drives the programme as fast as possible.
   static Driven drive(const RigExperiment& on) {
@@ -73,7 +74,8 @@ class Identification : public testing::TestWithParam<Kind> {
                                                        .max_frequency = most}));
       const auto step = programme->next(t, place);
       out.seconds = t;
-      if (!step) break;
+      if (!plant.fault().empty()) out.fault = plant.fault();
+      if (!step || !out.fault.empty()) break;
       plant.set_field_frequency(step->frequency);
       out.data.commands.push_back({t, step->command, step->frequency});
       plant.apply(step->command, tick);
@@ -90,6 +92,9 @@ TEST_P(Identification, FindsAnUntrueRigAndItsValuesMakeItTrue) {
   const RigExperiment untrue = open({"camera.speed_error=-0.4", "camera.direction_error_deg=15",
                                      "camera.delay_error_s=0.12", step_out});
   const Driven driven = drive(untrue);
+  // A swarm that does not follow ends the sweep.
+  EXPECT_TRUE(driven.fault.empty() || driven.fault.starts_with("the swarm does not follow"))
+      << driven.fault;
   EXPECT_LT(driven.seconds, 90);
   EXPECT_GT(driven.least_gap, 0);
   const auto fit = fit_response(driven.data);

@@ -64,12 +64,14 @@ ErrorTrials run_with(const RigPair& pair, const rig::RigError& error, int trials
   return out;
 }
 
-/// What is told of these trials: the first fault, or that an arrival was only believed.
-std::string told(const ErrorTrials& of) {
+/// Message about these trials: that an arrival was only believed, or the first fault or note.
+std::string message_of(const ErrorTrials& of) {
   if (!of.refused.empty()) return "refused: " + of.refused;
   if (std::ranges::any_of(of.trials, &rig::RigTrial::is_believed)) return "ARRIVAL ONLY BELIEVED";
   for (const rig::RigTrial& trial : of.trials)
     if (!trial.fault.empty()) return trial.fault;
+  for (const rig::RigTrial& trial : of.trials)
+    if (!trial.notes.empty()) return "note: " + trial.notes.front();
   return {};
 }
 
@@ -87,7 +89,7 @@ void print_row(std::string_view name, const ErrorTrials& of) {
   }
   print("  {:<26} {:>2} of {:<2} {:>8} {:>8} {:>11}   {}\n", name, arrived, of.trials.size(),
         times.empty() ? "–" : fmt::format("{:.1f}", median(times)), contacts,
-        error > 0 ? fmt::format("{:.1f}", error) : "–", told(of));
+        error > 0 ? fmt::format("{:.1f}", error) : "–", message_of(of));
   flush_output();
 }
 
@@ -99,7 +101,7 @@ int simulate_errors(const std::vector<RigPair>& pairs, int trials, int jobs, con
   std::vector<rig::RigErrorRow> rows;
   int believed = 0;
   print("  {:<26} {:>8} {:>8} {:>8} {:>11}   {}\n", "error of the rig", "arrived", "time s",
-        "contacts", "position µm", "what is told");
+        "contacts", "position µm", "message");
   for (const RigPair& pair : pairs) {
     const std::string name = std::filesystem::path(pair.scenario).stem().string();
     print("{} × {}\n", name, std::filesystem::path(pair.rig).stem().string());

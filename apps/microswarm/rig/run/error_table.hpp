@@ -16,9 +16,9 @@ struct RigPair {
   std::vector<std::string> rig_settings{};
 };
 
-/// Runs every pair with every error of rig_errors(), prints a table of what happens and what is
-/// told, and writes errors.csv to the folder, if one is named. Returns an exit code: not_reached if
-/// a run ended as arrived while the swarm was elsewhere.
+/// Runs every pair with every error of rig_errors(), prints a table of arrivals and
+/// messages, and writes errors.csv to the folder, if one is named. Returns an exit code:
+/// not_reached if a run ended as arrived while the swarm was elsewhere.
 int simulate_errors(const std::vector<RigPair>& pairs, int trials, int jobs, const std::string& out,
                     const Context& context);
 

@@ -75,6 +75,8 @@ void note_rig(const std::string& name, std::span<const rig::ComparedTrial> trial
     min_scale = std::min(min_scale, trial.min_scale);
     if (!trial.fault.empty())
       note("note: {}: trial {} ended with a fault: {}\n", name, trial.trial, trial.fault);
+    for (const std::string& about : trial.notes)
+      note("note: {}: trial {}: {}\n", name, trial.trial, about);
   }
   if (min_scale < 1)
     note("note: {}: the coils' limits weakened the field to {:.3g} of what was commanded\n", name,

@@ -33,6 +33,7 @@ std::vector<ComparedTrial> compare_with_rig(const RigExperiment& on, int trials,
     if (stop()) return;
     both.fault = rig->fault();
     both.min_scale = rig->min_scale();
+    both.notes = rig->take_notes();
     results[i] = std::move(both);
     const std::lock_guard lock(mutex);
     if (progress) progress(++done / static_cast<double>(trials));

@@ -20,6 +20,7 @@ struct ComparedTrial {
   experiment::RunResult rig{};
   std::string fault{};   ///< why the run through the rig stopped; empty without a fault
   double min_scale = 1;  ///< lowest scale of the rig's currents, imposed by the coils' limits
+  std::vector<std::string> notes{};  ///< about the rig's pictures, one line each
 };
 
 /// Runs the trials 0 to `trials` − 1 in both simulations, on `jobs` threads (0: one per core).

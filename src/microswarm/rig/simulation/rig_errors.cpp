@@ -38,7 +38,7 @@ class ComparedRig : public Plant {
   std::string_view fault() const override { return rig_.fault(); }
   std::optional<GroundTruth> ground_truth() const override { return rig_.ground_truth(); }
 
-  const SimulatedRig& rig() const { return rig_; }
+  SimulatedRig& rig() { return rig_; }
   double position_error() const { return position_error_; }
 
  private:
@@ -84,6 +84,7 @@ RigTrial run_on_rig(const RigExperiment& on, std::uint32_t trial, const Stop& st
   RigTrial out{.result = experiment::simulate(on.scenario(), on.experiment.world,
                                               {.trial = trial, .plant = plant}, {}, stop),
                .fault = std::string(plant->fault()),
+               .notes = plant->rig().take_notes(),
                .position_error = plant->position_error(),
                .min_scale = plant->rig().min_scale()};
   out.goal_distance = true_goal_distance(on.scenario(), *plant->ground_truth());
@@ -102,7 +103,8 @@ RigErrorRow error_row(const RigTrial& trial, int number, const std::string& scen
           .contacts = static_cast<int>(trial.result.metrics.contacts),
           .goal_distance = trial.goal_distance,
           .position_error = trial.position_error,
-          .fault = trial.fault};
+          .fault = trial.fault,
+          .note = trial.notes.empty() ? std::string() : trial.notes.front()};
 }
 
 }  // namespace microswarm::rig

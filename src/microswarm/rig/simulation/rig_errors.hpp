@@ -15,7 +15,7 @@ namespace microswarm::rig {
 
 /// An error of a simulated rig that its file does not know, as settings of the rig.
 struct RigError {
-  std::string_view name;
+  std::string_view name{};
   std::vector<std::string> rig_settings{};
 };
 
@@ -26,7 +26,8 @@ std::span<const RigError> rig_errors();
 /// One trial through a simulated rig, beside the truth.
 struct RigTrial {
   experiment::RunResult result{};
-  std::string fault{};        ///< why it stopped; empty without a fault
+  std::string fault{};               ///< why it stopped; empty without a fault
+  std::vector<std::string> notes{};  ///< about the pictures, one line each
   bool arrived = false;       ///< whether the swarm truly is within 1.1 tolerances of the goal
   double goal_distance = 0;   ///< true distance to the goal at the end [µm]
   double position_error = 0;  ///< largest distance between the seen and the true position [µm]
@@ -51,6 +52,7 @@ struct RigErrorRow {
   double goal_distance = 0;
   double position_error = 0;
   std::string fault{};
+  std::string note{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.scenario, plain("scenario", "Name of the scenario's file."));
@@ -63,6 +65,7 @@ struct RigErrorRow {
     visit(self.goal_distance, um("goal_distance", "True distance to the goal at the end."));
     visit(self.position_error, um("position_error", "Largest error of a seen position."));
     visit(self.fault, plain("fault", "Why the rig stopped; empty if it did not."));
+    visit(self.note, plain("note", "First note about the pictures."));
   }
 };
 
