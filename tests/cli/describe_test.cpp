@@ -137,7 +137,7 @@ TEST_F(Description, KeysAreThoseOfTheTable) {
     }
     EXPECT_EQ(lines, shown) << kind;
   }
-  EXPECT_EQ(all_.at("keys").size(), 6U);
+  EXPECT_EQ(all_.at("keys").size(), 7U);
 }
 
 TEST_F(Description, TheCommandItselfIsNotListed) {

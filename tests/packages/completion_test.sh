@@ -56,7 +56,7 @@ expect 'maps/vessels.png' map info maps/
 expect 'maps' run flight.yaml --out ''
 expect 'maps' run flight.yaml --out = m
 expect 'flight.yaml' run flight.yaml --rig = fl
-expect 'coils global rig scenario sweep track' schema ''
+expect 'coils global queue rig scenario sweep track' schema ''
 expect 'drrt dynabarn' reproduce d
 expect_among planning vision -- bench ''
 expect 'swarm.radius_lag_s= swarm.radius_ripple_um= swarm.radius_um=' run flight.yaml --set swarm.rad

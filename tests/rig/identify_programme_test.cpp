@@ -25,6 +25,7 @@ struct Kind {
   std::vector<std::string> settings;  // of the rig
   double step_out;                    // in truth [Hz]
 };
+void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.rig; }
 
 class Identification : public testing::TestWithParam<Kind> {
  protected:

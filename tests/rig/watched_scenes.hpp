@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct WatchedPair {
   std::string name, scenario, rig;
   std::vector<std::string> rig_settings{};
 };
+inline void PrintTo(const WatchedPair& pair, std::ostream* out) { *out << pair.name; }
 
 /// Every kind of scene: open ones, channels, mazes, vessels, one swarm and single robots.
 inline const std::vector<WatchedPair>& watched_pairs() {
