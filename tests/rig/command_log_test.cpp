@@ -116,6 +116,12 @@ TEST(LogParts, AMissingPartAndAnotherHeaderAreTold) {
   const std::filesystem::path log = folder / "commands.csv";
   EXPECT_THROW(read_log(log), InputError);
   write_file_atomically(folder / "commands-0001.csv", "t_s,a\n1,2\n");
+  write_file_atomically(folder / "commands-0003.csv", "t_s,a\n5,6\n");
+  EXPECT_TRUE(test::names(test::error_of([&] { read_log(log); }), "commands-0002.csv"));
+  write_file_atomically(log, "t_s,a\n3,4\n");
+  EXPECT_TRUE(test::names(test::error_of([&] { read_log(log); }), "commands-0002.csv"));
+  std::filesystem::remove(folder / "commands-0003.csv");
+  EXPECT_EQ(read_log(log), "t_s,a\n1,2\n3,4\n");
   write_file_atomically(log, "t_s,b\n3,4\n");
   try {
     read_log(log);
@@ -132,7 +138,16 @@ TEST(LogParts, AKilledProgramHasLostNoLineThatWasSynced) {
   if (child == 0) {
     LogParts parts(log, "head\n", {.part_bytes = 25, .sync_period = 1e-3});
     for (int i = 0; i < 7; ++i) parts.add(numbered(i));
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    const auto payload = [&] {  // of all parts, without their headers
+      std::uintmax_t bytes = 0;
+      for (const auto& entry : std::filesystem::directory_iterator(log.parent_path()))
+        bytes += std::filesystem::file_size(entry) - std::string_view("head\n").size();
+      return bytes;
+    };
+    std::uintmax_t wanted = 0;
+    for (int i = 0; i < 7; ++i) wanted += numbered(i).size();
+    for (int wait = 0; wait < 1000 && payload() != wanted; ++wait)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
     ::raise(SIGKILL);
   }
   int status = 0;

@@ -208,16 +208,31 @@ TEST_F(QueueTest, WhatWouldEndTooLateIsLeftOut) {
 
 TEST_F(QueueTest, ItsEndIsTheNextTimeOfThatName) {
   QueueParams params;
-  EXPECT_FALSE(queue_end(params, 1e9));
+  EXPECT_FALSE(queue_end(params, 1e9, 1e9));
   params.until = "07:30";
-  const double end = queue_end(params, 1e9).value();
+  const double end = queue_end(params, 1e9, 1e9).value();
   EXPECT_GT(end, 1e9);
   EXPECT_LE(end, 1e9 + 25 * 3600);
   const auto then = static_cast<std::time_t>(end);
   EXPECT_EQ(std::localtime(&then)->tm_hour, 7);
   EXPECT_EQ(std::localtime(&then)->tm_min, 30);
   params.hours = 0.001;
-  EXPECT_EQ(queue_end(params, 1e9), 1e9 + 3.6);
+  EXPECT_EQ(queue_end(params, 1e9, 1e9), 1e9 + 3.6);
+}
+
+TEST_F(QueueTest, ALaterNightHasItsOwnEndAndAPowerCutHasNot) {
+  const Queue queue = open("entries: [{scenario: a.yaml, repeat: 2}]\nuntil: '07:30'\n");
+  constexpr double days = 2 * 86400;
+  results["a"] = {{.status = "goal reached"}, {.end = AttemptEnd::stopped}};
+  EXPECT_EQ(run(queue), QueueEnd::stopped);
+  QueueState cut = state();
+  time += days;
+  cut.active = true;  // as a killed program leaves it
+  write_queue_state(out(), cut);
+  EXPECT_EQ(run(queue), QueueEnd::incomplete);
+  EXPECT_EQ(ran.size(), 2u);
+  EXPECT_EQ(run(queue), QueueEnd::complete);
+  EXPECT_EQ(ran.size(), 3u);
 }
 
 TEST_F(QueueTest, AFullDiskIsFoundBeforeARun) {

@@ -10,11 +10,11 @@
 namespace microswarm::rig {
 namespace {
 
-RigExperiment opened_with(std::vector<std::string> rig_settings) {
+RigExperiment opened_with(const std::vector<std::string>& rig_settings,
+                          const std::vector<std::string>& settings = {}) {
   const std::filesystem::path scenarios =
       std::filesystem::path(MICROSWARM_SOURCE_DIR) / "scenarios";
-  rig_settings.emplace_back("camera.microscope.um_per_px=4");
-  return open_rig_experiment(scenarios / "papers/drrt/s_channel.yaml", {},
+  return open_rig_experiment(scenarios / "papers/drrt/s_channel.yaml", {settings, ""},
                              scenarios / "rigs/ribbon.yaml", {rig_settings, ""});
 }
 
@@ -40,17 +40,30 @@ TEST(RigErrors, EveryErrorIsRefusedOrEndsTheRunOrItArrivesInTruth) {
   EXPECT_GE(arrived, 5);
 }
 
-// Without the comparison of map and picture the run believes to arrive.
 TEST(RigErrors, AnArrivalThatIsOnlyBelievedIsKnown) {
-  const RigExperiment on =
-      opened_with({"safety.max_map_shift_px=0", "camera.microscope.shift_px=[0, 25]",
-                   "camera.microscope.moved_after_s=20"});
-  const RigTrial trial = run_on_rig(on, 0);
-  ASSERT_EQ(trial.result.status, Status::solved) << trial.fault;
-  EXPECT_TRUE(trial.is_believed());
-  EXPECT_GT(trial.position_error, 80);
-  EXPECT_GT(trial.goal_distance, on.scenario().goal_tolerance);
-  const RigErrorRow row = error_row(trial, 3, "s", rig_errors()[0]);
+  RigTrial trial;
+  for (const Status status : {Status::solved, Status::fault, Status::time_limit})
+    for (const bool arrived : {false, true}) {
+      trial.result.status = status;
+      trial.arrived = arrived;
+      EXPECT_EQ(trial.is_believed(), status == Status::solved && !arrived);
+    }
+}
+
+// Positions are compared with the truth, not with what the camera shows.
+TEST(RigErrors, ADisplacedCameraIsSeenInThePositions) {
+  const std::vector<std::string> unwatched{"safety.max_map_shift_px=0",
+                                           "safety.min_follow_share=0"};
+  const std::vector<std::string> brief{"time_limit_s=5"};
+  std::vector<std::string> displaced = unwatched;
+  displaced.emplace_back("camera.microscope.shift_px=[0, 4]");
+  const RigTrial good = run_on_rig(opened_with(unwatched, brief), 0);
+  const RigTrial bad = run_on_rig(opened_with(displaced, brief), 0);
+  EXPECT_NEAR(bad.position_error, 4 * 2.5, good.position_error + 2);
+  EXPECT_GT(bad.position_error, good.position_error + 2);
+  EXPECT_FALSE(bad.arrived);
+  EXPECT_GT(bad.goal_distance, 500);
+  const RigErrorRow row = error_row(bad, 3, "s", rig_errors()[0]);
   EXPECT_EQ(row.trial, 3);
   EXPECT_FALSE(row.arrived);
   EXPECT_EQ(row.error, "none");

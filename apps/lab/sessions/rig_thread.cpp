@@ -2,11 +2,12 @@
 #include "lab/sessions/rig_thread.hpp"
 
 #include <fmt/chrono.h>
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <chrono>
 #include <ctime>
 #include <utility>
+#include <vector>
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/rig/runtime/rig_checks.hpp"
@@ -186,8 +187,8 @@ void RigThread::serve() {
 void RigThread::step() {
   const experiment::Tick* tick = live_->session().step(Stop(&ends_));
   if (tick) publisher_.take(*tick);
-  for (const std::string& text : live_->take_notes()) {
-    publisher_.standing.trouble = text;
+  if (const std::vector<std::string> notes = live_->take_notes(); !notes.empty()) {
+    publisher_.standing.trouble = fmt::format("{}", fmt::join(notes, "; "));
     publisher_.changed();
   }
   if (tick && !tick->fault.empty()) standing_.why = tick->fault;

@@ -22,6 +22,7 @@
 namespace microswarm::cli {
 namespace {
 
+constexpr double cold_margin = 2;        // [K] above ambient temperature
 constexpr double heat_ramp = 0.5;        // [s]
 constexpr double cooling_share = 0.1;    // of the current, which still shows the resistance
 constexpr double current_change = 0.02;  // relative, from which on a row is written
@@ -39,6 +40,12 @@ class HeatDialogue {
 
   int make() {
     Bench bench(rig_, o_.coils);
+    const double ambient = rig_.system.amplifiers()[coil_].ambient;
+    if (const double now = bench.temperatures[column()]; now > ambient + cold_margin)
+      throw InputError(fmt::format(
+          "coil {} is at {:.3g} °C by its last runs: it must be cold, {:.4g} °C; wait, or give "
+          "--coils-cold if nothing is known of it",
+          name(), now, ambient));
     note(
         "read the voltage at the terminals of coil {}, not at the amplifier. Esc: coils to zero at "
         "once; q: end this part\n",

@@ -76,8 +76,10 @@ std::vector<actuation::AmplifierParams> with_fit(std::vector<actuation::Amplifie
 void write_system(HeatedSystem heated, std::vector<actuation::AmplifierParams> amplifiers,
                   const std::string& out) {
   heated.params.amplifiers = std::move(amplifiers);
-  actuation::CoilSystem(heated.params, {}, input_folder(out));
-  write_file_atomically(out, to_yaml(heated.params));
+  const std::string text = to_yaml(heated.params);
+  actuation::CoilSystem(read_yaml_text<actuation::CoilSystemParams>(text, out), {},
+                        input_folder(out));
+  write_file_atomically(out, text);
 }
 
 Json to_json(const actuation::FittedValue& fitted) {
@@ -142,8 +144,14 @@ int rig_heat(const HeatOptions& o, const Context& context) {
   actuation::AmplifierParams known;
   if (!coils.empty()) known = heated->system.amplifiers()[coils.front()];
   if (o.ambient) known.ambient = *o.ambient;
-  const actuation::HeatFit fit =
-      reading([&] { return actuation::fit_heat(actuation::read_heat_log(o.log), known); });
+  const actuation::HeatLog log = reading([&] { return actuation::read_heat_log(o.log); });
+  if (coils.empty() && std::ranges::none_of(log.rows, [](const actuation::HeatRow& row) {
+        return row.voltage.has_value();
+      }))
+    throw InputError(o.log,
+                     "has no voltages: name the coil, whose resistance must be known, with "
+                     "--coils and --coil");
+  const actuation::HeatFit fit = reading([&] { return actuation::fit_heat(log, known); });
   const actuation::AmplifierParams fitted = with_fit({known}, {0}, fit).front();
   if (!o.ambient)
     note("note: the coil is taken to have begun at {:.4g} °C: give --ambient if it did not\n",

@@ -80,7 +80,25 @@ std::vector<rig::CommissioningEntry> entries_of(const Identification& of, const 
   return entries;
 }
 
+/// Throws InputError if the file's field or scale is not the one that was driven, apart from the
+/// values that are measured.
+void require_same_rig(const Identification& of, const std::string& file) {
+  const auto text_of = [&](rig::RigParams params) {
+    const actuation::FieldGeneratorParams plain;
+    params.field.speed_per_pitch = plain.speed_per_pitch;
+    params.field.length_per_turn = plain.length_per_turn;
+    params.field.heading_offset = plain.heading_offset;
+    params.field.step_out_frequency = plain.step_out_frequency;
+    return to_yaml(params.field) + (params.scale ? to_yaml(*params.scale) : std::string());
+  };
+  if (text_of(of.response.rig) != text_of(rig::read_rig(file).params))
+    throw InputError(file,
+                     "has another field or scale than the rig that was driven: nothing is "
+                     "written");
+}
+
 void write_values(const Identification& of, const IdentifyOptions& o) {
+  require_same_rig(of, o.rig);
   std::vector<Setting> settings;
   for (const rig::MeasuredValue& value : of.values) settings.push_back(value.setting());
   const std::string text = edit_yaml(read_file(o.rig, max_yaml_bytes), o.rig, settings);

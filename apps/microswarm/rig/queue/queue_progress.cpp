@@ -36,7 +36,7 @@ std::string queue_table(const rig::QueueState& state) {
         name - to_columns(item.name), item.repetition, enum_name(item.state), item.attempts.size(),
         last ? fmt::format("{:.1f} s", last->seconds) : std::string(), heat, one_line(note, 120));
   }
-  return table + fmt::format("{}{}\n", state.active ? "now: " : "", state.doing);
+  return table + fmt::format("{}{}\n", state.active ? "now: " : "", one_line(state.doing, 400));
 }
 
 QueueProgress::QueueProgress(ServiceManager& service, const Context& context)

@@ -27,6 +27,8 @@ constexpr std::uint64_t max_heat_log_bytes = 16ULL << 20;
 constexpr double max_heat_value = 1e9;  // of any number in the file
 constexpr double least_share = 0.02;    // of the largest current, below which V/I is noise
 constexpr double least_warming = 5;     // [K]
+constexpr double least_misfit = 0.5;    // [K] RMS
+constexpr double misfit_share = 0.015;  // of the warming
 constexpr std::size_t least_readings = 6;
 constexpr double largest_error = 0.1;  // relative, of a value that counts as determined
 
@@ -147,8 +149,11 @@ Eigen::VectorXd standard_errors(const Problem& problem, const Solution& found) {
   Eigen::MatrixXd jacobian(problem.values(), problem.inputs());
   problem.df(found.x, jacobian);
   const double variance = found.sum / (problem.values() - problem.inputs());
-  const Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
-  const Eigen::MatrixXd inverse = normal.completeOrthogonalDecomposition().pseudoInverse();
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> columns(jacobian);
+  columns.setThreshold(1e-6);
+  if (columns.rank() < jacobian.cols())  // a value that the readings do not depend on
+    return Eigen::VectorXd::Constant(jacobian.cols(), infinity);
+  const Eigen::MatrixXd inverse = (jacobian.transpose() * jacobian).inverse();
   return (variance * inverse.diagonal()).cwiseMax(0).cwiseSqrt();
 }
 
@@ -204,11 +209,21 @@ HeatFit fit_heat(const HeatLog& log, const AmplifierParams& coil) {
     }
   });
   const double start = log.rows.front().temperature.value_or(coil.ambient);
+  const double misfit = least_misfit + misfit_share * std::max(0.0, fit.warmest - start);
+  if (fit.rms > misfit)
+    fail(
+        fmt::format("the readings are {:.2g} K (RMS) off the model of a coil that began at {:.4g} "
+                    "°C, allowed {:.2g} K: was it cold, and was each voltage its own?",
+                    fit.rms, start, misfit));
   if (const double warmed = fit.warmest - start; warmed < least_warming)
     fail(
         fmt::format("the coil warmed by {:.2g} K, at least {:.2g} K are needed: take a larger "
                     "current or a longer time",
                     warmed, least_warming));
+  const double span = log.rows.back().t - log.rows.front().t;
+  if (fit.thermal_time.value > 10 * span || fit.thermal_time.value < 1e-3 * span)
+    fail(fmt::format("a time constant of {:.2g} s does not follow from readings over {:.4g} s",
+                     fit.thermal_time.value, span));
   for (const auto& [name, error] :
        {std::pair{"thermal resistance", errors[0]}, std::pair{"time constant", errors[1]}})
     if (!(error <= largest_error))

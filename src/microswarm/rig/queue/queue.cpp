@@ -184,12 +184,12 @@ RigExperiment open_item(const QueueItem& item, const fs::path& rig, const Settin
   return on;
 }
 
-std::optional<double> queue_end(const QueueParams& params, double began) {
+std::optional<double> queue_end(const QueueParams& params, double began, double night) {
   std::optional<double> end;
   if (params.hours) end = began + 3600 * *params.hours;
   const auto time = parse_time(params.until);
   if (!time) return end;
-  const auto now = static_cast<std::time_t>(began);
+  const auto now = static_cast<std::time_t>(night);
   std::tm local{};
   localtime_r(&now, &local);
   const auto at = [&](int days) {
@@ -199,7 +199,7 @@ std::optional<double> queue_end(const QueueParams& params, double began) {
     then.tm_isdst = -1;
     return static_cast<double>(std::mktime(&then));
   };
-  const double until = at(0) > began ? at(0) : at(1);
+  const double until = at(0) > night ? at(0) : at(1);
   return std::min(until, end.value_or(infinity));
 }
 

@@ -52,7 +52,8 @@ Queue open_queue(const std::filesystem::path& queue, const std::filesystem::path
 RigExperiment open_item(const QueueItem& item, const std::filesystem::path& rig,
                         const Settings& rig_settings);
 
-/// End of a queue that began at `began` [s since 1970]; nothing without a limit.
-std::optional<double> queue_end(const QueueParams& params, double began);
+/// End of a queue that first began at `began`, and for this night at `night` [s since 1970];
+/// nothing without a limit.
+std::optional<double> queue_end(const QueueParams& params, double began, double night);
 
 }  // namespace microswarm::rig

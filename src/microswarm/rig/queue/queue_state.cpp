@@ -40,8 +40,10 @@ std::filesystem::path queue_state_file(const std::filesystem::path& folder) {
 std::optional<QueueState> read_queue_state(const std::filesystem::path& folder) {
   std::error_code none;
   const std::filesystem::path file = queue_state_file(folder);
-  if (!std::filesystem::exists(file, none)) return std::nullopt;
-  return read_yaml_file<QueueState>(file);
+  if (!std::filesystem::exists(std::filesystem::symlink_status(file, none))) return std::nullopt;
+  // A link could point to any file, and a message about it would show its content.
+  return read_yaml_text<QueueState>(read_file(file, max_yaml_bytes, LinkAtFile::refused),
+                                    file.string());
 }
 
 void write_queue_state(const std::filesystem::path& folder, const QueueState& state) {

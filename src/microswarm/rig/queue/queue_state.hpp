@@ -121,9 +121,9 @@ struct QueueState {
   static void fields(Self& self, V&& visit) {
     visit(self.queue, plain("queue", "File or folder of the queue."));
     visit(self.rig, plain("rig", "File of the rig."));
-    visit(self.began, s("began", "Begin, since 1970."));
+    visit(self.began, s("began", 0, 1e11, "Begin, since 1970."));
     visit(self.doing, plain("doing", "What it does now, or how it ended."));
-    visit(self.updated, s("updated", "Last change, since 1970."));
+    visit(self.updated, s("updated", 0, 1e11, "Last change, since 1970."));
     visit(self.active, plain("active", "A program runs it, unless that was killed."));
     visit(self.items, plain("items", "What is run, in this order."));
   }

@@ -54,10 +54,12 @@ class QueueRun {
         folder_(std::move(folder)),
         host_(host),
         state_(merge_state(queue, read_queue_state(folder_), folder_, host.tell)) {
+    // After a power cut it is the same night; a queue that had ended begins another.
+    const double began_again = state_.active ? state_.began : host.wall();
     if (state_.began == 0) state_.began = host.wall();
     state_.rig = std::move(rig_file);
     state_.active = true;
-    end_ = queue_end(queue.params, state_.began);
+    end_ = queue_end(queue.params, state_.began, began_again);
   }
 
   QueueEnd run() {
@@ -74,6 +76,7 @@ class QueueRun {
     ItemStatus& item = state_.items[i];
     if (item.interruptions() > queue_.params.interruptions) {
       fail(item, "was interrupted " + times_text(item.interruptions()));
+      host_.alarm(fmt::format("{}: {}; the queue goes on", label(item), item.note), {});
       return std::nullopt;
     }
     if (const auto early = wait_for_disk(i)) return early;
@@ -114,7 +117,7 @@ class QueueRun {
     host_.tell(fmt::format("{}: {}{}{}, after {:.1f} s{}", label(item), enum_name(done.end),
                            done.status.empty() ? "" : ", " + done.status,
                            done.reason.empty() ? "" : ": " + done.reason, done.seconds, heat));
-    if (done.end != AttemptEnd::fault) faults_in_a_row_ = 0;
+    if (done.end == AttemptEnd::done) faults_in_a_row_ = 0;
     switch (done.end) {
       case AttemptEnd::done:
         item.state = ItemState::done;
@@ -125,8 +128,7 @@ class QueueRun {
         return QueueEnd::stopped;
       case AttemptEnd::refused:
         fail(item, done.reason);
-        host_.alarm(fmt::format("{}: {}; the queue goes on", label(item), done.reason), {});
-        return std::nullopt;
+        return count_failure(label(item) + ": " + done.reason, {});
       case AttemptEnd::fault:
       case AttemptEnd::running:
       case AttemptEnd::interrupted:
@@ -137,7 +139,6 @@ class QueueRun {
 
   std::optional<QueueEnd> judge_fault(ItemStatus& item, const QueueAttempt& done,
                                       const QueueItem& of) {
-    ++faults_in_a_row_;
     const std::string what = label(item) + ": " + done.reason;
     const fs::path record = folder_ / done.folder;
     if (needs_person(done.fault)) {
@@ -153,10 +154,15 @@ class QueueRun {
       fail(item, done.reason);
       if (of.on_fault == AfterFault::stop) return call_person(what, record);
     }
-    if (faults_in_a_row_ >= queue_.params.faults_in_a_row)
-      return call_person(fmt::format("{}; this was attempt {} in a row that ended with a fault",
-                                     what, faults_in_a_row_),
-                         record);
+    return count_failure(what, record);
+  }
+
+  /// After a fault or a refusal: many in a row have a cause that a person must look for.
+  std::optional<QueueEnd> count_failure(const std::string& what, const fs::path& record) {
+    if (++faults_in_a_row_ >= queue_.params.faults_in_a_row)
+      return call_person(
+          fmt::format("{}; this was attempt {} in a row that failed", what, faults_in_a_row_),
+          record);
     host_.alarm(what + "; the queue goes on", record);
     write(what);
     return std::nullopt;

@@ -13,7 +13,8 @@
 namespace microswarm::rig {
 namespace {
 
-constexpr double first_frame = 5;  // [s] timeout of the first frame
+constexpr double exposure_settles = 1;  // [s]
+constexpr double first_frame = 5;       // [s] timeout of the first frame
 
 const RigParams& checked(const Rig& rig, const experiment::Scenario& scenario) {
   KeyLocations().require_none(validate(rig, scenario));
@@ -64,6 +65,10 @@ LiveRig::LiveRig(const experiment::Scenario& scenario, std::shared_ptr<const Map
   check_workspace(rig, scenario, *world_.map);
   if (!camera_.wait(frame_, first_frame))
     throw HardwareError(fmt::format("camera: no picture within {} s", first_frame));
+  // The exposure of a camera settles; later pictures are compared with the one after that.
+  if (device_camera(rig.params))
+    for (const double until = steady_seconds() + exposure_settles; steady_seconds() < until;)
+      camera_.wait(frame_, until - steady_seconds());
   const formats::Image& picture = frame_.frame.picture;
   check_picture(rig, scenario, scale, picture);
   const std::vector<Vec2> starts = scenario.robots ? scenario.robots->starts : std::vector<Vec2>{};

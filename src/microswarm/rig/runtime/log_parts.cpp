@@ -14,6 +14,7 @@
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/file.hpp"
+#include "microswarm/core/text/text.hpp"
 
 namespace microswarm::rig {
 namespace {
@@ -41,6 +42,25 @@ bool is_log(const fs::path& file) {
 
 }  // namespace
 
+/// Highest number of the parts in the log's folder, also behind a gap; 0 without parts.
+int last_part(const fs::path& log) {
+  std::error_code none;
+  int last = 0;
+  const std::string stem = log.stem().string() + "-", end = log.extension().string();
+  const fs::path folder = log.has_parent_path() ? log.parent_path() : fs::path(".");
+  for (const auto& entry : fs::directory_iterator(folder, none)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(stem) || !name.ends_with(end)) continue;
+    if (name.size() <= stem.size() + end.size()) continue;
+    const std::string digits = name.substr(stem.size(), name.size() - stem.size() - end.size());
+    const auto number = parse_number(digits);
+    if (number && *number >= 1 && *number < 1e6 &&
+        part_name(log, static_cast<int>(*number)) == folder / name)
+      last = std::max(last, static_cast<int>(*number));
+  }
+  return last;
+}
+
 std::vector<fs::path> log_parts(const fs::path& log) {
   std::vector<fs::path> parts;
   for (int n = 1; is_log(part_name(log, n)); ++n) parts.push_back(part_name(log, n));
@@ -52,6 +72,10 @@ std::string read_log(const fs::path& log) {
   std::string whole, header;
   const std::vector<fs::path> parts = log_parts(log);
   if (parts.empty()) throw InputError(log.string(), "there is no log of this name");
+  const int first_missing = static_cast<int>(parts.size()) + (parts.back() == log ? 0 : 1);
+  if (const int last = last_part(log); last >= first_missing)
+    throw InputError(part_name(log, first_missing).string(),
+                     fmt::format("is missing, there is {}", part_name(log, last).string()));
   for (const fs::path& part : parts) {
     std::string text = read_file(part);
     const std::string head = text.substr(0, text.find('\n') + 1);
@@ -119,8 +143,7 @@ void LogParts::run() {
     std::string trouble;
     try {
       if (!lines.empty() && std::exchange(is_first, false))
-        for (const fs::path& old : log_parts(log_))
-          if (old != log_) fs::remove(old);
+        for (const fs::path& old : log_parts(log_)) fs::remove(old);
       if (!lines.empty()) take(lines);
     } catch (const std::exception& error) {
       trouble = error.what();

@@ -3,9 +3,11 @@
 
 #include <sys/resource.h>
 
+#include <exception>
 #include <utility>
 
 #include "microswarm/core/execution/clock.hpp"
+#include "microswarm/core/text/text.hpp"
 
 namespace microswarm::rig {
 
@@ -52,7 +54,12 @@ void MapLooks::work() {
     if (ends_) return;
     lock.unlock();
     const double began = steady_seconds();
-    MapLook look = look_at_map(*registration_, picture_, max_shift_);
+    MapLook look;
+    try {
+      look = look_at_map(*registration_, picture_, max_shift_);
+    } catch (const std::exception& error) {  // the coils are driven: the run must not die of it
+      look.fit.unsure = one_line(error.what());
+    }
     const double took = steady_seconds() - began;
     lock.lock();
     look_ = {std::move(look), t_};

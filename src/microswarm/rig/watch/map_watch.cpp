@@ -23,10 +23,11 @@ void MapWatch::take(const PictureFit& fit) {
   const bool is_beyond = is_sure && max_shift_ > 0 && fit.shift_px > max_shift_;
   beyond_ = is_beyond ? beyond_ + 1 : 0;
   if (is_sure) largest_ = std::max(largest_, fit.shift_px);
-  if (is_sure && max_shift_ > 0 && !is_beyond && fit.shift_px > 0.6 * max_shift_ && note_.empty())
-    note_ = fit_text(fit);
-  if (!is_sure && unsure_ == looks_unsure && note_.empty())
-    note_ = "it is no longer known whether the map lies over the picture: " + fit.unsure;
+  if (is_sure && max_shift_ > 0 && !is_beyond && fit.shift_px > 0.6 * max_shift_ &&
+      !std::exchange(told_shift_, true))
+    notes_.push_back(fit_text(fit));
+  if (!is_sure && unsure_ == looks_unsure && !std::exchange(told_unsure_, true))
+    notes_.push_back("it is no longer known whether the map lies over the picture: " + fit.unsure);
   if (!fault_.empty() || max_shift_ <= 0) return;
   if (beyond_ >= looks_beyond)
     fault_ = fmt::format("{}; allowed {:.6g} px", fit_text(fit), max_shift_);
@@ -35,9 +36,10 @@ void MapWatch::take(const PictureFit& fit) {
 }
 
 std::string MapWatch::take_note() {
-  if (told_ || note_.empty()) return {};
-  told_ = true;
-  return note_;
+  if (notes_.empty()) return {};
+  std::string note = std::move(notes_.front());
+  notes_.pop_front();
+  return note;
 }
 
 }  // namespace microswarm::rig

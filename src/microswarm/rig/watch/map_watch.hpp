@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <string>
 
@@ -23,7 +24,7 @@ class MapWatch {
   bool is_in_doubt() const { return beyond_ > 0; }
   /// Why a run must end; empty if it need not.
   const std::string& fault() const { return fault_; }
-  /// A note, once; empty otherwise.
+  /// The next note, each once; empty without one.
   std::string take_note();
 
  private:
@@ -33,8 +34,8 @@ class MapWatch {
   std::optional<double> first_share_;  // of the edges, in the first look
   int beyond_ = 0;                     // looks in a row
   int unsure_ = 0;
-  std::string note_;
-  bool told_ = false;
+  std::deque<std::string> notes_;
+  bool told_shift_ = false, told_unsure_ = false;
   std::string fault_;
 };
 
