@@ -15,6 +15,7 @@ namespace microswarm::cli {
 class ServiceManager {
  public:
   ServiceManager();
+  ~ServiceManager() = default;
   ServiceManager(const ServiceManager&) = delete;
   ServiceManager& operator=(const ServiceManager&) = delete;
 

@@ -103,7 +103,8 @@ class DeviceCamera : public CommandLine {
               ", width_px: 320, height_px: 240}\n"
               "scale: {um_per_px: 6, origin_px: [-0.5, 239.5]}\n"
               "perception: {scene: {swarm: {look: {min_texture: 0}}}}\n"
-              "safety: {min_follow_share: 0, frozen_swarm_s: 0, missed_deadlines: 100, max_pause_s: 3}\n");
+              "safety: {min_follow_share: 0, frozen_swarm_s: 0, missed_deadlines: 100, "
+              "max_pause_s: 3}\n");
     write("flight.yaml",
           "map: {type: polygons, lo_um: [0, 0], hi_um: [1920, 1440]}\n"
           "start: {x_um: 960, y_um: 720}\ngoal_um: [1500, 720]\ntime_limit_s: 20\n"

@@ -51,7 +51,7 @@ HeatedSystem read_system(const std::string& file) {
 
 /// Index of a coil by its name. Throws InputError if there is none.
 std::size_t find_coil(const actuation::CoilSystem& system, const std::string& name) {
-  const std::vector<std::string> names = system.coil_names();
+  const std::vector<std::string>& names = system.coil_names();
   const auto found = std::ranges::find(names, name);
   if (found == names.end())
     throw InputError(fmt::format("--coil: no coil is named {}, there are {}", quote(name),
@@ -77,8 +77,8 @@ void write_system(HeatedSystem heated, std::vector<actuation::AmplifierParams> a
                   const std::string& out) {
   heated.params.amplifiers = std::move(amplifiers);
   const std::string text = to_yaml(heated.params);
-  actuation::CoilSystem(read_yaml_text<actuation::CoilSystemParams>(text, out), {},
-                        input_folder(out));
+  const actuation::CoilSystem again(read_yaml_text<actuation::CoilSystemParams>(text, out), {},
+                                    input_folder(out));
   write_file_atomically(out, text);
 }
 

@@ -136,7 +136,7 @@ void require_person(const rig::Rig& rig, const IdentifyDrive& drive) {
 
 }  // namespace
 
-IdentifyOutcome drive_to_identify(rig::RigExperiment on, const IdentifyDrive& o,
+IdentifyOutcome drive_to_identify(const rig::RigExperiment& on, const IdentifyDrive& o,
                                   const Context& context) {
   require_person(on.rig, o);
   note_field(on.rig, on.scenario());

@@ -29,7 +29,7 @@ struct IdentifyOutcome {
 
 /// Drives a rig in real time: a programme, or by hand with the keys of `rig run`. The coils are at
 /// zero afterwards. Throws InputError if there is no room for the programme.
-IdentifyOutcome drive_to_identify(rig::RigExperiment on, const IdentifyDrive& drive,
+IdentifyOutcome drive_to_identify(const rig::RigExperiment& on, const IdentifyDrive& drive,
                                   const Context& context);
 
 }  // namespace microswarm::cli

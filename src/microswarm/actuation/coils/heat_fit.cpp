@@ -47,6 +47,7 @@ class HeatResiduals {
   using InputType = Eigen::VectorXd;
   using ValueType = Eigen::VectorXd;
   using JacobianType = Eigen::MatrixXd;
+  // NOLINTNEXTLINE(readability-identifier-naming): names that Eigen asks for
   enum { InputsAtCompileTime = Eigen::Dynamic, ValuesAtCompileTime = Eigen::Dynamic };
 
   HeatResiduals(const HeatLog& log, const AmplifierParams& coil) : log_(log), coil_(coil) {

@@ -5,7 +5,7 @@
 #include <sys/file.h>
 
 #include <algorithm>
-#include <ranges>
+#include <span>
 
 #include "microswarm/config/write.hpp"
 #include "microswarm/config/yaml.hpp"
@@ -17,16 +17,26 @@
 
 namespace microswarm::rig {
 
+namespace {
+
+/// Attempts that count.
+std::span<const QueueAttempt> counted_attempts(const ItemStatus& item) {
+  const std::span<const QueueAttempt> all(item.attempts);
+  return all.subspan(std::min(all.size(), static_cast<std::size_t>(item.forgiven)));
+}
+
+}  // namespace
+
 int ItemStatus::interruptions() const {
-  const auto counted = attempts | std::views::drop(forgiven);
-  return static_cast<int>(std::ranges::count(counted, AttemptEnd::interrupted, &QueueAttempt::end));
+  return static_cast<int>(
+      std::ranges::count(counted_attempts(*this), AttemptEnd::interrupted, &QueueAttempt::end));
 }
 
 int ItemStatus::faults() const {
-  const auto counted = attempts | std::views::drop(forgiven);
-  return static_cast<int>(std::ranges::count_if(counted, [](const QueueAttempt& attempt) {
-    return attempt.end == AttemptEnd::fault && !needs_person(attempt.fault);
-  }));
+  return static_cast<int>(
+      std::ranges::count_if(counted_attempts(*this), [](const QueueAttempt& attempt) {
+        return attempt.end == AttemptEnd::fault && !needs_person(attempt.fault);
+      }));
 }
 
 int QueueState::count(ItemState state) const {

@@ -19,6 +19,7 @@ class CommandLog {
   /// Logs into `folder`; an empty path disables the log. Rows of a dry run are marked.
   CommandLog(const std::filesystem::path& folder, const actuation::CoilSystem& system, bool dry,
              const LogLimits& limits = {});
+  ~CommandLog() = default;
   CommandLog(const CommandLog&) = delete;
   CommandLog& operator=(const CommandLog&) = delete;
 

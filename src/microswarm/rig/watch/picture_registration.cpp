@@ -285,8 +285,9 @@ std::pair<PictureRegistration::Similarity, double> PictureRegistration::search(
         highest = std::abs(score[i]);
         polarity = score[i] > 0 ? 1 : -1;
         best = by;
-        best.x = side * (static_cast<double>(i % width) - reach);
-        best.y = side * (static_cast<double>(i / width) - reach);
+        const std::size_t row = i / width;
+        best.x = side * (static_cast<double>(i - row * width) - reach);
+        best.y = side * (static_cast<double>(row) - reach);
       }
     }
   return {best, polarity};
