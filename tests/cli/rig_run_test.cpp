@@ -348,7 +348,6 @@ TEST_F(RigRun, ADamagedFileOfTemperaturesIsRefusedInALineThatSaysWhatHelps) {
   std::erase(again, "--coils-cold");
   for (const std::string& damaged :
        {std::string(), good.substr(0, good.size() / 2), std::string("\x00\xff\x00", 3),
-        with(good, "temperatures_degc", "temperatures_degc: [20, 20]"),
         with(good, "temperatures_degc", "temperatures_degc: [20, .nan, x]"),
         std::string("[1, 2")}) {
     write(state, damaged);
@@ -359,6 +358,17 @@ TEST_F(RigRun, ADamagedFileOfTemperaturesIsRefusedInALineThatSaysWhatHelps) {
     EXPECT_EQ(read(state), damaged);
   }
   EXPECT_EQ(run(arguments({"--seconds", "0.5"})).code, 3);
+  // Of another number of coils: neither believed nor overwritten, cold or not.
+  const std::string other = with(good, "temperatures_degc", "temperatures_degc: [20, 20]");
+  write(state, other);
+  for (const Arguments& any : {again, arguments({"--seconds", "0.5"})}) {
+    const Outcome outcome = run(any);
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    EXPECT_TRUE(is_one_line_naming(outcome.err, {},
+                                   {fs::path(state).filename(), "2 temperatures", "3 coils"}))
+        << outcome.err;
+    EXPECT_EQ(read(state), other);
+  }
 }
 
 TEST_F(RigRun, KeptTemperaturesBelowAmbientAreNotBelieved) {

@@ -75,6 +75,7 @@ std::string ago(const std::string& date, std::time_t now) {
 
 std::string names(const std::vector<CommissioningEntry>& entries) {
   std::vector<std::string_view> all;
+  all.reserve(entries.size());
   for (const CommissioningEntry& entry : entries) all.push_back(enum_name(entry.what));
   return fmt::format("{}", fmt::join(all, ", "));
 }
@@ -93,6 +94,7 @@ std::string measured_text(const std::vector<CommissioningEntry>& entries, std::t
       group->second += ", " + what;
   }
   std::vector<std::string> texts;
+  texts.reserve(groups.size());
   for (const auto& [who, what] : groups) texts.push_back(what + " " + who);
   return fmt::format("{}", fmt::join(texts, "; "));
 }
