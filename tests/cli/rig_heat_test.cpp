@@ -113,6 +113,17 @@ TEST_F(RigHeat, EscTurnsTheCoilOffAtOnce) {
   EXPECT_EQ(currents().norm(), 0);
 }
 
+TEST_F(RigHeat, AWarmCoilIsNotMeasuredAsAColdOne) {
+  Arguments warm = heat();  // nothing is known of it, so it counts as hot
+  std::erase(warm, "--coils-cold");
+  warm.emplace_back("--other-stop");
+  const Outcome outcome = run(warm);
+  EXPECT_EQ(outcome.code, 2) << outcome.err;
+  EXPECT_TRUE(names(outcome.err, "coil x is at 90 °C")) << outcome.err;
+  EXPECT_EQ(currents().norm(), 0);
+  EXPECT_FALSE(exists("heat.csv"));
+}
+
 TEST_F(RigHeat, WhatCannotBeIsRefused) {
   refused({"rig", "heat", sample, "--out", "out.yaml"}, naming("--out", {"--coil"}));
   refused({"rig", "heat", sample, "--coils", "coils.yaml", "--coil", "w", "--out", "out.yaml"},
@@ -120,6 +131,8 @@ TEST_F(RigHeat, WhatCannotBeIsRefused) {
   refused({"rig", "heat", "none.csv", "--measure", "rig.yaml"}, naming("--measure", {"--coil"}));
   write("short.csv", "t_s,i_a,v_v\n0,4,3.7\n60,4,3.8\n");
   refused({"rig", "heat", "short.csv"}, naming("short.csv", {"2 readings"}));
+  write("probe.csv", "t_s,i_a,temperature_degc\n0,4,22\n60,4,30\n");
+  refused({"rig", "heat", "probe.csv"}, naming("probe.csv", {"--coils", "--coil"}));
   EXPECT_EQ(device.count(actuation::CoilMessage::set), 0);
   EXPECT_FALSE(exists("out.yaml"));
 }

@@ -125,6 +125,17 @@ TEST_F(RigIdentify, AtATerminalItAsks) {
     EXPECT_EQ(terminal.wait(), 0) << terminal.said();
     EXPECT_EQ(read("rig.yaml"), before);
   }
+  // What was driven with another field says nothing about this one.
+  std::string other = before;
+  other.replace(other.find("amplitude_mt: "), std::string("amplitude_mt: 8").size(),
+                "amplitude_mt: 7");
+  write("other.yaml", other);
+  const Outcome refused =
+      run({"rig", "identify", "other.yaml", "--record", "out/run.h5", "--write"});
+  EXPECT_EQ(refused.code, 2) << refused.err;
+  EXPECT_TRUE(names(refused.err, "another field or scale")) << refused.err;
+  EXPECT_EQ(read("other.yaml"), other);
+  EXPECT_FALSE(exists("other.commissioning.yaml"));
   Terminal terminal(fit, at);
   ASSERT_TRUE(terminal.hears("y or n")) << terminal.said();
   terminal.press("y\r");

@@ -206,6 +206,30 @@ TEST_F(QueueTest, WhatWouldEndTooLateIsLeftOut) {
       1);
 }
 
+TEST_F(QueueTest, RefusalsInARowCallAPerson) {
+  const AttemptResult refusal{.end = AttemptEnd::refused, .reason = "the camera is displaced"};
+  results["a"] = {faulty(FaultKind::camera), refusal, refusal};
+  const Queue queue = open("entries: [{scenario: a.yaml, repeat: 60}]\n");
+  EXPECT_EQ(run(queue), QueueEnd::needs_person);
+  EXPECT_EQ(ran.size(), 3u);
+  EXPECT_EQ(state().count(ItemState::waiting), 57);
+  EXPECT_TRUE(test::names(alarms.back(), "3 in a row")) << alarms.back();
+}
+
+TEST_F(QueueTest, AStateThatIsALinkOrHasNoDateIsRefusedWithoutItsContent) {
+  const Queue queue = open("entries: [{scenario: a.yaml}]\n");
+  folder.with("secret", "secret: words\n");
+  fs::create_symlink(folder / "secret", queue_state_file(out()));
+  const std::string linked = test::error_of([&] { run(queue); });
+  EXPECT_TRUE(test::names(linked, queue_state_file(out()).string())) << linked;
+  EXPECT_FALSE(test::names(linked, "words")) << linked;
+  EXPECT_EQ(read_file(folder / "secret"), "secret: words\n");
+  fs::remove(queue_state_file(out()));
+  write_file_atomically(queue_state_file(out()), "began_s: 1e30\n");
+  EXPECT_TRUE(test::names(test::error_of([&] { run(queue); }), "began_s"));
+  EXPECT_TRUE(ran.empty());
+}
+
 TEST_F(QueueTest, ItsEndIsTheNextTimeOfThatName) {
   QueueParams params;
   EXPECT_FALSE(queue_end(params, 1e9, 1e9));

@@ -227,6 +227,18 @@ TEST(RigWatch, WallsThatWereClearAndAreGoneAreAFault) {
   EXPECT_EQ(never.fault(), "");
 }
 
+TEST(RigWatch, ALostMapIsNotedAlsoAfterADisplacedOne) {
+  MapWatch watch(5);
+  PictureFit weak = fit_of(4);
+  weak.seen_share = 0.5;  // too few edges for a fault where they are lost
+  watch.take(weak);
+  for (int k = 0; k < 3; ++k) watch.take({.unsure = "why"});
+  EXPECT_EQ(watch.fault(), "");
+  EXPECT_NE(watch.take_note().find("px"), std::string::npos);
+  EXPECT_NE(watch.take_note().find("no longer known"), std::string::npos);
+  EXPECT_EQ(watch.take_note(), "");
+}
+
 TEST(RigWatch, DefocusIsTold) {
   for (const std::size_t pair : {1u, 5u}) {  // with walls
     double sharp = 0;

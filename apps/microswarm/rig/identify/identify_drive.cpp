@@ -10,6 +10,7 @@
 #include "microswarm/rig/identify/identify_programme.hpp"
 #include "microswarm/rig/session/live_session.hpp"
 #include "microswarm/vision/image/threads.hpp"
+#include "rig/keys/key_terminal.hpp"
 #include "rig/keys/rig_keys.hpp"
 #include "rig/rig_notes.hpp"
 #include "rig/run/rig_operator.hpp"
@@ -124,21 +125,12 @@ bool drive(rig::LiveSession& live, std::optional<rig::IdentifyPlan> plan,
   return by_key || !context.stop();
 }
 
-void require_person(const rig::Rig& rig, const IdentifyDrive& drive) {
-  if (drive.by_hand && !has_keys()) throw InputError("--by-hand: there is no terminal with keys");
-  if (!rig::has_coil_device(rig)) return;
-  require_emergency_stop(drive.coils);
-  if (rig::shows_drawn_swarm(rig.params) && !drive.drawn_swarm)
-    throw rig.keys.error("camera",
-                         "the camera is simulated and the coil driver is not: real coils would be "
-                         "driven for a drawn swarm; for a test, run with --drawn-swarm");
-}
-
 }  // namespace
 
 IdentifyOutcome drive_to_identify(const rig::RigExperiment& on, const IdentifyDrive& o,
                                   const Context& context) {
-  require_person(on.rig, o);
+  if (o.by_hand && !has_keys()) throw InputError("--by-hand: there is no terminal with keys");
+  require_person(on.rig, o.coils, false, o.drawn_swarm);
   note_field(on.rig, on.scenario());
   const double max_frequency = o.max_frequency.value_or(rig::largest_frequency(on.rig));
   const double speed = o.speed.value_or(usual_speed(on.scenario()));
