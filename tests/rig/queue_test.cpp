@@ -213,6 +213,7 @@ TEST_F(QueueTest, RefusalsInARowCallAPerson) {
   EXPECT_EQ(run(queue), QueueEnd::needs_person);
   EXPECT_EQ(ran.size(), 3u);
   EXPECT_EQ(state().count(ItemState::waiting), 57);
+  ASSERT_FALSE(alarms.empty());
   EXPECT_TRUE(test::names(alarms.back(), "3 in a row")) << alarms.back();
 }
 

@@ -132,6 +132,7 @@ std::string axes(const Plot& plot) {
   const auto limit = [](std::optional<double> v) { return v ? fmt::format("{:g}", *v) : "*"; };
   std::string out = fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\n", limit(plot.x_min),
                                 limit(plot.x_max), limit(plot.y_min), limit(plot.y_max));
+  out += plot.equal_scale ? "set size ratio -1\n" : "set size noratio\n";
   out += "unset logscale\n";
   if (plot.log_x) out += "set logscale x\n";
   if (plot.log_y) out += "set logscale y\n";

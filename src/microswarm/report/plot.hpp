@@ -76,7 +76,8 @@ struct Plot {
   std::vector<AxisTick> y_ticks{};
   bool log_x = false;
   bool log_y = false;
-  bool key_below = false;  ///< puts the legend below the diagram
+  bool key_below = false;    ///< puts the legend below the diagram
+  bool equal_scale = false;  ///< a unit is as long on both axes, as for a path
   std::optional<double> x_min{};
   std::optional<double> x_max{};
   std::optional<double> y_min{};

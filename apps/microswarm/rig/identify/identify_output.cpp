@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "microswarm/core/maths/angles.hpp"
@@ -29,7 +30,11 @@ std::string before_text(const rig::MeasuredValue& value) {
 
 /// Commanded and seen path.
 report::Plot path_plot(const Identification& of) {
-  report::Plot plot{.title = "Path", .x_label = "x (µm)", .y_label = "y (µm)", .key_below = true};
+  report::Plot plot{.title = "Path",
+                    .x_label = "x (µm)",
+                    .y_label = "y (µm)",
+                    .key_below = true,
+                    .equal_scale = true};
   report::Series commanded{.label = "commanded"}, fitted{.label = "fitted"},
       seen{.label = "seen", .style = report::PlotStyle::points};
   const rig::DrivenPath path(of.response.data.field, of.response.data.commands, 0);
@@ -62,6 +67,7 @@ report::Plot sweep_plot(const Identification& of) {
   if (of.sweep.followed) plot.marks.push_back({"followed", *of.sweep.followed});
   if (of.sweep.lost) plot.marks.push_back({"not followed", *of.sweep.lost});
   plot.y_min = 0;
+  if (!levels.x.empty()) plot.x_max = 1.05 * std::ranges::max(levels.x);  // room for a mark
   return plot;
 }
 
