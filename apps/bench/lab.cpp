@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "bench/lab_client.hpp"
-#include "lab/net/server.hpp"
+#include "bench/running_lab.hpp"
 #include "microswarm/core/maths/statistics.hpp"
 
 namespace microswarm::bench {
@@ -23,26 +23,6 @@ constexpr double ticks_a_second = 30;  ///< of the clock on the wall, and so of 
 double since(Clock::time_point then) {
   return std::chrono::duration<double>(Clock::now() - then).count();
 }
-
-/// A lab in this process.
-class RunningLab {
- public:
-  explicit RunningLab(const fs::path& scenarios) : server_({.folders = {scenarios}}) {
-    thread_ = std::thread([this] { server_.run(Stop(&stop_)); });
-  }
-  ~RunningLab() {
-    stop_ = true;
-    thread_.join();
-  }
-  RunningLab(const RunningLab&) = delete;
-  RunningLab& operator=(const RunningLab&) = delete;
-  std::string url() const { return server_.url(); }
-
- private:
-  microswarm::lab::Server server_;
-  std::atomic<bool> stop_ = false;
-  std::thread thread_;
-};
 
 /// Messages that clients received while a session played.
 struct Watched {
@@ -69,7 +49,7 @@ Watched watch(const fs::path& scenarios, int watchers, double duration) {
   const fs::path file = scenarios / "papers/gather/larger_vascular_network.yaml";
   const std::vector<std::string> settings{"robots.count=" + std::to_string(crowd_size),
                                           "navigator.tree.nodes=10000"};
-  const RunningLab lab(scenarios);
+  const RunningLab lab({.folders = {scenarios}});
   const auto number = open_lab_session(lab.url(), {{"file", file}, {"settings", settings}});
   LabClient first(lab.url(), number);
   first.ask({{"do", "step"}});  // plans
@@ -118,7 +98,7 @@ Watched watch(const fs::path& scenarios, int watchers, double duration) {
 /// From the start of the server to the first frame at a client [s].
 double first_frame(const fs::path& scenarios) {
   const auto began = Clock::now();
-  const RunningLab lab(scenarios);
+  const RunningLab lab({.folders = {scenarios}});
   const auto file = scenarios / "papers/radar/twelve.yaml";
   LabClient client(lab.url(), open_lab_session(lab.url(), {{"file", file}}));
   client.next("frame");
@@ -127,7 +107,7 @@ double first_frame(const fs::path& scenarios) {
 
 /// From a changed goal to the message that has it, while the session plays: 99th percentile [s].
 double change_time(const fs::path& scenarios, int changes, const Stop& stop) {
-  const RunningLab lab(scenarios);
+  const RunningLab lab({.folders = {scenarios}});
   const auto file = scenarios / "papers/radar/twelve.yaml";
   LabClient client(lab.url(), open_lab_session(lab.url(), {{"file", file}}));
   client.ask({{"do", "play"}});

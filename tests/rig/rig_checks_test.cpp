@@ -85,6 +85,14 @@ class RigChecks : public testing::Test {
   test::Folder folder;
 };
 
+TEST_F(RigChecks, TheComputerSaysByHowMuchItsThreadsAreLate) {
+  const RigCheck usual =
+      check_computer(test::coil_rig(folder, limited, {"drive_rate_hz=200"}), 0.3);
+  EXPECT_TRUE(usual.good) << usual.answer;
+  EXPECT_TRUE(test::is_one_line_naming(usual.answer, "", {"p50", "ms"}));
+  EXPECT_FALSE(usual.required);
+}
+
 TEST_F(RigChecks, TheCoilsHoldTheFieldOrSayHowMuchOfIt) {
   const RigCheck good = check_field(test::coil_rig(folder, limited));
   EXPECT_TRUE(good.good) << good.answer;

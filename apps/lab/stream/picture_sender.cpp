@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "lab/stream/rig_stream.hpp"
+#include "microswarm/core/execution/priority.hpp"
 
 namespace microswarm::lab {
 
@@ -33,6 +34,7 @@ void PictureSender::welcome(std::uint64_t page) {
 }
 
 void PictureSender::run() {
+  lower_priority();
   std::unique_lock lock(mutex_);
   for (;;) {
     offered_.wait(lock, [this] { return ends_ || offer_; });

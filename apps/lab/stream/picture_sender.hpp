@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "lab/stream/publisher.hpp"
+#include "microswarm/core/execution/inheriting_mutex.hpp"
 #include "microswarm/formats/images/image.hpp"
 #include "microswarm/vision/camera/camera_scale.hpp"
 
@@ -37,8 +38,8 @@ class PictureSender {
   void run();
 
   Publisher::Send send_;
-  std::mutex mutex_;
-  std::condition_variable offered_;
+  InheritingMutex mutex_;
+  std::condition_variable_any offered_;
   std::optional<Offer> offer_;
   bool ends_ = false;
   MessagePtr last_;

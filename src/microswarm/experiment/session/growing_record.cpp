@@ -2,8 +2,6 @@
 #include "microswarm/experiment/session/growing_record.hpp"
 
 #include <fmt/format.h>
-#include <sched.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <exception>
@@ -11,6 +9,7 @@
 #include <system_error>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/execution/priority.hpp"
 
 namespace microswarm::experiment {
 namespace {
@@ -41,13 +40,6 @@ void for_growing(A& a, B& b, const Act& act) {
   act(aggregation, b.diagnostics.aggregation);
   act(predictive, b.diagnostics.predictive);
   act(hierarchical, b.diagnostics.hierarchical);
-}
-
-/// Gives this thread the lowest priority, even if the session's has a real-time one.
-void yield_to_others() {
-  const sched_param none{};
-  ::sched_setscheduler(0, SCHED_OTHER, &none);
-  ::setpriority(PRIO_PROCESS, 0, 10);
 }
 
 /// The least time if there is no such file.
@@ -152,7 +144,7 @@ std::unique_ptr<Record> GrowingRecord::take_news() {
 }
 
 void GrowingRecord::write_all() {
-  yield_to_others();
+  lower_priority();
   std::unique_lock lock(mutex_);
   for (;;) {
     wake_.wait(lock, [this] { return ends_ || news_; });

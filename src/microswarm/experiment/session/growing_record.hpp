@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "microswarm/core/execution/inheriting_mutex.hpp"
 #include "microswarm/experiment/session/session.hpp"
 
 namespace microswarm::experiment {
@@ -60,8 +61,8 @@ class GrowingRecord : public RunListener {
 
   Record whole_;  ///< owned by the writing thread
 
-  std::mutex mutex_;
-  std::condition_variable wake_;
+  InheritingMutex mutex_;
+  std::condition_variable_any wake_;
   std::unique_ptr<Record> news_;  ///< to be written; guarded, as the next two
   bool writes_ = false;
   bool ends_ = false;

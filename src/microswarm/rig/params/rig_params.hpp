@@ -130,6 +130,7 @@ struct RigParams {
   actuation::FieldGeneratorParams field{};
   double delay = 0;
   double drive_rate = 200;
+  int realtime_priority = 0;
   CoilDriverParams driver{};
   std::variant<SimulatedCamera, vision::CameraParams, vision::GenicamParams, VideoCamera> camera{};
   std::optional<vision::CameraScale> scale{};
@@ -144,6 +145,8 @@ struct RigParams {
     visit(self.delay, s("delay", 0, 10, "Time from a command to the motion that it causes."));
     visit(self.drive_rate,
           hz("drive_rate", 20, 1e4, "Rate of current updates; at least 10 per field turn."));
+    visit(self.realtime_priority,
+          plain("realtime_priority", 0, 98, "Priority of camera, ticks and coils; 0: as others."));
     visit(self.driver, plain("driver", "Device that drives the coils."));
     visit(self.camera, plain("camera", "Camera."));
     visit(self.scale, plain("scale", "Camera position and scale; not for a simulated camera."));

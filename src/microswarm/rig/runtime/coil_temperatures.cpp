@@ -13,6 +13,7 @@
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/errors/input_names.hpp"
+#include "microswarm/core/execution/priority.hpp"
 #include "microswarm/core/maths/hash.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/text.hpp"
@@ -204,6 +205,7 @@ void CoilTemperatures::take(const actuation::StopReport& stop) {
 }
 
 void CoilTemperatures::run() {
+  lower_priority();
   std::unique_lock lock(mutex_);
   while (!changed_.wait_for(lock, between_entries, [this] { return over_; })) {
     const Eigen::VectorXd now = newest_;

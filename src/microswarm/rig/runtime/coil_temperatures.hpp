@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "microswarm/actuation/drivers/coil_driver.hpp"
+#include "microswarm/core/execution/inheriting_mutex.hpp"
 #include "microswarm/rig/params/rig_params.hpp"
 #include "microswarm/rig/runtime/clock_reading.hpp"
 
@@ -66,8 +67,8 @@ class CoilTemperatures {
   Eigen::VectorXd at_start_;
   bool known_ = true;
   std::atomic<bool> assumed_{false};  ///< nothing was known, and no current flowed since
-  std::mutex mutex_;
-  std::condition_variable changed_;
+  InheritingMutex mutex_;
+  std::condition_variable_any changed_;
   Eigen::VectorXd newest_;
   bool over_ = false;
   bool at_zero_ = true;

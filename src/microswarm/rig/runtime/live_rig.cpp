@@ -45,7 +45,8 @@ LiveRig::LiveRig(const experiment::Scenario& scenario, std::shared_ptr<const Map
                  const Rig& rig, std::unique_ptr<vision::FrameSource> camera,
                  const vision::CameraScale& scale, actuation::CoilDriver& driver,
                  LiveRigListeners listeners)
-    : rig_(rig),
+    : priority_(rig),
+      rig_(rig),
       has_virtual_(rig.params.virtual_obstacles &&
                    camera_kind(rig.params) != CameraKind::simulated),
       world_{std::move(map), has_virtual_ ? scenario.obstacles : std::vector<Obstacle>{}},

@@ -13,6 +13,7 @@
 #include "microswarm/rig/runtime/coil_loop.hpp"
 #include "microswarm/rig/runtime/map_looks.hpp"
 #include "microswarm/rig/runtime/rig_meter.hpp"
+#include "microswarm/rig/runtime/rig_priority.hpp"
 #include "microswarm/rig/runtime/tick_schedule.hpp"
 #include "microswarm/rig/watch/sight_monitor.hpp"
 #include "microswarm/vision/camera/newest_frame.hpp"
@@ -90,6 +91,7 @@ class LiveRig : public Plant {
   void fail(const std::string& why, FaultKind kind);
   double since_start() const { return steady_seconds() - start_; }
 
+  const RigPriority priority_;  // first member: the threads of the others inherit it
   const Rig& rig_;
   const bool has_virtual_;  // whether there are virtual obstacles
   World world_;             // map and virtual obstacles

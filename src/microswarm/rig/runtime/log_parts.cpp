@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/execution/priority.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/text.hpp"
 
@@ -133,6 +134,7 @@ void LogParts::join() {
 }
 
 void LogParts::run() {
+  lower_priority();
   const std::chrono::duration<double> period(limits_.sync_period);
   bool is_first = true;
   std::unique_lock lock(mutex_);

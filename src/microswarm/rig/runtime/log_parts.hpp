@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "microswarm/core/execution/descriptor.hpp"
+#include "microswarm/core/execution/inheriting_mutex.hpp"
 
 namespace microswarm::rig {
 
@@ -68,8 +69,8 @@ class LogParts {
   std::uint64_t size_ = 0;  // of the part
   int parts_ = 0;           // complete ones
 
-  std::mutex mutex_;
-  std::condition_variable wake_;
+  InheritingMutex mutex_;
+  std::condition_variable_any wake_;
   std::string waiting_;  // lines; guarded, as the next two
   std::string trouble_;
   bool ends_ = false;

@@ -10,6 +10,7 @@
 #include "microswarm/core/execution/clock.hpp"
 #include "microswarm/rig/runtime/device_limits.hpp"
 #include "microswarm/rig/runtime/first_reason.hpp"
+#include "microswarm/rig/runtime/rig_priority.hpp"
 #include "microswarm/rig/runtime/standstill.hpp"
 
 namespace microswarm::rig {
@@ -50,6 +51,7 @@ ManualResult drive_by_hand(const Rig& rig, actuation::CoilDriver& driver,
                            const ManualCommand& command, const Eigen::VectorXd& temperatures,
                            const std::function<void(const ManualMoment&)>& listener,
                            const Stop& stop) {
+  const RigPriority priority(rig);
   actuation::CoilController controller(rig.system, rig.params.field, driver,
                                        heading_along(command.wanted));
   controller.warm(temperatures);

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/rig/runtime/map_looks.hpp"
 
-#include <sys/resource.h>
-
 #include <exception>
 #include <utility>
 
 #include "microswarm/core/execution/clock.hpp"
+#include "microswarm/core/execution/priority.hpp"
 #include "microswarm/core/text/text.hpp"
 
 namespace microswarm::rig {
@@ -46,8 +45,7 @@ Durations MapLooks::times() const {
 }
 
 void MapLooks::work() {
-  constexpr int lower_priority = 10;
-  ::setpriority(PRIO_PROCESS, 0, lower_priority);  // of this thread only, on Linux
+  lower_priority();
   std::unique_lock lock(mutex_);
   while (true) {
     changed_.wait(lock, [this] { return ends_ || waits_; });

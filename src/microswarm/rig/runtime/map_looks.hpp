@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "microswarm/core/execution/durations.hpp"
+#include "microswarm/core/execution/inheriting_mutex.hpp"
 #include "microswarm/rig/watch/rig_watch.hpp"
 
 namespace microswarm::rig {
@@ -33,8 +34,8 @@ class MapLooks {
 
   std::shared_ptr<const PictureRegistration> registration_;
   double max_shift_;
-  mutable std::mutex mutex_;
-  std::condition_variable changed_;
+  mutable InheritingMutex mutex_;
+  std::condition_variable_any changed_;
   bool ends_ = false;
   bool waits_ = false;  // a picture is to be looked at, or is
   formats::Image picture_;

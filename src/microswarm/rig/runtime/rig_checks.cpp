@@ -13,6 +13,7 @@
 #include "microswarm/actuation/coils/coil_controller.hpp"
 #include "microswarm/core/errors/input_names.hpp"
 #include "microswarm/core/execution/clock.hpp"
+#include "microswarm/core/execution/priority.hpp"
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/infinity.hpp"
 
@@ -242,6 +243,32 @@ std::vector<RigCheck> check_driver(actuation::CoilDriver& driver, const Rig& rig
                                 1e3 * slow, rate, 1e3 / rate),
                     false});
   return checks;
+}
+
+RigCheck check_computer(const Rig& rig, double seconds, const Stop& stop) {
+  using Clock = std::chrono::steady_clock;
+  const RealtimePriority priority(rig.params.realtime_priority);
+  if (!priority.is_permitted())
+    return {"computer", false,
+            fmt::format("realtime_priority {} is not permitted to this user",
+                        rig.params.realtime_priority)};
+  const std::chrono::duration<double> period(1 / rig.params.drive_rate);
+  Durations late;
+  auto due = Clock::now();
+  for (const auto end = due + std::chrono::duration<double>(seconds); due < end && !stop();) {
+    due = std::max(due + std::chrono::duration_cast<Clock::duration>(period), Clock::now());
+    std::this_thread::sleep_until(due);
+    late.add(std::chrono::duration<double>(Clock::now() - due).count());
+  }
+  const double allowed = period.count() / 2;
+  return {"computer", late.quantile(0.5) < allowed,
+          fmt::format("threads are late by {} (p50 / p95 / p99){}", quantiles(late),
+                      late.quantile(0.99) < allowed
+                          ? ""
+                          : fmt::format(", half a period of drive_rate_hz is {:.2f}: "
+                                        "realtime_priority keeps other work away",
+                                        1e3 * allowed)),
+          false};
 }
 
 std::string quantiles(const Durations& times) {

@@ -41,6 +41,10 @@ std::vector<RigCheck> check_camera(vision::NewestFrame& camera, const Rig& rig,
 std::vector<RigCheck> check_driver(actuation::CoilDriver& driver, const Rig& rig, double seconds,
                                    const Stop& stop = {});
 
+/// Measures for `seconds` by how much the thread of the coils would be late at the rig's
+/// `drive_rate` and `realtime_priority`.
+RigCheck check_computer(const Rig& rig, double seconds, const Stop& stop = {});
+
 /// Quantiles of durations as "p50 / p95 / p99 ms", "–" if there are none.
 std::string quantiles(const Durations& times);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/vision/camera/video_recorder.hpp"
-
-#include <sys/resource.h>
+#include "microswarm/core/execution/inheriting_mutex.hpp"
 
 #include <cerrno>
 #include <cmath>
@@ -17,6 +16,7 @@
 #include <vector>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/execution/priority.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/formats/media/media.hpp"
 #include "microswarm/vision/image/mat.hpp"
@@ -30,7 +30,6 @@ constexpr std::size_t max_queued_frames = 64;
 constexpr std::size_t max_queued_bytes = std::size_t{256} << 20;
 constexpr std::size_t measured_frames = 8;  // of which the rate is taken if none is given
 constexpr double usual_rate = 30;           // [Hz] without any
-constexpr int lower_priority = 10;          // of the writing thread
 
 fs::path part_file(const fs::path& file) {
   fs::path part = file;
@@ -67,8 +66,8 @@ struct VideoRecorder::Shared {
     double taken = 0;
   };
 
-  std::mutex mutex;
-  std::condition_variable changed;
+  InheritingMutex mutex;
+  std::condition_variable_any changed;
   bool open = true;
   std::optional<double> zero;
   std::deque<QueuedFrame> queue;
@@ -183,7 +182,7 @@ class VideoRecorder::Writer {
   }
 
   void run() {
-    ::setpriority(PRIO_PROCESS, 0, lower_priority);  // of this thread only, on Linux
+    lower_priority();
     while (auto frame = shared_->take()) {
       first_.push_back(std::move(*frame));
       if (rate_ > 0 || first_.size() >= measured_frames) write_first();
