@@ -122,6 +122,7 @@ class LiveSession {
   std::unique_ptr<vision::VideoRecorder> video_;
   std::vector<std::string> warnings_;
   std::atomic<bool> currents_full_ = false;
+  std::string told_probes_;  // trouble with probes, as last reported
   bool told_currents_ = false, told_sightings_ = false, told_space_ = false;
   double disk_due_ = 0;   ///< time of the next look at the disk [s]
   double state_due_ = 0;  ///< time of the next state of the pictures that is kept [s]
