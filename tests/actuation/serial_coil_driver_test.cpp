@@ -225,7 +225,7 @@ TEST(SerialCoilDriverPty, FormerFirmwareIsToldHowToRenewIt) {
       FAIL();
     } catch (const HardwareError& e) {
       EXPECT_TRUE(test::is_one_line_naming(
-          e.what(), device.port(), {"version " + std::to_string(version), "make", "upload"}));
+          e.what(), device.port(), {"version " + std::to_string(version), "microswarm rig flash"}));
     }
   }
 }

@@ -121,8 +121,8 @@ SerialCoilDriver::SerialCoilDriver(const SerialCoilParams& params)
                                     params_.connect_timeout, report_.reason));
   if (reply->version != coil_link_version || reply->result != CoilResult::ok)
     throw HardwareError(fmt::format(
-        "{0}: its firmware speaks version {1} of the protocol, this program {2}; renew it: make -C "
-        "firmware/coil_driver upload PORT={0}",
+        "{0}: its firmware speaks version {1} of the protocol, this program {2}; renew it "
+        "with microswarm rig flash",
         params_.port, reply->version, coil_link_version));
 }
 
