@@ -54,7 +54,7 @@ LiveRig::LiveRig(const experiment::Scenario& scenario, std::shared_ptr<const Map
       camera_(std::move(camera), "camera", camera_watch(rig.params), listeners.pictures),
       controller_(rig.system, checked(rig, scenario).field, driver,
                   scenario.start ? scenario.start->heading : 0),
-      sight_(rig.params.safety),
+      sight_(rig.params.safety, rig.params.delay),
       listeners_(std::move(listeners)),
       start_(steady_seconds()),
       meter_(rig.system, scenario.tick),
