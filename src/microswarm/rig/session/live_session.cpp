@@ -261,7 +261,7 @@ std::string LiveSession::look_at_disk() {
   const std::optional<double> free = options_.free_space(options_.folder);
   const experiment::Scenario& scenario = session_.scenario();
   const double until = std::min(tick->frame.t + warned_before, longest_time(scenario, options_));
-  const double soon = needed_space(on_.rig, scenario.tick, until);
+  const double soon = needed_space(on_.rig, scenario.tick, until, tick->frame.t);
   if (!free || *free >= soon) return {};
   told_space_ = true;
   return fmt::format(
