@@ -156,7 +156,7 @@ void LiveRig::look_at_map() {
 
 void LiveRig::look_for_faults(double now) {
   const SafetyParams& safety = rig_.params.safety;
-  if (const Fault failure = coils_.fault(); !failure.why.empty())
+  if (const Fault failure = coils_.fault(); failure.kind != FaultKind::none)
     return fail(failure.why, failure.kind);
   const vision::CameraStatus camera = camera_.status();
   if (camera.state == vision::CameraState::frozen || camera.state == vision::CameraState::black)

@@ -212,8 +212,8 @@ void LiveSession::keep(const CoilMoment& moment) {
   if (options_.driven) options_.driven();
 }
 
-actuation::StopReport LiveSession::stop(const std::string& why) {
-  actuation::StopReport zero = plant_->stop(why);
+actuation::StopReport LiveSession::stop(const std::string& why, FaultKind kind) {
+  actuation::StopReport zero = plant_->stop(why, kind);
   if (temperatures_) temperatures_->take(zero);
   return zero;
 }

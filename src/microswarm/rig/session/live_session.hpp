@@ -74,9 +74,10 @@ class LiveSession {
   const experiment::Session& session() const { return session_; }
   /// Warnings about the rig, found when it was opened, one line each.
   const std::vector<std::string>& warnings() const { return warnings_; }
-  /// Sets the coils to zero permanently; callable from any thread. Returns the report of the first
+  /// Sets the coils to zero permanently; callable from any thread. A stop of the kind `none` is no
+  /// fault: the thread that steps the session must end it too. Returns the report of the first
   /// stop.
-  actuation::StopReport stop(const std::string& why);
+  actuation::StopReport stop(const std::string& why, FaultKind kind = FaultKind::person);
   /// Sets the frequency of the field [Hz] and records the change; to be called in the thread that
   /// steps.
   void set_field_frequency(double frequency);
