@@ -66,8 +66,9 @@ endfunction()
 debian_package(program microswarm
         "planning, steering and measuring magnetic microrobot swarms"
         "The program microswarm runs experiments in simulation, on a simulated rig or on a real one, shows them in a
-browser, records, replays and compares them. With scenarios, manual and completion for bash and zsh."
+browser, records, replays and compares them. With scenarios, firmware, manual and completion for bash and zsh."
         "gnuplot-nox | gnuplot, fonts-dejavu-core")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "gcc-avr, avr-libc, make, avrdude")  # microswarm rig flash
 
 # What find_package(microswarm) looks for, by the names of Debian; the modules that the libraries load are in microswarm.
 set(debian_fmt libfmt-dev)

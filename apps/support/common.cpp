@@ -7,10 +7,12 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <new>
 #include <system_error>
+#include <thread>
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/file.hpp"
@@ -63,10 +65,14 @@ OutFolder::OutFolder(const std::string& folder) {
   make_folder(folder);
   folder_ = open_descriptor(folder, O_RDONLY | O_DIRECTORY);
   if (!folder_) return;
-  if (::flock(folder_.get(), LOCK_EX | LOCK_NB) == 0)
-    clear_staged(folder);
-  else if (errno == EWOULDBLOCK)
-    throw InputError(folder, "another command is writing to it");
+  // A reader that looks whether it is locked holds it for microseconds.
+  constexpr int attempts = 20;
+  for (int k = 0; ::flock(folder_.get(), LOCK_EX | LOCK_NB) != 0; ++k) {
+    if (errno != EWOULDBLOCK) return;
+    if (k == attempts) throw InputError(folder, "another command is writing to it");
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  clear_staged(folder);
 }
 
 OutFolder::~OutFolder() {

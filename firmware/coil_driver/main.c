@@ -9,6 +9,7 @@
 
 #include "emergency.h"
 #include "outputs.h"
+#include "probes.h"
 #include "protocol.h"
 #include "serial.h"
 
@@ -40,6 +41,7 @@ static uint16_t good, bad, trips;
 static Waveform aim;  // as followed
 static uint16_t scale = 32768;
 static uint8_t limited;  // a bit for each channel
+static uint8_t shown;    // channel whose temperature the next answer has
 
 static uint8_t put_u16(uint8_t* to, uint16_t value) {
   to[0] = (uint8_t)value;
@@ -74,6 +76,9 @@ static void reply(uint8_t type, uint8_t sequence, uint8_t result) {
     n += put_u16(packet + n, scale);
     n += put_u16(packet + n, crc16((const uint8_t*)&aim, sizeof aim));
     n += put_u16(packet + n, phase);
+    packet[n++] = shown;
+    n += put_u16(packet + n, (uint16_t)probes_at(shown));
+    shown = (uint8_t)(shown + 1) % CHANNELS;
   }
   n += put_u16(packet + n, crc16(packet, n));
   serial_send(frame, encode_frame(packet, n, frame));
@@ -89,9 +94,13 @@ static void turn_off(uint8_t to_state, uint8_t why) {
   trip = why;
 }
 
+// Why the outputs must stay off.
+static uint8_t obstacle(void) { return emergency() ? trip_emergency : probes_trip(); }
+
 static uint8_t arm(uint8_t sequence) {
-  turn_off(emergency() ? state_tripped : state_idle, emergency() ? trip_emergency : trip_none);
-  if (emergency()) return result_not_armed;
+  const uint8_t why = obstacle();
+  turn_off(why ? state_tripped : state_idle, why);
+  if (why) return result_not_armed;
   outputs_enable();
   last_set = sequence;
   last_obeyed = now_ms();
@@ -199,7 +208,9 @@ static void listen(void) {
 // Every millisecond.
 static void watch(uint16_t now) {
   emergency_tick();
-  if (emergency() && state != state_tripped) turn_off(state_tripped, trip_emergency);
+  probes_tick();
+  const uint8_t why = obstacle();
+  if (why && state != state_tripped) turn_off(state_tripped, why);
   if (state == state_armed && (uint16_t)(now - last_obeyed) >= WATCHDOG_MS) {
     ++trips;
     turn_off(state_tripped, trip_silence);
@@ -212,6 +223,7 @@ int main(void) {
   wdt_disable();
   outputs_begin();
   emergency_begin();
+  probes_begin();
   serial_begin();
   TCCR1B = _BV(WGM12) | _BV(CS10);
   OCR1A = F_CPU / 1000 / TICKS_PER_MS - 1;

@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define PROTOCOL_VERSION 2
+#define PROTOCOL_VERSION 3
 #define CHANNELS 6
 #define FULL_SCALE 1000       // of an output: per mille
 #define MAX_FREQUENCY 500000  // of a waveform [mHz]
@@ -39,7 +39,17 @@ enum Result {
 enum State { state_idle, state_armed, state_tripped, state_stopped };
 
 // Why the state is tripped, and a bit that is set while the emergency stop is open.
-enum Trip { trip_none, trip_silence, trip_emergency, trip_open_now = 0x80 };
+enum Trip {
+  trip_none,
+  trip_silence,
+  trip_emergency,
+  trip_hot,    // a probe shows more than MAX_DEGC
+  trip_probe,  // a probe shows nothing, with MAX_DEGC
+  trip_open_now = 0x80
+};
+
+// In place of a temperature.
+enum Probe { probe_none = -32768, probe_shorted = -32767, probe_open = 32767 };
 
 // Outputs as functions of the phase φ: constant + cosine cos φ + sine sin φ [per mille], φ turning
 // at `frequency` [mHz]. Without cosine and sine it is what a set asks for.

@@ -28,7 +28,9 @@ CoilReply some_reply(Rng& rng) {
                   .slew = 100,
                   .scale = static_cast<int>(rng.below(32769)),
                   .aim_sum = static_cast<int>(rng.below(65536)),
-                  .phase = static_cast<int>(rng.below(65536))};
+                  .phase = static_cast<int>(rng.below(65536)),
+                  .probe = static_cast<std::uint8_t>(rng.below(coil_link_channels)),
+                  .temperature = static_cast<int>(rng.below(3001)) - 500};
   for (int& output : reply.outputs) output = static_cast<int>(rng.below(2001)) - 1000;
   return reply;
 }
@@ -50,7 +52,7 @@ TEST(CoilLink, CheckSumIsTheKnownOne) {
 
 TEST(CoilLink, TheBytesOnTheWireArePinned) {
   using Bytes = std::vector<std::uint8_t>;
-  EXPECT_EQ(encode_hello(7), (Bytes{6, 1, 7, 2, 0x79, 0x42, 0}));
+  EXPECT_EQ(encode_hello(7), (Bytes{6, 1, 7, 3, 0x58, 0x52, 0}));
   EXPECT_EQ(encode_set(200, 0x1234, {0, 1000, -1000, 1, 256, -2}),
             (Bytes{0x5,  0x3, 0xc8, 0x34, 0x12, 0x1,  0x6,  0xe8, 0x3,  0x18,
                    0xfc, 0x1, 0x1,  0x6,  0x1,  0xfe, 0xff, 0xe9, 0x2b, 0x0}));
@@ -84,21 +86,43 @@ TEST(CoilLink, RepliesComeBackAsTheyWere) {
     ASSERT_EQ(read.size(), 1u);
     EXPECT_TRUE(same(read[0], reply));
     EXPECT_EQ(read[0].outputs, reply.outputs);
+    EXPECT_EQ(read[0].probe, reply.probe);
+    EXPECT_EQ(read[0].temperature, reply.temperature);
   }
   EXPECT_EQ(reader.bad(), 0);
+}
+
+TEST(CoilLink, ATemperatureIsOfAChannelAndPossible) {
+  Rng rng(6, Purpose::test);
+  CoilReply reply = some_reply(rng);
+  const auto is_read = [&](std::uint8_t probe, int temperature) {
+    reply.probe = probe;
+    reply.temperature = temperature;
+    CoilReplyReader reader;
+    return !replies_in(reader, encode(reply)).empty();
+  };
+  for (const int mark : {coil_link_no_probe, coil_link_probe_open, coil_link_probe_shorted})
+    EXPECT_TRUE(is_read(5, mark));
+  EXPECT_TRUE(is_read(0, -500));
+  EXPECT_TRUE(is_read(0, 2500));
+  EXPECT_FALSE(is_read(6, 200));
+  EXPECT_FALSE(is_read(0, -501));
+  EXPECT_FALSE(is_read(0, 2501));
 }
 
 // Whatever version a device has, its answer to a hello says so.
 TEST(CoilLink, RepliesOfOtherVersionsBeginAlike) {
   Rng rng(5, Purpose::test);
   CoilReply reply = some_reply(rng);
-  reply.version = 1;
-  CoilReplyReader reader;
-  const auto read = replies_in(reader, encode(reply));
-  ASSERT_EQ(read.size(), 1u);
-  EXPECT_EQ(read[0].version, 1);
-  EXPECT_EQ(read[0].outputs, reply.outputs);
-  EXPECT_EQ(read[0].clock, 0);
+  for (const int version : {1, 2}) {
+    reply.version = version;
+    CoilReplyReader reader;
+    const auto read = replies_in(reader, encode(reply));
+    ASSERT_EQ(read.size(), 1u);
+    EXPECT_EQ(read[0].version, version);
+    EXPECT_EQ(read[0].outputs, reply.outputs);
+    EXPECT_EQ(read[0].clock, 0);
+  }
 }
 
 TEST(CoilLink, NoFlippedBitIsTakenForAReply) {

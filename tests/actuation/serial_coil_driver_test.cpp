@@ -7,10 +7,13 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <stop_token>
 #include <string>
 #include <thread>
 
+#include "microswarm/actuation/coils/coil_controller.hpp"
+#include "microswarm/actuation/coils/coil_system.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/maths/angles.hpp"
 #include "tests/actuation/fake_device.hpp"
@@ -211,17 +214,43 @@ TEST(SerialCoilDriverPty, ADeviceThatReportsSomethingElseIsAFault) {
 }
 
 TEST(SerialCoilDriverPty, FormerFirmwareIsToldHowToRenewIt) {
-  test::FakeDevice device([](CoilReply& reply) {
-    reply.version = 1;
-    reply.result = CoilResult::wrong_version;
+  for (const int version : {1, 2}) {
+    test::FakeDevice device([&](CoilReply& reply) {
+      reply.version = version;
+      reply.result = CoilResult::wrong_version;
+      return true;
+    });
+    try {
+      SerialCoilDriver driver(params_of(device));
+      FAIL();
+    } catch (const HardwareError& e) {
+      EXPECT_TRUE(test::is_one_line_naming(
+          e.what(), device.port(), {"version " + std::to_string(version), "microswarm rig flash"}));
+    }
+  }
+}
+
+TEST(SerialCoilDriverPty, AProbeWarmsTheModelAndABrokenOneIsNamed) {
+  std::atomic<int> second = 715;  // [0.1 °C]
+  test::FakeDevice device([&, next = 0](CoilReply& reply) mutable {
+    reply.probe = static_cast<std::uint8_t>(next++ % coil_link_channels);
+    if (reply.probe == 0) reply.temperature = 180;
+    if (reply.probe == 1) reply.temperature = second;
     return true;
   });
-  try {
-    SerialCoilDriver driver(params_of(device));
-    FAIL();
-  } catch (const HardwareError& e) {
-    EXPECT_TRUE(test::is_one_line_naming(e.what(), device.port(), {"version 1", "make", "upload"}));
-  }
+  SerialCoilDriver driver(params_of(device));
+  const CoilSystem system = read_coil_system(std::filesystem::path(MICROSWARM_SOURCE_DIR) /
+                                             "scenarios/rigs/helmholtz.yaml");
+  CoilController controller(system, {}, driver, 0);
+  controller.command(Eigen::VectorXd(Eigen::Vector3d::Zero()));
+  for (int k = 0; k < 8; ++k) ASSERT_EQ(controller.advance(1e-3).status, DriveStatus::driven);
+  EXPECT_NEAR(controller.temperatures()[1], 71.5, 0.1);
+  EXPECT_GT(controller.temperatures()[0], 18.5);  // the model: a probe never cools it
+  EXPECT_EQ(controller.output().probe_trouble, "");
+  second = coil_link_probe_open;
+  for (int k = 0; k < 8; ++k) ASSERT_EQ(controller.advance(1e-3).status, DriveStatus::driven);
+  EXPECT_EQ(controller.output().probe_trouble, "the probe of channel 2 is open");
+  EXPECT_NEAR(controller.temperatures()[1], 71.5, 0.1);
 }
 
 TEST(SerialCoilDriverPty, AWaveformGoesOnByItselfAndTellsItsPhase) {

@@ -1,7 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Results that cannot be written: one line, exit code 2, and no part of a file is left behind.
+#include <fcntl.h>
+#include <sys/file.h>
+
+#include <stop_token>
+#include <thread>
+
 #include "inputs.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/execution/descriptor.hpp"
 #include "program.hpp"
+#include "support/cli.hpp"
 
 namespace microswarm::test {
 namespace {
@@ -32,6 +41,21 @@ TEST_F(Output, FullDisk) {
   refused(plan("full.png"), "full.png" + disk_full);
   refused({"map", "convert", "room.pgm", "--um-per-px", "5", "full.geojson"},
           "full.geojson" + disk_full);
+}
+
+// As `rig queue --status` and the lab do, again and again.
+TEST_F(Output, WhoLooksWhetherAFolderIsLockedKeepsNobodyOut) {
+  std::jthread looks([&](const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      const Descriptor folder = open_descriptor(at.folder, O_RDONLY | O_DIRECTORY);
+      ::flock(folder.get(), LOCK_SH | LOCK_NB);
+    }
+  });
+  for (int k = 0; k < 300; ++k) EXPECT_NO_THROW(cli::OutFolder{at.folder.string()}) << k;
+  looks.request_stop();
+  looks.join();
+  const cli::OutFolder first(at.folder.string());
+  EXPECT_THROW(cli::OutFolder{at.folder.string()}, InputError);
 }
 
 TEST_F(Output, DiskFullBeforeARecordIsWhole) {

@@ -111,6 +111,28 @@ TEST_F(RigQueue, ADriverThatHangsStopsItAndCallsAPerson) {
   EXPECT_EQ(states(), (Names{"done", "done", "done"}));
 }
 
+TEST_F(RigQueue, ARigThatIsEditedInTheNightStopsItForAPerson) {
+  const std::string rig = read("rig.yaml");
+  {
+    Program program(queue(), at);
+    let_drive("out/001-one-1");
+    write("rig.yaml", rig + "# a comment\n");
+    let_drive("out/002-two-1");
+    write("rig.yaml", rig + "delay_s: 0.1\n");
+    const Outcome outcome = program.wait();
+    EXPECT_EQ(outcome.code, 4) << outcome.err;
+    EXPECT_TRUE(names(outcome.err, "rig.yaml or its coils have changed since the queue began"))
+        << outcome.err;
+  }
+  EXPECT_EQ(states(), (Names{"done", "done", "waiting"}));
+  EXPECT_EQ(state().at("items")[2].at("attempts")[0].at("fault"), "person");
+  // A person who starts it again agrees, and is reminded.
+  const Outcome again = run(queue());
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_TRUE(names(again.err, "rig.yaml or its coils have changed since the queue ran"))
+      << again.err;
+}
+
 TEST_F(RigQueue, CtrlCEndsItAtZeroWithItsState) {
   Program program(queue(), at);
   let_drive("out/001-one-1");

@@ -2,6 +2,7 @@
 // `rig run` as a program that drives a device at a pseudo-terminal.
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <mutex>
 
 #include "driven_rig.hpp"
@@ -290,6 +291,26 @@ TEST_F(RigRun, CurrentsThatTheDeviceWeakensAreToldAsItHappens) {
   EXPECT_TRUE(terminal.hears("the device weakens the currents to")) << terminal.said();
   terminal.press("\x03");
   EXPECT_EQ(terminal.wait(), 3) << terminal.said();
+}
+
+TEST_F(RigRun, AProbeIsShownByTheCheckAndNamedWhenItBreaks) {
+  std::atomic<int> sets = 0;
+  FakeDevice device([&](actuation::CoilReply& reply) {
+    sets += reply.to == actuation::CoilMessage::set;
+    reply.probe = 1;
+    reply.temperature = sets < 100 ? 312 : actuation::coil_link_probe_open;
+    return true;
+  });
+  write_rig(device);
+  const Outcome check = run({"rig", "check", "rig.yaml", "--seconds", "0.2"});
+  EXPECT_TRUE(names(check.out, "y 31.2 °C")) << check.out;
+  sets = 0;
+  const Outcome outcome = run(arguments({"--seconds", "3"}));
+  EXPECT_EQ(outcome.code, 3) << outcome.err;
+  const std::string note = "the probe of channel 2 is open";
+  const std::size_t first = outcome.err.find(note);
+  EXPECT_NE(first, std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find(note, first + 1), std::string::npos) << outcome.err;
 }
 
 TEST_F(RigRun, CurrentsThatTheDeviceWeakensAgainAndAgainAreToldSeldom) {

@@ -3,15 +3,31 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <fstream>
 #include <iterator>
 #include <thread>
 
-#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/errors/write_error.hpp"
+#include "microswarm/core/text/durable_rename.hpp"
+
+namespace {
+
+std::atomic<int> flushed_folders = 0;
+
+}  // namespace
+
+/// In place of the C library's, to count.
+extern "C" int fsync(int file) {
+  struct stat status {};
+  if (::fstat(file, &status) == 0 && S_ISDIR(status.st_mode)) ++flushed_folders;
+  return static_cast<int>(::syscall(SYS_fsync, file));
+}
 
 namespace microswarm {
 namespace {
@@ -148,6 +164,28 @@ TEST(WriteFileAtomically, APipeWithoutAReaderIsRefusedAtOnce) {
   reader.join();
   EXPECT_EQ(got, bytes);
   ::unlink(path.c_str());
+}
+
+// Otherwise a power cut could undo the renaming.
+TEST_F(FileTest, TheFolderIsFlushedAfterAFileGotItsName) {
+  const int before = flushed_folders;
+  write_file_atomically(folder_ / "state.yaml", "one");
+  EXPECT_EQ(flushed_folders, before + 1);
+  EXPECT_TRUE(rename_durably(folder_ / "state.yaml", folder_ / "other.yaml"));
+  EXPECT_EQ(flushed_folders, before + 2);
+  EXPECT_EQ(read_file(folder_ / "other.yaml"), "one");
+  EXPECT_FALSE(rename_durably(folder_ / "state.yaml", folder_ / "other.yaml"));
+}
+
+TEST_F(FileTest, WhatCannotBeWrittenIsDistinguished) {
+  EXPECT_THROW(write_file_atomically(folder_ / "none/state.yaml", "one"), WriteError);
+  try {
+    read_file(folder_ / "none");
+    FAIL();
+  } catch (const WriteError&) {
+    FAIL() << "it was read";
+  } catch (const InputError&) {
+  }
 }
 
 TEST(ReadFile, APipeIsRefusedAtOnce) {

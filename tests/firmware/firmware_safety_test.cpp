@@ -1,75 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // What turns the outputs off and what keeps them on, message by message.
-#include <poll.h>
-
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 
 #include "microswarm/actuation/coils/coil_controller.hpp"
 #include "microswarm/actuation/coils/coil_system.hpp"
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/infinity.hpp"
 #include "tests/files.hpp"
+#include "tests/firmware/raw_line.hpp"
 #include "tests/firmware/simulator.hpp"
+#include "tests/firmware/turning_field.hpp"
 
 namespace microswarm {
 namespace {
 
 using namespace std::chrono_literals;
 using namespace test;
-
-/// The serial line without the driver's own care.
-class RawLine {
- public:
-  explicit RawLine(const std::string& port) : line_(open(port.c_str(), O_RDWR | O_NOCTTY)) {
-    EXPECT_GE(line_, 0);
-    const auto started = next();
-    EXPECT_TRUE(started && started->to == actuation::CoilMessage::started);
-    if (started) last = *started;
-  }
-  ~RawLine() { close(line_); }
-  RawLine(const RawLine&) = delete;
-  RawLine& operator=(const RawLine&) = delete;
-
-  /// The answer to these bytes.
-  actuation::CoilReply ask(const std::vector<std::uint8_t>& bytes) {
-    EXPECT_EQ(write(line_, bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
-    const auto reply = next();
-    EXPECT_TRUE(reply);
-    return last = reply.value_or(actuation::CoilReply{});
-  }
-  actuation::CoilReply hello() { return ask(actuation::encode_hello(++sequence)); }
-  actuation::CoilReply arm() {
-    return ask(actuation::encode(actuation::CoilMessage::arm, ++sequence));
-  }
-  actuation::CoilReply status() {
-    return ask(actuation::encode(actuation::CoilMessage::status, ++sequence));
-  }
-  /// With a deadline so many ms after the last answer.
-  actuation::CoilReply set(const actuation::CoilOutputs& outputs, int ms = 1000) {
-    return ask(actuation::encode_set(++sequence, last.clock + ms, outputs));
-  }
-
-  actuation::CoilReply last;
-  std::uint8_t sequence = 0;
-
- private:
-  std::optional<actuation::CoilReply> next() {
-    for (const auto began = std::chrono::steady_clock::now();
-         std::chrono::steady_clock::now() < began + patience;) {
-      pollfd ready{line_, POLLIN, 0};
-      std::uint8_t byte = 0;
-      if (poll(&ready, 1, 100) <= 0 || read(line_, &byte, 1) != 1) continue;
-      if (auto reply = reader_.take(byte)) return reply;
-    }
-    return std::nullopt;
-  }
-
-  int line_;
-  actuation::CoilReplyReader reader_;
-};
 
 class FirmwareSafety : public testing::Test {
  protected:
@@ -175,66 +123,7 @@ TEST_F(FirmwareSafety, TellsWhyItRestarted) {
   EXPECT_EQ(line.status().reset_cause, 4);
 }
 
-/// A line of the simulator's trace: the cycle of a change, and the outputs.
-struct Moment {
-  double t = 0;  // [s]
-  double x = 0, y = 0, z = 0;
-};
-std::vector<Moment> read_trace(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  std::vector<Moment> all;
-  double cycle = 0, x = 0, y = 0, z = 0, rest = 0;
-  while (in >> cycle >> x >> y >> z >> rest >> rest >> rest) all.push_back({cycle / 16e6, x, y, z});
-  return all;
-}
-
-// A field that rotates at 100 Hz, on two channels, beside a constant on a third.
-TEST_F(FirmwareSafety, MakesAWaveformWithoutTheHost) {
-  const Folder folder;
-  RawLine line(mega.port());
-  actuation::CoilAim aim{.frequency = 100'000, .constant = {0, 0, 250, 0, 0, 0}};
-  aim.cosine[0] = 800;
-  aim.sine[1] = 800;
-  const auto send = [&] {
-    return line.ask(actuation::encode_waveform(++line.sequence, line.last.clock + 1000, 0, aim))
-        .result;
-  };
-  line.arm();
-  ASSERT_EQ(send(), actuation::CoilResult::ok);
-  std::this_thread::sleep_for(50ms);
-  mega.order("trace " + (folder / "trace").string());
-  for (int k = 0; k < 10; ++k) {
-    EXPECT_EQ(send(), actuation::CoilResult::ok);
-    std::this_thread::sleep_for(20ms);
-  }
-  mega.order("trace");
-  // The channels change one after the other: of each tick the last line has them all.
-  std::vector<Moment> ticks;
-  for (const Moment& m : read_trace(folder / "trace"))
-    if (!ticks.empty() && m.t - ticks.back().t < 100e-6)
-      ticks.back() = m;
-    else
-      ticks.push_back(m);
-  ASSERT_GT(ticks.size(), 300u);
-  double before = std::atan2(ticks[1].y, ticks[1].x);
-  double turned = 0, worst_step = 0;
-  for (std::size_t k = 2; k + 1 < ticks.size(); ++k) {
-    EXPECT_NEAR(std::hypot(ticks[k].x, ticks[k].y), 800, 12) << k;
-    EXPECT_NEAR(ticks[k].z, 250, 2);
-    const double angle = std::atan2(ticks[k].y, ticks[k].x);
-    const double step = std::remainder(angle - before, 2 * pi);
-    const double expected = 2 * pi * 100 * (ticks[k].t - ticks[k - 1].t);
-    worst_step = std::max(worst_step, std::abs(step - expected));
-    turned += step;
-    before = angle;
-  }
-  const double seconds = ticks[ticks.size() - 2].t - ticks[1].t;
-  EXPECT_NEAR(turned / (2 * pi) / seconds, 100, 0.5);
-  EXPECT_LT(worst_step, 0.1);  // [rad]
-  std::printf("%.3f Hz, worst step %.4f rad off, %zu ticks in %.3f s\n",
-              turned / (2 * pi) / seconds, worst_step, ticks.size(), seconds);
-  EXPECT_TRUE(mega.when(off));  // by silence
-}
+TEST_F(FirmwareSafety, MakesAWaveformWithoutTheHost) { expect_waveform(mega); }
 
 // The whole way: a heading and a speed become a waveform of the device, whose field keeps turning
 // at 100 Hz while the host tells it 50 times a second.

@@ -5,9 +5,10 @@
 // MS o1 … o6` whenever an output changes (per mille, by the pins' registers), `enable 0` or `enable
 // 1`. Takes lines: `cut`, `join` (the cable), `lose P` and `flip P` (a share of the bytes to the
 // device), `mute` (the device is heard no more), `reset`, `brownout`, `press`, `release` (the
-// emergency stop), `trace FILE` (writes the cycle of each change of an output, and the outputs),
-// `mark`; answers each with `mark MS`. MS is the device's own time, which stands still while the
-// computer has other work. Ends with its standard input.
+// emergency stop), `probe N OHMS OHMS` (of the probe at analog input N, at one reading and the
+// next), `supply VOLTS`, `trace FILE` (writes the cycle of each change of an output, and the
+// outputs), `mark`; answers each with `mark MS`. MS is the device's own time, which stands still
+// while the computer has other work. Ends with its standard input.
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <poll.h>
@@ -18,7 +19,9 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <deque>
 #include <sstream>
 #include <string>
@@ -27,6 +30,7 @@
 #include "microswarm/core/maths/rng.hpp"
 
 extern "C" {
+#include <simavr/avr_adc.h>
 #include <simavr/avr_ioport.h>
 #include <simavr/avr_uart.h>
 #include <simavr/sim_avr.h>
@@ -82,6 +86,9 @@ class Mega {
       avr_load_firmware(avr_, &elf);
     avr_->codeend = avr_->flashend;
     if (bootloader) load(bootloader);
+    set_supply(5);
+    avr_irq_register_notify(avr_io_getirq(avr_, AVR_IOCTL_ADC_GETIRQ, ADC_IRQ_OUT_TRIGGER),
+                            on_conversion, this);
     avr_->sleep = [](avr_t*, avr_cycle_count_t) {};  // run() keeps the time
     std::uint32_t flags = 0;
     avr_ioctl(avr_, AVR_IOCTL_UART_GET_FLAGS('0'), &flags);
@@ -169,6 +176,28 @@ class Mega {
     contact.value = pressed_ ? pin : 0;
     avr_ioctl(avr_, AVR_IOCTL_IOPORT_SET_EXTERNAL('C'), &contact);
     avr_raise_irq(contact_, pressed_);
+  }
+
+  void set_supply(double volts) {
+    supply_ = volts;
+    avr_->vcc = avr_->avcc = avr_->aref = static_cast<std::uint32_t>(std::lround(1e3 * volts));
+  }
+
+  static void on_conversion(avr_irq_t*, std::uint32_t mux, void* self) {
+    static_cast<Mega*>(self)->convert(mux);
+  }
+  // A conversion begins: the input's voltage by the divider of probe and resistor.
+  void convert(std::uint32_t mux) {
+    constexpr double resistor = 2200;  // [Ω] of the firmware's PROBE_OHMS
+    avr_adc_mux_t input{};
+    std::memcpy(&input, &mux, sizeof mux);
+    const auto n = static_cast<std::size_t>(input.src);
+    if (n >= probes_.size()) return;
+    Probe& probe = probes_[n];
+    const double ohms = probe.ohms[probe.conversions++ % 2];
+    const double millivolts = 1e3 * supply_ * ohms / (resistor + ohms);
+    avr_raise_irq(avr_io_getirq(avr_, AVR_IOCTL_ADC_GETIRQ, static_cast<int>(n)),
+                  static_cast<std::uint32_t>(std::lround(millivolts)));
   }
 
   // After each instruction, so that times are exact.
@@ -261,6 +290,16 @@ class Mega {
       pressed_ = order == "press";
       set_contact();
     }
+    if (order == "supply") {
+      double volts = 5;
+      words >> volts;
+      set_supply(volts);
+    }
+    if (order == "probe") {
+      std::size_t n = 0;
+      words >> n;
+      if (n < probes_.size()) words >> probes_[n].ohms[0] >> probes_[n].ohms[1];
+    }
     if (order == "trace") {
       std::string file;
       if (trace_) std::fclose(trace_);
@@ -276,6 +315,12 @@ class Mega {
   bool room_ = true, cut_ = false, open_ = false, mute_ = false;
   bool pressed_ = false, enabled_ = false;
   avr_irq_t* contact_ = nullptr;
+  struct Probe {
+    std::array<double, 2> ohms{1e9, 1e9};  // open
+    unsigned conversions = 0;
+  };
+  std::array<Probe, 6> probes_;
+  double supply_ = 5;  // [V]
   std::FILE* trace_ = nullptr;
   Outputs traced_{};
   double lost_ = 0, flipped_ = 0;

@@ -122,6 +122,8 @@ TEST_F(LabRig, TheRecordSoFarIsKeptWhileItDrives) {
   ServerOptions options = with_rig();
   const test::Folder folder;
   options.opening->live->out = folder / "runs";
+  std::vector<std::string> faults;
+  options.opening->live->ended = [&](const std::string& fault) { faults.push_back(fault); };
   lab.emplace(options);
   session = open(*lab, Json::object());
   TestPage page(*lab, session);
@@ -133,7 +135,12 @@ TEST_F(LabRig, TheRecordSoFarIsKeptWhileItDrives) {
   page.does({{"do", "stop"}});
   rig_in(page, "ended");
   EXPECT_FALSE(fs::exists(runs / "run.part.h5"));
-  EXPECT_GT(experiment::read_record(runs / "run.h5").frames.size(), 10u);
+  const experiment::Record record = experiment::read_record(runs / "run.h5");
+  EXPECT_GT(record.frames.size(), 10u);
+  // Who presses STOP ends it; that is no fault.
+  EXPECT_EQ(record.result.status, Status::stopped);
+  EXPECT_EQ(faults, std::vector<std::string>{""});
+  EXPECT_EQ(page.latest["rig"]["why"], "a page stopped it");
 }
 
 TEST_F(LabRig, SteersByHand) {
@@ -237,7 +244,7 @@ TEST_F(LabRig, DownloadsWaitForTheEndOfARunThatDrives) {
   const Reply reply = get(*lab, record);
   ASSERT_EQ(reply.result(), http::status::ok);
   EXPECT_EQ(experiment::read_record(lab->folder.with("run.h5", reply.body())).result.status,
-            Status::fault);
+            Status::stopped);
 }
 
 TEST_F(LabRig, OneRigIsOneSession) { EXPECT_EQ(open(*lab, Json::object()), session); }

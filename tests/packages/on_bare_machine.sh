@@ -45,6 +45,9 @@ step "pictures and videos, which a module reads and writes"
 microswarm report first/run.h5 --video first/run.mp4 --to 2
 ls -l first/run.mp4
 
+step "firmware"
+ls /usr/share/microswarm/firmware/coil_driver/Makefile
+
 step "completion"
 "$project/tests/packages/completion_test.sh" microswarm /usr/share/bash-completion/completions/microswarm \
   /usr/share/zsh/vendor-completions/_microswarm

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <thread>
+
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "tests/files.hpp"
@@ -83,6 +85,17 @@ TEST_F(CommissioningRecord, MayBeRequired) {
       << issues.begin()->text;
   for (const Quantity what : {Quantity::angle, Quantity::delay, Quantity::step_out}) measure(what);
   EXPECT_TRUE(missing_commissioning(strict, commissioning_state(strict)).empty());
+}
+
+TEST_F(CommissioningRecord, TwoProgramsThatAddAtOnceLoseNothing) {
+  const auto add = [&](Quantity what) {
+    for (int k = 0; k < 30; ++k)
+      add_to_commissioning(file, {commissioning_entry(what, "1", "ann", "x")});
+  };
+  std::thread other([&] { add(Quantity::gain); });
+  add(Quantity::delay);
+  other.join();
+  EXPECT_EQ(read_commissioning(file).entries.size(), 60u);
 }
 
 TEST_F(CommissioningRecord, DamagedItIsRefusedAndKept) {

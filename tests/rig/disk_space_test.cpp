@@ -33,6 +33,16 @@ TEST(DiskSpace, OfALogIsNotUnderestimatedAndNotByFar) {
   EXPECT_LT(needed_space(rig, 0.1, 10), 5 * written);
 }
 
+// An hour before the end of a long run its first hours are on the disk already.
+TEST(DiskSpace, WhatIsWrittenIsNotNeededAgain) {
+  const test::Folder folder;
+  const Rig rig = test::coil_rig(folder, "[{}, {}, {}]");
+  const double all = needed_space(rig, 0.1, 36'000);
+  const double rest = needed_space(rig, 0.1, 36'000, 32'400);
+  EXPECT_LT(rest, 0.7 * all);
+  EXPECT_GT(rest, needed_space(rig, 0.1, 3'600));  // the whole record is written once more
+}
+
 TEST(DiskSpace, OfALongRunMustBeThere) {
   EXPECT_NO_THROW(require_space("out", 1e9, 6e8));
   try {

@@ -9,6 +9,7 @@
 #include <cstdio>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/errors/write_error.hpp"
 #include "microswarm/core/execution/priority.hpp"
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/rig/runtime/live_rig.hpp"
@@ -229,7 +230,7 @@ TEST_F(LiveRigs, ALogThatCannotBeWrittenEndsIt) {
   int moments = 0;
   LiveRig plant(s, world.map, *rig, simulator.camera(40), simulator.view().scale, simulator.coils(),
                 {.coils = [&](const CoilMoment&) {
-                  if (++moments > 50) throw InputError("commands.csv: cannot write: disk full");
+                  if (++moments > 50) throw WriteError("commands.csv: cannot write: disk full");
                 }});
   const auto navigator = navigation::make_navigator(s.navigator, experiment::navigation_task(s),
                                                     Rng(1, Purpose::planner, 0));

@@ -327,6 +327,51 @@ TEST_F(QueueTest, AnInterruptedRunIsTriedAgainButNotForEver) {
   EXPECT_EQ(ran.back(), "002-b-1");
 }
 
+TEST_F(QueueTest, CommentsInTheRigsFileDoNotChangeIt) {
+  const auto hash = [&](const Settings& settings = {}) {
+    return rig_hash(read_rig(folder / "rig.yaml", settings));
+  };
+  const std::string before = hash();
+  folder.with("rig.yaml", "# bench 2\ncoils:   coils.yaml\n");
+  EXPECT_EQ(hash(), before);
+  EXPECT_NE(hash({std::vector<std::string>{"delay_s=0.1"}, "--set-rig"}), before);
+  folder.with("coils.yaml",
+              "coils: {type: helmholtz}\ndrives:\n  - {thermal_resistance_k_per_w: 2.4, "
+              "thermal_time_s: 400, max_current_a: 10, max_temperature_degc: 90}\n");
+  EXPECT_NE(hash(), before);
+}
+
+TEST_F(QueueTest, AChangedRigIsToldWhenTheQueueGoesOn) {
+  const std::string text = "entries: [{scenario: a.yaml}, {scenario: b.yaml}]\n";
+  results["b"] = {faulty(FaultKind::device)};
+  EXPECT_EQ(run(open(text)), QueueEnd::needs_person);
+  const std::string before = state().rig_hash;
+  EXPECT_EQ(before, rig_hash(read_rig(folder / "rig.yaml")));
+  told.clear();
+  folder.with("rig.yaml", "coils: coils.yaml\ndelay_s: 0.2\n");
+  EXPECT_EQ(run(open(text)), QueueEnd::complete);
+  EXPECT_TRUE(test::names(told.front(), "rig.yaml or its coils have changed")) << told.front();
+  EXPECT_NE(state().rig_hash, before);
+  EXPECT_EQ(ran, (Names{"001-a-1", "002-b-1", "002-b-1-attempt2"}));
+}
+
+TEST_F(QueueTest, AReasonIsToldOnce) {
+  const auto count = [&](const std::string& part) {
+    return std::ranges::count_if(told, [&](const auto& line) { return test::names(line, part); });
+  };
+  results["a"] = {{.end = AttemptEnd::refused, .reason = "the map is of another chip"}};
+  results["b"] = {faulty(FaultKind::swarm, "the swarm was lost")};
+  results["c"] = {faulty(FaultKind::device, "the device is gone")};
+  EXPECT_EQ(run(open("entries: [{scenario: a.yaml}, {scenario: b.yaml}, {scenario: c.yaml}]\n")),
+            QueueEnd::needs_person);
+  for (const char* reason :
+       {"the map is of another chip", "the swarm was lost", "the device is gone"})
+    EXPECT_EQ(count(reason), 1) << reason;
+  EXPECT_EQ(count("001-a-1: has failed; the queue goes on"), 1);
+  EXPECT_EQ(count("the queue has stopped for a person"), 1);
+  EXPECT_EQ(alarms.size(), 3u);
+}
+
 TEST_F(QueueTest, AChangedScenarioIsRunAnew) {
   const std::string text = "entries: [{scenario: a.yaml}, {scenario: b.yaml}]\n";
   EXPECT_EQ(run(open(text)), QueueEnd::complete);

@@ -41,11 +41,11 @@ class AnsweringDriver : public actuation::CoilDriver {
 
   std::size_t given = 0;
   std::atomic<bool> enough = false;
+  actuation::DeviceReport report_{.currents = std::vector<double>(6)};
 
  private:
   std::vector<actuation::DriveStatus> answers_;
   bool stops_;
-  actuation::DeviceReport report_{.currents = std::vector<double>(6)};
 };
 
 class RigChecks : public testing::Test {
@@ -73,8 +73,12 @@ class RigChecks : public testing::Test {
       return text;
     }
   };
-  Driven exchange(std::vector<actuation::DriveStatus> answers, bool stops = true) const {
+  Driven exchange(std::vector<actuation::DriveStatus> answers, bool stops = true,
+                  const std::vector<double>& temperatures = {},
+                  const std::string& probe_trouble = "") const {
     AnsweringDriver driver(std::move(answers), stops);
+    driver.report_.temperatures = temperatures;
+    driver.report_.probe_trouble = probe_trouble;
     Driven out;
     const Rig rig = test::coil_rig(folder, limited, {"drive_rate_hz=10000"});
     out.checks = check_driver(driver, rig, 1e6, Stop(&driver.enough));
@@ -154,6 +158,18 @@ TEST_F(RigChecks, ADriverThatAnswersIsGood) {
   EXPECT_TRUE(all.good("driver"));
   EXPECT_TRUE(all.good("stop"));
   EXPECT_TRUE(test::names(all.answer("driver"), "3")) << all.answer("driver");
+}
+
+TEST_F(RigChecks, ProbesAreShownAndABrokenOneIsNamed) {
+  EXPECT_EQ(exchange({driven}).answer("probes"), "");
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const Driven well = exchange({driven}, true, {21.04, none, 23, none, none, none});
+  EXPECT_TRUE(well.good("probes"));
+  EXPECT_EQ(well.answer("probes"), "x 21.0 °C, y none, z 23.0 °C\n");
+  const Driven broken = exchange({driven}, true, {21, none, 23}, "the probe of channel 2 is open");
+  EXPECT_FALSE(broken.good("probes"));
+  EXPECT_FALSE(broken.refused("probes"));
+  EXPECT_EQ(broken.answer("probes"), "the probe of channel 2 is open\n");
 }
 
 // A run ends at the third.

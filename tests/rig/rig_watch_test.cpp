@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <optional>
+#include <vector>
 
 #include "microswarm/navigation/make.hpp"
 #include "microswarm/rig/simulation/simulated_rig.hpp"
@@ -168,7 +170,7 @@ TEST(RigWatch, ASwarmThatIsOftenUnseenIsToldAndAFault) {
   for (int k = 0; k < 100; ++k) most.take(k % 5 < 2, 0.1 * k);
   EXPECT_NE(most.fault().find("allowed 50 %"), std::string::npos);
   SafetyParams patient{.lost_swarm = 20};
-  RigWatch watch(patient);
+  RigWatch watch(patient, 0);
   const formats::Image grey{16, 16, 1, std::vector<std::uint8_t>(256, 100)};
   for (int k = 0; k < 150; ++k) watch.take(grey, {}, {{}, 16, 16}, 0.1 * k);
   EXPECT_EQ(watch.fault(), "") << "longer than the longest time without the swarm";
@@ -187,7 +189,7 @@ TEST(RigWatch, LightAndSharpnessEndARun) {
   const CameraView view{{}, 16, 16};
   const Detections seen{.swarm = SwarmPose{}};
   const auto fault = [&](int level, double contrast) {
-    RigWatch watch(SafetyParams{});
+    RigWatch watch(SafetyParams{}, 0);
     for (int k = 0; k < 50; ++k) {
       watch.take(grey(k < 10 ? 100 : level), seen, view, 0.1 * k);
       if (k % 10 != 0) continue;
@@ -201,6 +203,49 @@ TEST(RigWatch, LightAndSharpnessEndARun) {
   EXPECT_EQ(fault(60, 0.6 * 30), "") << "contrast relative to the light";
   EXPECT_NE(fault(40, 0.4 * 30).find("the light is 40 %"), std::string::npos);
   EXPECT_NE(fault(100, 10).find("the sharpness of the walls is 33 %"), std::string::npos);
+}
+
+TEST(RigWatch, TheLowestSharpnessIsOfWhatWasWatched) {
+  RigWatch watch(SafetyParams{}, 0);
+  const auto look = [&](bool by_walls, double contrast, double detail, double t) {
+    PictureFit fit = fit_of(0);
+    fit.by_walls = by_walls;
+    fit.contrast = contrast;
+    watch.take({fit, detail}, t);
+  };
+  look(true, 30, 10, 0);
+  look(true, 24, 5, 1);  // what moves hides details; the walls are watched
+  EXPECT_NEAR(watch.state().lowest_focus, 0.8, 1e-9);
+  look(false, 30, 9, 2);
+  EXPECT_NEAR(*watch.state().focus, 0.9, 1e-9);
+  EXPECT_NEAR(watch.state().lowest_focus, 0.8, 1e-9);
+}
+
+/// Time at which pictures that show nothing new at the swarm are a fault [s]; `rests` so long
+/// before `commanded` px a picture, then as `back` says. Pictures come ten times a second.
+std::optional<double> frozen_at(double delay, double rests, Vec2 commanded, bool back) {
+  FrozenSwarm frozen(0.8, delay);
+  const formats::Image grey{64, 64, 1, std::vector<std::uint8_t>(64 * 64, 100)};
+  const std::vector<vision::Ring> swarm{{{32, 32}, 10}};
+  for (int k = 0; k < 100; ++k) {
+    const double t = 0.1 * k;
+    const Vec2 way = back && k % 2 == 1 ? -1.0 * commanded : commanded;
+    frozen.take(grey, swarm, t > rests ? way : Vec2{}, t);
+    if (!frozen.fault().empty()) return t;
+  }
+  return std::nullopt;
+}
+
+TEST(RigWatch, ASwarmThatAnswersLateIsNotFrozen) {
+  EXPECT_NEAR(frozen_at(0, 0, {2, 0}, false).value_or(0), 0.8, 0.11);
+  EXPECT_NEAR(frozen_at(0.7, 0, {2, 0}, false).value_or(0), 1.5, 0.11);
+  // A swarm that rested has all of this time from its first command on.
+  EXPECT_NEAR(frozen_at(0, 3, {2, 0}, false).value_or(0), 3.8, 0.11);
+  EXPECT_NEAR(frozen_at(0.7, 3, {2, 0}, false).value_or(0), 4.5, 0.11);
+}
+
+TEST(RigWatch, ASwarmThatIsHeldToAndFroIsNotFrozen) {
+  EXPECT_EQ(frozen_at(0, 0, {2, 0}, true), std::nullopt);
 }
 
 TEST(RigWatch, TwoLooksBeyondTheLimitAreAFault) {

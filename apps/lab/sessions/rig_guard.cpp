@@ -26,11 +26,11 @@ bool RigGuard::hears() const {
   return Clock::now() < heard_ + patience;
 }
 
-void RigGuard::stop(const std::string& why) {
+void RigGuard::stop(const std::string& why, rig::FaultKind kind) {
   const std::lock_guard lock(mutex_);
   ++stops_;
   if (!session_) return;
-  why_ = why;
+  why_ = {why, kind};
   changed_.notify_all();
 }
 
@@ -44,7 +44,7 @@ void RigGuard::watch(std::shared_ptr<rig::LiveSession> session, bool listens, st
   session_ = std::move(session);
   listens_ = listens;
   if (listens) heard_ = Clock::now();  // no current was sent so far
-  if (stops_ != stops) why_ = "it was stopped while it was opened";
+  if (stops_ != stops) why_ = {"it was stopped while it was opened", rig::FaultKind::person};
   changed_.notify_all();
 }
 
@@ -52,25 +52,26 @@ void RigGuard::release() {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return !is_stopping_; });
   session_.reset();
-  why_.clear();
+  why_ = {};
   listens_ = false;
 }
 
 void RigGuard::run() {
   std::unique_lock lock(mutex_);
   while (!ends_) {
-    if (session_ && why_.empty() && listens_ && Clock::now() >= heard_ + patience) {
+    if (session_ && why_.why.empty() && listens_ && Clock::now() >= heard_ + patience) {
       ++stops_;
-      why_ = fmt::format("no word from the page for {:.1f} s",
-                         std::chrono::duration<double>(patience).count());
+      why_ = {fmt::format("no word from the page for {:.1f} s",
+                          std::chrono::duration<double>(patience).count()),
+              rig::FaultKind::person};
     }
-    if (session_ && !why_.empty()) {
+    if (session_ && !why_.why.empty()) {
       auto session = session_;
-      const std::string why = std::exchange(why_, {});
+      const rig::Fault why = std::exchange(why_, {});
       listens_ = false;
       is_stopping_ = true;
       lock.unlock();
-      session->stop(why);
+      session->stop(why.why, why.kind);
       session.reset();  // not the last owner of its devices
       lock.lock();
       is_stopping_ = false;

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "microswarm/rig/session/live_session.hpp"
+#include "microswarm/rig/watch/fault.hpp"
 
 namespace microswarm::lab {
 
@@ -32,7 +33,7 @@ class RigGuard {
   /// Whether the last sign of life is recent.
   bool hears() const;
   /// Sets the coils to zero, also of a session that is still being opened.
-  void stop(const std::string& why);
+  void stop(const std::string& why, rig::FaultKind kind = rig::FaultKind::person);
   /// Number of stop requests so far.
   std::uint64_t stops() const;
   /// Guards a session whose opening began after `stops` stop requests; a later one stops it. With
@@ -51,7 +52,7 @@ class RigGuard {
   bool is_stopping_ = false;
   bool ends_ = false;
   std::uint64_t stops_ = 0;
-  std::string why_;  ///< reason of a pending stop
+  rig::Fault why_;  ///< of a pending stop
   Clock::time_point heard_{};
   std::thread thread_;
 };

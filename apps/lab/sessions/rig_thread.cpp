@@ -20,6 +20,7 @@ using namespace std::chrono_literals;
 
 constexpr auto rig_period = 100ms;
 constexpr const char* record_name = "run.h5";
+constexpr const char* stopped_by_page = "a page stopped it";
 
 /// Relaxes limits for a dry run, so that it continues while light and focus are adjusted.
 void be_patient(rig::SafetyParams& safety) {
@@ -42,6 +43,7 @@ RigThread::~RigThread() { finish(); }
 
 void RigThread::end() {
   Host::end();  // first: what is stopped by this has no fault
+  halted_ = true;
   guard_.stop("the session was closed");
 }
 
@@ -81,7 +83,10 @@ void RigThread::ask(std::uint64_t page, Request request) {
     if (has_controls(page)) guard_.beat();
     return;
   }
-  if (request.ask == Ask::stop) guard_.stop("a page stopped it");
+  if (request.ask == Ask::stop) {
+    halted_ = true;
+    guard_.stop(stopped_by_page, rig::FaultKind::none);
+  }
   if (request.ask == Ask::control) {
     const std::lock_guard lock(seats_mutex_);
     if (holder_ == 0) holder_ = page;
@@ -134,6 +139,7 @@ void RigThread::begin_run(bool dry, std::uint64_t stops) {
   standing_ = {.state = RigState::opening, .folder = options.folder.string()};
   tell_rig();
   drives_ = !dry;
+  halted_ = false;
   live_ = std::make_shared<rig::LiveSession>(on, options);
   if (!dry) *opening_.live->coils_cold = false;  // said once, of the coils as they were then
   guard_.watch(live_, !dry, stops);
@@ -185,7 +191,7 @@ void RigThread::serve() {
 }
 
 void RigThread::step() {
-  const experiment::Tick* tick = live_->session().step(Stop(&ends_));
+  const experiment::Tick* tick = live_->session().step(Stop(&halted_));
   if (tick) publisher_.take(*tick);
   if (const std::vector<std::string> notes = live_->take_notes(); !notes.empty()) {
     publisher_.standing.trouble = fmt::format("{}", fmt::join(notes, "; "));
@@ -208,7 +214,9 @@ void RigThread::end_run(const std::string& failure) {
   standing_.state = RigState::ended;
   std::string lost = live_->close();
   drives_ = false;
-  if (standing_.why.empty()) standing_.why = to_string(live_->session().result().status);
+  if (standing_.why.empty())
+    standing_.why =
+        halted_ && !ends_ ? stopped_by_page : to_string(live_->session().result().status);
   if (drove) {
     standing_.zero = live_->stop("the run has ended");
     const bool is_closed = ends_ && failure.empty() && standing_.zero->good();

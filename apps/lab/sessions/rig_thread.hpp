@@ -55,6 +55,7 @@ class RigThread : public Host {
   std::set<std::uint64_t> seats_;     ///< numbers of the pages; guarded
   std::uint64_t holder_ = 0;          ///< page with the controls; guarded
   std::atomic<bool> drives_ = false;  ///< whether the coils are or will soon be driven
+  std::atomic<bool> halted_ = false;  ///< whether a page stopped the run
 
   // State of the session's thread.
   std::shared_ptr<rig::LiveSession> live_;

@@ -180,6 +180,7 @@ void add_rig(Command app, Action& action) {
   add_rig_scale(rig, action);
   add_rig_see(rig, action);
   add_rig_still(rig, action);
+  add_rig_flash(rig, action);
   add_rig_check(rig, action);
   add_rig_drive(rig, action);
   add_rig_simulate(rig, action);

@@ -39,6 +39,8 @@ void add_rig_cameras(Command rig, Action& action);
 void add_rig_check(Command rig, Action& action);
 /// Adds `rig drive`.
 void add_rig_drive(Command rig, Action& action);
+/// Adds `rig flash`.
+void add_rig_flash(Command rig, Action& action);
 /// Adds `rig identify`.
 void add_rig_identify(Command rig, Action& action);
 /// Adds `rig simulate`.

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "microswarm/config/write.hpp"
+#include "microswarm/core/errors/write_error.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/rig/queue/run_queue.hpp"
 #include "microswarm/rig/runtime/disk_space.hpp"
@@ -48,9 +49,13 @@ double wall_seconds() {
 /// The runs of a queue in this process.
 class QueueRuns {
  public:
-  QueueRuns(const RigQueueOptions& o, QueueProgress& progress, ServiceManager& service,
-            const Context& context)
-      : o_(o), progress_(progress), service_(service), context_(context) {}
+  QueueRuns(const RigQueueOptions& o, const rig::Rig& rig, QueueProgress& progress,
+            ServiceManager& service, const Context& context)
+      : o_(o),
+        rig_hash_(rig::rig_hash(rig)),
+        progress_(progress),
+        service_(service),
+        context_(context) {}
 
   rig::AttemptResult run(const rig::QueueItem& item, const fs::path& folder) {
     progress_.begin_run();
@@ -59,9 +64,11 @@ class QueueRuns {
       return drive(item, folder);
     } catch (const HardwareError& error) {
       return failed(rig::FaultKind::device, error.what());
+    } catch (const WriteError& error) {
+      return failed(rig::FaultKind::disk, error.what());
     } catch (const InputError& error) {
-      // Before the end it says why the run was refused, after it why the record is not written.
-      if (ended_) return failed(rig::FaultKind::disk, error.what());
+      // Before the end it says why the run was refused, after it what the program cannot do.
+      if (ended_) return failed(rig::FaultKind::computer, error.what());
       return {.end = rig::AttemptEnd::refused, .reason = error.what()};
     } catch (const std::exception& error) {
       return failed(rig::FaultKind::device, error.what());
@@ -73,7 +80,21 @@ class QueueRuns {
     return {.end = rig::AttemptEnd::fault, .fault = kind, .reason = why};
   }
 
+  /// Why the rig is no longer that of the queue's start, which all scenarios were opened with.
+  std::string changed_rig() const {
+    const std::string look = "look at the rig, and start the queue again";
+    try {
+      if (rig::rig_hash(rig::read_rig(o_.rig, o_.settings())) == rig_hash_) return {};
+    } catch (const InputError& error) {
+      return fmt::format("the rig's file has changed since the queue began: {}: {}", error.what(),
+                         look);
+    }
+    return fmt::format("{} or its coils have changed since the queue began: {}", o_.rig, look);
+  }
+
   rig::AttemptResult drive(const rig::QueueItem& item, const fs::path& folder) {
+    if (const std::string why = changed_rig(); !why.empty())
+      return failed(rig::FaultKind::person, why);
     const rig::RigExperiment on = rig::open_item(item, o_.rig, o_.settings());
     if (on.experiment.scene.hash() != item.hash)
       throw InputError(item.scenario.string(), "has changed since the queue began");
@@ -117,6 +138,7 @@ class QueueRuns {
   }
 
   const RigQueueOptions& o_;
+  const std::string rig_hash_;  // at the queue's start
   QueueProgress& progress_;
   ServiceManager& service_;
   const Context& context_;
@@ -169,7 +191,7 @@ int rig_queue(const RigQueueOptions& o, const Context& context) {
   rig::QueueEnd end{};
   {
     QueueProgress progress(service, context);
-    QueueRuns runs(o, progress, service, context);
+    QueueRuns runs(o, rig, progress, service, context);
     const rig::QueueHost host{
         .run = [&](const auto& item, const auto& folder) { return runs.run(item, folder); },
         .temperatures =
@@ -187,13 +209,13 @@ int rig_queue(const RigQueueOptions& o, const Context& context) {
         .doing = [&](const std::string& doing) { progress.show(doing); },
         .alarm =
             [&](const std::string& why, const fs::path& record) {
-              note("microswarm: {}\n", why);
               if (!o.dry_run) command.start(rig, why, record);
             }};
     rig::read_queue_state(o.out);  // a damaged one is bad input, one that cannot be written is not
     try {
       end = rig::run_queue(queue, rig, o.rig, o.out, host);
     } catch (const InputError& error) {
+      note("microswarm: {}; the queue has stopped\n", error.what());
       host.alarm(std::string(error.what()) + "; the queue has stopped", {});
       end = rig::QueueEnd::needs_person;
     }

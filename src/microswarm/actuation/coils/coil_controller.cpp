@@ -92,6 +92,7 @@ void CoilController::mind_probes() {
     is_warmer = true;
   }
   if (is_warmer) amplifiers_.warm(temperatures);
+  output_.probe_trouble = driver_.report().probe_trouble;
 }
 
 /// Whether the device turns the setpoint's field.

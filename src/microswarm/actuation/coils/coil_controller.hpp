@@ -23,6 +23,7 @@ struct CoilOutput {
   double device_scale = 1;         ///< by the device's own limits, as last acknowledged
   Eigen::VectorXd acknowledged{};  ///< currents that the device last acknowledged [A]
   Eigen::VectorXd temperatures{};  ///< of the coils, by their thermal model and probes [°C]
+  std::string probe_trouble{};     ///< see DeviceReport::probe_trouble
 };
 
 /// Setpoint of the coils: a navigator's command, a constant field at the target position [mT],

@@ -83,6 +83,7 @@ struct DeviceReport {
   /// Temperatures of the channels' coils by probes, as last acknowledged [°C]; NaN for a coil
   /// without one, empty for a device without probes.
   std::vector<double> temperatures{};
+  std::string probe_trouble{};    ///< which probes show nothing, and why; empty if all are well
   std::optional<double> phase{};  ///< of the waveform [rad]; empty if unknown
   std::string reason{};           ///< cause of the last trouble, one printable line; empty if
                                   ///< unknown

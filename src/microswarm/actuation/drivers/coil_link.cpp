@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint8_t reply_bit = 0x80;
 constexpr std::size_t longest_frame = 52;
-constexpr std::size_t former_reply = 24, reply_size = 35;  // without the checksum
+constexpr std::size_t former_reply = 24, reply_size = 38;  // without the checksum
 constexpr std::uint8_t emergency_bit = 0x80;
 
 void append16(std::vector<std::uint8_t>& to, int value) {
@@ -54,6 +54,15 @@ std::vector<std::uint8_t> to_frame(std::vector<std::uint8_t> packet) {
   return frame;
 }
 
+/// Whether the probe is of a channel, and its temperature within what a PT1000 is read for.
+bool is_possible(const CoilReply& reply) {
+  constexpr int least = -500, most = 2500;  // [0.1 °C]
+  const int t = reply.temperature;
+  const bool is_mark =
+      t == coil_link_no_probe || t == coil_link_probe_shorted || t == coil_link_probe_open;
+  return reply.probe < coil_link_channels && (is_mark || (t >= least && t <= most));
+}
+
 std::optional<CoilReply> parse_reply(std::span<const std::uint8_t> p) {
   if (p.size() < former_reply || !(p[0] & reply_bit)) return std::nullopt;
   const bool ours = p[2] == coil_link_version;
@@ -77,6 +86,9 @@ std::optional<CoilReply> parse_reply(std::span<const std::uint8_t> p) {
   reply.scale = unsigned16(p, 29);
   reply.aim_sum = unsigned16(p, 31);
   reply.phase = unsigned16(p, 33);
+  reply.probe = p[35];
+  reply.temperature = signed16(p, 36);
+  if (!is_possible(reply)) return std::nullopt;
   return reply;
 }
 
@@ -135,6 +147,8 @@ std::vector<std::uint8_t> encode(const CoilReply& reply) {
                                                (reply.emergency_open ? emergency_bit : 0)));
     packet.push_back(static_cast<std::uint8_t>(reply.slew));
     for (const int value : {reply.scale, reply.aim_sum, reply.phase}) append16(packet, value);
+    packet.push_back(reply.probe);
+    append16(packet, reply.temperature);
   }
   return to_frame(std::move(packet));
 }

@@ -10,11 +10,14 @@
 namespace microswarm::actuation {
 
 /// Version of the protocol between host and coil driver: docs/reference/protocol.md.
-inline constexpr int coil_link_version = 2;
+inline constexpr int coil_link_version = 3;
 inline constexpr int coil_link_channels = 6;
 inline constexpr int coil_link_full_scale = 1000;        ///< of an output: per mille
 inline constexpr int coil_link_max_frequency = 500'000;  ///< of a waveform [mHz]
 inline constexpr int coil_link_unscaled = 32768;         ///< CoilReply::scale without a limit
+/// Marks in place of CoilReply::temperature.
+inline constexpr int coil_link_no_probe = -32768, coil_link_probe_shorted = -32767,
+                     coil_link_probe_open = 32767;
 
 /// Messages of the host; `started` is sent by the device when its program starts.
 enum class CoilMessage : std::uint8_t { hello = 1, arm, set, stop, status, waveform, started };
@@ -31,8 +34,9 @@ enum class CoilResult : std::uint8_t {
 };
 /// State of the device; its outputs are 0 unless it is armed.
 enum class CoilState : std::uint8_t { idle, armed, tripped, stopped };
-/// Why the device tripped: no obeyed message in time, or its emergency stop was open.
-enum class CoilTrip : std::uint8_t { none, silence, emergency };
+/// Why the device tripped: no obeyed message in time, its emergency stop was open, a probe was
+/// beyond the firmware's limit, or such a probe was open or shorted.
+enum class CoilTrip : std::uint8_t { none, silence, emergency, hot, probe };
 
 /// An output of each channel [per mille].
 using CoilOutputs = std::array<int, coil_link_channels>;
@@ -63,6 +67,8 @@ struct CoilReply {
   int scale = 0;                ///< applied to the aim [1 / 32768]
   int aim_sum = 0;              ///< check_sum() of the scaled aim
   int phase = 0;                ///< phase of `outputs` [turns / 65536]
+  std::uint8_t probe = 0;       ///< channel of `temperature`; the next reply has the next one
+  int temperature = coil_link_no_probe;  ///< of its coil by a probe [0.1 °C], or a mark
 };
 
 /// CRC-16/CCITT-FALSE.

@@ -162,9 +162,23 @@ DriveStatus LineCoilDriver::follow(std::span<const double> values,
   const DriveStatus compared = compare(values, *reply, scale);
   if (compared == DriveStatus::mismatched) return compared;
   report_.scale = scale;
-  report_.temperatures = std::move(reply->temperatures);
+  take_temperatures(std::move(reply->temperatures));
   for (std::size_t i = 0; i < currents.size(); ++i) report_.currents[i] = scale * currents[i];
   return status == DriveStatus::driven ? compared : status;
+}
+
+/// Keeps the temperatures; a probe that showed one before and does no more is trouble.
+void LineCoilDriver::take_temperatures(std::vector<double> now) {
+  shown_.resize(std::max(shown_.size(), now.size()));
+  report_.probe_trouble.clear();
+  for (std::size_t c = 0; c < shown_.size(); ++c) {
+    const bool shows = c < now.size() && !std::isnan(now[c]);
+    if (shown_[c] && !shows)
+      report_.probe_trouble += fmt::format("{}the probe of channel {} shows nothing any more",
+                                           report_.probe_trouble.empty() ? "" : ", ", c + 1);
+    shown_[c] = shown_[c] || shows;
+  }
+  report_.temperatures = std::move(now);
 }
 
 /// Status of a reply, before its values are compared.

@@ -125,6 +125,7 @@ class LineCoilDriver final : public CoilDriver {
   DriveStatus follow(std::span<const double> values, std::span<const double> currents);
   DriveStatus arm();
   DriveStatus take(const std::optional<LineReply>& reply);
+  void take_temperatures(std::vector<double> now);
   DriveStatus compare(std::span<const double> values, const LineReply& reply, double& scale);
   bool is_zero(const LineReply& reply) const;
   std::optional<LineReply> exchange(std::string_view word, double timeout, const Stop& gives_up,
@@ -138,7 +139,8 @@ class LineCoilDriver final : public CoilDriver {
   std::unique_ptr<LineConnection> connection_;
   LineDriverParams params_;
   DeviceReport report_;
-  std::size_t sent_;  // number of values in a message
+  std::size_t sent_;         // number of values in a message
+  std::vector<bool> shown_;  // whether the channel's probe has shown a temperature
   LineReader reader_;
   std::uint32_t sequence_ = 0;
   std::atomic<bool> interrupted_ = false;

@@ -12,6 +12,8 @@
 #include <cerrno>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
+#include <limits>
 
 #include "microswarm/actuation/drivers/byte_stream.hpp"
 #include "microswarm/core/errors/error.hpp"
@@ -33,8 +35,26 @@ constexpr int max_failures = 3;  // exchanges in a row
 // A bootloader that received a byte listens for 5 s more.
 constexpr double silence_per_boot_time = 3;
 
-DriveStatus refusal(const CoilReply& reply) {
-  return reply.trip == CoilTrip::emergency ? DriveStatus::emergency : DriveStatus::not_armed;
+/// Whether it is a temperature, not a mark.
+bool is_temperature(int probe) { return std::abs(probe) < coil_link_probe_open; }
+
+/// The warmest of probes, by their temperatures [0.1 °C] or marks.
+std::string hottest_text(const CoilOutputs& probes) {
+  std::size_t hottest = 0;
+  for (std::size_t c = 0; c < probes.size(); ++c)
+    if (is_temperature(probes[c]) && probes[c] > probes[hottest]) hottest = c;
+  return fmt::format("the probe of channel {} shows {:.1f} °C, and the firmware has a limit",
+                     hottest + 1, 0.1 * probes[hottest]);
+}
+
+/// Trouble with probes, by their temperatures or marks; empty if nothing is.
+std::string probe_trouble(const CoilOutputs& probes) {
+  std::string trouble;
+  for (std::size_t c = 0; c < probes.size(); ++c)
+    if (probes[c] != coil_link_no_probe && !is_temperature(probes[c]))
+      trouble += fmt::format("{}the probe of channel {} is {}", trouble.empty() ? "" : ", ", c + 1,
+                             probes[c] == coil_link_probe_open ? "open" : "shorted");
+  return trouble;
 }
 
 }  // namespace
@@ -84,6 +104,7 @@ SerialCoilDriver::SerialCoilDriver(const SerialCoilParams& params)
       port_(std::make_unique<Port>(params.port)),
       report_{.currents = std::vector<double>(coil_link_channels)},
       missing_(params.reply_timeout) {
+  probes_.fill(coil_link_no_probe);
   hears_start(params_.boot_time);
   const std::array<std::uint8_t, 1> end{0};  // ends any partial message
   (*port_)->put(end, params_.reply_timeout, {});
@@ -100,8 +121,8 @@ SerialCoilDriver::SerialCoilDriver(const SerialCoilParams& params)
                                     params_.connect_timeout, report_.reason));
   if (reply->version != coil_link_version || reply->result != CoilResult::ok)
     throw HardwareError(fmt::format(
-        "{0}: its firmware speaks version {1} of the protocol, this program {2}; renew it: make -C "
-        "firmware/coil_driver upload PORT={0}",
+        "{0}: its firmware speaks version {1} of the protocol, this program {2}; renew it "
+        "with microswarm rig flash",
         params_.port, reply->version, coil_link_version));
 }
 
@@ -153,7 +174,7 @@ DriveStatus SerialCoilDriver::follow(CoilMessage message, const CoilAim& aim) {
     if (const DriveStatus armed = arm(); armed != DriveStatus::driven) return armed;
   auto reply = exchange(message, aim);
   if (reply && reply->result == CoilResult::not_armed) {
-    if (reply->trip == CoilTrip::emergency) return DriveStatus::emergency;
+    if (reply->trip != CoilTrip::none && reply->trip != CoilTrip::silence) return refusal(*reply);
     if (const DriveStatus armed = arm(); armed != DriveStatus::driven) return armed;
     reply = exchange(message, aim);
     status = DriveStatus::resumed;
@@ -187,6 +208,26 @@ StopReport SerialCoilDriver::stop() noexcept {
 }
 
 std::optional<CoilReply> SerialCoilDriver::ask_status() { return exchange(CoilMessage::status); }
+
+/// Keeps the temperature that a reply has of one of the channels.
+void SerialCoilDriver::take_temperature(const CoilReply& reply) {
+  int& known = probes_[reply.probe];
+  if (known == reply.temperature) return;
+  known = reply.temperature;
+  report_.temperatures.assign(probes_.size(), std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t c = 0; c < probes_.size(); ++c)
+    if (is_temperature(probes_[c])) report_.temperatures[c] = 0.1 * probes_[c];
+  report_.probe_trouble = probe_trouble(probes_);
+}
+
+/// Status of a device that must not be armed, with its reason.
+DriveStatus SerialCoilDriver::refusal(const CoilReply& reply) {
+  if (reply.trip == CoilTrip::emergency) return DriveStatus::emergency;
+  if (reply.trip != CoilTrip::hot && reply.trip != CoilTrip::probe) return DriveStatus::not_armed;
+  for (int c = 0; c < coil_link_channels; ++c) ask_status();  // each has one probe
+  report_.reason = reply.trip == CoilTrip::probe ? report_.probe_trouble : hottest_text(probes_);
+  return DriveStatus::not_armed;
+}
 
 DriveStatus SerialCoilDriver::arm() {
   const auto reply = exchange(CoilMessage::arm);
@@ -225,6 +266,7 @@ std::optional<CoilReply> SerialCoilDriver::exchange(CoilMessage message, const C
       failures_ = 0;
       report_.reason.clear();
       clock_ = reply->clock;
+      if (reply->version == coil_link_version) take_temperature(*reply);
       if (message == CoilMessage::waveform) report_.phase = 2 * pi * reply->phase / 65536;
       for (std::size_t c = 0; c < report_.currents.size(); ++c)
         report_.currents[c] = params_.full_scale * reply->outputs[c] / coil_link_full_scale;

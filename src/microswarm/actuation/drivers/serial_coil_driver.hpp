@@ -87,6 +87,8 @@ class SerialCoilDriver final : public CoilDriver {
   std::optional<CoilReply> answer_to(CoilMessage message, double timeout, const Stop& gives_up);
   bool hears_start(double timeout);
   bool keeps_silent();
+  void take_temperature(const CoilReply& reply);
+  DriveStatus refusal(const CoilReply& reply);
   DriveStatus arm();
 
   SerialCoilParams params_;
@@ -98,6 +100,7 @@ class SerialCoilDriver final : public CoilDriver {
   double clock_at_ = 0;  // arrival of that reply [s], by steady_seconds()
   int begin_phase_ = 0;  // of the next waveform [turns / 65536]
   DeviceReport report_;
+  CoilOutputs probes_;  // temperatures as last reported [0.1 °C], or marks
   MissingAnswer missing_;
   double round_trip_ = 0;  // of the last exchange, from its first sending [s]
   std::atomic<bool> interrupted_ = false;

@@ -23,6 +23,13 @@ std::string_view name_of(std::string_view variable) {
   return variable.substr(0, variable.find('='));
 }
 
+/// Ends ignoring children, as a parent may have left it: they vanish before they are waited for.
+void mind_children() {
+  struct sigaction now {};
+  if (::sigaction(SIGCHLD, nullptr, &now) != 0) return;
+  if (now.sa_handler == SIG_IGN || (now.sa_flags & SA_NOCLDWAIT) != 0) ::signal(SIGCHLD, SIG_DFL);
+}
+
 }  // namespace
 
 Spawning::Spawning() {
@@ -65,6 +72,7 @@ std::optional<pid_t> Spawning::start(std::vector<std::string> command,
       environment.push_back(*one);
   environment.push_back(nullptr);
   const std::vector<char*> arguments = pointers(command);
+  mind_children();
   pid_t process = 0;
   errno = ::posix_spawnp(&process, arguments[0], &actions_, &attributes_, arguments.data(),
                          environment.data());

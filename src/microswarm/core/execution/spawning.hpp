@@ -22,8 +22,8 @@ class Spawning {
   void files(int in, int out, int err, const std::vector<int>& more = {});
   /// Folder in which it starts, and in which a relative path of a program is found.
   void folder(const std::filesystem::path& path);
-  /// Starts the command, with `variables` (NAME=VALUE) in place of those of these names. On failure
-  /// nothing, with errno set.
+  /// Starts the command, so that it can be waited for, with `variables` (NAME=VALUE) in place of
+  /// those of these names. On failure nothing, with errno set.
   std::optional<pid_t> start(std::vector<std::string> command,
                              std::vector<std::string> variables = {});
 

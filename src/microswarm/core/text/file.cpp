@@ -12,8 +12,9 @@
 #include <system_error>
 #include <vector>
 
-#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/errors/write_error.hpp"
 #include "microswarm/core/execution/descriptor.hpp"
+#include "microswarm/core/text/durable_rename.hpp"
 
 namespace microswarm {
 namespace {
@@ -21,7 +22,9 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const fs::path& path, std::string_view doing, std::string_view reason) {
-  throw InputError(path.string(), fmt::format("cannot {}: {}", doing, reason));
+  const std::string text = fmt::format("cannot {}: {}", doing, reason);
+  if (doing == "write") throw WriteError(path.string(), text);
+  throw InputError(path.string(), text);
 }
 
 [[noreturn]] void fail_errno(const fs::path& path, std::string_view doing, int error) {
@@ -124,7 +127,7 @@ void StagedFile::commit() {
   Descriptor file = open_descriptor(staged_, O_WRONLY);
   if (!file) fail_errno(target_, "write", errno);
   if (::fsync(file.get()) != 0 || !file.close()) fail_errno(target_, "write", errno);
-  if (::rename(staged_.c_str(), target_.c_str()) != 0) fail_errno(target_, "write", errno);
+  if (!rename_durably(staged_, target_)) fail_errno(target_, "write", errno);
   committed_ = true;
 }
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/rig/commissioning/commissioning.hpp"
 
+#include <fcntl.h>
 #include <fmt/core.h>
 #include <fmt/ranges.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <chrono>
@@ -10,6 +13,7 @@
 
 #include "microswarm/config/write.hpp"
 #include "microswarm/config/yaml.hpp"
+#include "microswarm/core/execution/descriptor.hpp"
 #include "microswarm/core/maths/hash.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/version.hpp"
@@ -99,6 +103,19 @@ std::string measured_text(const std::vector<CommissioningEntry>& entries, std::t
   return fmt::format("{}", fmt::join(texts, "; "));
 }
 
+/// The rig's file, locked until it is closed: another program that adds to its record waits. The
+/// file may have been replaced while it was waited for.
+Descriptor locked(const std::filesystem::path& rig_file) {
+  for (;;) {
+    Descriptor file = open_descriptor(rig_file, O_RDONLY);
+    struct stat held {
+    }, now{};
+    if (!file || ::flock(file.get(), LOCK_EX) != 0 || ::fstat(file.get(), &held) != 0 ||
+        ::stat(rig_file.c_str(), &now) != 0 || held.st_ino == now.st_ino)
+      return file;
+  }
+}
+
 }  // namespace
 
 std::filesystem::path commissioning_file(const std::filesystem::path& rig_file) {
@@ -122,6 +139,7 @@ CommissioningEntry commissioning_entry(Quantity what, std::string value, std::st
 
 void add_to_commissioning(const std::filesystem::path& rig_file,
                           const std::vector<CommissioningEntry>& entries) {
+  const Descriptor lock = locked(rig_file);
   Commissioning all = read_commissioning(rig_file);
   all.entries.insert(all.entries.end(), entries.begin(), entries.end());
   write_file_atomically(commissioning_file(rig_file), header + to_yaml(all));

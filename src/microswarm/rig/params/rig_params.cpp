@@ -18,7 +18,7 @@ namespace microswarm::rig {
 namespace {
 
 constexpr double min_sends = 10;            // per turn of the field
-constexpr double max_waveform_sends = 100;  // [Hz]; one takes 7.7 ms at 115200 baud
+constexpr double max_waveform_sends = 100;  // [Hz]; one takes 8.0 ms at 115200 baud
 
 /// The field that drives a kind of swarm in the papers.
 struct UsualField {

@@ -53,6 +53,7 @@ struct Detections {
   std::optional<NotFound> not_found{};  ///< why no swarm was found; empty before the first picture
   std::vector<double> parts{};    ///< radii of the parts after a split or before a merger [µm]
   int unseen = 0;                 ///< robots without a spot, neither their own nor that of a pile
+  Vec2 commanded{};               ///< commanded displacement since the last picture [µm]
   double commanded_distance = 0;  ///< commanded distance since the last picture [µm]
   double followed_distance = 0;   ///< observed displacement along it [µm]; negative: opposite
   double across_distance = 0;     ///< observed displacement to its left [µm]

@@ -57,6 +57,7 @@ const Detections& RobotPerception::process(const formats::Image& picture, double
   detections_.swarm.reset();
   detections_.not_found = NotFound::none;
   detections_.unseen = static_cast<int>(count);
+  detections_.commanded = {};
   detections_.commanded_distance = detections_.followed_distance = detections_.across_distance = 0;
   expect(passed);
   if (spots_.empty()) return detections_;
@@ -162,12 +163,14 @@ void RobotPerception::measure_following() {
     const double length = norm(wanted);
     if (!spot_of_[r] || length == 0) continue;
     ++count;
+    detections_.commanded = detections_.commanded + wanted;
     detections_.commanded_distance += length;
     const Vec2 seen = detections_.robots[r] - before_[r];
     detections_.followed_distance += dot(seen, wanted) / length;
     detections_.across_distance += cross(wanted, seen) / length;
   }
   if (count == 0) return;
+  detections_.commanded = (1 / count) * detections_.commanded;
   detections_.commanded_distance /= count;
   detections_.followed_distance /= count;
   detections_.across_distance /= count;

@@ -75,6 +75,7 @@ const Detections& SwarmPerception::process(const formats::Image& picture, double
   detections_.swarm.reset();
   detections_.parts.clear();
   detections_.not_found = not_found(scene.swarm.sight);
+  detections_.commanded = {};
   detections_.commanded_distance = detections_.followed_distance = detections_.across_distance = 0;
   if (tell_split(scene.swarm)) {
     detections_.not_found = NotFound::split;
@@ -245,6 +246,7 @@ void SwarmPerception::keep_size(const vision::Blob& swarm) {
 void SwarmPerception::measure_following(Vec2 position, double t) {
   if (!found_ || !before_px_) return;
   const Vec2 wanted = displacement(command_, std::max(0.0, t - *found_));
+  detections_.commanded = wanted;
   detections_.commanded_distance = norm(wanted);
   if (detections_.commanded_distance <= 0) return;
   const Vec2 seen = position - scale_.to_world(*before_px_);

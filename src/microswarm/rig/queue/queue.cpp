@@ -9,8 +9,10 @@
 #include <utility>
 
 #include "microswarm/config/file_kind.hpp"
+#include "microswarm/config/write.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/maths/hash.hpp"
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/input_folder.hpp"
@@ -176,6 +178,15 @@ Queue open_queue(const fs::path& path, const fs::path& rig_file, const Settings&
       queue.items.push_back(item);
   }
   return queue;
+}
+
+std::string rig_hash(const Rig& rig) {
+  Hash hash;
+  hash.text(to_yaml(rig.params));
+  hash.text(to_yaml(read_yaml_file<actuation::CoilSystemParams>(rig.folder / rig.params.coils)));
+  const actuation::Actuation centre = rig.system.at(rig.system.centre());  // by its own files
+  for (const double value : centre.field.reshaped()) hash.value(value);
+  return hash.hex();
 }
 
 RigExperiment open_item(const QueueItem& item, const fs::path& rig, const Settings& rig_settings) {

@@ -48,6 +48,10 @@ QueueParams read_queue(const std::filesystem::path& queue, KeyLocations& keys);
 Queue open_queue(const std::filesystem::path& queue, const std::filesystem::path& rig,
                  const Settings& rig_settings);
 
+/// Fingerprint of a rig: the values of its file with its settings and of its coils' file, and the
+/// field per ampere at the centre. Comments do not count.
+std::string rig_hash(const Rig& rig);
+
 /// Opens an item on its rig.
 RigExperiment open_item(const QueueItem& item, const std::filesystem::path& rig,
                         const Settings& rig_settings);

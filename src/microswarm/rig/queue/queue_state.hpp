@@ -110,17 +110,19 @@ struct ItemStatus {
 
 /// State of a queue, kept in its folder.
 struct QueueState {
-  std::string queue{};  ///< file or folder
-  std::string rig{};    ///< its file
-  double began = 0;     ///< since 1970 [s]
-  std::string doing{};  ///< what it does now, or how it ended
-  double updated = 0;   ///< since 1970 [s]
-  bool active = false;  ///< a program runs it, unless that was killed
+  std::string queue{};     ///< file or folder
+  std::string rig{};       ///< its file
+  std::string rig_hash{};  ///< of its values, see rig_hash()
+  double began = 0;        ///< since 1970 [s]
+  std::string doing{};     ///< what it does now, or how it ended
+  double updated = 0;      ///< since 1970 [s]
+  bool active = false;     ///< a program runs it, unless that was killed
   std::vector<ItemStatus> items{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.queue, plain("queue", "File or folder of the queue."));
     visit(self.rig, plain("rig", "File of the rig."));
+    visit(self.rig_hash, plain("rig_hash", "Of the values of the rig and of its coils."));
     visit(self.began, s("began", 0, 1e11, "Begin, since 1970."));
     visit(self.doing, plain("doing", "What it does now, or how it ended."));
     visit(self.updated, s("updated", 0, 1e11, "Last change, since 1970."));

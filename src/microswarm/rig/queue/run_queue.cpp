@@ -58,6 +58,12 @@ class QueueRun {
     const double began_again = state_.active ? state_.began : host.wall();
     if (state_.began == 0) state_.began = host.wall();
     state_.rig = std::move(rig_file);
+    std::string hash = rig_hash(rig);
+    if (!state_.rig_hash.empty() && state_.rig_hash != hash)
+      host.tell(state_.rig +
+                " or its coils have changed since the queue ran: what is done is kept, the rest "
+                "runs with them as they are now");
+    state_.rig_hash = std::move(hash);
     state_.active = true;
     end_ = queue_end(queue.params, state_.began, began_again);
   }
@@ -76,6 +82,7 @@ class QueueRun {
     ItemStatus& item = state_.items[i];
     if (item.interruptions() > queue_.params.interruptions) {
       fail(item, "was interrupted " + times_text(item.interruptions()));
+      host_.tell(fmt::format("{}: {}: has failed; the queue goes on", label(item), item.note));
       host_.alarm(fmt::format("{}: {}; the queue goes on", label(item), item.note), {});
       return std::nullopt;
     }
@@ -128,7 +135,7 @@ class QueueRun {
         return QueueEnd::stopped;
       case AttemptEnd::refused:
         fail(item, done.reason);
-        return count_failure(label(item) + ": " + done.reason, {});
+        return count_failure(item, label(item) + ": " + done.reason, {});
       case AttemptEnd::fault:
       case AttemptEnd::running:
       case AttemptEnd::interrupted:
@@ -146,30 +153,37 @@ class QueueRun {
           done.fault == FaultKind::disk && queue_.params.full_disk == FullDisk::pause;
       item.state = ItemState::waiting;
       item.note = "tried again when the queue goes on";
-      if (!pauses) return call_person(what, record);
+      if (!pauses) return call_person(what, record, "");
     } else if (of.on_fault == AfterFault::retry && item.faults() <= of.retries) {
       item.state = ItemState::waiting;
       item.note = fmt::format("tried again, {} of {}", item.faults(), of.retries);
     } else {
       fail(item, done.reason);
-      if (of.on_fault == AfterFault::stop) return call_person(what, record);
+      if (of.on_fault == AfterFault::stop) return call_person(what, record, "");
     }
-    return count_failure(what, record);
+    return count_failure(item, what, record);
   }
 
   /// After a fault or a refusal: many in a row have a cause that a person must look for.
-  std::optional<QueueEnd> count_failure(const std::string& what, const fs::path& record) {
-    if (++faults_in_a_row_ >= queue_.params.faults_in_a_row)
-      return call_person(
-          fmt::format("{}; this was attempt {} in a row that failed", what, faults_in_a_row_),
-          record);
+  std::optional<QueueEnd> count_failure(const ItemStatus& item, const std::string& what,
+                                        const fs::path& record) {
+    if (++faults_in_a_row_ >= queue_.params.faults_in_a_row) {
+      const std::string many =
+          fmt::format("this was attempt {} in a row that failed", faults_in_a_row_);
+      return call_person(fmt::format("{}; {}", what, many), record, many);
+    }
+    host_.tell(fmt::format("{}: {}; the queue goes on", label(item),
+                           item.state == ItemState::failed ? "has failed" : item.note));
     host_.alarm(what + "; the queue goes on", record);
     write(what);
     return std::nullopt;
   }
 
-  std::optional<QueueEnd> call_person(const std::string& why, const fs::path& record) {
+  /// Stops the queue. `told`: of the reason, what the lines before do not say.
+  std::optional<QueueEnd> call_person(const std::string& why, const fs::path& record,
+                                      const std::string& told) {
     reason_ = why;
+    host_.tell(told + (told.empty() ? "" : "; ") + "the queue has stopped for a person");
     host_.alarm(why + "; the queue has stopped", record);
     return QueueEnd::needs_person;
   }
@@ -177,7 +191,6 @@ class QueueRun {
   void fail(ItemStatus& item, const std::string& why) {
     item.state = ItemState::failed;
     item.note = why;
-    host_.tell(fmt::format("{}: has failed: {}", label(item), why));
     write(label(item) + ": has failed");
   }
 
@@ -221,9 +234,9 @@ class QueueRun {
     if (full.empty()) return std::nullopt;
     if (queue_.params.full_disk == FullDisk::stop) {
       state_.items[i].note = full;
-      return call_person(full, {});
+      return call_person(full, {}, full);
     }
-    host_.alarm(full + "; the queue waits for space", {});
+    host_.alarm(full + "; the queue waits for space", {});  // the wait says it
     return wait_until(i, ItemState::waiting, [&] {
       const std::string why = trouble();
       return Wait{why.empty() ? 0 : look_period, why};
@@ -242,14 +255,14 @@ class QueueRun {
     const double began = host_.clock();
     double written = -infinity;
     for (Wait wait = look(); wait.left > 0; wait = look()) {
-      if (const std::string why = host_.halts(); !why.empty()) return call_person(why, {});
+      if (const std::string why = host_.halts(); !why.empty()) return call_person(why, {}, why);
       if (host_.stops()) {
         state_.items[i].state = ItemState::waiting;
         return QueueEnd::stopped;
       }
       if (has_no_time(i)) return std::nullopt;
       const double now = host_.clock();
-      if (now - began > longest_pause) return call_person(wait.why, {});
+      if (now - began > longest_pause) return call_person(wait.why, {}, wait.why);
       state_.items[i].state = as;
       state_.items[i].note = wait.why;
       if (written == -infinity) host_.tell(fmt::format("{}: {}", label(state_.items[i]), wait.why));
@@ -280,10 +293,10 @@ class QueueRun {
     std::string text =
         fmt::format("{} of {} done, {} failed", done, items, state_.count(ItemState::failed));
     if (end == QueueEnd::stopped) text = "stopped: " + text;
+    host_.tell(text);
     if (end == QueueEnd::needs_person) text = fmt::format("stopped, {}: {}", reason_, text);
     state_.active = false;
     write(text);
-    host_.tell(text);
     write_file_atomically(folder_ / "summary.csv", summary_csv(state_));
     return end;
   }

@@ -7,7 +7,7 @@
 #include <exception>
 #include <utility>
 
-#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/errors/write_error.hpp"
 #include "microswarm/core/execution/clock.hpp"
 #include "microswarm/rig/runtime/device_limits.hpp"
 #include "microswarm/rig/runtime/standstill.hpp"
@@ -157,7 +157,7 @@ std::string CoilLoop::silence(double t) const {
   return silent > limits_.deadman ? fmt::format("no command for {:.2g} s", silent) : "";
 }
 
-/// Message of an exception; empty on success. Only a listener throws InputError, for its log.
+/// Message of an exception; empty on success. Only a listener writes.
 Fault CoilLoop::send(CoilMoment& moment, const Eigen::Vector3d& position,
                      std::optional<double> frequency, double dt) {
   try {
@@ -170,7 +170,7 @@ Fault CoilLoop::send(CoilMoment& moment, const Eigen::Vector3d& position,
     moment.round_trip = moment.driven - began;
     if (actuation::trouble_text(moment.output.status).empty() && listener_) listener_(moment);
     return {};
-  } catch (const InputError& e) {
+  } catch (const WriteError& e) {
     return {e.what(), FaultKind::disk};
   } catch (const std::exception& e) {
     return {e.what(), FaultKind::device};

@@ -19,11 +19,12 @@ constexpr double copies = 3;        // of the record
 
 }  // namespace
 
-double needed_space(const Rig& rig, double tick, double seconds) {
+double needed_space(const Rig& rig, double tick, double seconds, double written) {
   const auto coils = static_cast<double>(rig.system.size());
-  const double output =
-      output_text + current_text * coils + copies * value * (output_values + coils);
-  return seconds * (rig.params.drive_rate * output + copies * value * tick_values / tick);
+  const double text = rig.params.drive_rate * (output_text + current_text * coils);  // [B/s]
+  const double record =
+      value * (rig.params.drive_rate * (output_values + coils) + tick_values / tick);  // [B/s]
+  return text * (seconds - written) + record * (copies * seconds - written);
 }
 
 std::optional<double> free_space(std::filesystem::path path) {

@@ -8,9 +8,10 @@
 
 namespace microswarm::rig {
 
-/// Estimate of what a run writes into its folder in `seconds`, without a video [B]: commands.csv,
-/// and the record three times, since a new one is written before the last one is replaced.
-double needed_space(const Rig& rig, double tick, double seconds);
+/// Estimate of the space that a run of `seconds` needs in its folder, without a video [B]:
+/// commands.csv, and the record three times, since a new one is written before the last one is
+/// replaced. After `written` seconds what is on the disk by then is not needed again.
+double needed_space(const Rig& rig, double tick, double seconds, double written = 0);
 
 /// Space for this user where `path` is or will be [B]; nothing if the system does not say.
 std::optional<double> free_space(std::filesystem::path path);

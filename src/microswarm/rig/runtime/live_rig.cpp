@@ -55,7 +55,7 @@ LiveRig::LiveRig(const experiment::Scenario& scenario, std::shared_ptr<const Map
       camera_(std::move(camera), "camera", camera_watch(rig.params), listeners.pictures),
       controller_(rig.system, checked(rig, scenario).field, driver,
                   scenario.start ? scenario.start->heading : 0),
-      sight_(rig.params.safety),
+      sight_(rig.params.safety, rig.params.delay),
       listeners_(std::move(listeners)),
       start_(steady_seconds()),
       meter_(rig.system, scenario.tick),
@@ -157,7 +157,7 @@ void LiveRig::look_at_map() {
 
 void LiveRig::look_for_faults(double now) {
   const SafetyParams& safety = rig_.params.safety;
-  if (const Fault failure = coils_.fault(); !failure.why.empty())
+  if (const Fault failure = coils_.fault(); failure.kind != FaultKind::none)
     return fail(failure.why, failure.kind);
   const vision::CameraStatus camera = camera_.status();
   if (camera.state == vision::CameraState::frozen || camera.state == vision::CameraState::black)

@@ -60,7 +60,10 @@ class LiveRig : public Plant {
 
   /// Sets the coils to zero permanently; callable from any thread. A tick in progress ends with its
   /// picture, at most one camera period later. Returns the report of the first stop.
-  actuation::StopReport stop(const std::string& why) { return coils_.stop(why); }
+  /// A stop of the kind `none` is no fault.
+  actuation::StopReport stop(const std::string& why, FaultKind kind = FaultKind::person) {
+    return coils_.stop(why, kind);
+  }
   /// Zero of the record's time [s], by steady_seconds().
   double start() const { return start_; }
   RigTiming timing() const;

@@ -13,7 +13,9 @@
 #include <utility>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/errors/write_error.hpp"
 #include "microswarm/core/execution/priority.hpp"
+#include "microswarm/core/text/durable_rename.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/text.hpp"
 
@@ -37,7 +39,7 @@ bool is_log(const fs::path& file) {
 }
 
 [[noreturn]] void fail_to_write(const fs::path& file) {
-  throw InputError(file.string(),
+  throw WriteError(file.string(),
                    fmt::format("cannot write: {}", std::generic_category().message(errno)));
 }
 
@@ -104,9 +106,9 @@ LogParts::~LogParts() {
 
 void LogParts::add(std::string_view line) {
   const std::lock_guard lock(mutex_);
-  if (!trouble_.empty()) throw InputError(trouble_);
+  if (!trouble_.empty()) throw WriteError(trouble_);
   if (waiting_.size() + line.size() > longest_wait)
-    throw InputError(part_.string(), "cannot write: the disk does not answer");
+    throw WriteError(part_.string(), "cannot write: the disk does not answer");
   waiting_ += line;
   is_empty_ = false;
 }
@@ -207,7 +209,7 @@ void LogParts::begin_part() {
 void LogParts::end_part(const fs::path& name) {
   sync();
   if (!file_.close()) fail_to_write(part_);
-  if (::rename(part_.c_str(), name.c_str()) != 0) fail_to_write(name);
+  if (!rename_durably(part_, name)) fail_to_write(name);
 }
 
 }  // namespace microswarm::rig

@@ -110,6 +110,18 @@ Watched watch(vision::NewestFrame& camera, double seconds, const Stop& stop) {
   return watched;
 }
 
+/// Whether the coils' probes show temperatures; nothing for a device without probes.
+std::optional<RigCheck> check_probes(const actuation::DeviceReport& report, const Rig& rig) {
+  const std::vector<double>& probes = report.temperatures;
+  if (!report.probe_trouble.empty()) return RigCheck{"probes", false, report.probe_trouble, false};
+  if (std::ranges::all_of(probes, [](double t) { return std::isnan(t); })) return std::nullopt;
+  std::string text;
+  for (std::size_t k = 0; k < std::min(probes.size(), rig.system.size()); ++k)
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", rig.system.coil_names()[k],
+                        std::isnan(probes[k]) ? "none" : fmt::format("{:.1f} °C", probes[k]));
+  return RigCheck{"probes", true, text};
+}
+
 }  // namespace
 
 RigCheck check_field(const Rig& rig) {
@@ -220,6 +232,7 @@ std::vector<RigCheck> check_driver(actuation::CoilDriver& driver, const Rig& rig
       trouble = actuation::trouble_text(driver, status);
     if (status == actuation::DriveStatus::gone || unanswered) break;
   }
+  const std::optional<RigCheck> probes = check_probes(driver.report(), rig);
   const actuation::StopReport zero = driver.stop();
   std::vector<RigCheck> checks;
   if (!trouble.empty()) checks.push_back({"driver", false, trouble});
@@ -232,6 +245,7 @@ std::vector<RigCheck> check_driver(actuation::CoilDriver& driver, const Rig& rig
   if (resumed > 0)
     checks.push_back({"driver", false,
                       fmt::format("the coils had switched off by themselves {} times", resumed)});
+  if (probes) checks.push_back(*probes);
   checks.push_back({"stop", zero.good(),
                     !zero.confirmed ? "not confirmed"
                     : zero.good()   ? "confirmed"

@@ -212,8 +212,8 @@ void LiveSession::keep(const CoilMoment& moment) {
   if (options_.driven) options_.driven();
 }
 
-actuation::StopReport LiveSession::stop(const std::string& why) {
-  actuation::StopReport zero = plant_->stop(why);
+actuation::StopReport LiveSession::stop(const std::string& why, FaultKind kind) {
+  actuation::StopReport zero = plant_->stop(why, kind);
   if (temperatures_) temperatures_->take(zero);
   return zero;
 }
@@ -245,6 +245,9 @@ std::vector<std::string> LiveSession::take_notes() {
   if (kept_.seen_until && !std::exchange(told_sightings_, true))
     notes.push_back(
         fmt::format("the record keeps {} sightings: later ones are left out", options_.max_logged));
+  if (std::string trouble = plant_->load().output.probe_trouble;
+      trouble != std::exchange(told_probes_, trouble) && !trouble.empty())
+    notes.push_back(std::move(trouble) + ": by its model alone that coil may be warmer than known");
   for (std::string& note : plant_->take_notes()) notes.push_back(std::move(note));
   if (std::string low = look_at_disk(); !low.empty()) notes.push_back(std::move(low));
   return notes;
@@ -258,7 +261,7 @@ std::string LiveSession::look_at_disk() {
   const std::optional<double> free = options_.free_space(options_.folder);
   const experiment::Scenario& scenario = session_.scenario();
   const double until = std::min(tick->frame.t + warned_before, longest_time(scenario, options_));
-  const double soon = needed_space(on_.rig, scenario.tick, until);
+  const double soon = needed_space(on_.rig, scenario.tick, until, tick->frame.t);
   if (!free || *free >= soon) return {};
   told_space_ = true;
   return fmt::format(

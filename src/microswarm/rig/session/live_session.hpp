@@ -74,9 +74,10 @@ class LiveSession {
   const experiment::Session& session() const { return session_; }
   /// Warnings about the rig, found when it was opened, one line each.
   const std::vector<std::string>& warnings() const { return warnings_; }
-  /// Sets the coils to zero permanently; callable from any thread. Returns the report of the first
+  /// Sets the coils to zero permanently; callable from any thread. A stop of the kind `none` is no
+  /// fault: the thread that steps the session must end it too. Returns the report of the first
   /// stop.
-  actuation::StopReport stop(const std::string& why);
+  actuation::StopReport stop(const std::string& why, FaultKind kind = FaultKind::person);
   /// Sets the frequency of the field [Hz] and records the change; to be called in the thread that
   /// steps.
   void set_field_frequency(double frequency);
@@ -122,6 +123,7 @@ class LiveSession {
   std::unique_ptr<vision::VideoRecorder> video_;
   std::vector<std::string> warnings_;
   std::atomic<bool> currents_full_ = false;
+  std::string told_probes_;  // trouble with probes, as last reported
   bool told_currents_ = false, told_sightings_ = false, told_space_ = false;
   double disk_due_ = 0;   ///< time of the next look at the disk [s]
   double state_due_ = 0;  ///< time of the next state of the pictures that is kept [s]

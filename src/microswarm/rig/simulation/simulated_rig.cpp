@@ -21,7 +21,7 @@ SimulatedRig::SimulatedRig(const experiment::Scenario& scenario, const World& wo
       perception_(make_perception(rig_.params.perception, scenario, *map_,
                                   scenario.robots ? scenario.robots->starts : std::vector<Vec2>{},
                                   simulator_.camera())),
-      sight_(rig_.params.safety) {
+      sight_(rig_.params.safety, rig_.params.delay) {
   deadman(rig_, scenario.tick);
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace microswarm::rig {
 namespace {
@@ -65,22 +66,27 @@ bool FrozenSwarm::has_changed(const formats::Image& now,
 }
 
 void FrozenSwarm::take(const formats::Image& picture, std::span<const vision::Ring> swarm,
-                       double commanded_px, double t) {
+                       Vec2 commanded_px, double t) {
   if (longest_ <= 0 || swarm.empty() || !fault_.empty()) return;
+  const double last = std::exchange(last_, t);
   if (has_changed(picture, swarm)) {
     before_ = picture;
-    since_ = t;
-    commanded_ = 0;
+    commanded_ = {};
     pictures_ = 0;
     return;
   }
-  commanded_ += commanded_px;
-  ++pictures_;
-  if (t - since_ < longest_ || commanded_ < enough_way || pictures_ < enough_pictures) return;
+  const bool is_commanded = norm(commanded_px) > 0;
+  if (pictures_ == 0 && !is_commanded) return;  // a swarm that rests looks like this
+  if (pictures_++ == 0) begun_ = last;
+  commanded_ = commanded_ + commanded_px;
+  // Less far to and fro than along a way: what returns to its place looks as if it had not left.
+  if (t - begun_ < longest_ + delay_ || norm(commanded_) < enough_way ||
+      pictures_ < enough_pictures)
+    return;
   fault_ = fmt::format(
       "the swarm's picture has shown nothing but noise for {:.2f} s while {:.3g} px were "
       "commanded, allowed {:.6g} s: the picture is frozen, or the field does not move the swarm",
-      t - since_, commanded_, longest_);
+      t - begun_, norm(commanded_), longest_ + delay_);
 }
 
 }  // namespace microswarm::rig

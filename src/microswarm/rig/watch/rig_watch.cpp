@@ -35,21 +35,21 @@ MapLook look_at_map(const PictureRegistration& registration, const formats::Imag
   return look;
 }
 
-RigWatch::RigWatch(const SafetyParams& safety)
+RigWatch::RigWatch(const SafetyParams& safety, double delay)
     : map_(safety.max_map_shift_px),
       light_("the light", light_limits(safety.max_light_change), light_patience),
       focus_by_walls_("the sharpness of the walls", focus_limits(safety.min_focus), focus_patience),
       focus_by_details_("the sharpness of the picture", focus_limits(safety.min_focus),
                         focus_patience),
       unseen_(safety.max_unseen_share, std::max(unseen_window, 2 * safety.lost_swarm)),
-      frozen_(safety.frozen_swarm) {}
+      frozen_(safety.frozen_swarm, delay) {}
 
 void RigWatch::take(const formats::Image& picture, const Detections& seen, const CameraView& view,
                     double t) {
   light_.take(mean_grey(picture), t);
   unseen_.take(seen.swarm.has_value(), t);
-  frozen_.take(picture, swarm_rings(seen, view.scale),
-               seen.commanded_distance / view.scale.um_per_px, t);
+  frozen_.take(picture, swarm_rings(seen, view.scale), (1 / view.scale.um_per_px) * seen.commanded,
+               t);
 }
 
 void RigWatch::take(const MapLook& look, double t) {
@@ -58,6 +58,7 @@ void RigWatch::take(const MapLook& look, double t) {
   const double light = light_.share().value_or(1);
   if (focus_is_by_walls_ && light > 0) focus_by_walls_.take(look.fit.contrast / light, t);
   focus_by_details_.take(look.detail, t);
+  lowest_focus_ = std::min(lowest_focus_, focus().share().value_or(1));
 }
 
 void RigWatch::take_follow_share(double share, double sd) {
@@ -95,15 +96,14 @@ std::vector<std::string> RigWatch::take_notes() {
 }
 
 PictureState RigWatch::state() const {
-  const RelativeValue& focus = focus_is_by_walls_ ? focus_by_walls_ : focus_by_details_;
   return {.light = light_.share().value_or(1),
-          .focus = focus.share(),
+          .focus = focus().share(),
           .shift_px = map_.shift_px(),
           .unseen_share = unseen_.share(),
           .follow_share = follow_share_,
           .lowest_light = light_.lowest(),
           .highest_light = light_.highest(),
-          .lowest_focus = focus.lowest(),
+          .lowest_focus = lowest_focus_,
           .largest_shift_px = map_.largest_shift_px(),
           .highest_unseen_share = unseen_.highest(),
           .unseen = unseen_.unseen()};

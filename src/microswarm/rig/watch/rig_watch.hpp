@@ -33,7 +33,7 @@ struct PictureState {
   double unseen_share = 0;               ///< of the pictures of the last seconds
   std::optional<double> follow_share{};  ///< distance moved over that commanded
   double lowest_light = 1, highest_light = 1;  ///< so far
-  double lowest_focus = 1;                     ///< so far
+  double lowest_focus = 1;                     ///< so far, of what `focus` was at the time
   double largest_shift_px = 0;                 ///< so far
   double highest_unseen_share = 0;             ///< so far
   int unseen = 0;                              ///< pictures without the swarm so far
@@ -43,7 +43,8 @@ struct PictureState {
 /// commanded distance that the swarm moves. It has no clock: times are those of the pictures.
 class RigWatch {
  public:
-  explicit RigWatch(const SafetyParams& safety);
+  /// `delay`: from a command to the motion that it causes [s].
+  RigWatch(const SafetyParams& safety, double delay);
 
   /// Takes a grey picture of the time `t` [s] and what was detected in it.
   void take(const formats::Image& picture, const Detections& seen, const CameraView& view,
@@ -68,9 +69,14 @@ class RigWatch {
   UnseenShare unseen_;
   FrozenSwarm frozen_;
   bool focus_is_by_walls_ = true;
+  double lowest_focus_ = 1;
   std::optional<double> follow_share_;
   std::string follow_note_;
   bool follow_told_ = false;
+
+  const RelativeValue& focus() const {
+    return focus_is_by_walls_ ? focus_by_walls_ : focus_by_details_;
+  }
 };
 
 /// Discs around the swarm, or around each robot [px].

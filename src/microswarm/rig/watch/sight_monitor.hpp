@@ -17,10 +17,11 @@ namespace microswarm::rig {
 /// the same checks.
 class SightMonitor {
  public:
-  explicit SightMonitor(const SafetyParams& params)
+  /// `delay`: from a command to the motion that it causes [s].
+  SightMonitor(const SafetyParams& params, double delay)
       : params_(params),
         following_(params.min_follow_share, params.max_follow_share),
-        watch_(params) {}
+        watch_(params, delay) {}
 
   /// Takes a grey picture of the time `seen` [s] and the detections in it. `follow_distance`:
   /// commanded distance over which following is judged, unless the parameters name one [µm].

@@ -17,6 +17,7 @@
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/execution/priority.hpp"
+#include "microswarm/core/text/durable_rename.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/formats/media/media.hpp"
 #include "microswarm/vision/image/mat.hpp"
@@ -175,10 +176,9 @@ class VideoRecorder::Writer {
   }
 
   void give_names() {
-    std::error_code error;
-    fs::rename(part_file(times_file_), times_file_, error);
-    if (!error) fs::rename(part_, result_.file, error);
-    if (error) result_.trouble = error.message();
+    if (!rename_durably(part_file(times_file_), times_file_) ||
+        !rename_durably(part_, result_.file))
+      result_.trouble = std::generic_category().message(errno);
   }
 
   void run() {
