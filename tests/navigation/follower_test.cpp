@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "microswarm/core/maths/angles.hpp"
+#include "microswarm/navigation/following/path_follower.hpp"
 #include "microswarm/swarm/body/unicycle.hpp"
 
 namespace microswarm::navigation {
@@ -32,6 +33,19 @@ TEST(Follower, APathOfOnePointIsHeldOn) {
   PathPosition position;
   EXPECT_EQ(point_ahead(point, position, 10), (Vec2{3, 4}));
   EXPECT_EQ(remaining(point, position), 0);
+}
+
+// On the line it heads into the flow so far that it moves along the line.
+TEST(Follower, HeadsIntoAFlowAcrossThePath) {
+  const std::vector<Vec2> path{{0, 0}, {1000, 0}};
+  constexpr double speed = 60;
+  for (const double across : {-40.0, -20.0, 20.0, 40.0}) {
+    PathPosition position;
+    const Command command = pursue_in_flow(path, position, {{100, 0}, 0}, 80, speed, {5, across});
+    const Vec2 moved = speed * unit_vector(command.heading) + Vec2{5, across};
+    EXPECT_NEAR(moved.y, 0, 1e-9) << across;
+    EXPECT_GT(moved.x, 0) << across;
+  }
 }
 
 TEST(Follower, ReachesTheEndFromAnyHeading) {

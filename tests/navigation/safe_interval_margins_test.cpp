@@ -366,6 +366,34 @@ TEST(SafeIntervalMargins, TheEscapeOfASafeCommandIsKept) {
   EXPECT_GT(safe, 100);
 }
 
+// Where the commands towards the wanted heading are not safe, it turns by 2 rad nearly in place.
+TEST(SafeIntervalMargins, WhereATurnIsNotSafeItTurnsOneWayOrTheOther) {
+  Rng rng(12, Purpose::test);
+  int turned = 0;
+  for (int trial = 0; trial < 150; ++trial) {
+    Closing c;
+    c.pose = {{500, 500}, rng.uniform(-pi, pi)};
+    for (int k = 0; k < 6; ++k) {
+      const double from = rng.uniform(-pi, pi);
+      const Vec2 at = c.pose.position + rng.uniform(150, 340) * unit_vector(from);
+      c.seen.obstacles.push_back(
+          {DiscShape{40},
+           Straight{at, rng.uniform(30, 60) * unit_vector(from + pi + rng.uniform(-0.6, 0.6))}});
+    }
+    for (int k = 0; k < 15; ++k) c.begin();
+    for (const double turn : {2.6, -2.6}) {
+      const Command wanted{wrap(c.pose.heading + turn), 70};
+      const auto chosen = c.check.nearest_safe(wanted, {c.pose.heading, 0});
+      if (!chosen || !planning::TurnFirst::is_turn(chosen->speed, 70) || chosen->speed == 0)
+        continue;
+      if (std::abs(turn_between(chosen->heading, c.pose.heading) - 2) > 1e-9) continue;
+      ++turned;
+      EXPECT_TRUE(c.check.is_safe(*chosen)) << trial;
+    }
+  }
+  EXPECT_GT(turned, 0);
+}
+
 // A swarm 10 µm before the gap to the lower side of the room.
 TEST(SafeIntervalMargins, AMoveIsCheckedAsTheFlowLetsItBe) {
   const SafeIntervalParams params;

@@ -330,6 +330,17 @@ TEST(EarliestArrival, AroundAWallItIsTheShortestPath) {
   EXPECT_GT(min_gap(world, across, found), -1.5);
 }
 
+// What is near the goal, but behind a wall, is not at the goal.
+TEST(EarliestArrival, DoesNotArriveThroughAWall) {
+  const World world = arena({{{{600, 0}, {604, 0}, {604, 700}, {600, 700}}, {}}});
+  const ArrivalQuery query{
+      .start = {120, 400}, .goal = {620, 400}, .tolerance = 40, .radius = 5, .speed = 80};
+  const auto found = earliest_arrival(world, query);
+  ASSERT_EQ(found.status, Status::solved);
+  EXPECT_GT(found.path.back().position.x, 604);
+  EXPECT_GT(found.time, (distance(query.start, Vec2{600, 705}) + 300 - 40) / query.speed);
+}
+
 // A door that opens at a known time: it waits for it, and not longer.
 TEST(EarliestArrival, WaitsForADoor) {
   const std::vector<Polygon> walls{{{{580, 0}, {620, 0}, {620, 300}, {580, 300}}, {}},

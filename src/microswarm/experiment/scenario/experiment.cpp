@@ -9,6 +9,7 @@
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/input_folder.hpp"
+#include "microswarm/experiment/scenario/fit_clearance.hpp"
 #include "microswarm/experiment/scenario/validate.hpp"
 
 namespace microswarm::experiment {
@@ -49,6 +50,7 @@ Experiment open(Scenario scenario, const std::filesystem::path& base, const KeyL
   opened.keys.add_notes(opened.scene.map.notes);
   if (more.empty() && !misread_basis(misread)) {
     opened.world = build_world(opened.scene);
+    opened.keys.add_notes(fit_clearance(opened.scene.scenario, opened.world, keys.is_given()));
     more = validate(opened.scenario(), opened.world, keys.is_given());
   } else if (std::ranges::find(misread, "robots") == misread.end()) {
     more.add(missing_places(opened.scenario()));

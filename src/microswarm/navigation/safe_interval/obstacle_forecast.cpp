@@ -21,38 +21,48 @@ void for_each_row_of(const planning::SpaceTimeGrid& grid, Disc disc, Use&& use) 
 }
 
 /// The same for an outline that is grown by `keep` [µm] on all sides: its border consists of edges
-/// that are moved outwards and of arcs around the corners.
+/// that are moved outwards and of arcs around the corners. `extents` is a buffer.
 template <class Use>
 void for_each_row_of(const planning::SpaceTimeGrid& grid, const ConvexOutline& outline,
-                     const PredictedBody& body, double keep, Use&& use) {
+                     const PredictedBody& body, double keep, std::vector<RowExtent>& extents,
+                     Use&& use) {
   if (outline.edges.empty() || keep < 0)
     return for_each_row_of(grid, {body.centre, outline.radius + keep}, use);
   const double reach = outline.radius + keep;
   const Vec2 turned = unit_vector(body.turn);
   const auto rows = grid.rows_between(body.centre.y - reach, body.centre.y + reach);
-  for (int row = rows.begin; row <= rows.end; ++row) {
-    const double y = grid.y_of(row) - body.centre.y;
-    double left = infinity;
-    double right = -infinity;
-    for (const ConvexOutline::Edge& edge : outline.edges) {
-      const Vec2 normal{turned.x * edge.normal.x - turned.y * edge.normal.y,
-                        turned.y * edge.normal.x + turned.x * edge.normal.y};
-      const Vec2 along = perpendicular(normal);
-      const Vec2 corner = edge.offset * normal + edge.begin * along;
+  if (rows.begin > rows.end) return;
+  extents.assign(static_cast<std::size_t>(rows.end - rows.begin + 1), {});
+  // Calls with_row(y, extent) for the rows from `low` to `high` [µm] from the centre, and perhaps
+  // for their neighbours.
+  const auto for_rows = [&](double low, double high, auto&& with_row) {
+    const auto some = grid.rows_between(body.centre.y + low, body.centre.y + high);
+    const int end = std::min(rows.end, some.end + 1);
+    for (int row = std::max(rows.begin, some.begin - 1); row <= end; ++row)
+      with_row(grid.y_of(row) - body.centre.y, extents[static_cast<std::size_t>(row - rows.begin)]);
+  };
+  for (const ConvexOutline::Edge& edge : outline.edges) {
+    const Vec2 normal{turned.x * edge.normal.x - turned.y * edge.normal.y,
+                      turned.y * edge.normal.x + turned.x * edge.normal.y};
+    const Vec2 along = perpendicular(normal);
+    const Vec2 corner = edge.offset * normal + edge.begin * along;
+    const Vec2 a = corner + keep * normal;
+    const Vec2 b = a + (edge.end - edge.begin) * along;
+    for_rows(corner.y - keep, corner.y + keep, [&](double y, RowExtent& extent) {
       const double up = y - corner.y;
-      if (std::abs(up) <= keep) {
-        const double half = std::sqrt(keep * keep - up * up);
-        left = std::min(left, corner.x - half);
-        right = std::max(right, corner.x + half);
-      }
-      const Vec2 a = corner + keep * normal;
-      const Vec2 b = a + (edge.end - edge.begin) * along;
-      if ((a.y <= y) == (b.y <= y)) continue;
-      const double x = a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x);
-      left = std::min(left, x);
-      right = std::max(right, x);
-    }
-    if (left <= right) use(row, body.centre.x + left, body.centre.x + right);
+      if (std::abs(up) > keep) return;
+      const double half = std::sqrt(keep * keep - up * up);
+      extent.add(corner.x - half);
+      extent.add(corner.x + half);
+    });
+    for_rows(std::min(a.y, b.y), std::max(a.y, b.y), [&](double y, RowExtent& extent) {
+      if ((a.y <= y) != (b.y <= y)) extent.add(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
+    });
+  }
+  for (int row = rows.begin; row <= rows.end; ++row) {
+    const RowExtent& extent = extents[static_cast<std::size_t>(row - rows.begin)];
+    if (extent.left <= extent.right)
+      use(row, body.centre.x + extent.left, body.centre.x + extent.right);
   }
 }
 
@@ -82,7 +92,7 @@ void ObstacleForecast::update(const Snapshot& world, const MultiModelPredictor& 
   effect_ = effect;
   late_ = effect - world.time();
   bodies_.clear();
-  hollow_bodies_.clear();
+  std::size_t hollow = 0;
   standing_.clear();
   closing_ = 0;
   predicted_ = 0;
@@ -94,7 +104,9 @@ void ObstacleForecast::update(const Snapshot& world, const MultiModelPredictor& 
     outliner_.take(bodies[i], outline);
     const TrackedBody& motion = predictor.tracked(i);
     if (norm(motion.velocity) <= slow_speed_ && outliner_.misleads(outline, positions)) {
-      hollow_bodies_.push_back(bodies[i]);
+      // Its outline is copied into memory that is there.
+      if (hollow == hollow_bodies_.size()) hollow_bodies_.emplace_back();
+      hollow_bodies_[hollow++] = bodies[i];
       closing_ = std::max(closing_, params_.tuning.closing_time * motion.outline_speed);
       continue;
     }
@@ -114,7 +126,7 @@ void ObstacleForecast::update(const Snapshot& world, const MultiModelPredictor& 
     outline.edges.clear();
     bodies_.push_back({.index = i, .noise = predictor.hidden_noise(i), .hidden = true});
   }
-  hollow_.assign(hollow_bodies_);
+  hollow_.assign(std::span(hollow_bodies_).first(hollow));
   predict_until(predictor, near_samples_);
 }
 
@@ -187,6 +199,7 @@ void ObstacleForecast::occupy(planning::SpaceTimeGrid& grid, double radius, doub
     if (rests(i) && without_resting) continue;
     for (int slot = 0; slot < grid.slots(); ++slot)
       occupy_slot(grid, i, slot, radius + share * gap(2 * slot + 1, i));
+    grid.finish_body();
   }
 }
 
@@ -197,9 +210,10 @@ void ObstacleForecast::occupy_slot(planning::SpaceTimeGrid& grid, std::size_t i,
   const PredictedBody& middle = at(2 * slot + 1, i);
   const PredictedBody& end = at(2 * slot + 2, i);
   const auto occupy_at = [&](const PredictedBody& body) {
-    for_each_row_of(
-        grid, outlines_[i], body, keep + body.growth,
-        [&](int row, double left, double right) { grid.occupy_row(row, left, right, slot); });
+    for_each_row_of(grid, outlines_[i], body, keep + body.growth, extents_,
+                    [&](int row, double left, double right) {
+                      grid.occupy_row_of_body(row, left, right, slot);
+                    });
   };
   const double moved = distance(begin.centre, middle.centre) + distance(middle.centre, end.centre);
   constexpr double max_pieces = 16;
@@ -217,7 +231,7 @@ void ObstacleForecast::let_resting_stand(planning::SpaceTimeGrid& grid, double r
   for (std::size_t i = 0; i < size(); ++i) {
     if (!rests(i)) continue;
     for_each_row_of(
-        grid, outlines_[i], at(0, i), radius + gap,
+        grid, outlines_[i], at(0, i), radius + gap, extents_,
         [&](int row, double left, double right) { grid.let_row_stand(row, left, right); });
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -14,6 +15,16 @@
 #include "microswarm/planning/space_time/space_time_grid.hpp"
 
 namespace microswarm::navigation {
+
+/// Extent of a body in a row of the grid [µm].
+struct RowExtent {
+  double left = infinity;
+  double right = -infinity;
+  void add(double x) {
+    left = std::min(left, x);
+    right = std::max(right, x);
+  }
+};
 
 /// Moving bodies as predicted over the horizon, at the ends and the middles of the grid's slots.
 /// Time 0 is that at which the command of the step takes effect. A hollow body that hardly moves,
@@ -123,10 +134,11 @@ class ObstacleForecast {
   std::vector<PredictedBody> ahead_;     ///< by sample, then by body
   int predicted_ = 0;                    ///< number of predicted samples
   std::vector<double> present_gaps_;
-  std::vector<Body> hollow_bodies_;
+  std::vector<Body> hollow_bodies_;  ///< those that are hollow, then unused ones
   BodySet hollow_;
   double closing_ = 0;
   std::vector<Disc> standing_;
+  mutable std::vector<RowExtent> extents_;  ///< a buffer
 };
 
 }  // namespace microswarm::navigation

@@ -7,6 +7,7 @@
 
 #include "microswarm/core/fields/overloaded.hpp"
 #include "microswarm/geometry/distance.hpp"
+#include "microswarm/planning/common/free_goal.hpp"
 #include "microswarm/planning/space_time/grid_distances.hpp"
 
 namespace microswarm::planning {
@@ -48,16 +49,19 @@ void occupy_by_obstacles(const World& world, double radius, SpaceTimeGrid& grid,
   }
 }
 
-/// Cells in sight of the goal's region, with the straight lengths to it.
+/// Cells in sight of the goal, with the straight lengths to its region.
 std::vector<GridDistances::Seed> seeds_at(const Map& map, const ArrivalQuery& query,
                                           const SpaceTimeGrid& grid) {
   std::vector<GridDistances::Seed> seeds;
+  const GoalArea goal_area(map, query.goal, query.tolerance);
   const double near = std::max(query.tolerance, 1.5 * grid.cell());
   for (SpaceTimeGrid::Cell c = 0; c < grid.size(); ++c) {
     const Vec2 p = grid.position(c);
     const double away = distance(p, query.goal);
     if (away > near || grid.stands(c)) continue;
-    if (away > query.tolerance && !map.is_free(Segment{p, query.goal}, query.radius)) continue;
+    if (away > query.tolerance ? !map.is_free(Segment{p, query.goal}, query.radius)
+                               : !goal_area.contains(p))
+      continue;
     seeds.push_back({c, std::max(0.0, away - query.tolerance)});
   }
   return seeds;
@@ -95,7 +99,7 @@ double stay_at(const SpaceTimeGrid& grid, Vec2 start) {
 
 EarliestArrival earliest_arrival(const World& world, const ArrivalQuery& query, const Stop& stop) {
   EarliestArrival out;
-  if (distance(query.start, query.goal) <= query.tolerance) {
+  if (GoalArea(*world.map, query.goal, query.tolerance).contains(query.start)) {
     out = {Status::solved, 0, {{query.start, 0}}};
     return out;
   }

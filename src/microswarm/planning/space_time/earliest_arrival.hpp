@@ -14,7 +14,7 @@ namespace microswarm::planning {
 struct ArrivalQuery {
   Vec2 start{};          ///< [µm]
   Vec2 goal{};           ///< [µm]
-  double tolerance = 0;  ///< distance at which the goal counts as reached [µm]
+  double tolerance = 0;  ///< of the goal's GoalArea [µm]
   double radius = 0;     ///< [µm]
   double speed = 0;      ///< [µm/s]
   double cell = 10;      ///< side of a cell [µm]

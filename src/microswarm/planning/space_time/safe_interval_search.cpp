@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "microswarm/core/maths/angles.hpp"
@@ -41,8 +42,7 @@ void SafeIntervalSearch::reserve(const SpaceTimeGrid& grid, std::size_t states) 
   states_.reserve(states);
   open_.reserve(2 * states);
   path_.reserve(grid.size());
-  first_.resize(grid.size());
-  search_.resize(grid.size());
+  reached_.resize(grid.size());
 }
 
 Status SafeIntervalSearch::find(const SpaceTimeGrid& grid, const Query& query, const Stop& stop) {
@@ -92,11 +92,17 @@ Status SafeIntervalSearch::find(const SpaceTimeGrid& grid, const Query& query, c
 }
 
 void SafeIntervalSearch::begin(const SpaceTimeGrid& grid, const Query& query) {
-  first_.resize(grid.size());
-  search_.resize(grid.size());
+  reached_.resize(grid.size());
   if (++number_ == 0) {
-    std::fill(search_.begin(), search_.end(), 0);
+    std::fill(reached_.begin(), reached_.end(), Reached{});
     number_ = 1;
+  }
+  const double cell_time = grid.cell() / query.speed;
+  for (std::size_t k = 0; k < steps_.size(); ++k) {
+    const GridStep& step = grid_steps()[k];
+    const int extent = std::max(std::abs(step.column), std::abs(step.row));
+    const double duration = step.length * cell_time;
+    steps_[k] = {step.column, step.row, duration, 0.5 * duration / extent};
   }
   states_.clear();
   open_.clear();
@@ -106,7 +112,6 @@ void SafeIntervalSearch::begin(const SpaceTimeGrid& grid, const Query& query) {
   ahead_ = unit_vector(query.heading.value_or(0));
   State start;
   start.position = query.from;
-  start.until = query.stay_until;
   start.closed = true;
   states_.push_back(start);
   for (const Cell cell : query.entries) connect(grid, query, 0, {cell, grid.position(cell)}, false);
@@ -118,45 +123,86 @@ void SafeIntervalSearch::expand(const SpaceTimeGrid& grid, const Query& query,
   const std::uint32_t parent = states_[number].parent;
   const int column = grid.column_of(cell);
   const int row = grid.row_of(cell);
-  for (const GridStep& step : grid_steps()) {
+  for (const Step& step : steps_) {
     if (!grid.holds(column + step.column, row + step.row)) continue;
     const Cell next = grid.at(column + step.column, row + step.row);
-    if (grid.stands(next) || !std::isfinite(query.lengths[next])) continue;
+    if (!std::isfinite(query.lengths[next]) || grid.stands(next)) continue;
     const Place place{next, grid.position(column + step.column, row + step.row)};
-    if (!is_useless(grid, number, next, false)) connect(grid, query, number, place, false);
-    if (!is_useless(grid, parent, next, true)) connect(grid, query, parent, place, true);
+    const bool is_known = reached_[next].search == number_;
+    if (!is_known || !is_useless(grid, number, next, step_bounds(grid, query, number, step), false))
+      connect(grid, query, number, place, false);
+    if (!is_known ||
+        !is_useless(grid, parent, next, shortcut_bounds(grid, query, parent, place.position), true))
+      connect(grid, query, parent, place, true);
   }
 }
 
-// Whether connect() to a cell with a single interval would change nothing, without a square root.
+SafeIntervalSearch::Bounds SafeIntervalSearch::step_bounds(const SpaceTimeGrid& grid,
+                                                           const Query& query, std::uint32_t from,
+                                                           const Step& step) const {
+  const State& state = states_[from];
+  return {grid.slot_before(state.time), state.time + step.duration, step.half,
+          until(grid, query, from) + step.duration};
+}
+
+SafeIntervalSearch::Bounds SafeIntervalSearch::shortcut_bounds(const SpaceTimeGrid& grid,
+                                                               const Query& query,
+                                                               std::uint32_t from, Vec2 to) const {
+  const State& state = states_[from];
+  const Vec2 move = to - state.position;
+  const double pace = 2 * steps_[0].half / grid.cell();  // [s/µm]
+  const double duration = norm(move) * pace;
+  const bool is_long = std::max(std::abs(move.x), std::abs(move.y)) > 0.5 * grid.cell();
+  const double entered = std::max(0.0, duration - std::numbers::sqrt2 * steps_[0].half);
+  return {grid.slot_before(state.time + entered), state.time + duration,
+          is_long ? steps_[0].half : 0, until(grid, query, from) + duration};
+}
+
+// Whether connect() would change nothing, by bounds without divisions: every safe interval that
+// it can reach has a state that is reached as early.
 bool SafeIntervalSearch::is_useless(const SpaceTimeGrid& grid, std::uint32_t from_number, Cell to,
-                                    bool is_shortcut) const {
-  if (search_[to] != number_ || first_[to] == none || !grid.is_always_free(to)) return false;
-  const State& state = states_[first_[to]];
-  if (is_shortcut && state.parent == from_number) return true;
+                                    const Bounds& bounds, bool is_shortcut) const {
+  if (reached_[to].first == none) return false;
   const State& from = states_[from_number];
-  return from.parent != none && from.time + from.turn_cost >= state.time + state.turn_cost;
+  for (int slot = bounds.slot;;) {
+    const SpaceTimeGrid::Interval safe = grid.safe_interval(to, slot);
+    const double begin = safe.begin * grid.slot();
+    if (begin > bounds.latest + 2 * time_rounding) return true;
+    std::uint32_t i = reached_[to].first;
+    while (i != none && states_[i].end != safe.end) i = states_[i].next;
+    if (i == none) return false;
+    const State& state = states_[i];
+    if (!is_shortcut || state.parent != from_number) {
+      double useful = state.time + state.turn_cost;
+      if (is_shortcut) useful = std::min(useful, state.shortcut_time);
+      const double arrival = std::max(bounds.arrival, begin + bounds.half - 2e-6 * grid.slot());
+      if (arrival + from.turn_cost < useful - 0.5 * time_rounding) return false;
+    }
+    if (safe.end == SpaceTimeGrid::forever) return true;
+    slot = safe.end;
+  }
 }
 
 // A cell is entered half a step before the arrival at its centre.
 void SafeIntervalSearch::connect(const SpaceTimeGrid& grid, const Query& query,
                                  std::uint32_t from_number, const Place& to, bool is_shortcut) {
-  const State from = states_[from_number];
+  const State& from = states_[from_number];
   const Vec2 move = to.position - from.position;
   const double duration = norm(move) / query.speed;
   const double extent = std::max(std::abs(move.x), std::abs(move.y));
   const double half = extent > 0 ? 0.5 * duration * std::min(1.0, grid.cell() / extent) : 0;
   const double turn_cost = from.parent == none ? cost_of_turn(query, move) : from.turn_cost;
   const double earliest = from.time + turn_delay(query, from, move) + duration;
+  const double stays_until = until(grid, query, from_number);
   for (int slot = grid.slot_at(earliest - half);;) {
     const SpaceTimeGrid::Interval safe = grid.safe_interval(to.cell, slot);
     if (safe.begin == SpaceTimeGrid::forever) return;
     const double first =
         safe.begin > slot ? std::max(earliest, safe.begin * grid.slot() + half) : earliest;
-    if (first - duration > from.until + time_rounding) return;
-    const std::uint32_t state = state_of(to, grid, safe.end);
+    if (first - duration > stays_until + time_rounding) return;
+    const std::uint32_t state = state_of(to, safe.end);
     if (is_shortcut)
-      note_shortcut(query, from_number, state, {first, turn_cost, duration});
+      note_shortcut(grid, query, from_number, state, {first, turn_cost, duration});
     else
       relax(grid, query, from_number, state, {first, turn_cost, duration});
     if (safe.end == SpaceTimeGrid::forever) return;
@@ -164,12 +210,14 @@ void SafeIntervalSearch::connect(const SpaceTimeGrid& grid, const Query& query,
   }
 }
 
-void SafeIntervalSearch::note_shortcut(const Query& query, std::uint32_t from, std::uint32_t to,
-                                       const Move& move) {
+void SafeIntervalSearch::note_shortcut(const SpaceTimeGrid& grid, const Query& query,
+                                       std::uint32_t from, std::uint32_t to, const Move& move) {
   State& state = states_[to];
   const double cost = move.arrival + move.turn_cost;
   const double useful = std::min(state.time + state.turn_cost, state.shortcut_time);
-  if (state.parent == from || move.arrival >= state.until || cost >= useful - time_rounding) return;
+  if (state.parent == from || move.arrival >= until(grid, query, to) ||
+      cost >= useful - time_rounding)
+    return;
   state.shortcut = from;
   state.shortcut_time = cost;
   push(query, to, cost, Next::test_shortcut);
@@ -194,8 +242,9 @@ void SafeIntervalSearch::relax(const SpaceTimeGrid& grid, const Query& query,
   State& state = states_[to];
   const State& from = states_[from_number];
   const double useful = state.time + state.turn_cost - move.turn_cost - time_rounding;
-  const double latest = std::min(from.until + time_rounding,
-                                 std::min(state.until, useful) - time_rounding - move.duration);
+  const double latest =
+      std::min(until(grid, query, from_number) + time_rounding,
+               std::min(until(grid, query, to), useful) - time_rounding - move.duration);
   if (move.arrival - move.duration > latest) return;
   const double depart = grid.departure({from.position, state.position}, query.speed,
                                        move.arrival - move.duration, latest);
@@ -213,24 +262,28 @@ void SafeIntervalSearch::push(const Query& query, std::uint32_t number, double c
   std::push_heap(open_.begin(), open_.end());
 }
 
-std::uint32_t SafeIntervalSearch::state_of(const Place& place, const SpaceTimeGrid& grid, int end) {
+/// End of the safe interval of a state [s].
+double SafeIntervalSearch::until(const SpaceTimeGrid& grid, const Query& query,
+                                 std::uint32_t number) const {
+  if (number == 0) return query.stay_until;
+  const int end = states_[number].end;
+  return end == SpaceTimeGrid::forever ? infinity : end * grid.slot();
+}
+
+std::uint32_t SafeIntervalSearch::state_of(const Place& place, int end) {
   const Cell cell = place.cell;
-  if (search_[cell] != number_) {
-    search_[cell] = number_;
-    first_[cell] = none;
-  }
-  for (std::uint32_t i = first_[cell]; i != none; i = states_[i].next)
+  if (reached_[cell].search != number_) reached_[cell] = {number_, none};
+  for (std::uint32_t i = reached_[cell].first; i != none; i = states_[i].next)
     if (states_[i].end == end) return i;
   State state;
   state.position = place.position;
   state.time = infinity;
-  state.until = end == SpaceTimeGrid::forever ? infinity : end * grid.slot();
   state.cell = cell;
-  state.next = first_[cell];
+  state.next = reached_[cell].first;
   state.end = end;
-  first_[cell] = static_cast<std::uint32_t>(states_.size());
+  reached_[cell].first = static_cast<std::uint32_t>(states_.size());
   states_.push_back(state);
-  return first_[cell];
+  return reached_[cell].first;
 }
 
 // Takes the path to a state, where the swarm waits until a time.

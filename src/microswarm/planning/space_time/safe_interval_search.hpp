@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -68,18 +69,29 @@ class SafeIntervalSearch {
  private:
   static constexpr std::uint32_t none = ~std::uint32_t{0};
 
-  struct State {
+  struct alignas(64) State {
     Vec2 position{};
-    double time = 0;       ///< earliest arrival [s]
-    double turn_cost = 0;  ///< [s]
-    double until = 0;      ///< end of the safe interval [s]
-    Cell cell = 0;
-    std::uint32_t parent = none;
+    double time = 0;                  ///< earliest arrival [s]
+    double turn_cost = 0;             ///< [s]
+    double shortcut_time = infinity;  ///< bound of the arrival on the shortcut [s]
     std::uint32_t shortcut = none;    ///< state from which a straight way is to be tested
-    double shortcut_time = infinity;  ///< bound of the arrival on it [s]
-    std::uint32_t next = none;        ///< another safe interval of the cell
-    int end = 0;                      ///< slot at which the safe interval ends
+    std::uint32_t parent = none;
+    std::uint32_t next = none;  ///< another safe interval of the cell
+    int end = 0;                ///< slot at which the safe interval ends
+    Cell cell = 0;
     bool closed = false;
+  };
+  /// States of a cell.
+  struct Reached {
+    std::uint32_t search = 0;    ///< number of the search that reached it last
+    std::uint32_t first = none;  ///< state
+  };
+  /// A step of grid_steps in a search.
+  struct Step {
+    int column = 0;
+    int row = 0;
+    double duration = 0;  ///< [s]
+    double half = 0;      ///< time from the cell's border to its centre [s]
   };
   enum class Next { expand, test_shortcut, stay_to_horizon };
   struct Open {
@@ -87,7 +99,8 @@ class SafeIntervalSearch {
     std::uint32_t state;
     Next next;
     friend bool operator<(const Open& a, const Open& b) {
-      return a.cost != b.cost ? a.cost > b.cost : a.state > b.state;
+      // Without a branch, which would be mispredicted.
+      return (a.cost > b.cost) | ((a.cost == b.cost) & (a.state > b.state));
     }
   };
 
@@ -106,21 +119,35 @@ class SafeIntervalSearch {
   };
   void connect(const SpaceTimeGrid& grid, const Query& query, std::uint32_t from, const Place& to,
                bool is_shortcut);
-  bool is_useless(const SpaceTimeGrid& grid, std::uint32_t from, Cell to, bool is_shortcut) const;
+  /// Bounds of a move.
+  struct Bounds {
+    int slot = 0;        ///< first one in which the cell may be entered
+    double arrival = 0;  ///< lower bound of the arrival without a wait [s]
+    double half = 0;     ///< lower bound of the time from the cell's border to its centre [s]
+    double latest = 0;   ///< upper bound of the begin of safe intervals that can be reached [s]
+  };
+  Bounds step_bounds(const SpaceTimeGrid& grid, const Query& query, std::uint32_t from,
+                     const Step& step) const;
+  Bounds shortcut_bounds(const SpaceTimeGrid& grid, const Query& query, std::uint32_t from,
+                         Vec2 to) const;
+  bool is_useless(const SpaceTimeGrid& grid, std::uint32_t from, Cell to, const Bounds& bounds,
+                  bool is_shortcut) const;
+  double until(const SpaceTimeGrid& grid, const Query& query, std::uint32_t state) const;
   double cost_of_turn(const Query& query, Vec2 course) const;
   double turn_delay(const Query& query, const State& from, Vec2 course) const;
-  void note_shortcut(const Query& query, std::uint32_t from, std::uint32_t to, const Move& move);
+  void note_shortcut(const SpaceTimeGrid& grid, const Query& query, std::uint32_t from,
+                     std::uint32_t to, const Move& move);
   void relax(const SpaceTimeGrid& grid, const Query& query, std::uint32_t from, std::uint32_t to,
              const Move& move);
   void test_shortcut(const SpaceTimeGrid& grid, const Query& query, std::uint32_t state);
   void push(const Query& query, std::uint32_t state, double cost, Next next);
-  std::uint32_t state_of(const Place& place, const SpaceTimeGrid& grid, int end);
+  std::uint32_t state_of(const Place& place, int end);
   void finish(const Query& query, std::uint32_t last, double until = 0);
 
-  std::vector<State> states_;          ///< the start is first
-  std::vector<Open> open_;             ///< a heap
-  std::vector<std::uint32_t> first_;   ///< state of each cell that was reached
-  std::vector<std::uint32_t> search_;  ///< number of the search that reached each cell last
+  std::vector<State> states_;     ///< the start is first
+  std::vector<Open> open_;        ///< a heap
+  std::vector<Reached> reached_;  ///< by cell
+  std::array<Step, 16> steps_{};
   std::uint32_t number_ = 0;
   Vec2 ahead_{};  ///< direction of the query's heading
   std::vector<TimedPoint> path_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "microswarm/core/maths/infinity.hpp"
 
@@ -39,6 +40,7 @@ SpaceTimeGrid::Interval indices_between(double low, double high, int count) {
 SpaceTimeGrid::SpaceTimeGrid(const Box& bounds, double cell, double slot, int slots)
     : cell_(cell),
       slot_(slot),
+      slots_a_second_((1 - 1e-9) / slot),
       columns_(cells_along(bounds.width(), cell)),
       rows_(cells_along(bounds.height(), cell)),
       slots_(slots) {
@@ -46,6 +48,9 @@ SpaceTimeGrid::SpaceTimeGrid(const Box& bounds, double cell, double slot, int sl
          0.5 * Vec2{bounds.width() - (columns_ - 1) * cell, bounds.height() - (rows_ - 1) * cell};
   standing_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
   occupied_.resize(static_cast<std::size_t>((slots + 63) / 64) * size());
+  if (slots > 64) return;
+  body_rows_.resize(static_cast<std::size_t>(rows_));
+  body_ends_.resize(static_cast<std::size_t>(rows_) * static_cast<std::size_t>(columns_ + 1));
 }
 
 int SpaceTimeGrid::slot_at(double t) const {
@@ -82,6 +87,46 @@ void SpaceTimeGrid::occupy_row(int row, double left, double right, int slot) {
   for (int i = columns.begin; i <= columns.end; ++i) words[i] |= one;
 }
 
+// Where the newest cells of the slot overlap or adjoin, they become one run.
+void SpaceTimeGrid::occupy_row_of_body(int row, double left, double right, int slot) {
+  if (slots_ > 64) return occupy_row(row, left, right, slot);
+  const Interval cells = columns_between(left, right);
+  if (cells.begin > cells.end) return;
+  RowOfBody& body = body_rows_[static_cast<std::size_t>(row)];
+  std::uint64_t* const ends =
+      &body_ends_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_ + 1)];
+  Interval run = cells;
+  if (body.slot == slot) {
+    if (cells.begin > body.newest.end + 1 || body.newest.begin > cells.end + 1)
+      return occupy_row(row, left, right, slot);
+    run = {std::min(cells.begin, body.newest.begin), std::max(cells.end, body.newest.end)};
+    ends[body.newest.begin] ^= bit(slot);
+    ends[body.newest.end + 1] ^= bit(slot);
+  }
+  ends[run.begin] ^= bit(slot);
+  ends[run.end + 1] ^= bit(slot);
+  body.slot = slot;
+  body.newest = run;
+  body.reached = {std::min(body.reached.begin, run.begin), std::max(body.reached.end, run.end)};
+  used_rows_ = {std::min(used_rows_.begin, row), std::max(used_rows_.end, row)};
+}
+
+void SpaceTimeGrid::finish_body() {
+  for (int row = used_rows_.begin; row <= used_rows_.end; ++row) {
+    RowOfBody& body = body_rows_[static_cast<std::size_t>(row)];
+    std::uint64_t* const ends =
+        &body_ends_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_ + 1)];
+    std::uint64_t inside = 0;
+    for (int i = body.reached.begin; i <= body.reached.end; ++i) {
+      inside ^= std::exchange(ends[i], 0);
+      occupied_[at(i, row)] |= inside;
+    }
+    if (body.reached.end >= 0) ends[body.reached.end + 1] = 0;
+    body = {};
+  }
+  used_rows_ = {forever, -1};
+}
+
 void SpaceTimeGrid::let_row_stand(int row, double left, double right) {
   const Interval columns = columns_between(left, right);
   for (int i = columns.begin; i <= columns.end; ++i) let_stand(at(i, row));
@@ -96,30 +141,6 @@ void SpaceTimeGrid::occupy(Disc disc, int slot) {
     const double half = std::sqrt(std::max(0.0, r * r - y * y));
     occupy_row(row, disc.centre.x - half, disc.centre.x + half, slot);
   }
-}
-
-int SpaceTimeGrid::next_free(Cell c, int slot) const {
-  while (slot < slots_) {
-    const std::uint64_t free = ~word(c, slot) >> (slot % 64);
-    if (free != 0) return std::min(slots_, slot + std::countr_zero(free));
-    slot += 64 - slot % 64;
-  }
-  return slot;
-}
-
-int SpaceTimeGrid::next_occupied(Cell c, int slot) const {
-  while (slot < slots_) {
-    const std::uint64_t busy = word(c, slot) >> (slot % 64);
-    if (busy != 0) return std::min(forever, slot + std::countr_zero(busy));
-    slot += 64 - slot % 64;
-  }
-  return forever;
-}
-
-SpaceTimeGrid::Interval SpaceTimeGrid::safe_interval(Cell c, int slot) const {
-  if (stands(c)) return {forever, forever};
-  const int begin = next_free(c, slot);
-  return {begin, next_occupied(c, begin)};
 }
 
 // Calls use(share, cell, cell) for the two cells next to the move in each column that it crosses,
@@ -155,6 +176,16 @@ bool SpaceTimeGrid::for_each_pair(Segment move, Use&& use) const {
   return true;
 }
 
+/// Last slot from `first` to `last` in which one of two cells is occupied, else one before `first`.
+int SpaceTimeGrid::last_occupied(Cell a, Cell b, int first, int last) const {
+  while (last >= first) {
+    const std::uint64_t busy = (word(a, last) | word(b, last)) << (63 - last % 64);
+    if (busy != 0) return last - std::countl_zero(busy);
+    last -= last % 64 + 1;
+  }
+  return last;
+}
+
 bool SpaceTimeGrid::is_open(Segment move) const {
   return for_each_pair(move,
                        [&](auto&&, Cell low, Cell high) { return !stands(low) && !stands(high); });
@@ -178,12 +209,10 @@ double SpaceTimeGrid::departure(Segment move, double speed, double depart, doubl
       }
       const double until = std::min(1.0, share + half) * duration;
       const int last = std::min(slots_ - 1, slot_at(depart + until - 4 * grid_rounding * slot_));
-      for (int slot = last; slot >= first; --slot) {
-        if (((word(low, slot) | word(high, slot)) & bit(slot)) == 0) continue;
-        later = std::max((slot + 1) * slot_ - since, depart + slot_ * grid_rounding);
-        return false;
-      }
-      return true;
+      const int slot = last_occupied(low, high, first, last);
+      if (slot < first) return true;
+      later = std::max((slot + 1) * slot_ - since, depart + slot_ * grid_rounding);
+      return false;
     });
     if (free) return depart;
     depart = later;

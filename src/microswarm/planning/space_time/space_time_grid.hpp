@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -42,6 +44,10 @@ class SpaceTimeGrid {
   double horizon() const { return slot_ * slots_; }
   /// Number of the slot at time `t` >= 0 [s]; at least slots() after the horizon.
   int slot_at(double t) const;
+  /// That slot or, by rounding, the one before, without a division.
+  int slot_before(double t) const {
+    return t < horizon() ? static_cast<int>(t * slots_a_second_) : slots_;
+  }
 
   Cell at(int column, int row) const {
     return static_cast<Cell>(row) * static_cast<Cell>(columns_) + static_cast<Cell>(column);
@@ -72,6 +78,10 @@ class SpaceTimeGrid {
   /// Occupies, in one slot, the cells of a row with centres from x = `left` to `right` [µm].
   void occupy_row(int row, double left, double right, int slot);
   void occupy(Cell c, int slot) { word(c, slot) |= bit(slot); }
+  /// The same as occupy_row() for the many rows and slots of one moving body, once finish_body() is
+  /// called: only the ends of each row are written at first.
+  void occupy_row_of_body(int row, double left, double right, int slot);
+  void finish_body();
   /// Rows with centres from y = `low` to `high` [µm]: first and last, which is less if there is
   /// none.
   Interval rows_between(double low, double high) const;
@@ -89,7 +99,11 @@ class SpaceTimeGrid {
   }
   /// The first safe interval of `c` that ends after `slot`; `begin` is at least `slot`. Empty
   /// (begin = end = forever) if there is none.
-  Interval safe_interval(Cell c, int slot) const;
+  Interval safe_interval(Cell c, int slot) const {
+    if (stands(c)) return {forever, forever};
+    const int begin = next_free(c, slot);
+    return {begin, next_occupied(c, begin)};
+  }
   /// Earliest time from `depart` to `latest` [s] at which a point can leave `a` that moves straight
   /// to `b` at `speed` [µm/s] and must be in free cells all the time; infinity if there is none. Of
   /// each column (or row, if it moves along the rows) it needs both cells next to it, while it is
@@ -113,19 +127,45 @@ class SpaceTimeGrid {
     return occupied_[static_cast<std::size_t>(slot / 64) * size() + c];
   }
   Interval columns_between(double left, double right) const;
-  int next_free(Cell c, int slot) const;
-  int next_occupied(Cell c, int slot) const;
+  int next_free(Cell c, int slot) const {
+    while (slot < slots_) {
+      const std::uint64_t free = ~word(c, slot) >> (slot % 64);
+      if (free != 0) return std::min(slots_, slot + std::countr_zero(free));
+      slot += 64 - slot % 64;
+    }
+    return slot;
+  }
+  int next_occupied(Cell c, int slot) const {
+    while (slot < slots_) {
+      const std::uint64_t busy = word(c, slot) >> (slot % 64);
+      if (busy != 0) return std::min(forever, slot + std::countr_zero(busy));
+      slot += 64 - slot % 64;
+    }
+    return forever;
+  }
+  int last_occupied(Cell a, Cell b, int first, int last) const;
   template <class Use>
   bool for_each_pair(Segment move, Use&& use) const;
 
   Vec2 low_;
   double cell_ = 1;
   double slot_ = 1;
+  double slots_a_second_ = 1;
   int columns_ = 0;
   int rows_ = 0;
   int slots_ = 0;
   std::vector<std::uint64_t> standing_;  ///< all bits set for a cell that stands
   std::vector<std::uint64_t> occupied_;  ///< a bit for each slot, 64 slots of all cells together
+  /// Of a body in a row: the cells that it reaches so far, and those in its newest slot.
+  struct RowOfBody {
+    Interval reached{forever, -1};
+    Interval newest{};
+    int slot = -1;
+  };
+  std::vector<RowOfBody> body_rows_;
+  std::vector<std::uint64_t>
+      body_ends_;  ///< by cell, and one more a row: where a slot begins or ends
+  Interval used_rows_{forever, -1};
 };
 
 }  // namespace microswarm::planning
