@@ -13,6 +13,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/formats/images/image.hpp"
+#include "microswarm/formats/media/media.hpp"
 #include "microswarm/vision/camera/video_file_writer.hpp"
 #include "microswarm/vision/tracking/video_tracker.hpp"
 #include "tests/files.hpp"
@@ -189,6 +190,29 @@ TEST_F(Videos, AWriterGivenUpLeavesNothing) {
     writer.add(flat(64, 48, 3, 9));
   }
   EXPECT_TRUE(fs::is_empty(folder));
+}
+
+// Before memory is taken for its pictures.
+TEST_F(Videos, AClaimedSizeBeyondTheLimitIsALine) {
+  const char gif[] =
+      "GIF89a\xff\xff\xff\xff\x80\0\0\0\0\0\xff\xff\xff,\0\0\0\0\1\0\1\0\0\2\2D\1\0;";
+  write_file_atomically(folder / "x.gif", {gif, sizeof gif - 1});
+  const std::string why = refusal(folder / "x.gif");
+  EXPECT_NE(why.find(" pixels, allowed up to 16384 a side"), std::string::npos) << why;
+}
+
+TEST(HeldPictures, FitIntoTheirMemory) {
+  constexpr std::int64_t bytes_per_px = 6;
+  for (const int side : {64, 640, 1280, 2048, 4096, 8000, 16384})
+    for (const unsigned cores : {0U, 1U, 2U, 8U, 64U}) {
+      const auto held = formats::held_pictures(side, side, cores);
+      const int pictures = 2 * held.threads + held.references + held.reordered + held.ahead;
+      EXPECT_GE(held.threads, 1);
+      EXPECT_GE(held.references, 1);
+      EXPECT_TRUE(pictures == 3 || bytes_per_px * side * side * pictures <= formats::max_held_bytes)
+          << side << ": " << pictures;
+    }
+  EXPECT_EQ(formats::held_pictures(8000, 8000, 8).ahead, 0);
 }
 
 TEST(Channels, AreTakenOneByOne) {

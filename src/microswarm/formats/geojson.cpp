@@ -243,7 +243,14 @@ class GeoJsonReader {
   /// Refuses rings that leave unclear what is a wall. A ring without holes that crosses itself is
   /// noted, and what it goes round is a wall.
   void add_wall(Polygon wall, const JsonPlace& place) {
-    const std::optional<RingFault> fault = find_ring_fault(wall);
+    const auto within = [&](auto&& judge) {
+      try {
+        return judge();
+      } catch (const InputError& error) {
+        fail(place, error.what());
+      }
+    };
+    const std::optional<RingFault> fault = within([&] { return find_ring_fault(wall); });
     if (!fault) {
       parts_.walls.push_back(std::move(wall));
       return;
@@ -259,7 +266,8 @@ class GeoJsonReader {
     if (++crossing_rings_ == 1)
       parts_.notes.push_back(
           located(first, "the ring crosses itself" + at + "; all that it goes round is a wall"));
-    for (Polygon& part : united(std::span(&wall, 1))) parts_.walls.push_back(std::move(part));
+    for (Polygon& part : within([&] { return united(std::span(&wall, 1)); }))
+      parts_.walls.push_back(std::move(part));
   }
 
   /// Width of a line [µm], of its feature or for all lines.

@@ -7,6 +7,7 @@
 
 #include "microswarm/geometry/distance.hpp"
 #include "microswarm/geometry/edge_grid.hpp"
+#include "microswarm/geometry/edge_meetings.hpp"
 #include "microswarm/geometry/predicates.hpp"
 #include "microswarm/world/obstacles/clip.hpp"
 
@@ -31,19 +32,15 @@ class RingEdges {
   /// First proper crossing of two edges. `touch` receives the first contact without one.
   std::optional<RingFault> crossing(std::optional<RingFault>& touch) const {
     std::optional<RingFault> found;
-    for (std::size_t i = 0; i < edges_.size() && !found; ++i) {
-      const Segment& s = edges_[i];
-      const Box box{{std::min(s.a.x, s.b.x), std::min(s.a.y, s.b.y)},
-                    {std::max(s.a.x, s.b.x), std::max(s.a.y, s.b.y)}};
-      grid_.for_each_in(box, [&](std::size_t j) {
-        if (j <= i || found || !intersects(s, edges_[j])) return;
-        const Segment& t = edges_[j];
-        if (cross_properly(s, t) && !ends_on(s, t))
-          found = fault(i, j, meeting_point(s, t));
-        else if (!touch && !are_neighbours(i, j))
-          touch = fault(i, j, contains(s, t.a) ? t.a : contains(s, t.b) ? t.b : s.a);
-      });
-    }
+    const bool complete = for_each_meeting(grid_, [&](std::size_t i, std::size_t j) {
+      const Segment &s = edges_[i], &t = edges_[j];
+      if (cross_properly(s, t) && !ends_on(s, t))
+        found = fault(i, j, meeting_point(s, t));
+      else if (!touch && !are_neighbours(i, j))
+        touch = fault(i, j, contains(s, t.a) ? t.a : contains(s, t.b) ? t.b : s.a);
+      return !found;
+    });
+    if (!complete) fail_too_many_meetings(edges_.size());
     return found;
   }
 

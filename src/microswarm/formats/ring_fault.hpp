@@ -24,7 +24,8 @@ struct RingFault {
 };
 
 /// The first fault of a polygon whose rings are oriented as `Polygon` requires. Rings that touch,
-/// or cross by less than a billionth of the extent, are judged by their area.
+/// or cross by less than a billionth of the extent, are judged by their area. Throws InputError as
+/// `united`.
 std::optional<RingFault> find_ring_fault(const Polygon& polygon);
 
 }  // namespace microswarm::formats

@@ -33,6 +33,7 @@ class EdgeGrid {
   std::size_t size() const { return edges_.size(); }
   bool empty() const { return edges_.empty(); }
   const Segment& edge(std::size_t i) const { return edges_[i]; }
+  std::span<const Segment> edges() const { return edges_; }
   std::uint32_t enclosing_pose(std::size_t i) const { return bodies_[i]; }
   const Box& box() const { return grid_.box(); }
   /// Side of a cell [µm].

@@ -23,7 +23,11 @@ extern "C" {
 #include <string>
 #include <string_view>
 #include <thread>
+#include <tuple>
 #include <utility>
+#include <vector>
+
+#include "microswarm/formats/media/libav_free.hpp"
 
 namespace microswarm::formats {
 namespace {
@@ -32,25 +36,10 @@ constexpr std::string_view file_protocol = "file:";  // so that no name is anoth
 
 namespace fs = std::filesystem;
 
-constexpr int max_bad_packets = 64;  // before the first picture
-constexpr unsigned max_threads = 16;
-
-/// Calls the function that frees a libav object through its address.
-template <auto Free>
-struct FreeBy {
-  template <class T>
-  void operator()(T* object) const {
-    Free(&object);
-  }
-};
-struct FreeScaler {
-  void operator()(SwsContext* scaler) const { sws_freeContext(scaler); }
-};
+constexpr int max_bad_packets = 64;                    // before the first picture
+constexpr std::int64_t max_video_pixels = 64'000'000;  // as of images
 
 using Format = std::unique_ptr<AVFormatContext, FreeBy<avformat_close_input>>;
-using Decoder = std::unique_ptr<AVCodecContext, FreeBy<avcodec_free_context>>;
-using Packet = std::unique_ptr<AVPacket, FreeBy<av_packet_free>>;
-using Frame = std::unique_ptr<AVFrame, FreeBy<av_frame_free>>;
 
 /// The library's messages as OpenCV sets them: errors, or what its environment variable says.
 void set_messages() {
@@ -60,6 +49,24 @@ void set_messages() {
     return true;
   }();
   static_cast<void>(once);
+}
+
+/// Reads the first pictures, none larger than allowed.
+bool find_streams(AVFormatContext& format) {
+  std::vector<AVDictionary*> options(format.nb_streams);
+  std::vector<std::pair<int, int>> sizes(format.nb_streams);
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const AVCodecParameters& told = *format.streams[i]->codecpar;
+    sizes[i] = {told.width, told.height};
+    av_dict_set_int(&options[i], "max_pixels", max_video_pixels, 0);
+  }
+  const int code = avformat_find_stream_info(&format, options.data());
+  for (AVDictionary*& of_stream : options) av_dict_free(&of_stream);
+  for (std::size_t i = 0; i < sizes.size(); ++i) {  // it forgets those beyond
+    AVCodecParameters& told = *format.streams[i]->codecpar;
+    if (told.width == 0) std::tie(told.width, told.height) = sizes[i];
+  }
+  return code >= 0;
 }
 
 /// A file only: a playlist may not name an address.
@@ -72,8 +79,7 @@ Format open_format(const fs::path& file) {
   av_dict_free(&options);
   if (code < 0) return nullptr;
   Format format(opened);
-  if (avformat_find_stream_info(format.get(), nullptr) < 0) return nullptr;
-  return format;
+  return find_streams(*format) ? std::move(format) : nullptr;
 }
 
 /// Turn of stored pictures to be shown: transposed first, then mirrored.
@@ -179,8 +185,13 @@ class LibavInput : public VideoInput {
     if (!decoder_ || !packet_ || !frame_) return false;
     if (avcodec_parameters_to_context(decoder_.get(), stream_->codecpar) < 0) return false;
     decoder_->pkt_timebase = stream_->time_base;
-    decoder_->thread_count =
-        static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, max_threads));
+    width = stream_->codecpar->width;
+    height = stream_->codecpar->height;
+    if (std::int64_t{width} * height > max_video_pixels) return true;  // the caller refuses it
+    decoder_->max_pixels = max_video_pixels;  // before memory is taken for them
+    decoder_->thread_count = held_pictures(stream_->codecpar->width, stream_->codecpar->height,
+                                           std::thread::hardware_concurrency())
+                                 .threads;
     if (avcodec_open2(decoder_.get(), codec, nullptr) < 0) return false;
     for (unsigned i = 0; i < format_->nb_streams; ++i)
       if (format_->streams[i] != stream_) format_->streams[i]->discard = AVDISCARD_ALL;
@@ -259,6 +270,7 @@ class LibavInput : public VideoInput {
     const int stored_w = frame_->width, stored_h = frame_->height;
     if (stored_w < 1 || stored_h < 1) return false;
     const int w = stretched(stored_w, wider_), h = stretched(stored_h, higher_);
+    if (std::int64_t{w} * h > max_video_pixels) return false;
     scaler_.reset(sws_getCachedContext(scaler_.release(), stored_w, stored_h,
                                        static_cast<AVPixelFormat>(frame_->format), w, h,
                                        AV_PIX_FMT_BGR24, SWS_BICUBIC, nullptr, nullptr, nullptr));
@@ -270,17 +282,17 @@ class LibavInput : public VideoInput {
     const int steps[4] = {step, 0, 0, 0};
     if (sws_scale(scaler_.get(), frame_->data, frame_->linesize, 0, stored_h, to, steps) != h)
       return false;
-    cv::Mat(h, w, CV_8UC3, rows_.data, static_cast<std::size_t>(step)).copyTo(picture);
+    picture = cv::Mat(h, w, CV_8UC3, rows_.data, static_cast<std::size_t>(step));
     turn_.apply(picture);
     return true;
   }
 
   Format format_;
   AVStream* stream_;
-  Decoder decoder_;
+  Coder decoder_;
   Packet packet_;
   Frame frame_;
-  std::unique_ptr<SwsContext, FreeScaler> scaler_;
+  Scaler scaler_;
   cv::Mat rows_;
   Turn turn_;
   double wider_ = 1, higher_ = 1;  ///< stretches of pictures as shown

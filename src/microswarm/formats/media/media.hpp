@@ -31,7 +31,8 @@ struct Photograph {
 class VideoInput {
  public:
   virtual ~VideoInput() = default;
-  /// The next picture, grey or blue, green, red; false at the end or where it cannot be decoded.
+  /// The next picture, blue, green, red, valid until the next call; false at the end or where it
+  /// cannot be decoded.
   virtual bool read(cv::Mat& picture) = 0;
 
   int width = 0;   ///< as shown [px]
@@ -70,6 +71,20 @@ struct VideoForm {
   bool colours = true;
 };
 
+/// Pictures that a decoder or encoder may hold.
+struct HeldPictures {
+  int threads = 1;     ///< each holds one or two
+  int ahead = 0;       ///< at which an encoder looks before it writes one
+  int reordered = 0;   ///< between two that they refer to
+  int references = 1;  ///< that others refer to
+};
+
+/// Memory that an encoder may take for the pictures it holds, about, if one of them fits [bytes].
+inline constexpr std::int64_t max_held_bytes = 256 << 20;
+
+/// As many pictures of this size as fit into max_held_bytes, at most what encoders usually hold.
+HeldPictures held_pictures(int width, int height, unsigned cores);
+
 /// Interface of the module. Thread-safe.
 class Media {
  public:
@@ -78,7 +93,8 @@ class Media {
   virtual Photograph decode(std::span<const std::byte> bytes) const = 0;
   /// Opens a video; null if it cannot be read.
   virtual std::unique_ptr<VideoInput> open(const std::filesystem::path& file) const = 0;
-  /// Creates a video; null without such an encoder, or if the file cannot be written.
+  /// Creates a video, of H.264 with at most held_pictures in memory; null without such an encoder,
+  /// or if the file cannot be written.
   virtual std::unique_ptr<VideoOutput> create(const std::filesystem::path& file,
                                               const VideoForm& form) const = 0;
   /// Pictures in a video, counted without decoding them; 0 if it cannot be read.

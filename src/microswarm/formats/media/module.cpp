@@ -6,6 +6,7 @@
 #include <opencv2/videoio.hpp>
 
 #include "microswarm/formats/media/libav_input.hpp"
+#include "microswarm/formats/media/libav_output.hpp"
 #include "microswarm/formats/media/media.hpp"
 
 namespace microswarm::formats {
@@ -59,6 +60,7 @@ class OpenCvMedia : public Media {
   std::unique_ptr<VideoInput> open(const fs::path& file) const override { return open_libav(file); }
 
   std::unique_ptr<VideoOutput> create(const fs::path& file, const VideoForm& form) const override {
+    if (form.codec == VideoCodec::h264 && form.colours) return create_h264(file, form);
     cv::VideoWriter video;
     if (!video.open(fs::absolute(file).string(), cv::CAP_FFMPEG, fourcc(form.codec), form.rate,
                     {form.width, form.height},

@@ -56,6 +56,7 @@ void VideoFileWriter::add(const formats::Image& picture) {
   std::filesystem::path folder = p.file;
   folder.replace_extension();
   if (p.pictures == 0) {
+    formats::check_image_size(picture.width, picture.height, p.file.string());
     if (!p.open({picture.width, picture.height})) {
       p.staged.reset();
       std::filesystem::create_directories(folder);

@@ -21,7 +21,7 @@ class VideoFileWriter {
   VideoFileWriter(const VideoFileWriter&) = delete;
   VideoFileWriter& operator=(const VideoFileWriter&) = delete;
 
-  /// Appends a colour picture; all must have one size.
+  /// Appends a colour picture; all must have one size. Throws InputError as check_image_size.
   void add(const formats::Image& picture);
   /// Ends the video and returns the path of the file or folder; nothing without pictures.
   std::optional<std::filesystem::path> commit();

@@ -22,7 +22,7 @@ struct PictureSize {
 /// room, a scale bar, time and count.
 class TrackOverlay {
  public:
-  /// Pictures with more pixels are shrunk: H.264 encoders hold about a hundred of them in memory.
+  /// Pictures with more pixels are shrunk: an encoder holds several of them in memory.
   static constexpr int max_pixels = 2048 * 2048;
   /// Size in the overlay of pictures that are so large.
   static PictureSize size(PictureSize of_pictures);

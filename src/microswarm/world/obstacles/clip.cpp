@@ -4,7 +4,12 @@
 #include <algorithm>
 #include <clipper.hpp>
 #include <cmath>
+#include <string>
 #include <utility>
+
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/geometry/edge_grid.hpp"
+#include "microswarm/geometry/edge_meetings.hpp"
 
 namespace microswarm {
 namespace {
@@ -94,9 +99,41 @@ Box enclosing_disc(std::span<const Polygon> polygons) {
   return box;
 }
 
+/// Edges beside the vertices of all rings, which the clipper goes through one by one.
+double union_steps(const std::vector<Segment>& edges) {
+  std::vector<double> heights;
+  heights.reserve(edges.size());
+  for (const Segment& e : edges) heights.push_back(e.a.y);
+  std::ranges::sort(heights);
+  heights.erase(std::unique(heights.begin(), heights.end()), heights.end());
+  double steps = 0;
+  for (const Segment& e : edges) {
+    const auto [low, high] = std::minmax(e.a.y, e.b.y);
+    steps += static_cast<double>(std::ranges::lower_bound(heights, high) -
+                                 std::ranges::lower_bound(heights, low));
+  }
+  return steps;
+}
+
+/// Throws InputError for polygons whose union would take minutes.
+void require_union(std::span<const Polygon> polygons) {
+  std::vector<Segment> edges;
+  for (const Polygon& polygon : polygons)
+    for_each_edge(polygon, [&](Vec2 a, Vec2 b) { edges.push_back({a, b}); });
+  if (const double steps = union_steps(edges); steps > max_union_steps)
+    throw InputError("the walls have " + std::to_string(edges.size()) +
+                     " edges to be united that are beside each other too often, " +
+                     std::to_string(std::llround(steps)) + " times, at most " +
+                     std::to_string(std::llround(max_union_steps)));
+  const EdgeGrid grid(edges, std::vector<std::uint32_t>(edges.size(), 0));
+  if (!for_each_meeting(grid, [](std::size_t, std::size_t) { return true; }))
+    fail_too_many_meetings(edges.size());
+}
+
 }  // namespace
 
 std::vector<Polygon> united(std::span<const Polygon> polygons) {
+  require_union(polygons);
   Lattice lattice(enclosing_disc(polygons));
   ClipperLib::Clipper clipper;
   clipper.AddPaths(lattice.to_paths(polygons), ClipperLib::ptSubject, true);

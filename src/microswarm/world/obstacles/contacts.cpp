@@ -10,6 +10,7 @@
 
 #include "microswarm/geometry/distance.hpp"
 #include "microswarm/geometry/edge_grid.hpp"
+#include "microswarm/geometry/edge_meetings.hpp"
 #include "microswarm/geometry/predicates.hpp"
 
 namespace microswarm {
@@ -61,21 +62,17 @@ class Rings {
   const EdgeGrid& grid() const { return grid_; }
 
   void find_contacts(std::vector<Contact>& out) const {
-    for (std::size_t i = 0; i < edges_.size(); ++i) {
-      const Segment& e = edges_[i];
-      const Box box{{std::min(e.a.x, e.b.x), std::min(e.a.y, e.b.y)},
-                    {std::max(e.a.x, e.b.x), std::max(e.a.y, e.b.y)}};
-      grid_.for_each_in(box, [&](std::size_t j) {
-        if (j <= i || !intersects(e, edges_[j])) return;
-        const std::size_t first = polygon_of_[i];
-        const std::size_t second = polygon_of_[j];
-        if (first != second) {
-          out.push_back({first, second, edges_overlap(i, j)});
-        } else if (next_[i] != j && next_[j] != i && ring_crosses(i, j)) {
-          out.push_back({first, first, true});
-        }
-      });
-    }
+    const bool found = for_each_meeting(grid_, [&](std::size_t i, std::size_t j) {
+      const std::size_t first = polygon_of_[i];
+      const std::size_t second = polygon_of_[j];
+      if (first != second) {
+        out.push_back({first, second, edges_overlap(i, j)});
+      } else if (next_[i] != j && next_[j] != i && ring_crosses(i, j)) {
+        out.push_back({first, first, true});
+      }
+      return true;
+    });
+    if (!found) fail_too_many_meetings(edges_.size());
   }
 
   /// Polygons whose solid contains p, which is on none of their edges.

@@ -19,7 +19,7 @@ struct Contact {
 
 /// Contacts and overlaps of polygons and discs. Exact apart from the rounding of a disc's rim. A
 /// self-intersecting polygon overlaps itself. Every connected group of solids is connected by the
-/// contacts, but not every pair in it is listed.
+/// contacts, but not every pair in it is listed. Throws InputError for edges that meet too often.
 std::vector<Contact> find_contacts(std::span<const Polygon> polygons, std::span<const Disc> discs);
 
 }  // namespace microswarm
