@@ -40,7 +40,7 @@ export async function comparePage(numbers: number[]): Promise<Page> {
       const stage = await stageFor(live);
       const caption = element('figcaption', {});
       const figure = element('figure', { class: 'side', 'data-side': names[i] as string }, caption, stage.scene.root);
-      return { live, stage, caption, figure, parameters: new Parameters(live) };
+      return { live, stage, caption, figure, parameters: new Parameters(live, `field-${names[i]}`) };
     }),
   );
   const restart = () => Promise.all(sides.map((side) => side.parameters.restart()));

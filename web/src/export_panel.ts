@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { element } from './dom';
 import type { Live } from './live';
+import { numberEntry } from './number_entry';
 import type { Scene } from './scene/scene';
 
 const speeds = [1, 2, 4, 8, 16, 32];
@@ -15,10 +16,10 @@ export function exportPanel(live: Live, scene: Scene): HTMLElement {
   for (const one of [640, 1280, 1920]) width.append(element('option', { value: String(one) }, `${one} px`));
   width.value = '1280';
   const time = (label: string, title: string) =>
-    element('input', { type: 'number', class: 'number', min: '0', step: 'any', placeholder: label, 'aria-label': label, title });
+    numberEntry({ placeholder: label, 'aria-label': label, title }, undefined, (trouble) => (said.value = trouble));
   const from = time('from s', 'First time of the video [s]; empty: the start');
   const to = time('to s', 'Last time of the video [s]; empty: the newest frame');
-  const video = () => new URLSearchParams({ from: from.value, to: to.value, speed: speed.value, width: width.value });
+  const video = () => new URLSearchParams({ from: String(from.get() ?? ''), to: String(to.get() ?? ''), speed: speed.value, width: width.value });
   const path = `/api/sessions/${live.session}`;
   let cancel: AbortController | undefined;
 
@@ -60,7 +61,7 @@ export function exportPanel(live: Live, scene: Scene): HTMLElement {
       speed,
       width,
     ),
-    element('div', { class: 'row' }, from, to),
+    element('div', { class: 'row' }, from.root, to.root),
     element('div', { class: 'row' }, stop, said),
   );
 }

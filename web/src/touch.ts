@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+import { discRadius } from './discs';
 import { element } from './dom';
 import type { Live } from './live';
+import { numberEntry } from './number_entry';
 import type { Parameters } from './parameters';
 import { type Json, type Point, said } from './protocol';
 import { at, text } from './settings';
@@ -25,14 +27,7 @@ const places: { [motion: string]: string } = {
 export class Hands {
   readonly tools: HTMLElement;
   private tool: Tool | undefined;
-  private readonly radius = element('input', {
-    type: 'number',
-    min: '1',
-    step: '5',
-    value: '50',
-    class: 'number',
-    'aria-label': 'Radius of a new disc in µm',
-  });
+  private readonly radius = numberEntry({ 'aria-label': 'Radius of a new disc in µm' }, undefined, (trouble) => this.say(trouble));
   private readonly buttons = new Map<Tool, HTMLButtonElement>();
   private last: Promise<void> = Promise.resolve(); // touches are handled in sequence
 
@@ -52,12 +47,24 @@ export class Hands {
       this.buttons.set(tool, made);
       return made;
     };
+    const radius = element('label', { class: 'unit' }, 'r ', this.radius.root, ' µm');
+    live.listen((message) => {
+      if (message.type !== 'hello') return;
+      const { lo, hi } = message.map;
+      this.radius.set(discRadius(hi[0] - lo[0], hi[1] - lo[1]));
+      // Robots that are tracked one by one have no moving obstacles, and only maps of polygons have round walls.
+      const hasRobots = at(message.scenario, 'robots') != null;
+      const hasDiscs = this.discs() !== undefined;
+      (this.buttons.get('obstacle') as HTMLElement).hidden = hasRobots;
+      (this.buttons.get('wall') as HTMLElement).hidden = !hasDiscs;
+      radius.hidden = (this.buttons.get('remove') as HTMLElement).hidden = hasRobots && !hasDiscs;
+    });
     this.tools = element(
       'div',
       { class: 'tools', role: 'toolbar', 'aria-label': 'Scene' },
       button('obstacle', '+ Obstacle'),
       button('wall', '+ Wall'),
-      element('label', { class: 'unit' }, 'r ', this.radius, ' µm'),
+      radius,
       button('remove', '− Remove'),
     );
   }
@@ -113,7 +120,7 @@ export class Hands {
 
   private async addObstacle(position: Point): Promise<void> {
     const disc = {
-      shape: { type: 'disc', radius_um: Number(this.radius.value) },
+      shape: { type: 'disc', radius_um: this.radius.get() ?? 0 },
       motion: { type: 'still', position_um: rounded(position) },
     };
     await this.apply('obstacles', [...this.obstacles(), disc]);
@@ -122,7 +129,7 @@ export class Hands {
   private async addWall(position: Point): Promise<void> {
     const discs = this.discs();
     if (!discs) return this.say('Round walls can only be added to a map of polygons.');
-    const wall = { centre_um: rounded(position), radius_um: Number(this.radius.value) };
+    const wall = { centre_um: rounded(position), radius_um: this.radius.get() ?? 0 };
     await this.restart([`map.discs=${text([...discs, wall])}`]);
   }
 

@@ -142,3 +142,13 @@ export function drawRobots(page, count, seconds) {
     [count, seconds],
   );
 }
+
+/** Opens a scenario in a lab of its own, with further options, calls `act` with its page and ends both. */
+export async function inLab(browser, file, act, ...options) {
+  const lab = await startLab(file, ...options);
+  const lookedAt = await openPage(browser, lab.url);
+  await lookedAt.page.waitForSelector('.form .field', { state: 'attached' });
+  await act(lookedAt.page, lookedAt);
+  await lookedAt.close();
+  assert.equal(await lab.stop(), 0);
+}
