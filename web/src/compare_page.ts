@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-import { call, whyClosed } from './connection';
+import { call, requireOpen } from './connection';
 import { element } from './dom';
 import { Keys } from './keys';
 import { layersTab } from './layers_tab';
 import { Live } from './live';
+import { isAtRisk, mayLeave } from './loss';
 import { metricsTable } from './metrics';
 import type { Page } from './page';
 import { Parameters } from './parameters';
@@ -34,16 +35,16 @@ export async function comparePage(numbers: number[]): Promise<Page> {
   const trouble = element('p', { class: 'trouble', role: 'alert' });
   const sides = await Promise.all(
     numbers.map(async (number, i) => {
-      const live = new Live(number, () =>
-        void whyClosed(`Session ${names[i]}`).then((why) => trouble.replaceChildren(why)),
-      );
+      await requireOpen(number);
+      const live = new Live(number, `Run ${names[i]}`);
+      live.onState((_, text) => trouble.replaceChildren(text));
       const stage = await stageFor(live);
       const caption = element('figcaption', {});
       const figure = element('figure', { class: 'side', 'data-side': names[i] as string }, caption, stage.scene.root);
       return { live, stage, caption, figure, parameters: new Parameters(live, `field-${names[i]}`) };
     }),
   );
-  const restart = () => Promise.all(sides.map((side) => side.parameters.restart()));
+  const restart = () => Promise.all(sides.map((side, i) => side.parameters.restart([], `run ${names[i]}`)));
   const time = timeBar(sides.map((side) => side.live), restart);
   const table = element('div', { class: 'table' });
   const plots = new Plots(sides.map((side) => side.live), time.seekTime);
@@ -110,8 +111,11 @@ export async function comparePage(numbers: number[]): Promise<Page> {
     time.root,
   );
   for (const side of sides) side.live.open();
+  const lives = sides.map((side) => side.live);
   return {
     root,
+    isAtRisk: () => lives.some(isAtRisk),
+    mayLeave: () => mayLeave(lives),
     leave: () => {
       keys.destroy();
       plots.destroy();

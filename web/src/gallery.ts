@@ -17,6 +17,14 @@ interface Listing {
   queue?: boolean;
 }
 
+interface OpenRun {
+  session: number;
+  name: string;
+  t_s: number;
+  watched: boolean;
+  live: boolean;
+}
+
 /** Opens an experiment and shows its page. */
 async function open(body: { file?: string; settings?: string[] }): Promise<void> {
   const { session, live } = await call<{ session: number; live: boolean }>('POST', '/api/sessions', body);
@@ -38,8 +46,9 @@ export async function galleryPage(): Promise<Page> {
     );
   };
   if (listing.open && !sessionStorage.getItem('opened')) {
-    sessionStorage.setItem('opened', 'yes');
-    if (await attempt({})) return { root: element('p', { class: 'doc' }, 'Opening …'), leave: () => undefined };
+    const isOpen = await attempt({});
+    sessionStorage.setItem('opened', 'yes'); // after it: a page reloaded meanwhile opens it again
+    if (isOpen) return { root: element('p', { class: 'doc' }, 'Opening …'), leave: () => undefined };
   }
   const take = async (file: File | undefined) => {
     if (!file) return;
@@ -94,6 +103,7 @@ export async function galleryPage(): Promise<Page> {
   const again = listing.open
     ? [element('button', { type: 'button', onclick: () => void attempt({}) }, 'Open the experiment of the command line')]
     : [];
+  const { sessions } = await call<{ sessions: OpenRun[] }>('GET', '/api/sessions');
   const queue = listing.queue ? queueSection() : undefined;
   const root = element(
     'div',
@@ -102,6 +112,7 @@ export async function galleryPage(): Promise<Page> {
     trouble,
     none,
     ...(queue ? [queue.root] : []),
+    ...(sessions.length > 0 ? [openRuns(sessions)] : []),
     element('p', { class: 'doc' }, 'Drop a photograph of vessels, a scenario or a record here.'),
     ...sections,
   );
@@ -111,6 +122,18 @@ export async function galleryPage(): Promise<Page> {
     void take(event.dataTransfer?.files[0]);
   });
   return { root, leave: () => queue?.leave() };
+}
+
+/** Runs that are open, to come back to. */
+function openRuns(sessions: OpenRun[]): HTMLElement {
+  const links = sessions.map(({ session, name, t_s, live, watched }) =>
+    element(
+      'a',
+      { href: `#/${live ? 'rig' : 'session'}/${session}`, class: 'button' },
+      `${name.slice(name.lastIndexOf('/') + 1)} · ${t_s.toFixed(1)} s${watched ? ' · shown by a page' : ''}`,
+    ),
+  );
+  return element('section', { class: 'open-runs' }, element('h2', {}, 'Open runs'), element('div', { class: 'row' }, ...links));
 }
 
 /** The common folder of all. */

@@ -72,13 +72,13 @@ export class Parameters {
     });
   }
 
-  /** Restarts the experiment with all changes and `more` settings KEY=VALUE. */
-  async restart(more: string[] = []): Promise<Answer> {
+  /** Restarts the experiment with all changes and `more` settings KEY=VALUE; `name`: of the run, if there are several. */
+  async restart(more: string[] = [], name = ''): Promise<Answer> {
     await this.setting;
     const asked = [...this.changes.settings(), ...more].map(keyOf);
     const settings = combine(this.settings(), more);
     const isArmed = this.live.rig?.state === 'armed';
-    if (!isArmed && !(await mayBeginAnew(this.live))) return kept;
+    if (!isArmed && !(await mayBeginAnew(this.live, name))) return kept;
     const answer = isArmed ? refused : await this.live.ask({ do: 'restart', settings });
     if (answer.issues.length === 0) this.changes.clear();
     this.showIssues(answer, asked);
@@ -88,6 +88,7 @@ export class Parameters {
 
   /** Settings of a session that starts in this one's current state. */
   settings(): string[] {
+    if (this.live.hello?.playback) return this.live.hello.settings; // its changes are in the record
     return combine(this.live.hello?.settings ?? [], this.live.standing?.changes ?? [], this.changes.settings());
   }
 

@@ -166,6 +166,7 @@ export interface Standing {
   ended: boolean;
   growing: boolean; // a record that a run still writes
   mode: 'autonomous' | 'manual' | 'hold';
+  steered: boolean; // held or steered by hand since the start
   changes: string[];
   status: string;
   state: string;

@@ -106,9 +106,9 @@ export function rigConsole(live: Live, drive: Drive, say: (text: string, isTroub
     else if (message.type !== 'standing' && message.type !== 'hello') return;
     show();
   });
-  live.onClose(() => {
-    isLost = true;
-    closePanel();
+  live.onState((state) => {
+    isLost = state !== 'open';
+    if (isLost) closePanel();
     show();
   });
 

@@ -134,6 +134,6 @@ export function timeBar(sessions: Live[], again?: () => Promise<unknown>): TimeB
     line.root,
     liveButton,
   );
-  for (const one of sessions) one.onClose(() => (root.inert = true));
+  for (const one of sessions) one.onState((state) => (root.inert = state !== 'open'));
   return { root, play, step, live, speed, seekBy, seek, seekTime };
 }

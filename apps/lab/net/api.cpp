@@ -128,6 +128,21 @@ void open_session(Exchange& e, std::string_view) {
   });
 }
 
+Json describe(const Hub::Open& one) {
+  return {{"session", one.session},
+          {"name", one.file},
+          {"t_s", one.newest},
+          {"watched", one.watched},
+          {"live", one.live}};
+}
+
+/// GET /api/sessions
+void list_sessions(Exchange& e, std::string_view) {
+  Json list = Json::array();
+  for (const Hub::Open& one : e.shared().hub.open_sessions()) list.push_back(describe(one));
+  e.write(respond(e.request(), {{"sessions", std::move(list)}}));
+}
+
 /// DELETE /api/sessions/ID
 void close_session(Exchange& e, std::string_view session) {
   const auto number = session_number(session);
@@ -198,11 +213,19 @@ void export_run(Exchange& e, std::uint64_t session, const std::string& name,
       });
 }
 
-/// GET /api/sessions/ID/NAME
+/// GET /api/sessions/ID
+void describe_session(Exchange& e, std::uint64_t session) {
+  for (const Hub::Open& one : e.shared().hub.open_sessions())
+    if (one.session == session) return e.write(respond(e.request(), describe(one)));
+  e.nothing();
+}
+
+/// GET /api/sessions/ID/NAME, or /api/sessions/ID for the session itself.
 void send_download(Exchange& e, std::string_view path) {
   const std::size_t slash = std::min(path.find('/'), path.size());
   const auto number = session_number(path.substr(0, slash));
-  if (!number || !e.shared().hub.has(*number) || slash == path.size()) return e.nothing();
+  if (!number || !e.shared().hub.has(*number)) return e.nothing();
+  if (slash == path.size()) return describe_session(e, *number);
   const std::string name(path.substr(slash + 1));
   if (e.shared().hub.drives(*number))
     return e.refuse(http::status::conflict, "the coils are driven: stop the run first");
@@ -247,12 +270,13 @@ struct Route {
 };
 
 /// The first that fits is taken.
-constexpr std::array<Route, 12> routes{
+constexpr std::array<Route, 13> routes{
     {{http::verb::get, "/api/scenarios", list},
      {http::verb::get, "/api/queue", write_queue},
      {http::verb::get, "/api/thumbnail", draw_thumbnail},
      {http::verb::get, "/api/schema", write_schema},
      {http::verb::get, "/api/vessel-schema", write_vessel_schema},
+     {http::verb::get, "/api/sessions", list_sessions},
      {http::verb::get, "/api/sessions/", send_download},
      {http::verb::get, "/", write_asset},
      {http::verb::post, "/api/sessions", open_session},

@@ -341,6 +341,7 @@ MessagePtr standing_message(const Standing& standing, const experiment::RunResul
                        {"ended", standing.ended},
                        {"growing", standing.growing},
                        {"mode", word(standing.mode)},
+                       {"steered", standing.steered},
                        {"changes", standing.changes},
                        {"status", to_string(result.status)},
                        {"state", result.state},
