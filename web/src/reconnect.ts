@@ -5,7 +5,7 @@ export function pauseBefore(attempt: number): number {
   return Math.min(5000, 250 * 2 ** Math.min(attempt, 10));
 }
 
-/** State of a stream; `lost`: it broke and is being opened again; `closed`: it has ended for good. */
+/** State of a stream; `lost`: it broke and is being opened again; `closed`: it has ended. */
 export type StreamState = 'open' | 'lost' | 'closed';
 
 export interface Verdict {
@@ -13,7 +13,7 @@ export interface Verdict {
   text: string;
 }
 
-/** What becomes of a broken stream, by the status with which the server answers for its session; undefined without an answer. */
+/** Fate of a broken stream, by the status with which the server answers for its session; undefined without an answer. */
 export function verdictOf(status: number | undefined, what: string): Verdict {
   if (status === undefined)
     return { state: 'lost', text: 'The lab has ended or cannot be reached. Trying again; if it has ended, start it and open the address that it prints.' };

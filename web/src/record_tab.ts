@@ -31,6 +31,14 @@ export function recordTab(live: Live, scene: Scene, compare: () => void): HTMLEl
   const links = downloads.map((name) =>
     element('a', { href: `/api/sessions/${live.session}/${name}`, download: name, class: 'button' }, name),
   );
+  const driven = element('p', { class: 'doc', hidden: true }, 'While the coils are driven nothing can be downloaded: stop the rig first.');
+  const files = element('div', { class: 'row' }, ...links);
+  live.listen((message) => {
+    if (message.type !== 'rig') return;
+    files.inert = message.state === 'armed';
+    files.classList.toggle('off', files.inert);
+    driven.hidden = !files.inert;
+  });
   let last: { [key: string]: Json } = {};
   const show = () => {
     const made = live.standing?.changes ?? [];
@@ -65,7 +73,8 @@ export function recordTab(live: Live, scene: Scene, compare: () => void): HTMLEl
     element('p', { class: 'doc' }, 'This command applies the changes from the start. The record stores the time of each change: microswarm replay record.h5 repeats the run.'),
     element('div', { class: 'row' }, copy, copied),
     element('h2', {}, 'Download'),
-    element('div', { class: 'row' }, ...links),
+    driven,
+    files,
     element('h2', {}, 'Export the view'),
     exportPanel(live, scene),
     element('h2', {}, 'Compare'),
