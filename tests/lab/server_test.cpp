@@ -387,29 +387,6 @@ TEST(Server, ARunIsExportedAsPictureAndVideo) {
   EXPECT_GT(std::ranges::count(reply.body(), '\x21'), 12);  // an extension a picture
 }
 
-TEST(Server, AVideoIsStoppedAtTheEnd) {
-  Lab lab;
-  const std::uint64_t session = open(lab);
-  TestPage page(lab, session);
-  page.does(fastest);
-  page.does(plays);
-  page.ends();
-  std::thread asks([&] {
-    asio::io_context io;
-    beast::tcp_stream stream(io);
-    stream.connect(lab.endpoint());
-    http::request<http::empty_body> request{
-        http::verb::get,
-        "/api/sessions/" + std::to_string(session) + "/run.mp4?speed=0.01&width=3840", 11};
-    request.set(http::field::host, lab.host);
-    request.set(http::field::cookie, "microswarm_" + std::to_string(lab.port) + "=" + lab.token);
-    http::write(stream, request);
-    std::this_thread::sleep_for(200ms);
-  });
-  asks.join();
-  EXPECT_LT(lab.end(), 10);
-}
-
 TEST(Server, WhatCannotBeOpenedIsToldInLines) {
   const Lab lab;
   const auto refused = [&](const Json& body) {

@@ -26,8 +26,14 @@ void list(Exchange& e, std::string_view) {
   e.later([&e] {
     Json list = Json::array();
     for (const Entry& entry : e.shared().library.entries())
-      list.push_back(
-          {{"file", entry.file}, {"name", entry.name}, {"description", entry.description}});
+      list.push_back({{"file", entry.file},
+                      {"name", entry.name},
+                      {"description", entry.description},
+                      {"record", entry.record},
+                      {"navigator", entry.navigator},
+                      {"outcome", entry.outcome},
+                      {"written", entry.written},
+                      {"trouble", entry.trouble}});
     Json json{{"scenarios", std::move(list)}};
     if (e.shared().opening) json["open"] = true;
     if (!e.shared().queue.empty()) json["queue"] = true;
@@ -174,16 +180,23 @@ void send(Exchange& e, const std::string& name, Outcome<Download> made) {
 }
 
 /// Makes an export in its thread and sends it.
-void make_export(const std::shared_ptr<Exchange>& exchange, const std::string& name,
-                 const RunExport& wanted, std::shared_ptr<const experiment::Record> record) {
+void make_export(const std::shared_ptr<Exchange>& exchange, std::shared_ptr<std::atomic<bool>> gone,
+                 std::uint64_t session, const std::string& name, const RunExport& wanted,
+                 std::shared_ptr<const experiment::Record> record) {
   exchange->shared().export_(
-      [self = exchange, name, wanted, record = std::move(record)](const Stop& stop) mutable {
+      std::move(gone), [self = exchange, session, name, wanted,
+                        record = std::move(record)](const Stop& stop) mutable {
         const auto made = std::make_shared<Outcome<Download>>();
+        ExportProgress& progress = self->shared().progress;
+        progress.share = 0;
+        progress.session = session;
         try {
-          made->value = make_run_export(wanted, *record, stop);
+          made->value =
+              make_run_export(wanted, *record, stop, [&](double share) { progress.share = share; });
         } catch (const std::exception& error) {
           made->trouble = error.what();
         }
+        progress.session = 0;
         // The connection must be destroyed in the thread of input and output.
         const auto post = self->shared().post;
         post([self = std::move(self), name, made] {
@@ -198,18 +211,18 @@ void make_export(const std::shared_ptr<Exchange>& exchange, const std::string& n
 /// Copies the record in the session's thread, and makes the video or picture in another one.
 void export_run(Exchange& e, std::uint64_t session, const std::string& name,
                 const RunExport& wanted) {
-  e.wait();
+  auto gone = e.wait();
   e.shared().hub.fetch<std::shared_ptr<const experiment::Record>>(
       session,
       [](const experiment::Session& of) {
         return std::make_shared<const experiment::Record>(experiment::Record(of.record()));
       },
-      [self = e.shared_from_this(), name,
+      [self = e.shared_from_this(), gone = std::move(gone), session, name,
        wanted](const Outcome<std::shared_ptr<const experiment::Record>>& copied) {
         if (!copied.trouble.empty())
           self->refuse(http::status::internal_server_error, copied.trouble);
         else
-          make_export(self, name, wanted, copied.value);
+          make_export(self, gone, session, name, wanted, copied.value);
       });
 }
 
@@ -238,6 +251,12 @@ void send_download(Exchange& e, std::string_view path) {
     wanted->photo = opening.photo;
     return export_run(e, *number, name, *wanted);
   }
+  if (name == "export") {
+    const ExportProgress& progress = e.shared().progress;
+    const bool is_own = progress.session == *number;
+    return e.write(
+        respond(e.request(), {{"share", is_own ? Json(progress.share.load()) : Json()}}));
+  }
   auto make = download(name, opening.file.parent_path());
   if (!make) return e.nothing();
   e.wait();
@@ -250,8 +269,13 @@ void send_download(Exchange& e, std::string_view path) {
 void write_asset(Exchange& e, std::string_view) {
   const auto file = asset(target_path(view(e.request().target())));
   if (!file) return e.nothing();
-  HttpResponse response =
-      respond(e.request(), http::status::ok, file->media_type, std::string(file->bytes));
+  const bool packed =
+      !file->gzip.empty() &&
+      view(e.request()[http::field::accept_encoding]).find("gzip") != std::string_view::npos;
+  HttpResponse response = respond(e.request(), http::status::ok, file->media_type,
+                                  std::string(packed ? file->gzip : file->bytes));
+  if (packed) response.set(http::field::content_encoding, "gzip");
+  if (!file->gzip.empty()) response.set(http::field::vary, "Accept-Encoding");
   if (!e.query("token").empty()) response.set(http::field::set_cookie, e.shared().access.cookie());
   e.write(std::move(response));
 }

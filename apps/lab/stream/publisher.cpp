@@ -65,7 +65,10 @@ void Publisher::welcome(std::uint64_t page, const MessagePtr& hello, experiment:
   send_(page, hello);
   send_(page, rows_message(rows_, events_, true));
   if (!view.tree.empty()) send_(page, plan_message(view));
-  if (const auto* plan = aggregation_diagnostics(shown)) send_(page, aggregation_message(*plan));
+  // A record without diagnostics keeps no regions: those of now are the newest known.
+  const auto* past = aggregation_diagnostics(shown);
+  if (const auto* plan = past ? past : aggregation_diagnostics(session))
+    send_(page, aggregation_message(*plan));
   standing.frame = view.number;
   send_(page, frame_message(view, shown.diagnostics()));
   send_(page, standing_message(standing, session.result()));

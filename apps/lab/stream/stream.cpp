@@ -206,7 +206,8 @@ std::string command_line(const Source& source, bool is_record) {
 }
 
 Json hello_json(const experiment::Session& session, const Source& source) {
-  const experiment::Scenario& scenario = session.scenario();
+  const experiment::Scenario& scenario =
+      session.is_playback() ? session.record().scene.scenario : session.scenario();
   const Map& map = session.map();
   Json photo;
   if (source.photo)
