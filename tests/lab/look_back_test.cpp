@@ -62,6 +62,7 @@ TEST(LookBack, SteeringAndTheChangesOfARecordAreSaid) {
   const Json standing = played.until("standing");
   EXPECT_EQ(standing["steered"], true);
   EXPECT_EQ(standing["changes"], Json({"goal_tolerance_um=31"}));
+  EXPECT_EQ(played.latest["hello"]["states"][0], "hold");
   EXPECT_EQ(played.latest["hello"]["command"], "microswarm replay " + file.string());
 }
 

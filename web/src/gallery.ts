@@ -2,15 +2,12 @@
 import type { Page } from './page';
 import { call } from './connection';
 import { element } from './dom';
+import { takeDrops } from './drops';
+import { type Entry, cardText, heading } from './headings';
 import { queueSection } from './queue';
 import { themeSwitch } from './theme';
 import { upload } from './uploads';
 
-interface Entry {
-  file: string;
-  name: string;
-  description: string;
-}
 interface Listing {
   scenarios: Entry[];
   open?: boolean;
@@ -73,12 +70,11 @@ export async function galleryPage(): Promise<Page> {
     const folder = entry.file.slice(0, Math.max(0, entry.file.lastIndexOf('/')));
     folders.set(folder, [...(folders.get(folder) ?? []), entry]);
   }
-  const shared = sharedFolder([...folders.keys()]);
   const sections = [...folders].map(([folder, entries]) =>
     element(
       'section',
       {},
-      element('h2', {}, heading(folder.slice(shared.length))),
+      element('h2', {}, heading(folder)),
       element('div', { class: 'cards' }, ...entries.map((entry) => card(entry, () => void attempt({ file: entry.file })))),
     ),
   );
@@ -116,12 +112,18 @@ export async function galleryPage(): Promise<Page> {
     element('p', { class: 'doc' }, 'Drop a photograph of vessels, a scenario or a record here.'),
     ...sections,
   );
-  root.addEventListener('dragover', (event) => event.preventDefault());
-  root.addEventListener('drop', (event) => {
-    event.preventDefault();
-    void take(event.dataTransfer?.files[0]);
+  const endDrops = takeDrops((files) => {
+    void take(files[0]).then(() => {
+      if (files.length > 1) trouble.append(` Only the first of ${files.length} files was read.`);
+    });
   });
-  return { root, leave: () => queue?.leave() };
+  return {
+    root,
+    leave: () => {
+      queue?.leave();
+      endDrops();
+    },
+  };
 }
 
 /** Runs that are open, to come back to. */
@@ -136,22 +138,11 @@ function openRuns(sessions: OpenRun[]): HTMLElement {
   return element('section', { class: 'open-runs' }, element('h2', {}, 'Open runs'), element('div', { class: 'row' }, ...links));
 }
 
-/** The common folder of all. */
-function sharedFolder(folders: string[]): string {
-  let shared = folders[0] ?? '';
-  while (!folders.every((one) => one === shared || one.startsWith(`${shared}/`)) && shared !== '')
-    shared = shared.slice(0, Math.max(0, shared.lastIndexOf('/')));
-  return shared;
-}
-
-function heading(folder: string): string {
-  const parts = folder.split('/').filter((one) => one !== '' && one !== 'scenarios');
-  return parts.length > 0 ? parts.join(' › ').replaceAll('_', ' ') : 'First steps';
-}
-
 function card(entry: Entry, act: () => void): HTMLElement {
+  const { name, text, trouble } = cardText(entry);
   const picture = element('img', {
-    src: `/api/thumbnail?file=${encodeURIComponent(entry.file)}`,
+    ...(trouble ? {} : { src: `/api/thumbnail?file=${encodeURIComponent(entry.file)}` }),
+    ...(trouble ? { class: 'none' } : {}),
     alt: '',
     loading: 'lazy',
     onerror: () => picture.classList.add('none'),
@@ -159,15 +150,15 @@ function card(entry: Entry, act: () => void): HTMLElement {
   return element(
     'button',
     {
-      class: 'card',
+      class: trouble ? 'card wrong' : 'card',
       type: 'button',
-      title: entry.description,
+      title: trouble || text,
       'data-file': entry.file,
-      'data-text': `${entry.file} ${entry.name} ${entry.description}`.toLowerCase(),
+      'data-text': `${entry.file} ${name} ${text} ${trouble}`.toLowerCase(),
       onclick: act,
     },
     picture,
-    element('strong', {}, entry.name),
-    element('span', {}, entry.description),
+    element('strong', {}, name),
+    element('span', trouble ? { class: 'issue' } : {}, trouble || text),
   );
 }

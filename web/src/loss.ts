@@ -29,32 +29,49 @@ const away: Words = {
 
 /** Whether a run may be discarded; asks if it is at risk. `name`: of the run, if there are several. */
 export function mayBeginAnew(live: Live, name = ''): Promise<boolean> {
-  return isAtRisk(live) ? asks([live], name ? { ...anew, title: `Restart ${name}?` } : anew) : Promise.resolve(true);
+  return isAtRisk(live) ? goes([live], name ? { ...anew, title: `Restart ${name}?` } : anew) : Promise.resolve(true);
 }
 
 /** Whether a page of these runs may be left; asks if one is at risk. */
 export function mayLeave(lives: Live[]): Promise<boolean> {
   const risky = lives.filter(isAtRisk);
-  return risky.length > 0 ? asks(risky, away) : Promise.resolve(true);
+  return risky.length > 0 ? goes(risky, away) : Promise.resolve(true);
 }
 
-function asks(lives: Live[], words: Words): Promise<boolean> {
+/** Time at which a change acts that was made while an earlier time is shown: `now`, in a `copy` from the start, or not at all. */
+export async function askWhen(shown: number, newest: number): Promise<'now' | 'copy' | ''> {
+  const text = `The picture is of ${shown.toFixed(1)} s, and the run stands at ${newest.toFixed(1)} s. The past cannot be changed: the change can act now, or in a copy of the run from its start.`;
+  const answer = await asks('Change the past?', text, [
+    ['Cancel', 'keep', ''],
+    ['In a copy from 0 s', 'copy', 'copy'],
+    [`Now, at ${newest.toFixed(1)} s`, 'primary now', 'now'],
+  ]);
+  return answer as 'now' | 'copy' | '';
+}
+
+async function goes(lives: Live[], words: Words): Promise<boolean> {
+  const links = lives.map(({ session }) =>
+    element('a', { href: `/api/sessions/${session}/record.h5`, download: 'record.h5', class: 'button' }, 'Download record.h5'),
+  );
+  return (await asks(words.title, words.text, [[words.keep, 'keep', ''], [words.go, 'primary anew', 'go']], links)) === 'go';
+}
+
+/** Asks in a dialog; answers are label, class and value of each button. */
+function asks(title: string, text: string, answers: [string, string, string][], more: HTMLElement[] = []): Promise<string> {
   return new Promise((resolve) => {
-    const button = (label: string, name: string, answer: string) =>
-      element('button', { type: 'button', class: name, onclick: () => dialog.close(answer) }, label);
-    const links = lives.map(({ session }) =>
-      element('a', { href: `/api/sessions/${session}/record.h5`, download: 'record.h5', class: 'button' }, 'Download record.h5'),
+    const buttons = answers.map(([label, name, value]) =>
+      element('button', { type: 'button', class: name, onclick: () => dialog.close(value) }, label),
     );
     const dialog = element(
       'dialog',
-      { class: 'loss' },
-      element('h2', {}, words.title),
-      element('p', {}, words.text),
-      element('div', { class: 'row' }, ...links, button(words.keep, 'keep', ''), button(words.go, 'primary anew', 'go')),
+      { class: 'loss', 'aria-label': title },
+      element('h2', {}, title),
+      element('p', {}, text),
+      element('div', { class: 'row' }, ...more, ...buttons),
     );
     dialog.addEventListener('close', () => {
       dialog.remove();
-      resolve(dialog.returnValue === 'go');
+      resolve(dialog.returnValue);
     });
     document.body.append(dialog);
     dialog.showModal();

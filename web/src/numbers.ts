@@ -13,6 +13,7 @@ const units: [string, string][] = [
   ['_rad', 'rad'],
   ['_hz', 'Hz'],
   ['_mT', 'mT'],
+  ['_px', 'px'],
 ];
 
 /** Label and unit of a key: goal_tolerance_um is "goal tolerance" in µm. */

@@ -7,6 +7,7 @@ import { routed } from './issues';
 import type { Live } from './live';
 import { mayBeginAnew } from './loss';
 import { type Answer, type Json, type Scenario, said } from './protocol';
+import { parametersNote } from './repeat';
 import type { Schema } from './schema';
 import { at, combine, keyOf, text } from './settings';
 
@@ -26,6 +27,7 @@ export class Parameters {
   private shape = '';
   private readonly changes = new Changes();
   private setting: Promise<unknown> = Promise.resolve(); // the last one sent
+  private readonly done: [string, Json][] = []; // keys changed, and the values before
   private readonly tuned = new Map<string, Json>(); // objects by key and type, as they were left
   private readonly form: Form;
   private readonly search = element('input', {
@@ -35,6 +37,7 @@ export class Parameters {
     'aria-label': 'Find a parameter',
     oninput: () => this.filter(),
   });
+  private readonly undoButton = element('button', { type: 'button', class: 'undo', title: 'Take the last change back', hidden: true, onclick: () => void this.undo() }, '↶ Undo');
   private readonly bar = element('div', { class: 'waiting', role: 'status', hidden: true });
   private readonly trouble = element('p', { class: 'issue', role: 'alert', hidden: true });
 
@@ -53,9 +56,15 @@ export class Parameters {
       },
       name,
     );
-    this.root = element('div', { class: 'parameters' }, this.search, this.trouble, this.form.root, this.bar);
+    const when = element('p', { class: 'when', role: 'status', hidden: true });
+    this.root = element('div', { class: 'parameters' }, element('div', { class: 'find' }, this.search, this.undoButton), when, this.trouble, this.form.root, this.bar);
     let ended = false;
     live.listen((message) => {
+      if (message.type === 'standing' || message.type === 'frame') {
+        const text = parametersNote(live.hello?.playback ?? false, live.standing, live.shown, live.history.times.at(-1) ?? 0);
+        when.hidden = text === '';
+        if (when.textContent !== text) when.textContent = text;
+      }
       if (message.type === 'hello' || message.type === 'scenario') {
         this.changes.take(message.scenario);
         this.rebuild();
@@ -99,6 +108,21 @@ export class Parameters {
   }
 
   async change(key: string, value: Json): Promise<Answer | undefined> {
+    const before = at(this.wanted(), key);
+    const answer = await this.apply(key, value);
+    if (before !== undefined && !answer?.issues.length) this.done.push([key, before]);
+    this.undoButton.hidden = this.done.length === 0;
+    return answer;
+  }
+
+  /** Takes the last change back, by another one. */
+  private async undo(): Promise<void> {
+    const last = this.done.pop();
+    if (last) await this.apply(...last);
+    this.undoButton.hidden = this.done.length === 0;
+  }
+
+  private async apply(key: string, value: Json): Promise<Answer | undefined> {
     if (this.isAtOnce(key)) {
       const answered = this.changes.ask(key, value);
       const set = this.live.ask({ do: 'set', key, value: text(value) });

@@ -80,7 +80,7 @@ class PhotoPage {
         themeSwitch(),
       ),
       element('div', { class: 'photo-stage' }, this.canvas.root),
-      element('aside', { class: 'photo-side' }, this.hint, this.trouble, ...Object.values(this.panels), element('div', { class: 'row' }, this.next), this.vessels.found),
+      element('aside', { class: 'photo-side' }, this.hint, element('div', { class: 'row' }, this.next, this.vessels.found), this.trouble, ...Object.values(this.panels)),
     );
     this.go('scale');
   }
@@ -94,6 +94,11 @@ class PhotoPage {
       get: () => entry.get() ?? 0,
       set: (to: number) => entry.set(Number(to.toPrecision(5))),
     };
+  }
+
+  /** Makes a further experiment possible. */
+  returned(): void {
+    this.make.disabled = !this.goal;
   }
 
   private say(text: string): void {
@@ -171,6 +176,7 @@ class PhotoPage {
       });
       const opened = { file, photo: this.photo.file, um_per_px: scale };
       const { session } = await call<{ session: number }>('POST', '/api/sessions', opened);
+      this.vessels.found.value = '';
       location.hash = `#/session/${session}`;
     } catch (error) {
       this.vessels.found.value = '';
@@ -180,7 +186,12 @@ class PhotoPage {
   }
 }
 
+let last: { photo: Photograph; page: PhotoPage } | undefined;
+
+/** Page of a photograph. One that is come back to is as it was left. */
 export function photoPage(photo: Photograph): Promise<Page> {
   document.title = `${photo.name} – microswarm lab`;
-  return Promise.resolve({ root: new PhotoPage(photo).root, leave: () => undefined });
+  if (last?.photo !== photo) last = { photo, page: new PhotoPage(photo) };
+  last.page.returned();
+  return Promise.resolve({ root: last.page.root, leave: () => undefined });
 }

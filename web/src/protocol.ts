@@ -34,6 +34,7 @@ export interface Hello {
   playback: boolean;
   scenario: Scenario;
   changeable: string[];
+  states: string[]; // words for the numbers in the column state of rows
   map: { lo: Point; hi: Point; walls: Bodies };
 }
 

@@ -29,7 +29,7 @@ export function rigConsole(live: Live, drive: Drive, say: (text: string, isTroub
 
   const badge = element('strong', { class: 'badge-rig', role: 'status' });
   const stopButton = element('button', { type: 'button', class: 'stop', title: 'Coils to zero at once (space or Esc)', onclick: stop }, 'STOP');
-  const words = element('span', { class: 'why' });
+  const words = element('span', { class: 'why', tabindex: '0' });
   const armButton = button('Arm …', 'Drive the coils', () => openPanel());
   const dryButton = button('Dry run', 'Restart without driving the coils', () => void ask({ do: 'dry' }));
   const takeButton = button('Take the controls', 'No page has the controls', () => void ask({ do: 'control' }));

@@ -96,7 +96,7 @@ function share(value: number): string {
 }
 
 function row(kind: 'th' | 'td', cells: string[]): HTMLElement {
-  return element('tr', {}, ...cells.map((one, i) => element(i === 0 ? 'th' : kind, {}, one)));
+  return element('tr', {}, ...cells.map((one, i) => element(i === 0 && one !== '' ? 'th' : one === '' ? 'td' : kind, {}, one)));
 }
 
 function table(rows: [string, string][]): HTMLElement {

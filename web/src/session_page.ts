@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-import { openCopy } from './compare_page';
 import { requireOpen } from './connection';
+import { openCopy } from './copies';
 import { element } from './dom';
 import { Drive } from './drive';
 import { type Key, Keys } from './keys';
@@ -36,7 +36,7 @@ export async function sessionPage(session: number, isRig = false): Promise<Page>
   scene.keepFree(60); // for the tools above it
   const parameters = new Parameters(live);
   const time = timeBar([live], isRig ? undefined : () => parameters.restart());
-  const plots = new Plots([live], time.seekTime);
+  const plots = new Plots([live], time.transport.seekTime);
   const layers = layersTab([scene]);
   const drive = new Drive(live);
   const hands = new Hands(live, scene, parameters, say);
@@ -45,7 +45,7 @@ export async function sessionPage(session: number, isRig = false): Promise<Page>
   const compare = () => openCopy(live, parameters).catch((error: Error) => say(error.message));
 
   const arrow = (by: number) => (event: KeyboardEvent) => {
-    if (!drive.key(event, true)) time.seekBy(by * (event.shiftKey ? 10 : 1));
+    if (!drive.key(event, true)) time.transport.seekBy(by * (event.shiftKey ? 10 : 1));
   };
   const keys = new Keys([
     ...(isRig ? stopKeys : timeKeys(time)),
@@ -53,7 +53,10 @@ export async function sessionPage(session: number, isRig = false): Promise<Page>
     { keys: ['ArrowRight'], shown: '→', does: 'next frame (Shift: ten) · steer right', act: arrow(1) },
     { keys: ['ArrowUp', 'ArrowDown'], shown: '↑ ↓', does: 'steer (Shift: slowly)', act: arrow(0) },
     ...tools.keys,
-    ...(isRig ? [] : [{ keys: ['Escape'], shown: 'Esc', does: 'deselect the tool', act: () => hands.choose(undefined) }]),
+    ...(isRig ? [] : [
+      { keys: ['Escape'], shown: 'Esc', does: 'deselect the tool', act: () => hands.choose(undefined) },
+      { keys: ['x'], shown: 'x', does: 'use the chosen tool at the middle of the view', act: () => hands.use() },
+    ]),
   ], !isRig);
   const up = (event: KeyboardEvent) => drive.key(event, false);
   const blur = () => drive.release();
@@ -78,14 +81,14 @@ export async function sessionPage(session: number, isRig = false): Promise<Page>
       themeSwitch(),
     ),
     element('div', { class: 'stage' }, scene.root, over),
+    time.root, // before the tabs, so that Play is soon reached by the Tab key
     tabs(isRig ? 'rig' : 'session', [
       ...(isRig ? [{ name: 'Rig', panel: rigTab(live) }] : []),
       { name: 'Parameters', panel: parameters.root },
       { name: 'Layers', panel: layers.root, shown: layers.show },
       { name: 'Plots', panel: plots.root, shown: () => plots.show() },
-      { name: 'Record', panel: recordTab(live, scene, () => void compare()) },
+      { name: 'Record', panel: recordTab(live, scene, () => void compare(), time.transport.seekTime) },
     ]),
-    time.root,
   );
   live.listen((message) => {
     if (message.type === 'hello') {
@@ -120,6 +123,7 @@ export async function sessionPage(session: number, isRig = false): Promise<Page>
       drive.destroy();
       keys.destroy();
       plots.destroy();
+      time.destroy();
       live.close();
       stage.destroy();
     },

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+import { openAgain } from './copies';
 import { discRadius } from './discs';
 import { element } from './dom';
 import type { Live } from './live';
 import { numberEntry } from './number_entry';
 import type { Parameters } from './parameters';
+import { askWhen } from './loss';
 import { type Json, type Point, said } from './protocol';
-import { at, text } from './settings';
+import { at, combine, text } from './settings';
 import type { Scene, Touch } from './scene/scene';
 
 type Tool = 'obstacle' | 'wall' | 'remove';
@@ -74,6 +76,15 @@ export class Hands {
     for (const [name, one] of this.buttons) one.setAttribute('aria-pressed', String(name === tool));
     this.scene.root.classList.toggle('placing', tool !== undefined);
     this.say(tool ? hints[tool] : '', false);
+  }
+
+  /** Uses the chosen tool at the middle of the view, for those without a pointer. */
+  use(): void {
+    const { view } = this.scene;
+    const at = view.toWorld([view.width / 2, view.height / 2]);
+    const { what } = this.scene.hit([view.width / 2, view.height / 2]);
+    if (this.tool) this.last = this.last.then(() => this.take({ phase: 'end', what, from: at, at }));
+    else this.say('Choose a tool first, such as + Obstacle.', false);
   }
 
   private async take(touch: Touch): Promise<void> {
@@ -147,8 +158,23 @@ export class Hands {
 
   private async apply(key: string, value: Json): Promise<void> {
     if (!this.parameters.isAtOnce(key)) return this.restart([`${key}=${text(value)}`]);
+    if (this.live.standing?.looks_back) {
+      const wanted = await askWhen(this.live.shown, this.live.history.times.at(-1) ?? 0);
+      if (!wanted) return;
+      if (wanted === 'copy') return this.copy(`${key}=${text(value)}`);
+      await this.live.ask({ do: 'live' });
+    }
     const answer = await this.parameters.change(key, value);
     this.say(said(answer));
+  }
+
+  /** Opens the experiment again from its start, with a further setting; this run is kept. */
+  private async copy(setting: string): Promise<void> {
+    try {
+      location.hash = `#/session/${await openAgain(this.live, combine(this.parameters.settings(), [setting]))}`;
+    } catch (error) {
+      this.say((error as Error).message);
+    }
   }
 
   private async restart(settings: string[]): Promise<void> {

@@ -104,6 +104,13 @@ test('a type of navigator taken again has the values that it had', () =>
       await until(page, (type) => window.microswarm.connection.hello.scenario.navigator.type === type, { wanted: type });
     }
     assert.equal((await scenario()).speed_um_per_s, 41);
+    for (const type of [other, before.type]) {
+      await page.click('.undo');
+      await until(page, (type) => window.microswarm.connection.hello.scenario.navigator.type === type, { wanted: type });
+    }
+    await page.click('.undo');
+    await until(page, (speed) => window.microswarm.connection.hello.scenario.navigator.speed_um_per_s === speed, { wanted: before.speed_um_per_s });
+    assert.ok(await page.locator('.undo').isHidden());
   }));
 
 test('a pressed button can be read while the pointer rests on it, light and dark', () =>

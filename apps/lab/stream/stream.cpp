@@ -209,6 +209,8 @@ Json hello_json(const experiment::Session& session, const Source& source) {
   const experiment::Scenario& scenario =
       session.is_playback() ? session.record().scene.scenario : session.scenario();
   const Map& map = session.map();
+  Json states = Json::array();
+  for (const auto& [state, word] : enum_names(NavigatorState{})) states.push_back(word);
   Json photo;
   if (source.photo)
     photo = {{"file", source.photo->file.string()}, {"um_per_px", source.photo->um_per_px}};
@@ -222,6 +224,7 @@ Json hello_json(const experiment::Session& session, const Source& source) {
           {"playback", session.is_playback()},
           {"scenario", to_json_value(scenario)},
           {"changeable", experiment::changeable_keys()},
+          {"states", std::move(states)},
           {"map",
            {{"lo", point(map.bounds().lo)},
             {"hi", point(map.bounds().hi)},
