@@ -29,7 +29,8 @@ const away: Words = {
 
 /** Whether a run may be discarded; asks if it is at risk. `name`: of the run, if there are several. */
 export function mayBeginAnew(live: Live, name = ''): Promise<boolean> {
-  return isAtRisk(live) ? goes([live], name ? { ...anew, title: `Restart ${name}?` } : anew) : Promise.resolve(true);
+  const hasBegun = (live.standing?.frames ?? 0) > 0; // before that, its settings repeat its changes
+  return hasBegun && isAtRisk(live) ? goes([live], name ? { ...anew, title: `Restart ${name}?` } : anew) : Promise.resolve(true);
 }
 
 /** Whether a page of these runs may be left; asks if one is at risk. */
