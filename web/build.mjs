@@ -4,6 +4,7 @@ import { build } from 'esbuild';
 import { copyFileSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import { gzipSync } from 'node:zlib';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const out = process.argv[2] ?? join(here, '../build/web');
@@ -19,6 +20,7 @@ await build({
   outdir: out,
   logLevel: 'warning',
 });
+for (const name of ['app.js', 'app.css']) writeFileSync(join(out, `${name}.gz`), gzipSync(readFileSync(join(out, name)), { level: 9 }));
 copyFileSync(join(here, 'src/index.html'), join(out, 'index.html'));
 writeFileSync(join(out, 'licences.txt'), licences());
 

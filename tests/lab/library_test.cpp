@@ -45,6 +45,43 @@ TEST(Library, ListsScenariosAndRecords) {
   for (const Entry& entry : entries) EXPECT_EQ(shelf.library().find(entry.file), entry.file);
 }
 
+TEST(Library, ListsScenariosWithMistakesAndWhatARecordIsOf) {
+  const test::Folder folder;
+  std::string text = experiment::scenario_text(experiment::small_flight());
+  folder.with("broken.yaml", text + "  odd: [1, 2\n");
+  folder.with("wrong.yaml", text + "no_such_key: 1\n");
+  folder.with("other.yaml", "services: [a, b\n");
+  const fs::path file = folder.with("flight.yaml", text);
+  const auto session = experiment::open_session(file);
+  session->finish();
+  session->record_to(folder / "run.h5");
+  folder.with("torn.h5", "x");
+  const auto entries = Library({folder / ""}).entries();
+  ASSERT_EQ(entries.size(), 5u);
+  EXPECT_TRUE(entries[0].trouble.starts_with("broken.yaml:")) << entries[0].trouble;
+  EXPECT_EQ(entries[1].trouble, "");
+  EXPECT_TRUE(entries[2].record);
+  EXPECT_EQ(entries[2].outcome, to_string(session->result().status));
+  EXPECT_EQ(entries[2].description, session->scenario().name);
+  EXPECT_FALSE(entries[2].navigator.empty());
+  EXPECT_EQ(entries[2].written.size(), 16u);
+  EXPECT_TRUE(test::is_one_line_naming(entries[3].trouble, "torn.h5", {}));
+  EXPECT_NE(entries[4].trouble.find("no_such_key"), std::string::npos) << entries[4].trouble;
+  // The path travelled is on the picture.
+  EXPECT_NE(thumbnail(folder / "run.h5").find("fill=\"none\" stroke="), std::string::npos);
+}
+
+TEST(Library, RobotsAreDrawnWhereTheyBegin) {
+  const fs::path gather =
+      fs::path(MICROSWARM_SOURCE_DIR) / "scenarios/papers/gather/vascular_network.yaml";
+  const std::string svg = thumbnail(gather);
+  std::size_t count = 0;
+  for (std::size_t at = svg.find("<circle"); at != std::string::npos;
+       at = svg.find("<circle", at + 1))
+    ++count;
+  EXPECT_EQ(count, 65u);  // and the goal
+}
+
 TEST(Library, NoFileOutsideIsOpened) {
   const Shelf shelf;
   const Library library = shelf.library();

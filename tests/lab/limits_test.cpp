@@ -47,17 +47,61 @@ TEST(Limits, TheOldestSessionThatNobodyWatchesMakesRoom) {
   EXPECT_TRUE(is_there(newer));
 }
 
-TEST(Limits, ASessionThatNobodyWatchesIsClosed) {
+TEST(Limits, ASessionThatNobodyWatchesPausesAndIsKept) {
   ServerOptions options;
-  options.limits.sweep_period = 1000ms;
+  options.limits.sweep_period = 100ms;
+  const Lab lab(options);
+  const std::uint64_t session = open(lab);
+  {
+    TestPage page(lab, session);
+    page.does({{"do", "step"}});
+    page.does({{"do", "set"}, {"key", "goal_tolerance_um"}, {"value", "31"}});
+    page.does({{"do", "play"}});
+  }
+  const auto time = [&] {
+    return Json::parse(get(lab, "/api/sessions/" + std::to_string(session)).body())["t_s"];
+  };
+  std::this_thread::sleep_for(1500ms);
+  const Json paused = time();
+  std::this_thread::sleep_for(500ms);
+  EXPECT_EQ(time(), paused);
+  EXPECT_EQ(Json::parse(get(lab, "/api/sessions").body())["sessions"][0]["watched"], false);
+  TestPage again(lab, session);
+  const Json standing = again.until("standing");
+  EXPECT_EQ(standing["changes"], Json({"goal_tolerance_um=31"}));
+  EXPECT_EQ(standing["plays"], false);
+}
+
+TEST(Limits, ASessionThatNobodyComesBackToIsClosed) {
+  ServerOptions options;
+  options.limits.sweep_period = 200ms;
+  options.limits.keep = 1000ms;
   const Lab lab(options);
   const std::uint64_t watched = open(lab), left = open(lab);
   TestPage page(lab, watched);
-  const std::string at = "/api/sessions/" + std::to_string(left) + "/events.csv";
+  const std::string at = "/api/sessions/" + std::to_string(left);
   for (int i = 0; i < 600 && get(lab, at).result() != http::status::not_found; ++i)
     std::this_thread::sleep_for(100ms);
   EXPECT_EQ(get(lab, at).result(), http::status::not_found);
   page.does({{"do", "step"}});
+}
+
+TEST(Limits, SessionsThatNobodyWatchesTakeLimitedMemory) {
+  ServerOptions options;
+  options.limits.sweep_period = 100ms;
+  options.limits.kept = 1;
+  const Lab lab(options);
+  const std::uint64_t first = open(lab), second = open(lab);
+  for (const std::uint64_t session : {first, second}) {
+    TestPage page(lab, session);
+    page.does({{"do", "step"}});
+  }
+  const auto open_sessions = [&] {
+    return Json::parse(get(lab, "/api/sessions").body())["sessions"].size();
+  };
+  for (int i = 0; i < 600 && open_sessions() > 1; ++i) std::this_thread::sleep_for(100ms);
+  std::this_thread::sleep_for(500ms);
+  EXPECT_EQ(open_sessions(), 1u);  // one is kept
 }
 
 }  // namespace

@@ -297,6 +297,27 @@ TEST(Server, ADownloadedScenarioFindsItsFiles) {
   EXPECT_EQ(hash_of(far), hash_of(file));
 }
 
+TEST(Server, ScriptsAreSentCompressedToThoseWhoTakeIt) {
+  const Lab lab;
+  asio::io_context io;
+  beast::tcp_stream stream(io);
+  stream.connect(lab.endpoint());
+  http::request<http::empty_body> request{http::verb::get, "/app.js?token=" + lab.token, 11};
+  request.set(http::field::host, lab.host);
+  request.set(http::field::accept_encoding, "br, gzip");
+  http::write(stream, request);
+  beast::flat_buffer buffer;
+  http::response_parser<http::string_body> parser;
+  parser.body_limit(1 << 30);
+  http::read(stream, buffer, parser);
+  const Reply packed = parser.release();
+  EXPECT_EQ(packed[http::field::content_encoding], "gzip");
+  EXPECT_EQ(packed.body().substr(0, 2), "\x1f\x8b");
+  const Reply plain = get(lab, "/app.js");
+  EXPECT_EQ(plain[http::field::content_encoding], "");
+  EXPECT_LT(2 * packed.body().size(), plain.body().size());
+}
+
 TEST(Server, ListsAndDrawsWhatCanBeOpened) {
   const Lab lab;
   const Json listing = Json::parse(get(lab, "/api/scenarios").body());
@@ -385,29 +406,6 @@ TEST(Server, ARunIsExportedAsPictureAndVideo) {
   EXPECT_EQ(reply[http::field::content_type], "image/gif");
   EXPECT_EQ(reply.body().substr(0, 6), "GIF89a");
   EXPECT_GT(std::ranges::count(reply.body(), '\x21'), 12);  // an extension a picture
-}
-
-TEST(Server, AVideoIsStoppedAtTheEnd) {
-  Lab lab;
-  const std::uint64_t session = open(lab);
-  TestPage page(lab, session);
-  page.does(fastest);
-  page.does(plays);
-  page.ends();
-  std::thread asks([&] {
-    asio::io_context io;
-    beast::tcp_stream stream(io);
-    stream.connect(lab.endpoint());
-    http::request<http::empty_body> request{
-        http::verb::get,
-        "/api/sessions/" + std::to_string(session) + "/run.mp4?speed=0.01&width=3840", 11};
-    request.set(http::field::host, lab.host);
-    request.set(http::field::cookie, "microswarm_" + std::to_string(lab.port) + "=" + lab.token);
-    http::write(stream, request);
-    std::this_thread::sleep_for(200ms);
-  });
-  asks.join();
-  EXPECT_LT(lab.end(), 10);
 }
 
 TEST(Server, WhatCannotBeOpenedIsToldInLines) {

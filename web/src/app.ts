@@ -23,10 +23,19 @@ function named(): Promise<Page> {
   return galleryPage();
 }
 
+let shown = ''; // address of the page
+
 async function route(): Promise<void> {
+  const wanted = location.hash;
+  if (wanted === shown && page) return; // it came back after a person stayed
+  if (page?.mayLeave && page.isAtRisk?.()) {
+    history.replaceState(null, '', shown);
+    if (!(await page.mayLeave())) return;
+    history.pushState(null, '', wanted);
+  }
   page?.leave();
   page = undefined;
-  const wanted = location.hash;
+  shown = wanted;
   const place = document.getElementById('page');
   try {
     const made = await named();
@@ -39,6 +48,9 @@ async function route(): Promise<void> {
   }
 }
 
+window.addEventListener('beforeunload', (event) => {
+  if (page?.isAtRisk?.()) event.preventDefault();
+});
 startTheme();
 window.addEventListener('hashchange', () => void route());
 history.replaceState(null, '', location.pathname + location.hash); // without the token

@@ -1,32 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-import { call, whyClosed } from './connection';
+import { requireOpen } from './connection';
 import { element } from './dom';
 import { Keys } from './keys';
 import { layersTab } from './layers_tab';
 import { Live } from './live';
+import { isAtRisk, mayLeave } from './loss';
 import { metricsTable } from './metrics';
 import type { Page } from './page';
 import { Parameters } from './parameters';
 import { Plots } from './plots';
-import { said } from './protocol';
 import { combine, keyOf } from './settings';
 import { stageFor } from './stage';
 import { tabs } from './tabs';
 import { themeSwitch } from './theme';
 import { timeBar, timeKeys } from './time_bar';
-
-/** Opens the experiment of a session a second time beside it; both start at 0. */
-export async function openCopy(live: Live, parameters: Parameters): Promise<void> {
-  const settings = parameters.settings();
-  const open = (file: object) =>
-    call<{ session: number }>('POST', '/api/sessions', { ...file, settings });
-  const photo = live.hello?.photo;
-  const beneath = photo ? { photo: photo.file, um_per_px: photo.um_per_px } : {};
-  const answer = await parameters.restart();
-  if (answer.issues.length > 0) throw new Error(said(answer));
-  const { session } = await open({ file: live.hello?.name, ...beneath }).catch(() => open({}));
-  location.hash = `#/compare/${live.session}/${session}`;
-}
 
 /** Two sessions side by side, with a common time and one table of metrics. */
 export async function comparePage(numbers: number[]): Promise<Page> {
@@ -34,19 +21,19 @@ export async function comparePage(numbers: number[]): Promise<Page> {
   const trouble = element('p', { class: 'trouble', role: 'alert' });
   const sides = await Promise.all(
     numbers.map(async (number, i) => {
-      const live = new Live(number, () =>
-        void whyClosed(`Session ${names[i]}`).then((why) => trouble.replaceChildren(why)),
-      );
+      await requireOpen(number);
+      const live = new Live(number, `Run ${names[i]}`);
+      live.onState((_, text) => trouble.replaceChildren(text));
       const stage = await stageFor(live);
       const caption = element('figcaption', {});
       const figure = element('figure', { class: 'side', 'data-side': names[i] as string }, caption, stage.scene.root);
-      return { live, stage, caption, figure, parameters: new Parameters(live) };
+      return { live, stage, caption, figure, parameters: new Parameters(live, `field-${names[i]}`) };
     }),
   );
-  const restart = () => Promise.all(sides.map((side) => side.parameters.restart()));
+  const restart = () => Promise.all(sides.map((side, i) => side.parameters.restart([], `run ${names[i]}`)));
   const time = timeBar(sides.map((side) => side.live), restart);
   const table = element('div', { class: 'table' });
-  const plots = new Plots(sides.map((side) => side.live), time.seekTime);
+  const plots = new Plots(sides.map((side) => side.live), time.transport.seekTime);
   const layers = layersTab(sides.map((side) => side.stage.scene));
 
   const settingsOf = (live: Live) => combine(live.hello?.settings ?? [], live.standing?.changes ?? []);
@@ -81,8 +68,8 @@ export async function comparePage(numbers: number[]): Promise<Page> {
   const fit = () => sides.forEach((side) => side.stage.scene.fit());
   const keys = new Keys([
     ...timeKeys(time),
-    { keys: ['ArrowLeft'], shown: '←', does: 'previous frame', act: (e) => time.seekBy(e.shiftKey ? -10 : -1) },
-    { keys: ['ArrowRight'], shown: '→', does: 'next frame', act: (e) => time.seekBy(e.shiftKey ? 10 : 1) },
+    { keys: ['ArrowLeft'], shown: '←', does: 'previous frame', act: (e) => time.transport.seekBy(e.shiftKey ? -10 : -1) },
+    { keys: ['ArrowRight'], shown: '→', does: 'next frame', act: (e) => time.transport.seekBy(e.shiftKey ? 10 : 1) },
     { keys: ['f'], shown: 'f', does: 'fit the maps', act: fit },
   ]);
   document.title = 'Compare – microswarm lab';
@@ -110,11 +97,15 @@ export async function comparePage(numbers: number[]): Promise<Page> {
     time.root,
   );
   for (const side of sides) side.live.open();
+  const lives = sides.map((side) => side.live);
   return {
     root,
+    isAtRisk: () => lives.some(isAtRisk),
+    mayLeave: () => mayLeave(lives),
     leave: () => {
       keys.destroy();
       plots.destroy();
+      time.destroy();
       for (const side of sides) {
         side.live.close();
         side.stage.destroy();

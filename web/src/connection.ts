@@ -1,17 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import { type Answer, type Message, type Request, read } from './protocol';
+import { type StreamState, pauseBefore, verdictOf } from './reconnect';
 
 const gone = 'The lab has ended or cannot be reached. Start it again and open the address that it prints.';
-
-/** Reason for the end of a stream that this page did not close. */
-export async function whyClosed(what: string): Promise<string> {
-  try {
-    await call('GET', '/api/schema');
-    return `${what} is closed. Open it again from the gallery.`;
-  } catch (error) {
-    return (error as Error).message;
-  }
-}
 
 /** Sends a request to the server; an error has the server's text. */
 export async function call<T>(method: 'GET' | 'POST', path: string, body?: unknown): Promise<T> {
@@ -26,39 +17,57 @@ export async function call<T>(method: 'GET' | 'POST', path: string, body?: unkno
   return json as T;
 }
 
-const closed: Answer = { type: 'answer', id: 0, issues: [{ keys: [], text: 'the session is closed' }] };
+/** Status with which the server answers for a session; undefined if it does not. */
+export async function statusOf(session: number): Promise<number | undefined> {
+  try {
+    return (await fetch(`/api/sessions/${session}`)).status;
+  } catch {
+    return undefined;
+  }
+}
+
+/** Throws an Error unless the session is open. */
+export async function requireOpen(session: number): Promise<void> {
+  const status = await statusOf(session);
+  if (status !== 200) throw new Error(verdictOf(status, 'This run').text);
+}
+
+const closed: Answer = { type: 'answer', id: 0, issues: [{ keys: [], text: 'The connection is broken: nothing was changed.' }] };
 
 type Listener = (message: Message) => void;
 
-/** The message stream of a session. */
+/** The message stream of a session. A stream that breaks is opened again until the session is gone. */
 export class Connection {
-  private readonly socket: WebSocket;
+  private socket: WebSocket;
   private readonly waiting = new Map<number, (answer: Answer) => void>();
   private readonly listeners: Listener[] = [];
   private next = 1;
+  private attempts = 0;
+  private timer: number | undefined;
+  private isLeft = false;
 
-  constructor(session: number, onClose: () => void) {
-    const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
-    this.socket = new WebSocket(`${scheme}://${location.host}/api/stream/${session}`);
-    this.socket.binaryType = 'arraybuffer';
-    this.socket.onmessage = (event) => this.take(read(event.data as ArrayBuffer));
-    this.socket.onclose = () => {
-      this.settle(closed);
-      onClose();
-    };
+  /** `what` names the session in the texts of `onState`. */
+  constructor(
+    private readonly session: number,
+    private readonly what: string,
+    private readonly onState: (state: StreamState, text: string) => void,
+  ) {
+    this.socket = this.open();
   }
 
   listen(listener: Listener): void {
     this.listeners.push(listener);
   }
 
-  /** Sends a request, once the stream is open; the answer lists its issues, if any. */
+  /** Sends a request, once the stream is open for the first time; the answer lists its issues, if any. */
   ask(request: Request): Promise<Answer> {
     const id = this.next++;
-    if (this.socket.readyState > WebSocket.OPEN) return Promise.resolve({ ...closed, id });
-    const send = () => this.socket.send(JSON.stringify({ id, ...request }));
-    if (this.socket.readyState === WebSocket.OPEN) send();
-    else this.socket.addEventListener('open', send, { once: true });
+    const { socket } = this;
+    const isBroken = socket.readyState > WebSocket.OPEN || (this.attempts > 0 && socket.readyState !== WebSocket.OPEN);
+    if (isBroken) return Promise.resolve({ ...closed, id });
+    const send = () => socket.send(JSON.stringify({ id, ...request }));
+    if (socket.readyState === WebSocket.OPEN) send();
+    else socket.addEventListener('open', send, { once: true });
     return new Promise((resolve) => this.waiting.set(id, resolve));
   }
 
@@ -68,9 +77,33 @@ export class Connection {
   }
 
   close(): void {
-    this.socket.onclose = null;
+    this.isLeft = true;
+    window.clearTimeout(this.timer);
     this.socket.close();
     this.settle(closed);
+  }
+
+  private open(): WebSocket {
+    const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
+    const socket = new WebSocket(`${scheme}://${location.host}/api/stream/${this.session}`);
+    socket.binaryType = 'arraybuffer';
+    socket.onmessage = (event) => this.take(read(event.data as ArrayBuffer));
+    socket.onopen = () => {
+      this.attempts = 0;
+      this.onState('open', '');
+    };
+    socket.onclose = () => void this.broke();
+    return socket;
+  }
+
+  private async broke(): Promise<void> {
+    if (this.isLeft) return;
+    this.settle(closed);
+    const verdict = verdictOf(await statusOf(this.session), this.what);
+    if (this.isLeft) return;
+    this.onState(verdict.state, verdict.text);
+    if (verdict.state === 'closed') return;
+    this.timer = window.setTimeout(() => (this.socket = this.open()), pauseBefore(this.attempts++));
   }
 
   /** Settles a request. Id 0 answers an unreadable message, so it settles all. */

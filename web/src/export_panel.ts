@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+import { call } from './connection';
+import { csvOf } from './csv';
 import { element } from './dom';
 import type { Live } from './live';
+import { numberEntry } from './number_entry';
 import type { Scene } from './scene/scene';
 
 const speeds = [1, 2, 4, 8, 16, 32];
@@ -15,13 +18,18 @@ export function exportPanel(live: Live, scene: Scene): HTMLElement {
   for (const one of [640, 1280, 1920]) width.append(element('option', { value: String(one) }, `${one} px`));
   width.value = '1280';
   const time = (label: string, title: string) =>
-    element('input', { type: 'number', class: 'number', min: '0', step: 'any', placeholder: label, 'aria-label': label, title });
+    numberEntry({ placeholder: label, 'aria-label': label, title }, undefined, (trouble) => (said.value = trouble));
   const from = time('from s', 'First time of the video [s]; empty: the start');
   const to = time('to s', 'Last time of the video [s]; empty: the newest frame');
-  const video = () => new URLSearchParams({ from: from.value, to: to.value, speed: speed.value, width: width.value });
+  const video = () => new URLSearchParams({ from: String(from.get() ?? ''), to: String(to.get() ?? ''), speed: speed.value, width: width.value });
   const path = `/api/sessions/${live.session}`;
   let cancel: AbortController | undefined;
 
+  /** Says how far the export is. */
+  const tell = async (name: string) => {
+    const { share } = await call<{ share: number | null }>('GET', `${path}/export`).catch(() => ({ share: null }));
+    if (!stop.hidden && share !== null) said.value = `Making ${name}: ${Math.floor(100 * share)} %`;
+  };
   const act = (label: string, name: string, title: string, make: (signal: AbortSignal) => Promise<Blob>) => {
     const button = element('button', { type: 'button', title, onclick: () => void run() }, label);
     const run = async () => {
@@ -29,12 +37,14 @@ export function exportPanel(live: Live, scene: Scene): HTMLElement {
       cancel = new AbortController();
       stop.hidden = false;
       said.value = `Making ${name} …`;
+      const asks = window.setInterval(() => void tell(name), 700);
       try {
         save(await make(cancel.signal), name);
-        said.value = '';
+        said.value = `${name} is made.`;
       } catch (error) {
         said.value = (error as Error).name === 'AbortError' ? 'Cancelled.' : (error as Error).message;
       }
+      window.clearInterval(asks);
       stop.hidden = true;
     };
     return button;
@@ -50,7 +60,7 @@ export function exportPanel(live: Live, scene: Scene): HTMLElement {
       act('SVG', 'picture.svg', 'The run at this time, as vector graphics', (signal) =>
         fetched(`${path}/picture.svg?t=${live.shown}`, signal),
       ),
-      act('CSV', 'plots.csv', 'The numbers of the plots', () => Promise.resolve(plotted(live))),
+      act('CSV', 'plots.csv', 'The numbers of the plots', () => Promise.resolve(new Blob([csvOf(live.history.columns, live.hello?.states ?? [])], { type: 'text/csv' }))),
     ),
     element(
       'div',
@@ -60,7 +70,7 @@ export function exportPanel(live: Live, scene: Scene): HTMLElement {
       speed,
       width,
     ),
-    element('div', { class: 'row' }, from, to),
+    element('div', { class: 'row' }, from.root, to.root),
     element('div', { class: 'row' }, stop, said),
   );
 }
@@ -69,14 +79,6 @@ async function fetched(address: string, signal: AbortSignal): Promise<Blob> {
   const response = await fetch(address, { signal });
   if (!response.ok) throw new Error((await response.json()).error ?? response.statusText);
   return response.blob();
-}
-
-/** CSV with a row for each tick and units in the column names. */
-function plotted(live: Live): Blob {
-  const columns = [...live.history.columns];
-  const lines = [columns.map(([name]) => name).join(',')];
-  live.history.times.forEach((_, i) => lines.push(columns.map(([, list]) => list[i]).join(',')));
-  return new Blob([`${lines.join('\n')}\n`], { type: 'text/csv' });
 }
 
 function save(blob: Blob, name: string): void {

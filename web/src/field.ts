@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { element } from './dom';
+import { numberEntry } from './number_entry';
 import { number, words } from './numbers';
 import type { Json } from './protocol';
 import { type Schema, allowsNull, described, rangeOf, withoutNull } from './schema';
@@ -30,13 +31,16 @@ interface Control {
   show(value: Json | undefined): void;
 }
 
-export function field(key: string, schema: Schema, change: Change): Field {
+/** A field of a form; `form` is the form's name, of which a page may have one only. `reach` is the largest length that makes sense [µm]. */
+export function field(key: string, schema: Schema, change: Change, form = 'field', reach = Infinity): Field {
   const name = key.slice(key.lastIndexOf('.') + 1);
   const inner = withoutNull(schema);
   const { doc, unit } = described(schema);
   const { label, unit: keyUnit } = words(name);
-  const id = `field-${key}`;
-  const control = controlOf(id, inner, allowsNull(schema), {
+  const shownUnit = unit || keyUnit;
+  const slider = { name: label, unit: shownUnit, most: shownUnit === 'µm' ? reach : Infinity };
+  const id = `${form}-${key}`;
+  const control = controlOf(id, inner, allowsNull(schema), slider, {
     change: (value) => change(key, value),
     complain: (text) => setIssue(text),
   });
@@ -66,7 +70,7 @@ export function field(key: string, schema: Schema, change: Change): Field {
     'div',
     { class: 'field', 'data-key': key },
     element('label', { for: id }, label),
-    element('span', { class: 'unit' }, unit || keyUnit),
+    element('span', { class: 'unit' }, shownUnit),
     reset,
     element('div', { class: 'control' }, ...control.nodes),
     element('p', { class: 'doc' }, facts.filter((one) => one !== '').join(' ')),
@@ -103,10 +107,17 @@ function range(schema: Schema): string {
   return hi === undefined ? `At least ${number(lo)}.` : `${number(lo)} to ${number(hi)}.`;
 }
 
-function controlOf(id: string, schema: Schema, nullable: boolean, typed: Typed): Control {
+/** Name, unit and largest value of a slider. */
+interface Sliding {
+  name: string;
+  unit: string;
+  most: number;
+}
+
+function controlOf(id: string, schema: Schema, nullable: boolean, sliding: Sliding, typed: Typed): Control {
   if (schema.type === 'boolean') return toggle(id, typed.change);
   if (schema.enum) return menu(id, schema.enum, typed.change);
-  if (schema.type === 'number' || schema.type === 'integer') return numeric(id, schema, nullable, typed);
+  if (schema.type === 'number' || schema.type === 'integer') return numeric(id, schema, nullable, sliding, typed);
   if (schema.type === 'string') return line(id, typed.change);
   return list(id, nullable, typed);
 }
@@ -125,38 +136,39 @@ export function menu(id: string, options: string[], change: (value: Json) => voi
   return { nodes: [select], show: (value) => (select.value = String(value)) };
 }
 
-function numeric(id: string, schema: Schema, nullable: boolean, typed: Typed): Control {
-  const entry = element('input', {
-    id,
-    type: 'number',
-    class: 'number',
-    step: 'any',
-    ...(nullable ? { placeholder: 'none' } : {}),
-    onchange: () => {
-      if (entry.value !== '' && Number.isFinite(Number(entry.value))) typed.change(Number(entry.value));
-      else if (nullable && !entry.validity.badInput) typed.change(null);
-      else typed.complain('This needs a number.');
-    },
-  });
-  const span = rangeOf(schema);
-  if (!span) return { nodes: [entry], show: (value) => (entry.value = value == null ? '' : String(value)) };
+function numeric(id: string, schema: Schema, nullable: boolean, sliding: Sliding, typed: Typed): Control {
+  const change = () => {
+    const value = entry.get();
+    if (value !== undefined || nullable) typed.change(value ?? null);
+    else typed.complain('This needs a number.');
+  };
+  const entry = numberEntry({ id, ...(nullable ? { placeholder: 'none' } : {}) }, change, typed.complain);
+  const span = rangeOf(schema, sliding.most);
+  const show = (value: Json | undefined) => entry.set(typeof value === 'number' ? value : undefined);
+  if (!span) return { nodes: [entry.root], show };
+  const say = () => {
+    const value = entry.get();
+    slider.setAttribute('aria-valuetext', value === undefined ? 'none' : `${value} ${sliding.unit}`.trim());
+  };
   const slider = element('input', {
     type: 'range',
     class: 'slider',
     min: '0',
     max: '1',
     step: '0.002',
-    'aria-labelledby': '',
-    oninput: () => (entry.value = String(span.toValue(Number(slider.value)))),
-    onchange: () => typed.change(Number(entry.value)),
+    'aria-label': `${sliding.name}, slider`,
+    oninput: () => {
+      entry.set(span.toValue(Number(slider.value)));
+      say();
+    },
+    onchange: () => typed.change(entry.get() ?? null),
   });
-  slider.setAttribute('aria-label', `${id.slice('field-'.length)}, slider`);
-  slider.removeAttribute('aria-labelledby');
   return {
-    nodes: [slider, entry],
+    nodes: [slider, entry.root],
     show: (value) => {
-      entry.value = value == null ? '' : String(value);
+      show(value);
       slider.value = String(typeof value === 'number' ? span.toShare(value) : 0);
+      say();
     },
   };
 }

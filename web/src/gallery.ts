@@ -2,19 +2,24 @@
 import type { Page } from './page';
 import { call } from './connection';
 import { element } from './dom';
+import { takeDrops } from './drops';
+import { type Entry, cardText, heading } from './headings';
 import { queueSection } from './queue';
 import { themeSwitch } from './theme';
 import { upload } from './uploads';
 
-interface Entry {
-  file: string;
-  name: string;
-  description: string;
-}
 interface Listing {
   scenarios: Entry[];
   open?: boolean;
   queue?: boolean;
+}
+
+interface OpenRun {
+  session: number;
+  name: string;
+  t_s: number;
+  watched: boolean;
+  live: boolean;
 }
 
 /** Opens an experiment and shows its page. */
@@ -38,8 +43,9 @@ export async function galleryPage(): Promise<Page> {
     );
   };
   if (listing.open && !sessionStorage.getItem('opened')) {
-    sessionStorage.setItem('opened', 'yes');
-    if (await attempt({})) return { root: element('p', { class: 'doc' }, 'Opening …'), leave: () => undefined };
+    const isOpen = await attempt({});
+    sessionStorage.setItem('opened', 'yes'); // after it: a page reloaded meanwhile opens it again
+    if (isOpen) return { root: element('p', { class: 'doc' }, 'Opening …'), leave: () => undefined };
   }
   const take = async (file: File | undefined) => {
     if (!file) return;
@@ -64,12 +70,11 @@ export async function galleryPage(): Promise<Page> {
     const folder = entry.file.slice(0, Math.max(0, entry.file.lastIndexOf('/')));
     folders.set(folder, [...(folders.get(folder) ?? []), entry]);
   }
-  const shared = sharedFolder([...folders.keys()]);
   const sections = [...folders].map(([folder, entries]) =>
     element(
       'section',
       {},
-      element('h2', {}, heading(folder.slice(shared.length))),
+      element('h2', {}, heading(folder)),
       element('div', { class: 'cards' }, ...entries.map((entry) => card(entry, () => void attempt({ file: entry.file })))),
     ),
   );
@@ -94,6 +99,7 @@ export async function galleryPage(): Promise<Page> {
   const again = listing.open
     ? [element('button', { type: 'button', onclick: () => void attempt({}) }, 'Open the experiment of the command line')]
     : [];
+  const { sessions } = await call<{ sessions: OpenRun[] }>('GET', '/api/sessions');
   const queue = listing.queue ? queueSection() : undefined;
   const root = element(
     'div',
@@ -102,33 +108,41 @@ export async function galleryPage(): Promise<Page> {
     trouble,
     none,
     ...(queue ? [queue.root] : []),
+    ...(sessions.length > 0 ? [openRuns(sessions)] : []),
     element('p', { class: 'doc' }, 'Drop a photograph of vessels, a scenario or a record here.'),
     ...sections,
   );
-  root.addEventListener('dragover', (event) => event.preventDefault());
-  root.addEventListener('drop', (event) => {
-    event.preventDefault();
-    void take(event.dataTransfer?.files[0]);
+  const endDrops = takeDrops((files) => {
+    void take(files[0]).then(() => {
+      if (files.length > 1) trouble.append(` Only the first of ${files.length} files was read.`);
+    });
   });
-  return { root, leave: () => queue?.leave() };
+  return {
+    root,
+    leave: () => {
+      queue?.leave();
+      endDrops();
+    },
+  };
 }
 
-/** The common folder of all. */
-function sharedFolder(folders: string[]): string {
-  let shared = folders[0] ?? '';
-  while (!folders.every((one) => one === shared || one.startsWith(`${shared}/`)) && shared !== '')
-    shared = shared.slice(0, Math.max(0, shared.lastIndexOf('/')));
-  return shared;
-}
-
-function heading(folder: string): string {
-  const parts = folder.split('/').filter((one) => one !== '' && one !== 'scenarios');
-  return parts.length > 0 ? parts.join(' › ').replaceAll('_', ' ') : 'First steps';
+/** Runs that are open, to come back to. */
+function openRuns(sessions: OpenRun[]): HTMLElement {
+  const links = sessions.map(({ session, name, t_s, live, watched }) =>
+    element(
+      'a',
+      { href: `#/${live ? 'rig' : 'session'}/${session}`, class: 'button' },
+      `${name.slice(name.lastIndexOf('/') + 1)} · ${t_s.toFixed(1)} s${watched ? ' · shown by a page' : ''}`,
+    ),
+  );
+  return element('section', { class: 'open-runs' }, element('h2', {}, 'Open runs'), element('div', { class: 'row' }, ...links));
 }
 
 function card(entry: Entry, act: () => void): HTMLElement {
+  const { name, text, trouble } = cardText(entry);
   const picture = element('img', {
-    src: `/api/thumbnail?file=${encodeURIComponent(entry.file)}`,
+    ...(trouble ? {} : { src: `/api/thumbnail?file=${encodeURIComponent(entry.file)}` }),
+    ...(trouble ? { class: 'none' } : {}),
     alt: '',
     loading: 'lazy',
     onerror: () => picture.classList.add('none'),
@@ -136,15 +150,15 @@ function card(entry: Entry, act: () => void): HTMLElement {
   return element(
     'button',
     {
-      class: 'card',
+      class: trouble ? 'card wrong' : 'card',
       type: 'button',
-      title: entry.description,
+      title: trouble || text,
       'data-file': entry.file,
-      'data-text': `${entry.file} ${entry.name} ${entry.description}`.toLowerCase(),
+      'data-text': `${entry.file} ${name} ${text} ${trouble}`.toLowerCase(),
       onclick: act,
     },
     picture,
-    element('strong', {}, entry.name),
-    element('span', {}, entry.description),
+    element('strong', {}, name),
+    element('span', trouble ? { class: 'issue' } : {}, trouble || text),
   );
 }

@@ -1,49 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Connection } from './connection';
-import { type Answer, type Hello, type Message, type Request, type RigStanding, type RunEvent, type Standing, doubles } from './protocol';
+import { History } from './history';
+import { type Answer, type Hello, type Message, type Request, type RigStanding, type Standing, doubles } from './protocol';
+import type { StreamState } from './reconnect';
 
 type Listener = (message: Message) => void;
-
-/** Numbers of all ticks so far, a list for each column, and events. */
-export class History {
-  readonly columns = new Map<string, number[]>();
-  events: RunEvent[] = [];
-
-  column(name: string): number[] {
-    return this.columns.get(name) ?? [];
-  }
-
-  get times(): number[] {
-    return this.column('t_s');
-  }
-
-  take(names: string[], numbers: Float64Array, events: RunEvent[], anew: boolean): void {
-    if (anew) {
-      this.columns.clear();
-      this.events = [];
-    }
-    names.forEach((name, at) => {
-      const list = this.columns.get(name) ?? [];
-      this.columns.set(name, list);
-      for (let i = at; i < numbers.length; i += names.length) list.push(numbers[i] as number);
-    });
-    this.events.push(...events);
-  }
-
-  /** Index of the frame nearest to a time. */
-  nearest(time: number): number {
-    const times = this.times;
-    let lo = 0;
-    let hi = times.length - 1;
-    while (lo < hi) {
-      const middle = (lo + hi) >> 1;
-      if ((times[middle] as number) < time) lo = middle + 1;
-      else hi = middle;
-    }
-    const before = times[lo - 1];
-    return before !== undefined && time - before < (times[lo] as number) - time ? lo - 1 : lo;
-  }
-}
 
 /** State of a session in this page: the last messages and the numbers so far. */
 export class Live {
@@ -54,26 +15,29 @@ export class Live {
   /** Time shown by the scene, and time under the pointer on a plot or the time line [s]. */
   shown = 0;
   pointed: number | undefined;
-  /** Whether the session was changed or steered manually since its start. */
-  isTouched = false;
   private connection: Connection | undefined;
   private readonly listeners: Listener[] = [];
   private readonly pointers: (() => void)[] = [];
-  private readonly closers: (() => void)[] = [];
+  private readonly staters: ((state: StreamState, text: string) => void)[] = [];
   private wanted: number | undefined;
   private seeks = false;
 
+  /** `what` names the session in texts. */
   constructor(
     readonly session: number,
-    onClose: () => void,
-  ) {
-    this.closers.push(onClose);
+    private readonly what: string,
+  ) {}
+
+  /** Whether the session was changed, held or steered by hand since its start. */
+  get isTouched(): boolean {
+    const { standing } = this;
+    return standing !== undefined && (standing.changes.length > 0 || standing.steered || standing.mode !== 'autonomous');
   }
 
   /** Starts the stream, once all listeners are registered. */
   open(): void {
-    this.connection = new Connection(this.session, () => {
-      for (const one of this.closers) one();
+    this.connection = new Connection(this.session, this.what, (state, text) => {
+      for (const one of this.staters) one(state, text);
     });
     this.connection.listen((message) => this.take(message));
   }
@@ -83,9 +47,9 @@ export class Live {
     this.listeners.push(listener);
   }
 
-  /** Registers a listener for the end of the stream, unless by close(). */
-  onClose(listener: () => void): void {
-    this.closers.push(listener);
+  /** Registers a listener for the stream's state: opened, broken or gone, with what to say of it. */
+  onState(listener: (state: StreamState, text: string) => void): void {
+    this.staters.push(listener);
   }
 
   onPoint(listener: () => void): void {
@@ -135,8 +99,6 @@ export class Live {
     if (message.type === 'hello') this.hello = message;
     if (message.type === 'scenario' && this.hello) this.hello.scenario = message.scenario;
     if (message.type === 'standing') this.standing = message;
-    if (message.type === 'rows' && message.anew) this.isTouched = false;
-    if (message.type === 'standing') this.isTouched ||= message.changes.length > 0 || message.mode !== 'autonomous';
     if (message.type === 'rig') this.rig = message;
     if (message.type === 'frame') this.shown = Number(message.frame['t_s']);
     if (message.type === 'rows')

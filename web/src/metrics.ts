@@ -10,13 +10,16 @@ export interface Metric {
   value: number | undefined;
 }
 
+/** Labels within a group whose key says too little. */
+const within: { [key: string]: string } = { clearance_um: 'least clearance', t_s: 'time of the least' };
+
 /** Metrics of a run as one list; nested ones have their group's name as prefix. */
-export function metricsOf(metrics: { [key: string]: Json }, within = ''): Metric[] {
+export function metricsOf(metrics: { [key: string]: Json }, group = ''): Metric[] {
   return Object.entries(metrics).flatMap(([key, value]) => {
     const { label, unit } = words(key);
     if (value !== null && typeof value === 'object' && !Array.isArray(value))
-      return metricsOf(value, `${within}${label}: `);
-    return [{ key: within + key, label: within + label, unit, value: typeof value === 'number' ? value : undefined }];
+      return metricsOf(value, `${group}${label}: `);
+    return [{ key: group + key, label: group + ((group && within[key]) || label), unit, value: typeof value === 'number' ? value : undefined }];
   });
 }
 

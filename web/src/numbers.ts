@@ -13,6 +13,7 @@ const units: [string, string][] = [
   ['_rad', 'rad'],
   ['_hz', 'Hz'],
   ['_mT', 'mT'],
+  ['_px', 'px'],
 ];
 
 /** Label and unit of a key: goal_tolerance_um is "goal tolerance" in µm. */
@@ -28,4 +29,15 @@ export function number(value: number, digits = 4): string {
   const isPlain = value === 0 || (Math.abs(value) >= 1e-4 && Math.abs(value) < 1e6);
   if (!isPlain) return String(Number(value.toPrecision(digits)).toExponential()).replace('e+', 'e');
   return String(Number(value.toPrecision(digits)));
+}
+
+/** A number as a person types it, with a decimal point or comma, or why the text is none. */
+export function typedNumber(text: string): { value: number } | { trouble: string } {
+  const bare = text.trim().replace(/^[−–]/, '-').replace(/(?<=\d)[\u0020\u00a0\u202f](?=\d{3}(?!\d))/g, '');
+  // Three digits after a comma may be thousands.
+  if (/^[+-]?[1-9]\d*,\d{3}$/.test(bare) || (/^[+-]?[\d.,]+$/.test(bare) && bare.includes(',') && bare.includes('.')))
+    return { trouble: `${text.trim()} can be read as two numbers: write it with a decimal point only.` };
+  if (!/^[+-]?(\d+[.,]?\d*|[.,]\d+)(e[+-]?\d+)?$/i.test(bare)) return { trouble: text.trim() === '' ? 'This needs a number.' : `${text.trim()} is no number.` };
+  const value = Number(bare.replace(',', '.'));
+  return Number.isFinite(value) ? { value } : { trouble: `${text.trim()} is too large a number.` };
 }

@@ -1,37 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
+import { Changes } from './changes';
 import { call } from './connection';
 import { element } from './dom';
-import { type Field, field, menu } from './field';
+import { Form } from './form';
+import { routed } from './issues';
 import type { Live } from './live';
 import { mayBeginAnew } from './loss';
-import { words } from './numbers';
-import { type Answer, type Issue, type Json, type Scenario, said } from './protocol';
-import { type Schema, alternative, allowsNull, described, isGroup, kinds, withoutNull } from './schema';
+import { type Answer, type Json, type Scenario, said } from './protocol';
+import { parametersNote } from './repeat';
+import type { Schema } from './schema';
 import { at, combine, keyOf, text } from './settings';
 
-const most = 40; // maximum number of entries shown of a list of groups
-const last = ['name', 'description', 'map'];
 const refused: Answer = {
   type: 'answer',
   id: 0,
   issues: [{ keys: [], text: 'This needs a new run: stop the rig first.' }],
 };
 const kept: Answer = { type: 'answer', id: 0, issues: [{ keys: [], text: 'The run continues.' }] };
-const unfolded = ['goal_um', 'navigator'];
 
 let schemaOnce: Promise<Schema> | undefined;
 
-/** The scenario's parameters as a form made from its schema. */
+/** The scenario's parameters: a form, and what becomes of the changes in it. */
 export class Parameters {
   readonly root: HTMLElement;
   private schema: Schema | undefined;
-  private fields: Field[] = [];
   private shape = '';
-  private readonly open = new Set<string>(unfolded);
-  private readonly waiting = new Map<string, Json>();
-  private readonly asked = new Map<string, Json>(); // values sent, not yet confirmed
+  private readonly changes = new Changes();
   private setting: Promise<unknown> = Promise.resolve(); // the last one sent
-  private readonly form = element('div', { class: 'form' });
+  private readonly done: [string, Json][] = []; // keys changed, and the values before
+  private readonly tuned = new Map<string, Json>(); // objects by key and type, as they were left
+  private readonly form: Form;
   private readonly search = element('input', {
     type: 'search',
     class: 'search',
@@ -39,14 +37,38 @@ export class Parameters {
     'aria-label': 'Find a parameter',
     oninput: () => this.filter(),
   });
+  private readonly undoButton = element('button', { type: 'button', class: 'undo', title: 'Take the last change back', hidden: true, onclick: () => void this.undo() }, '↶ Undo');
   private readonly bar = element('div', { class: 'waiting', role: 'status', hidden: true });
   private readonly trouble = element('p', { class: 'issue', role: 'alert', hidden: true });
 
-  constructor(private readonly live: Live) {
-    this.root = element('div', { class: 'parameters' }, this.search, this.trouble, this.form, this.bar);
+  /** `name` is the form's own in its page. */
+  constructor(
+    private readonly live: Live,
+    name = 'field',
+  ) {
+    this.form = new Form(
+      {
+        wanted: () => this.wanted(),
+        change: (key, value) => void this.change(key, value),
+        changeType: (key, type) => this.changeType(key, type),
+        isAtOnce: (key) => this.isAtOnce(key),
+        canChange: () => !live.hello?.playback,
+      },
+      name,
+    );
+    const when = element('p', { class: 'when', role: 'status', hidden: true });
+    this.root = element('div', { class: 'parameters' }, element('div', { class: 'find' }, this.search, this.undoButton), when, this.trouble, this.form.root, this.bar);
     let ended = false;
     live.listen((message) => {
-      if (message.type === 'hello' || message.type === 'scenario') this.take(message.scenario);
+      if (message.type === 'standing' || message.type === 'frame') {
+        const text = parametersNote(live.hello?.playback ?? false, live.standing, live.shown, live.history.times.at(-1) ?? 0);
+        when.hidden = text === '';
+        if (when.textContent !== text) when.textContent = text;
+      }
+      if (message.type === 'hello' || message.type === 'scenario') {
+        this.changes.take(message.scenario);
+        this.rebuild();
+      }
       if (message.type === 'standing' && message.ended !== ended) {
         ended = message.ended;
         this.rebuild();
@@ -59,29 +81,24 @@ export class Parameters {
     });
   }
 
-  /** Restarts the experiment with all changes and `more` settings KEY=VALUE. */
-  async restart(more: string[] = []): Promise<Answer> {
+  /** Restarts the experiment with all changes and `more` settings KEY=VALUE; `name`: of the run, if there are several. */
+  async restart(more: string[] = [], name = ''): Promise<Answer> {
     await this.setting;
-    const waiting = [...this.waiting].map(([key, value]) => `${key}=${text(value)}`);
-    const settings = combine(
-      this.live.hello?.settings ?? [],
-      this.live.standing?.changes ?? [],
-      waiting,
-      more,
-    );
+    const asked = [...this.changes.settings(), ...more].map(keyOf);
+    const settings = combine(this.settings(), more);
     const isArmed = this.live.rig?.state === 'armed';
-    if (!isArmed && !(await mayBeginAnew(this.live))) return kept;
+    if (!isArmed && !(await mayBeginAnew(this.live, name))) return kept;
     const answer = isArmed ? refused : await this.live.ask({ do: 'restart', settings });
-    if (answer.issues.length === 0) this.waiting.clear();
-    this.showIssues(answer, [...waiting, ...more].map(keyOf));
+    if (answer.issues.length === 0) this.changes.clear();
+    this.showIssues(answer, asked);
     this.showWaiting();
     return answer;
   }
 
   /** Settings of a session that starts in this one's current state. */
   settings(): string[] {
-    const waiting = [...this.waiting].map(([key, value]) => `${key}=${text(value)}`);
-    return combine(this.live.hello?.settings ?? [], this.live.standing?.changes ?? [], waiting);
+    if (this.live.hello?.playback) return this.live.hello.settings; // its changes are in the record
+    return combine(this.live.hello?.settings ?? [], this.live.standing?.changes ?? [], this.changes.settings());
   }
 
   /** Whether a key takes effect at the next tick, otherwise at a restart. */
@@ -91,235 +108,95 @@ export class Parameters {
   }
 
   async change(key: string, value: Json): Promise<Answer | undefined> {
+    const before = at(this.wanted(), key);
+    const answer = await this.apply(key, value);
+    if (before !== undefined && !answer?.issues.length) this.done.push([key, before]);
+    this.undoButton.hidden = this.done.length === 0;
+    return answer;
+  }
+
+  /** Takes the last change back, by another one. */
+  private async undo(): Promise<void> {
+    const last = this.done.pop();
+    if (last) await this.apply(...last);
+    this.undoButton.hidden = this.done.length === 0;
+  }
+
+  private async apply(key: string, value: Json): Promise<Answer | undefined> {
     if (this.isAtOnce(key)) {
+      const answered = this.changes.ask(key, value);
       const set = this.live.ask({ do: 'set', key, value: text(value) });
       this.setting = set;
-      this.asked.set(key, value);
       const answer = await set;
-      if (this.asked.get(key) === value) this.asked.delete(key);
+      answered();
       if (answer.issues.length === 0) this.rebuild();
       this.showIssues(answer, [key]);
       return answer;
     }
-    const present = at(this.live.hello?.scenario, key);
-    for (const one of [...this.waiting.keys()]) if (one.startsWith(`${key}.`)) this.waiting.delete(one);
-    if (JSON.stringify(present) === JSON.stringify(value)) this.waiting.delete(key);
-    else this.waiting.set(key, value);
+    this.changes.wait(key, value, this.live.hello?.scenario);
     this.rebuild();
     return undefined;
   }
 
-  private take(scenario: Scenario): void {
-    for (const [key, value] of this.waiting)
-      if (JSON.stringify(at(scenario, key)) === JSON.stringify(value)) this.waiting.delete(key);
-    this.rebuild();
+  /** Changes the type of an object, which gets its defaults, or the values that it had with this type before. */
+  private changeType(key: string, type: string): void {
+    const present = at(this.wanted(), key);
+    if (present && typeof present === 'object' && !Array.isArray(present)) this.tuned.set(`${key}:${String(present['type'])}`, present);
+    void this.change(key, this.tuned.get(`${key}:${type}`) ?? { type });
   }
 
-  /** The scenario with pending and unconfirmed changes. */
   private wanted(): Scenario {
-    const scenario = structuredClone(this.live.hello?.scenario ?? {});
-    for (const [key, value] of [...this.waiting, ...this.asked]) {
-      const names = key.split('.');
-      const name = names.pop() as string;
-      const parent = names.length > 0 ? at(scenario, names.join('.')) : scenario;
-      if (parent && typeof parent === 'object') (parent as { [key: string]: Json })[name] = value;
-    }
-    return scenario;
+    return this.changes.wanted(this.live.hello?.scenario);
   }
 
   /** Shows the current values; the form is rebuilt only if its fields changed. */
   private rebuild(): void {
-    if (!this.schema || !this.live.hello) return;
+    const { hello } = this.live;
+    if (!this.schema || !hello) return;
     const scenario = this.wanted();
-    const fields: Field[] = [];
-    const made = element('div', { class: 'form' });
     const shape = JSON.stringify([shapeOf(scenario), this.live.standing?.ended]);
     if (shape !== this.shape) {
-      const focus = (document.activeElement as HTMLElement | null)?.id;
-      const properties = Object.entries(this.schema.properties ?? {});
-      properties.sort(([a], [b]) => Number(last.includes(a)) - Number(last.includes(b)));
-      for (const [key, schema] of properties)
-        made.append(this.node(key, schema, scenario[key], fields));
-      this.fields = fields;
+      const { lo, hi } = hello.map;
+      this.form.build(this.schema, scenario, Math.hypot(hi[0] - lo[0], hi[1] - lo[1]));
       this.shape = shape;
-      const scroll = this.root.scrollTop;
-      this.form.replaceChildren(...made.childNodes);
-      this.root.scrollTop = scroll;
-      if (focus?.startsWith('field-')) document.getElementById(focus)?.focus();
       this.filter();
     }
-    for (const one of this.fields) {
+    for (const one of this.form.fields) {
       one.show(at(scenario, one.key));
-      one.setWaiting([...this.waiting.keys()].some((key) => key === one.key || one.key.startsWith(`${key}.`)));
-      if (this.live.hello.playback) one.setEnabled(false);
+      one.setWaiting(this.changes.waits(one.key));
+      if (hello.playback) one.setEnabled(false);
     }
     this.showWaiting();
   }
 
-  private node(key: string, schema: Schema, value: Json | undefined, fields: Field[]): HTMLElement {
-    const inner = withoutNull(schema);
-    if (inner.type === 'array' && inner.items && isGroup(inner.items)) return this.listNode(key, inner, value, fields);
-    if (!isGroup(schema)) return this.fieldNode(key, schema, fields);
-    const body: HTMLElement[] = [];
-    if (value === null || value === undefined) {
-      if (allowsNull(schema))
-        body.push(element('p', { class: 'doc' }, 'None in this scenario.'));
-    } else if (inner.oneOf) {
-      body.push(this.kindNode(key, inner, fields));
-      this.addProperties(body, key, alternative(inner, value), value, fields);
-    } else {
-      this.addProperties(body, key, inner, value, fields);
-    }
-    return this.group(key, described(schema).doc, body);
-  }
-
-  private addProperties(to: HTMLElement[], key: string, schema: Schema | undefined, value: Json, fields: Field[]): void {
-    for (const [name, one] of Object.entries(schema?.properties ?? {}))
-      if (name !== 'type') to.push(this.node(`${key}.${name}`, one, at(value, name), fields));
-  }
-
-  private fieldNode(key: string, schema: Schema, fields: Field[]): HTMLElement {
-    const made = field(key, schema, (name, value) => void this.change(name, value));
-    if (!key.includes('.')) made.root.prepend(this.badge(key));
-    fields.push(made);
-    return made.root;
-  }
-
-  /** Menu of an object's `type`; a new type gets its defaults. */
-  private kindNode(key: string, schema: Schema, fields: Field[]): HTMLElement {
-    const id = `field-${key}.type`;
-    const control = menu(id, kinds(schema), (type) => void this.change(key, { type }));
-    const issue = element('p', { class: 'issue', role: 'alert', hidden: true });
-    const root = element(
-      'div',
-      { class: 'field', 'data-key': `${key}.type` },
-      element('label', { for: id }, 'type'),
-      element('div', { class: 'control' }, ...control.nodes),
-      issue,
-    );
-    fields.push({
-      key: `${key}.type`,
-      root,
-      text: `${key}.type ${kinds(schema).join(' ')}`.toLowerCase(),
-      show: control.show,
-      setIssue: (words) => {
-        issue.hidden = words === '';
-        issue.textContent = words;
-        if (words !== '') control.show(at(this.wanted(), `${key}.type`));
-      },
-      setWaiting: (waits) => root.classList.toggle('waits', waits),
-      setEnabled: (enabled) => root.querySelectorAll('select').forEach((one) => (one.disabled = !enabled)),
-    });
-    return root;
-  }
-
-  private listNode(key: string, schema: Schema, value: Json | undefined, fields: Field[]): HTMLElement {
-    const entries = Array.isArray(value) ? value : [];
-    const body = entries.slice(0, most).map((entry, i) => {
-      const group = this.node(`${key}.${i}`, schema.items as Schema, entry, fields);
-      const remove = element(
-        'button',
-        {
-          type: 'button',
-          class: 'remove',
-          disabled: this.live.hello?.playback ?? false,
-          onclick: () => void this.change(key, entries.filter((_, k) => k !== i)),
-        },
-        'Remove',
-      );
-      group.append(remove);
-      return group;
-    });
-    if (entries.length === 0) body.push(element('p', { class: 'doc' }, 'None.'));
-    if (entries.length > most)
-      body.push(element('p', { class: 'doc' }, `The first ${most} of ${entries.length} are shown.`));
-    return this.group(key, described(schema).doc, body);
-  }
-
-  private group(key: string, doc: string, body: HTMLElement[]): HTMLElement {
-    const name = key.slice(key.lastIndexOf('.') + 1);
-    const label = /^\d+$/.test(name) ? `${words(key.split('.').at(-2) ?? '').label} ${name}` : words(name).label;
-    const root = element(
-      'details',
-      {
-        class: 'group',
-        'data-key': key,
-        ontoggle: () => {
-          if (this.search.value !== '') return;
-          if (root.open) this.open.add(key);
-          else this.open.delete(key);
-        },
-      },
-      element('summary', {}, label, ...(key.includes('.') ? [] : [this.badge(key)])),
-      ...(doc ? [element('p', { class: 'doc' }, doc)] : []),
-      ...body,
-    );
-    root.open = this.open.has(key);
-    return root;
-  }
-
-  private badge(key: string): HTMLElement {
-    const now = this.isAtOnce(key);
-    return element(
-      'span',
-      { class: now ? 'badge now' : 'badge', title: now ? 'Takes effect at the next tick' : 'Takes effect at a restart' },
-      now ? 'at once' : 'restart',
-    );
-  }
-
-  /** Shows the fields whose key or doc line has all words of the search, and opens their groups. */
   private filter(): void {
-    const wanted = this.search.value.toLowerCase().split(/\s+/).filter((one) => one !== '');
-    for (const one of this.fields) one.root.hidden = !wanted.every((word) => one.text.includes(word));
-    for (const group of this.form.querySelectorAll('details')) {
-      const has = group.querySelector('.field:not([hidden])') !== null;
-      group.hidden = wanted.length > 0 && !has;
-      group.open = wanted.length > 0 ? has : this.open.has(group.dataset['key'] ?? '');
-    }
+    this.form.filter(this.search.value.toLowerCase().split(/\s+/).filter((one) => one !== ''));
   }
 
-  /** Shows each issue at its field, at the nearest enclosing group, or above the form. */
+  /** Shows each issue at its field, or above the form. */
   private showIssues(answer: Answer, asked: string[]): void {
-    for (const one of this.fields) one.setIssue('');
-    const loose: Issue[] = [];
-    for (const issue of answer.issues) {
-      const keys = issue.keys.length > 0 ? issue.keys : asked;
-      const found = keys.map((key) => this.fieldFor(key, asked)).find((one) => one !== undefined);
-      if (found) found.setIssue(issue.keys.length > 0 ? issue.text : said({ ...answer, issues: [issue] }));
-      else loose.push(issue);
-    }
+    const { at: places, loose } = routed(answer.issues, this.form.fields.map((one) => one.key), asked);
     this.trouble.hidden = loose.length === 0;
     this.trouble.textContent = said({ ...answer, issues: loose });
+    this.form.showIssues(places);
   }
 
-  private fieldFor(key: string, asked: string[]): Field | undefined {
-    const within = (one: string) => this.fields.find((other) => other.key === one);
-    return (
-      within(key) ??
-      asked.filter((one) => one.startsWith(`${key}.`) || key.startsWith(`${one}.`)).map((one) => within(one) ?? within(`${one}.type`)).find((one) => one) ??
-      within(`${key}.type`)
-    );
+  private discard(): void {
+    this.changes.clear();
+    this.rebuild();
+    this.showIssues({ ...kept, issues: [] }, []);
   }
 
   private showWaiting(): void {
-    const count = this.waiting.size;
+    const { count } = this.changes;
     this.bar.hidden = count === 0;
     if (count === 0) return;
+    const button = (label: string, name: string, act: () => void) =>
+      element('button', { type: 'button', class: name, onclick: act }, label);
     this.bar.replaceChildren(
       element('span', {}, count === 1 ? 'One change takes effect after a restart.' : `${count} changes take effect after a restart.`),
-      element('button', { type: 'button', class: 'primary restart', onclick: () => void this.restart() }, 'Restart'),
-      element(
-        'button',
-        {
-          type: 'button',
-          class: 'discard',
-          onclick: () => {
-            this.waiting.clear();
-            this.rebuild();
-          },
-        },
-        'Discard',
-      ),
+      button('Restart', 'primary restart', () => void this.restart()),
+      button('Discard', 'discard', () => this.discard()),
     );
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { call } from './connection';
 import { element } from './dom';
+import { numberEntry } from './number_entry';
 import type { Page } from './page';
 import { type Dot, PhotoCanvas } from './photo_canvas';
 import type { Point } from './protocol';
@@ -35,9 +36,9 @@ class PhotoPage {
   private readonly hint = element('p', { class: 'doc' });
   private readonly canvas: PhotoCanvas;
   private readonly vessels: VesselSearch;
-  private readonly scale = numeric('um-per-px', 'µm per pixel', 1);
-  private readonly length = numeric('distance', 'Distance of the two points in µm', 1000, () => this.measure());
-  private readonly robots = numeric('robots', 'Robots', 256);
+  private readonly scale = this.numeric('um-per-px', 'µm per pixel', 1);
+  private readonly length = this.numeric('distance', 'Distance of the two points in µm', 1000, () => this.measure());
+  private readonly robots = this.numeric('robots', 'Robots', 256);
   private readonly gather = element('input', { type: 'checkbox', role: 'switch', class: 'switch', onchange: () => this.begin() });
   private readonly make = element('button', { type: 'button', class: 'primary', disabled: true, onclick: () => void this.play() }, 'Make the experiment');
   private readonly next = element('button', { type: 'button', class: 'primary next', onclick: () => this.go(this.step === 'scale' ? 'vessels' : 'places') }, 'Next');
@@ -79,9 +80,25 @@ class PhotoPage {
         themeSwitch(),
       ),
       element('div', { class: 'photo-stage' }, this.canvas.root),
-      element('aside', { class: 'photo-side' }, this.hint, this.trouble, ...Object.values(this.panels), element('div', { class: 'row' }, this.next), this.vessels.found),
+      element('aside', { class: 'photo-side' }, this.hint, element('div', { class: 'row' }, this.next, this.vessels.found), this.trouble, ...Object.values(this.panels)),
     );
     this.go('scale');
+  }
+
+  private numeric(name: string, label: string, value: number, change: () => void = () => undefined) {
+    const id = `photo-${name}`;
+    const entry = numberEntry({ id }, change, (trouble) => this.say(trouble));
+    entry.set(value);
+    return {
+      root: element('div', { class: 'row' }, element('label', { for: id }, label), entry.root),
+      get: () => entry.get() ?? 0,
+      set: (to: number) => entry.set(Number(to.toPrecision(5))),
+    };
+  }
+
+  /** Makes a further experiment possible. */
+  returned(): void {
+    this.make.disabled = !this.goal;
   }
 
   private say(text: string): void {
@@ -159,6 +176,7 @@ class PhotoPage {
       });
       const opened = { file, photo: this.photo.file, um_per_px: scale };
       const { session } = await call<{ session: number }>('POST', '/api/sessions', opened);
+      this.vessels.found.value = '';
       location.hash = `#/session/${session}`;
     } catch (error) {
       this.vessels.found.value = '';
@@ -168,25 +186,12 @@ class PhotoPage {
   }
 }
 
+let last: { photo: Photograph; page: PhotoPage } | undefined;
+
+/** Page of a photograph. One that is come back to is as it was left. */
 export function photoPage(photo: Photograph): Promise<Page> {
   document.title = `${photo.name} – microswarm lab`;
-  return Promise.resolve({ root: new PhotoPage(photo).root, leave: () => undefined });
-}
-
-function numeric(name: string, label: string, value: number, change: () => void = () => undefined) {
-  const id = `photo-${name}`;
-  const entry = element('input', {
-    id,
-    type: 'number',
-    class: 'number',
-    step: 'any',
-    min: '0',
-    value: String(value),
-    onchange: change,
-  });
-  return {
-    root: element('div', { class: 'row' }, element('label', { for: id }, label), entry),
-    get: () => Number(entry.value),
-    set: (to: number) => (entry.value = String(Number(to.toPrecision(5)))),
-  };
+  if (last?.photo !== photo) last = { photo, page: new PhotoPage(photo) };
+  last.page.returned();
+  return Promise.resolve({ root: last.page.root, leave: () => undefined });
 }

@@ -34,6 +34,7 @@ export interface Hello {
   playback: boolean;
   scenario: Scenario;
   changeable: string[];
+  states: string[]; // words for the numbers in the column state of rows
   map: { lo: Point; hi: Point; walls: Bodies };
 }
 
@@ -166,6 +167,7 @@ export interface Standing {
   ended: boolean;
   growing: boolean; // a record that a run still writes
   mode: 'autonomous' | 'manual' | 'hold';
+  steered: boolean; // held or steered by hand since the start
   changes: string[];
   status: string;
   state: string;

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 import { element } from './dom';
+import { eventList } from './event_list';
 import { exportPanel } from './export_panel';
 import type { Live } from './live';
 import { metricsTable } from './metrics';
 import type { Json } from './protocol';
 import type { Scene } from './scene/scene';
-import { shellWord } from './settings';
+import { metricsHeading, repeatOf } from './repeat';
 
 const downloads = ['record.h5', 'scenario.yaml', 'frames.csv', 'events.csv'];
 
 /** Metrics so far, changes, the command that repeats them, and downloads. */
-export function recordTab(live: Live, scene: Scene, compare: () => void): HTMLElement {
+export function recordTab(live: Live, scene: Scene, compare: () => void, seek: (time: number) => void): HTMLElement {
   const metrics = element('div', { class: 'table' });
+  const heading = element('h2', {});
+  const changesHeading = element('h2', {});
+  const note = element('p', { class: 'doc' });
   const changes = element('ol', { class: 'changes' });
   const command = element('code', { class: 'command', tabindex: '0' });
   const copied = element('output', { class: 'doc' });
@@ -31,15 +35,26 @@ export function recordTab(live: Live, scene: Scene, compare: () => void): HTMLEl
   const links = downloads.map((name) =>
     element('a', { href: `/api/sessions/${live.session}/${name}`, download: name, class: 'button' }, name),
   );
+  const driven = element('p', { class: 'doc', hidden: true }, 'While the coils are driven nothing can be downloaded: stop the rig first.');
+  const files = element('div', { class: 'row' }, ...links);
+  live.listen((message) => {
+    if (message.type !== 'rig') return;
+    files.inert = message.state === 'armed';
+    files.classList.toggle('off', files.inert);
+    driven.hidden = !files.inert;
+  });
   let last: { [key: string]: Json } = {};
   const show = () => {
-    const made = live.standing?.changes ?? [];
-    changes.replaceChildren(...made.map((one) => element('li', {}, element('code', {}, one))));
-    if (made.length === 0) changes.replaceChildren(element('li', { class: 'doc' }, 'None so far.'));
-    const more = made.map((one) => ` --set ${shellWord(one)}`).join('');
-    const text = (live.hello?.command ?? '') + more;
-    if (command.textContent !== text) {
-      command.textContent = text;
+    if (!live.hello) return;
+    const playback = live.hello.playback;
+    const repeat = repeatOf(live.hello, live.standing ?? { changes: [], steered: false });
+    changes.replaceChildren(...repeat.changes.map((one) => element('li', {}, element('code', {}, one))));
+    if (repeat.changes.length === 0) changes.replaceChildren(element('li', { class: 'doc' }, repeat.none));
+    heading.textContent = metricsHeading(playback, live.standing, live.history.times.at(-1) ?? 0);
+    changesHeading.textContent = playback ? 'Changes in the record' : 'Changes since the start';
+    note.textContent = repeat.note;
+    if (command.textContent !== repeat.command) {
+      command.textContent = repeat.command;
       copied.value = '';
     }
   };
@@ -56,16 +71,18 @@ export function recordTab(live: Live, scene: Scene, compare: () => void): HTMLEl
   return element(
     'div',
     { class: 'record' },
-    element('h2', {}, 'Metrics so far'),
+    heading,
     metrics,
-    element('h2', {}, 'Changes since the start'),
+    changesHeading,
     changes,
     element('h2', {}, 'Command line'),
     command,
-    element('p', { class: 'doc' }, 'This command applies the changes from the start. The record stores the time of each change: microswarm replay record.h5 repeats the run.'),
+    note,
     element('div', { class: 'row' }, copy, copied),
+    ...eventList(live, seek),
     element('h2', {}, 'Download'),
-    element('div', { class: 'row' }, ...links),
+    driven,
+    files,
     element('h2', {}, 'Export the view'),
     exportPanel(live, scene),
     element('h2', {}, 'Compare'),

@@ -4,13 +4,7 @@ import type { Drive } from './drive';
 import type { Live } from './live';
 import { type Controls, type RigInfo, type RigStanding, said } from './protocol';
 import { number } from './numbers';
-
-const badges = {
-  dry: '○ Dry run',
-  opening: '… Opening',
-  armed: '⚡ ARMED',
-  ended: '■ Coils at zero',
-};
+import { type ConsoleView, actOf, consoleOf } from './rig_view';
 
 export interface RigConsole {
   /** The bar, which is always visible. */
@@ -26,7 +20,7 @@ export function rigConsole(live: Live, drive: Drive, say: (text: string, isTroub
   let controls: Controls | undefined;
   let arms = false; // requested, not yet answered
   let isLost = false;
-  const isHot = () => !isLost && (arms || rig?.state === 'armed' || rig?.state === 'opening');
+  const isHot = () => view().isHot;
   const ask = async (request: Parameters<Live['ask']>[0]) => {
     const answer = await live.ask(request);
     say(said(answer));
@@ -35,7 +29,7 @@ export function rigConsole(live: Live, drive: Drive, say: (text: string, isTroub
 
   const badge = element('strong', { class: 'badge-rig', role: 'status' });
   const stopButton = element('button', { type: 'button', class: 'stop', title: 'Coils to zero at once (space or Esc)', onclick: stop }, 'STOP');
-  const words = element('span', { class: 'why' });
+  const words = element('span', { class: 'why', tabindex: '0' });
   const armButton = button('Arm …', 'Drive the coils', () => openPanel());
   const dryButton = button('Dry run', 'Restart without driving the coils', () => void ask({ do: 'dry' }));
   const takeButton = button('Take the controls', 'No page has the controls', () => void ask({ do: 'control' }));
@@ -72,6 +66,7 @@ export function rigConsole(live: Live, drive: Drive, say: (text: string, isTroub
   const closePanel = () => {
     panel.hidden = true;
   };
+  const buttons = { stop: stopButton, arm: armButton, dry: dryButton, hold: holdButton, manual: manualButton, end: endButton, take: takeButton };
 
   const bar = element(
     'section',
@@ -83,22 +78,18 @@ export function rigConsole(live: Live, drive: Drive, say: (text: string, isTroub
     panel,
   );
 
+  const view = () => consoleOf({ rig, controls, mode: live.standing?.mode, arms, isLost });
   const show = () => {
-    const state = isLost ? 'lost' : arms ? 'opening' : (rig?.state ?? 'opening');
-    bar.dataset['state'] = state;
-    badge.textContent = isLost ? '✕ Connection lost' : badges[state as keyof typeof badges];
-    words.textContent = isLost ? 'The lab, or the watchdog of the device, sets the coils to zero. Open the page again.' : wordsOf(rig, controls);
-    const holds = controls?.holds ?? false;
-    const runs = rig?.state === 'dry' || rig?.state === 'armed';
-    stopButton.disabled = isLost || !(runs || isHot());
-    armButton.hidden = !holds || rig?.state === 'armed';
-    armButton.disabled = isLost || isHot();
-    dryButton.hidden = !holds || rig?.state === 'dry';
-    dryButton.disabled = isLost || isHot();
-    holdButton.hidden = manualButton.hidden = endButton.hidden = !holds || !runs;
-    holdButton.setAttribute('aria-pressed', String(live.standing?.mode === 'hold'));
-    manualButton.setAttribute('aria-pressed', String(live.standing?.mode === 'manual'));
-    takeButton.hidden = !(controls?.free ?? false);
+    const now = view();
+    bar.dataset['state'] = now.state;
+    badge.textContent = now.badge;
+    words.textContent = now.words;
+    for (const [name, button] of Object.entries(buttons)) {
+      const { hidden, disabled, pressed } = now.buttons[name as keyof ConsoleView['buttons']];
+      button.hidden = hidden;
+      button.disabled = disabled;
+      if (pressed !== undefined) button.setAttribute('aria-pressed', String(pressed));
+    }
   };
   live.listen((message) => {
     if (message.type === 'rig') rig = message;
@@ -106,9 +97,9 @@ export function rigConsole(live: Live, drive: Drive, say: (text: string, isTroub
     else if (message.type !== 'standing' && message.type !== 'hello') return;
     show();
   });
-  live.onClose(() => {
-    isLost = true;
-    closePanel();
+  live.onState((state) => {
+    isLost = state !== 'open';
+    if (isLost) closePanel();
     show();
   });
 
@@ -117,15 +108,12 @@ export function rigConsole(live: Live, drive: Drive, say: (text: string, isTroub
     if (controls?.holds && !isLost) live.tell({ do: 'beat' });
   };
   const key = (event: KeyboardEvent) => {
-    if (event.key !== ' ' && event.key !== 'Escape') return;
-    if (isHot()) {
-      event.preventDefault();
-      event.stopImmediatePropagation();
-      stop();
-    } else if (event.key === 'Escape' && !panel.hidden) {
-      event.stopImmediatePropagation();
-      closePanel();
-    }
+    const act = actOf(event.key, isHot(), !panel.hidden);
+    if (!act) return;
+    event.stopImmediatePropagation();
+    if (act === 'close') return closePanel();
+    event.preventDefault();
+    stop();
   };
   window.addEventListener('keydown', key, { capture: true });
   show();
@@ -141,26 +129,6 @@ export function rigConsole(live: Live, drive: Drive, say: (text: string, isTroub
 
 function button(label: string, title: string, act: () => void): HTMLButtonElement {
   return element('button', { type: 'button', title, onclick: act }, label);
-}
-
-function wordsOf(rig: RigStanding | undefined, controls: Controls | undefined): string {
-  const watches = controls && !controls.holds && !controls.free ? 'Another page has the controls; this page can stop the rig.' : '';
-  if (!rig || rig.state === 'opening') return 'Opening the devices.';
-  if (rig.state === 'armed') return watches;
-  if (rig.state === 'dry') return watches || 'No current is sent to the coils.';
-  const zero =
-    rig.zero_confirmed === false
-      ? 'NOT CONFIRMED by the device: use its emergency stop!'
-      : rig.zero_confirmed
-        ? 'Confirmed by the device.'
-        : '';
-  return [`${sentence(rig.why.replaceAll('_', ' '))}`, zero, rig.stop_trouble, rig.folder && `Record in ${rig.folder}`]
-    .filter((one) => one !== '')
-    .join(' ');
-}
-
-function sentence(text: string): string {
-  return text === '' ? '' : `${text[0]?.toUpperCase()}${text.slice(1)}.`;
 }
 
 /** Facts shown before the coils are driven. */

@@ -3,6 +3,7 @@ import { element } from './dom';
 import type { Live } from './live';
 import { number } from './numbers';
 import type { RigInfo, RigStanding } from './protocol';
+import { barOf, staleWords } from './rig_view';
 
 const latencies: [keyof NonNullable<RigStanding['latency_ms']>, string][] = [
   ['frame_age', 'Age of a frame'],
@@ -23,15 +24,31 @@ const sights: { [trouble: string]: string } = {
   robots: 'robots are missing',
 };
 
-/** Numbers of a rig: currents, temperatures, field, limits, latencies. */
+/** Numbers of a rig: currents, temperatures, field, limits, latencies. Those that are not of now are grey and say of when. */
 export function rigTab(live: Live): HTMLElement {
   const root = element('div', { class: 'rig-numbers' });
   let drawn = 0;
+  let numbers: RigStanding | undefined;
+  let now: RigStanding | undefined;
+  let isLost = false;
+  const draw = () => {
+    if (!numbers || !now) return;
+    const stale = staleWords(now, numbers, isLost);
+    root.classList.toggle('stale', stale !== '');
+    root.replaceChildren(...(stale ? [element('p', { class: 'when', role: 'status' }, stale)] : []), ...sections(numbers, live.hello?.rig_info));
+  };
   live.listen((message) => {
-    if (message.type !== 'rig' || !message.currents_a) return;
-    if (performance.now() - drawn < 90 && message.state !== 'ended') return;
+    if (message.type !== 'rig') return;
+    const isSame = now?.state === message.state;
+    now = message;
+    if (message.currents_a) numbers = message;
+    if (isSame && performance.now() - drawn < 90) return;
     drawn = performance.now();
-    root.replaceChildren(...sections(message, live.hello?.rig_info));
+    draw();
+  });
+  live.onState((state) => {
+    isLost = state !== 'open';
+    draw();
   });
   return root;
 }
@@ -54,7 +71,8 @@ function sections(rig: RigStanding, info: RigInfo | undefined): HTMLElement[] {
       ['Share allowed by the coils', share(rig.scale ?? 1)],
       ['Share allowed by the device', share(rig.device_scale ?? 1)],
       ['Ticks, missed deadlines', `${rig.ticks ?? 0}, ${rig.missed_deadlines ?? 0}`],
-      ['Frames, dropped', `${rig.frames ?? 0}, ${rig.dropped_frames ?? 0}`],
+      ['Frames used', String(rig.frames ?? 0)],
+      ['Frames skipped for newer ones', String(rig.dropped_frames ?? 0)],
       ['Device switched itself off', String(rig.resumed ?? 0)],
     ]),
     element('h2', {}, 'Latencies [ms]'),
@@ -78,14 +96,14 @@ function share(value: number): string {
 }
 
 function row(kind: 'th' | 'td', cells: string[]): HTMLElement {
-  return element('tr', {}, ...cells.map((one, i) => element(i === 0 ? 'th' : kind, {}, one)));
+  return element('tr', {}, ...cells.map((one, i) => element(i === 0 && one !== '' ? 'th' : one === '' ? 'td' : kind, {}, one)));
 }
 
 function table(rows: [string, string][]): HTMLElement {
   return element('table', { class: 'metrics' }, element('tbody', {}, ...rows.map((one) => row('td', one))));
 }
 
-/** A bar for each value relative to its limit; signed values start in the middle. */
+/** A bar for each value relative to its limit; signed values begin in the middle. */
 function bars(values: number[], names: string[], limits: (number | null)[], unit: string): HTMLElement {
   const signed = unit === 'A';
   return element(
@@ -94,15 +112,14 @@ function bars(values: number[], names: string[], limits: (number | null)[], unit
     ...values.flatMap((value, i) => {
       const limit = limits[i] ?? null;
       const most = limit ?? Math.max(1, ...values.map(Math.abs));
-      const meter = element('meter', {
-        min: '0',
-        max: String(most),
-        value: String(Math.abs(value)),
-        high: String(0.9 * most),
-        'aria-label': names[i] ?? String(i),
-      });
+      const name = names[i] ?? String(i);
       const text = `${signed && value > 0 ? '+' : ''}${value.toFixed(signed ? 2 : 1)}${limit === null ? '' : ` / ${number(limit, 3)}`} ${unit}`;
-      return [element('span', {}, names[i] ?? String(i)), meter, element('span', { class: 'value' }, text)];
+      const { from, to } = barOf(value, most, signed);
+      const fill = element('span', { class: Math.abs(value) > 0.9 * most ? 'fill high' : 'fill' });
+      fill.style.left = `${100 * from}%`;
+      fill.style.right = `${100 * (1 - to)}%`;
+      const bar = element('span', { class: signed ? 'bar signed' : 'bar', role: 'img', 'aria-label': `${name}: ${text}` }, fill);
+      return [element('span', {}, name), bar, element('span', { class: 'value' }, text)];
     }),
   );
 }

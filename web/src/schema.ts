@@ -57,9 +57,12 @@ export interface Range {
   toValue(share: number): number;
 }
 
-export function rangeOf(schema: Schema): Range | undefined {
-  const { minimum: lo, maximum: hi } = schema;
-  if (lo === undefined || hi === undefined || hi <= lo) return undefined;
+/** Range of a value's slider, up to `most` where the schema allows more; a default beyond it is within the range. */
+export function rangeOf(schema: Schema, most = Infinity): Range | undefined {
+  const { minimum: lo, maximum } = schema;
+  if (lo === undefined || maximum === undefined) return undefined;
+  const hi = Math.min(maximum, Math.max(most, typeof schema.default === 'number' ? schema.default : 0));
+  if (hi <= lo) return undefined;
   const isWhole = schema.type === 'integer';
   const whole = (value: number) => (isWhole ? Math.round(value) : value);
   const clamp = (value: number) => Math.max(lo, Math.min(hi, value));

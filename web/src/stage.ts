@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Live } from './live';
 import { Scene } from './scene/scene';
+import { sceneText } from './scene/words';
 import { onTheme } from './theme';
 
 declare global {
@@ -19,6 +20,12 @@ export async function stageFor(live: Live): Promise<Stage> {
   const scene = await Scene.create();
   scene.onWant((request) => void live.ask(request));
   live.listen((message) => scene.take(message));
+  let described = 0;
+  live.listen((message) => {
+    if (message.type !== 'frame' || performance.now() < described + 1000) return;
+    described = performance.now();
+    scene.describe(sceneText(String(live.hello?.scenario['name'] ?? ''), message.frame, message.robots.length / 8));
+  });
   let photo: string | undefined;
   live.listen((message) => {
     if (message.type !== 'hello' || message.photo?.file === photo) return;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import { element } from './dom';
+import { eventsNear, ticksOf } from './events';
 import type { Live } from './live';
+import { onTheme } from './theme';
 
 const thumb = 14; // px, as in app.css
 
@@ -9,7 +11,7 @@ export function timeline(
   sessions: Live[],
   lead: () => Live,
   seek: (frame: number) => void,
-): { root: HTMLElement } {
+): { root: HTMLElement; destroy: () => void } {
   const canvas = element('canvas', { class: 'marks', 'aria-hidden': 'true' });
   const slider = element('input', {
     type: 'range',
@@ -21,7 +23,7 @@ export function timeline(
     'aria-label': 'Frame',
     oninput: () => seek(Number(slider.value)),
   });
-  const tip = element('output', { class: 'tip', hidden: true });
+  const tip = element('output', { class: 'tip', 'aria-live': 'off', hidden: true });
   const root = element('div', { class: 'timeline' }, canvas, slider, tip);
   let due = false;
 
@@ -32,8 +34,12 @@ export function timeline(
     return times[Math.round(Math.max(0, Math.min(1, share)) * (times.length - 1))];
   };
   const point = (time: number | undefined) => sessions.forEach((one) => one.point(time));
-  slider.addEventListener('pointermove', (event) => point(timeAt(event)));
-  slider.addEventListener('pointerleave', () => point(undefined));
+  root.addEventListener('pointermove', (event) => point(timeAt(event)));
+  root.addEventListener('pointerleave', () => point(undefined));
+  canvas.addEventListener('click', (event) => {
+    const time = timeAt(event);
+    if (time !== undefined) seek(lead().history.nearest(time));
+  });
 
   const draw = () => {
     due = false;
@@ -53,12 +59,15 @@ export function timeline(
       to.fillStyle = colour(name);
       to.fillRect(Math.round(x(frame)) - 0.5, from, 1.5, to2 - from);
     };
+    const { times } = live.history;
+    for (const time of ticksOf(times[0] as number, times.at(-1) as number, Math.floor(width / 60)))
+      mark(live.history.nearest(time), '--faint', height - 3, height);
     live.history.column('planned').forEach((planned, i) => {
-      if (planned) mark(i, '--plan', height - 5, height);
+      if (planned) mark(i, '--plan', height - 8, height - 3);
     });
     for (const event of live.history.events) {
       const isContact = event.kind.startsWith('contact');
-      mark(live.history.nearest(event.t_s), isContact ? '--bad' : event.kind === 'goal_reached' ? '--good' : '--accent', 0, height - 6);
+      mark(live.history.nearest(event.t_s), isContact ? '--bad' : event.kind === 'goal_reached' ? '--good' : '--accent', 0, height - 9);
     }
     if (live.pointed !== undefined) mark(live.history.nearest(live.pointed), '--ink', 0, height);
   };
@@ -68,6 +77,7 @@ export function timeline(
   };
   const observer = new ResizeObserver(redraw);
   observer.observe(root);
+  const stopTheme = onTheme(redraw);
   const showTip = () => {
     redraw();
     const live = lead();
@@ -77,8 +87,7 @@ export function timeline(
     const share = live.history.nearest(time) / Math.max(1, live.history.times.length - 1);
     tip.style.left = `${100 * share}%`;
     tip.style.translate = `${-100 * share}%`; // within the bar
-    const near = live.history.events.filter((one) => Math.abs(one.t_s - time) < span(live) / 100);
-    tip.value = [`${time.toFixed(1)} s`, ...near.map((one) => one.kind.replaceAll('_', ' '))].join(' · ');
+    tip.value = [`${time.toFixed(1)} s`, ...eventsNear(live.history.events, time, span(live) / 100)].join(' · ');
   };
   for (const one of sessions) {
     one.onPoint(showTip);
@@ -90,7 +99,13 @@ export function timeline(
       slider.setAttribute('aria-valuetext', `${one.shown.toFixed(1)} seconds`);
     });
   }
-  return { root };
+  return {
+    root,
+    destroy: () => {
+      observer.disconnect();
+      stopTheme();
+    },
+  };
 }
 
 function span(live: Live): number {

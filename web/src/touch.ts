@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+import { openAgain } from './copies';
+import { discRadius } from './discs';
 import { element } from './dom';
 import type { Live } from './live';
+import { numberEntry } from './number_entry';
 import type { Parameters } from './parameters';
+import { askWhen } from './loss';
 import { type Json, type Point, said } from './protocol';
-import { at, text } from './settings';
+import { at, combine, text } from './settings';
 import type { Scene, Touch } from './scene/scene';
 
 type Tool = 'obstacle' | 'wall' | 'remove';
@@ -25,14 +29,7 @@ const places: { [motion: string]: string } = {
 export class Hands {
   readonly tools: HTMLElement;
   private tool: Tool | undefined;
-  private readonly radius = element('input', {
-    type: 'number',
-    min: '1',
-    step: '5',
-    value: '50',
-    class: 'number',
-    'aria-label': 'Radius of a new disc in µm',
-  });
+  private readonly radius = numberEntry({ 'aria-label': 'Radius of a new disc in µm' }, undefined, (trouble) => this.say(trouble));
   private readonly buttons = new Map<Tool, HTMLButtonElement>();
   private last: Promise<void> = Promise.resolve(); // touches are handled in sequence
 
@@ -52,12 +49,24 @@ export class Hands {
       this.buttons.set(tool, made);
       return made;
     };
+    const radius = element('label', { class: 'unit' }, 'r ', this.radius.root, ' µm');
+    live.listen((message) => {
+      if (message.type !== 'hello') return;
+      const { lo, hi } = message.map;
+      this.radius.set(discRadius(hi[0] - lo[0], hi[1] - lo[1]));
+      // Robots that are tracked one by one have no moving obstacles, and only maps of polygons have round walls.
+      const hasRobots = at(message.scenario, 'robots') != null;
+      const hasDiscs = this.discs() !== undefined;
+      (this.buttons.get('obstacle') as HTMLElement).hidden = hasRobots;
+      (this.buttons.get('wall') as HTMLElement).hidden = !hasDiscs;
+      radius.hidden = (this.buttons.get('remove') as HTMLElement).hidden = hasRobots && !hasDiscs;
+    });
     this.tools = element(
       'div',
       { class: 'tools', role: 'toolbar', 'aria-label': 'Scene' },
       button('obstacle', '+ Obstacle'),
       button('wall', '+ Wall'),
-      element('label', { class: 'unit' }, 'r ', this.radius, ' µm'),
+      radius,
       button('remove', '− Remove'),
     );
   }
@@ -67,6 +76,15 @@ export class Hands {
     for (const [name, one] of this.buttons) one.setAttribute('aria-pressed', String(name === tool));
     this.scene.root.classList.toggle('placing', tool !== undefined);
     this.say(tool ? hints[tool] : '', false);
+  }
+
+  /** Uses the chosen tool at the middle of the view, for those without a pointer. */
+  use(): void {
+    const { view } = this.scene;
+    const at = view.toWorld([view.width / 2, view.height / 2]);
+    const { what } = this.scene.hit([view.width / 2, view.height / 2]);
+    if (this.tool) this.last = this.last.then(() => this.take({ phase: 'end', what, from: at, at }));
+    else this.say('Choose a tool first, such as + Obstacle.', false);
   }
 
   private async take(touch: Touch): Promise<void> {
@@ -113,7 +131,7 @@ export class Hands {
 
   private async addObstacle(position: Point): Promise<void> {
     const disc = {
-      shape: { type: 'disc', radius_um: Number(this.radius.value) },
+      shape: { type: 'disc', radius_um: this.radius.get() ?? 0 },
       motion: { type: 'still', position_um: rounded(position) },
     };
     await this.apply('obstacles', [...this.obstacles(), disc]);
@@ -122,7 +140,7 @@ export class Hands {
   private async addWall(position: Point): Promise<void> {
     const discs = this.discs();
     if (!discs) return this.say('Round walls can only be added to a map of polygons.');
-    const wall = { centre_um: rounded(position), radius_um: Number(this.radius.value) };
+    const wall = { centre_um: rounded(position), radius_um: this.radius.get() ?? 0 };
     await this.restart([`map.discs=${text([...discs, wall])}`]);
   }
 
@@ -140,8 +158,23 @@ export class Hands {
 
   private async apply(key: string, value: Json): Promise<void> {
     if (!this.parameters.isAtOnce(key)) return this.restart([`${key}=${text(value)}`]);
+    if (this.live.standing?.looks_back) {
+      const wanted = await askWhen(this.live.shown, this.live.history.times.at(-1) ?? 0);
+      if (!wanted) return;
+      if (wanted === 'copy') return this.copy(`${key}=${text(value)}`);
+      await this.live.ask({ do: 'live' });
+    }
     const answer = await this.parameters.change(key, value);
     this.say(said(answer));
+  }
+
+  /** Opens the experiment again from its start, with a further setting; this run is kept. */
+  private async copy(setting: string): Promise<void> {
+    try {
+      location.hash = `#/session/${await openAgain(this.live, combine(this.parameters.settings(), [setting]))}`;
+    } catch (error) {
+      this.say((error as Error).message);
+    }
   }
 
   private async restart(settings: string[]): Promise<void> {

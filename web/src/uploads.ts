@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+import { refusal } from './headings';
 import type { Photograph } from './photo_page';
 
 interface Upload {
@@ -13,6 +14,8 @@ export let photograph: Photograph | undefined;
 
 /** Uploads a file; a photograph becomes that of #/photo. An error has the server's text. */
 export async function upload(file: File): Promise<Upload> {
+  const refused = refusal(file.name, file.size);
+  if (refused) throw new Error(refused);
   const response = await fetch(`/api/uploads?name=${encodeURIComponent(file.name)}`, { method: 'POST', body: file });
   const json = await response.json();
   if (!response.ok) throw new Error(json.error ?? response.statusText);

@@ -58,6 +58,10 @@ test('a photograph becomes a map in which robots gather', () =>
     await page.waitForSelector('[data-status="solved"]', { timeout: 120_000 });
     assert.ok(await page.evaluate(() => window.microswarm.scene.background.isSet), 'the photograph lies beneath');
     await picture('photo-gathered');
+    await page.goBack();
+    await page.waitForSelector('.photo-page');
+    assert.notEqual(await page.inputValue('#photo-um-per-px'), '1', 'the photograph is as it was left');
+    assert.ok(await page.getByRole('button', { name: 'Make the experiment' }).isEnabled());
   }));
 
 test('the vessels of a real photograph are found', { skip: !real && 'no data' }, () =>

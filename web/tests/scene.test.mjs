@@ -501,7 +501,7 @@ test('requests are answered, also those that cannot be read and after the end', 
     return answers.map(({ issues }) => issues.length);
   });
   assert.deepEqual(asked, [1, 1, 1]);
-  await run.close();
+  await run.close(/404/); // the page asked whether the session is there
 });
 
 test('two fingers zoom', async (t) => {

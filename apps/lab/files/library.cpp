@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "microswarm/config/yaml_node.hpp"
 #include "microswarm/core/errors/error.hpp"
-#include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/formats/map_file.hpp"
 
@@ -20,26 +18,6 @@ namespace fs = std::filesystem;
 constexpr std::size_t max_entries = 2000;
 constexpr int max_visited = 50'000;  ///< number of files and folders
 constexpr int deepest_folder = 6;
-constexpr std::uint64_t max_listed_bytes = 1 << 20;
-
-/// The scenario's entry; nothing if the file is not YAML with a map.
-std::optional<Entry> scenario_entry(const fs::path& file) {
-  Entry entry{.file = file.string()};
-  bool has_map = false;
-  try {
-    const YamlNode root = parse_yaml(read_file(file, max_listed_bytes), entry.file);
-    for (std::size_t i = 0; i + 1 < root.items.size(); i += 2) {
-      const std::string& key = root.items[i].text;
-      has_map |= key == "map";
-      if (key == "name") entry.name = printable(root.items[i + 1].text);
-      if (key == "description") entry.description = printable(root.items[i + 1].text);
-    }
-  } catch (const InputError&) {
-    return std::nullopt;
-  }
-  if (!has_map) return std::nullopt;
-  return entry;
-}
 
 bool is_within(const fs::path& file, const fs::path& folder) {
   const auto [end, rest] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
@@ -80,10 +58,10 @@ std::vector<Entry> Library::entries() const {
       const fs::path& file = it->path();
       std::error_code gone;
       if (!it->is_regular_file(gone)) continue;
-      if (file.extension() == ".h5") {
-        list.push_back({file.string(), file.stem().string(), "Record."});
-      } else if (file.extension() == ".yaml") {
-        if (auto entry = scenario_entry(file)) list.push_back(std::move(*entry));
+      try {
+        if (const auto& entry = entries_.of(file)) list.push_back(*entry);
+      } catch (const fs::filesystem_error&) {
+        // It went meanwhile.
       }
     }
   }

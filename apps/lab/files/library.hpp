@@ -6,17 +6,11 @@
 #include <string_view>
 #include <vector>
 
+#include "lab/files/entry.hpp"
 #include "microswarm/config/settings.hpp"
 #include "microswarm/experiment/scenario/scenario.hpp"
 
 namespace microswarm::lab {
-
-/// A scenario or record that can be opened.
-struct Entry {
-  std::string file;  ///< its name in open requests
-  std::string name;
-  std::string description;
-};
 
 /// Names of the files that a scenario reads: map, tracks, model; relative to its own folder.
 std::vector<std::string*> referenced_files(experiment::Scenario& scenario);
@@ -26,7 +20,8 @@ class Library {
  public:
   explicit Library(const std::vector<std::filesystem::path>& folders);
 
-  /// The scenarios (.yaml with a map) and records (.h5), sorted by name of file.
+  /// The scenarios (.yaml with a map, also those with mistakes) and records (.h5), sorted by name
+  /// of file. Not thread-safe.
   std::vector<Entry> entries() const;
   /// Path of the file of that name. Throws InputError if it is outside of the folders, links
   /// resolved.
@@ -41,6 +36,7 @@ class Library {
 
  private:
   std::vector<std::filesystem::path> folders_;
+  mutable Entries entries_;  ///< used by entries() only
 };
 
 }  // namespace microswarm::lab

@@ -8,7 +8,10 @@
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/fields/overloaded.hpp"
+#include "microswarm/experiment/plant/make_plant.hpp"
+#include "microswarm/experiment/record/record.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
+#include "microswarm/experiment/session/session.hpp"
 #include "microswarm/report/picture.hpp"
 
 namespace microswarm::lab {
@@ -21,6 +24,7 @@ constexpr std::size_t max_bytes = 200'000;  // a larger drawing is made coarser
 constexpr std::size_t max_drawings = 2000;
 constexpr std::size_t max_robots = 500;  // maximum number of robots drawn
 constexpr double mark_radius = 5;        // px
+constexpr std::uint64_t max_drawn_bytes = 64 << 20;
 
 std::string hex(const report::Colour& colour) {
   const auto part = [](double share) { return static_cast<int>(std::lround(255 * share)); };
@@ -49,6 +53,16 @@ class Drawing {
         "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\" {}/>", p.x, p.y, radius_px,
         is_ring ? fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"2\"", hex(colour))
                 : fmt::format("fill=\"{}\"", hex(colour)));
+  }
+  void line(std::span<const Vec2> points, const report::Colour& colour) {
+    if (points.size() < 2) return;
+    std::string path;
+    for (const Vec2 point : points) {
+      const Vec2 p = at(point);
+      path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? 'M' : 'L', p.x, p.y);
+    }
+    svg_ += fmt::format("<path fill=\"none\" stroke=\"{}\" stroke-width=\"2\" d=\"{}\"/>",
+                        hex(colour), path);
   }
   double px(double length) const { return std::max(length * scale_, 1.0); }
   std::size_t size() const { return svg_.size(); }
@@ -93,7 +107,28 @@ void draw(Drawing& drawing, const Body& body, const report::Colour& colour) {
              body.shape);
 }
 
-std::string drawn(const experiment::Scene& scene, double tolerance) {
+/// Positions of the robots at t = 0 [µm].
+std::vector<Vec2> first_robots(const experiment::Scene& scene) {
+  const auto plant =
+      experiment::make_kinematic_plant(scene.scenario, experiment::build_world(scene));
+  const auto truth = plant->ground_truth();
+  if (!truth) return {};
+  return {truth->robots.begin(), truth->robots.end()};
+}
+
+constexpr std::size_t max_points = 300;  ///< of a path travelled
+
+/// Positions of the swarm, or the robots' mean, over a run [µm].
+std::vector<Vec2> travelled(const experiment::Record& record) {
+  std::vector<Vec2> points;
+  const std::size_t every = record.frames.size() / max_points + 1;
+  points.reserve(max_points + 1);
+  for (std::size_t i = 0; i < record.frames.size(); i += every)
+    points.push_back(record.frames[i].pose.position);
+  return points;
+}
+
+std::string drawn(const experiment::Scene& scene, std::span<const Vec2> path, double tolerance) {
   const experiment::Scenario& scenario = scene.scenario;
   Drawing drawing(scene.map.bounds, tolerance);
   for (const Polygon& wall : scene.map.walls) drawing.polygon(wall, report::colours::wall_edge);
@@ -102,12 +137,14 @@ std::string drawn(const experiment::Scene& scene, double tolerance) {
   std::vector<Body> bodies;
   for (const Obstacle& obstacle : scenario.obstacles) append_bodies(obstacle, 0, 0, bodies);
   for (const Body& body : bodies) draw(drawing, body, report::colours::obstacle);
+  drawing.line(path, report::colours::path);
   if (scenario.robots) {
     const auto& robots = *scenario.robots;
+    const auto starts = first_robots(scene);
     const auto few = [](const auto& list) {
       return std::span(list).first(std::min(list.size(), max_robots));
     };
-    for (const Vec2 start : few(robots.starts)) drawing.disc(start, 2, report::colours::swarm);
+    for (const Vec2 start : few(starts)) drawing.disc(start, 2, report::colours::swarm);
     for (const Vec2 goal : few(robots.goals))
       drawing.disc(goal, mark_radius, report::colours::goal, true);
   }
@@ -118,12 +155,20 @@ std::string drawn(const experiment::Scene& scene, double tolerance) {
 
 }  // namespace
 
-std::string thumbnail(const std::filesystem::path& scenario) {
-  const experiment::Scene scene =
-      experiment::load_scene(experiment::read_scenario(scenario), scenario.parent_path());
+std::string thumbnail(const std::filesystem::path& file) {
+  experiment::Record record;
+  if (experiment::is_record(file)) {
+    if (std::filesystem::file_size(file) > max_drawn_bytes)
+      throw InputError(file.string(), "the record is too large for a small drawing");
+    record = experiment::read_record(file);
+  } else {
+    record.scene = experiment::load_scene(experiment::read_scenario(file), file.parent_path());
+  }
+  const experiment::Scene& scene = record.scene;
+  const std::vector<Vec2> path = travelled(record);
   std::string svg;
   for (double tolerance = finest; tolerance < max_width; tolerance *= 2) {
-    svg = drawn(scene, tolerance);
+    svg = drawn(scene, path, tolerance);
     if (svg.size() <= max_bytes) break;
   }
   return svg;

@@ -8,9 +8,9 @@
 namespace microswarm::lab {
 
 /// A small drawing (SVG, at most 320 × 240 pixels) of a scenario's walls, its obstacles at t = 0,
-/// starts and goals; transparent where the world is free. Details smaller than half a pixel are
-/// omitted. Throws InputError like open_session.
-std::string thumbnail(const std::filesystem::path& scenario);
+/// starts and goals, of a record also the path travelled; transparent where the world is free.
+/// Details smaller than half a pixel are omitted. Throws InputError like open_session.
+std::string thumbnail(const std::filesystem::path& file);
 
 /// Cache of drawings by file, renewed after a change of the file. Not thread-safe.
 class Thumbnails {

@@ -26,8 +26,14 @@ void list(Exchange& e, std::string_view) {
   e.later([&e] {
     Json list = Json::array();
     for (const Entry& entry : e.shared().library.entries())
-      list.push_back(
-          {{"file", entry.file}, {"name", entry.name}, {"description", entry.description}});
+      list.push_back({{"file", entry.file},
+                      {"name", entry.name},
+                      {"description", entry.description},
+                      {"record", entry.record},
+                      {"navigator", entry.navigator},
+                      {"outcome", entry.outcome},
+                      {"written", entry.written},
+                      {"trouble", entry.trouble}});
     Json json{{"scenarios", std::move(list)}};
     if (e.shared().opening) json["open"] = true;
     if (!e.shared().queue.empty()) json["queue"] = true;
@@ -128,6 +134,21 @@ void open_session(Exchange& e, std::string_view) {
   });
 }
 
+Json describe(const Hub::Open& one) {
+  return {{"session", one.session},
+          {"name", one.file},
+          {"t_s", one.newest},
+          {"watched", one.watched},
+          {"live", one.live}};
+}
+
+/// GET /api/sessions
+void list_sessions(Exchange& e, std::string_view) {
+  Json list = Json::array();
+  for (const Hub::Open& one : e.shared().hub.open_sessions()) list.push_back(describe(one));
+  e.write(respond(e.request(), {{"sessions", std::move(list)}}));
+}
+
 /// DELETE /api/sessions/ID
 void close_session(Exchange& e, std::string_view session) {
   const auto number = session_number(session);
@@ -159,16 +180,23 @@ void send(Exchange& e, const std::string& name, Outcome<Download> made) {
 }
 
 /// Makes an export in its thread and sends it.
-void make_export(const std::shared_ptr<Exchange>& exchange, const std::string& name,
-                 const RunExport& wanted, std::shared_ptr<const experiment::Record> record) {
+void make_export(const std::shared_ptr<Exchange>& exchange, std::shared_ptr<std::atomic<bool>> gone,
+                 std::uint64_t session, const std::string& name, const RunExport& wanted,
+                 std::shared_ptr<const experiment::Record> record) {
   exchange->shared().export_(
-      [self = exchange, name, wanted, record = std::move(record)](const Stop& stop) mutable {
+      std::move(gone), [self = exchange, session, name, wanted,
+                        record = std::move(record)](const Stop& stop) mutable {
         const auto made = std::make_shared<Outcome<Download>>();
+        ExportProgress& progress = self->shared().progress;
+        progress.share = 0;
+        progress.session = session;
         try {
-          made->value = make_run_export(wanted, *record, stop);
+          made->value =
+              make_run_export(wanted, *record, stop, [&](double share) { progress.share = share; });
         } catch (const std::exception& error) {
           made->trouble = error.what();
         }
+        progress.session = 0;
         // The connection must be destroyed in the thread of input and output.
         const auto post = self->shared().post;
         post([self = std::move(self), name, made] {
@@ -183,26 +211,34 @@ void make_export(const std::shared_ptr<Exchange>& exchange, const std::string& n
 /// Copies the record in the session's thread, and makes the video or picture in another one.
 void export_run(Exchange& e, std::uint64_t session, const std::string& name,
                 const RunExport& wanted) {
-  e.wait();
+  auto gone = e.wait();
   e.shared().hub.fetch<std::shared_ptr<const experiment::Record>>(
       session,
       [](const experiment::Session& of) {
         return std::make_shared<const experiment::Record>(experiment::Record(of.record()));
       },
-      [self = e.shared_from_this(), name,
+      [self = e.shared_from_this(), gone = std::move(gone), session, name,
        wanted](const Outcome<std::shared_ptr<const experiment::Record>>& copied) {
         if (!copied.trouble.empty())
           self->refuse(http::status::internal_server_error, copied.trouble);
         else
-          make_export(self, name, wanted, copied.value);
+          make_export(self, gone, session, name, wanted, copied.value);
       });
 }
 
-/// GET /api/sessions/ID/NAME
+/// GET /api/sessions/ID
+void describe_session(Exchange& e, std::uint64_t session) {
+  for (const Hub::Open& one : e.shared().hub.open_sessions())
+    if (one.session == session) return e.write(respond(e.request(), describe(one)));
+  e.nothing();
+}
+
+/// GET /api/sessions/ID/NAME, or /api/sessions/ID for the session itself.
 void send_download(Exchange& e, std::string_view path) {
   const std::size_t slash = std::min(path.find('/'), path.size());
   const auto number = session_number(path.substr(0, slash));
-  if (!number || !e.shared().hub.has(*number) || slash == path.size()) return e.nothing();
+  if (!number || !e.shared().hub.has(*number)) return e.nothing();
+  if (slash == path.size()) return describe_session(e, *number);
   const std::string name(path.substr(slash + 1));
   if (e.shared().hub.drives(*number))
     return e.refuse(http::status::conflict, "the coils are driven: stop the run first");
@@ -214,6 +250,12 @@ void send_download(Exchange& e, std::string_view path) {
   if (auto wanted = read_run_export(name, view(e.request().target()))) {
     wanted->photo = opening.photo;
     return export_run(e, *number, name, *wanted);
+  }
+  if (name == "export") {
+    const ExportProgress& progress = e.shared().progress;
+    const bool is_own = progress.session == *number;
+    return e.write(
+        respond(e.request(), {{"share", is_own ? Json(progress.share.load()) : Json()}}));
   }
   auto make = download(name, opening.file.parent_path());
   if (!make) return e.nothing();
@@ -227,8 +269,13 @@ void send_download(Exchange& e, std::string_view path) {
 void write_asset(Exchange& e, std::string_view) {
   const auto file = asset(target_path(view(e.request().target())));
   if (!file) return e.nothing();
-  HttpResponse response =
-      respond(e.request(), http::status::ok, file->media_type, std::string(file->bytes));
+  const bool packed =
+      !file->gzip.empty() &&
+      view(e.request()[http::field::accept_encoding]).find("gzip") != std::string_view::npos;
+  HttpResponse response = respond(e.request(), http::status::ok, file->media_type,
+                                  std::string(packed ? file->gzip : file->bytes));
+  if (packed) response.set(http::field::content_encoding, "gzip");
+  if (!file->gzip.empty()) response.set(http::field::vary, "Accept-Encoding");
   if (!e.query("token").empty()) response.set(http::field::set_cookie, e.shared().access.cookie());
   e.write(std::move(response));
 }
@@ -247,12 +294,13 @@ struct Route {
 };
 
 /// The first that fits is taken.
-constexpr std::array<Route, 12> routes{
+constexpr std::array<Route, 13> routes{
     {{http::verb::get, "/api/scenarios", list},
      {http::verb::get, "/api/queue", write_queue},
      {http::verb::get, "/api/thumbnail", draw_thumbnail},
      {http::verb::get, "/api/schema", write_schema},
      {http::verb::get, "/api/vessel-schema", write_vessel_schema},
+     {http::verb::get, "/api/sessions", list_sessions},
      {http::verb::get, "/api/sessions/", send_download},
      {http::verb::get, "/", write_asset},
      {http::verb::post, "/api/sessions", open_session},

@@ -10,6 +10,7 @@ namespace microswarm::lab {
 struct Asset {
   std::string_view bytes;
   std::string_view media_type;
+  std::string_view gzip{};  ///< the bytes compressed; empty if they are not kept so
 };
 
 /// The asset at this path, such as "/app.js"; nothing if there is none.

@@ -45,7 +45,17 @@ class HttpConnection : public Exchange {
     if (beast::websocket::is_upgrade(request_)) request_.keep_alive(false);
     write(lab::refuse(request_, status, why));
   }
-  void wait() override { stream_.expires_never(); }
+  std::shared_ptr<std::atomic<bool>> wait() override {
+    stream_.expires_never();
+    auto gone = std::make_shared<std::atomic<bool>>(false);
+    // Readable without bytes: the other side has closed it. Bytes are the next request.
+    stream_.socket().async_wait(Tcp::socket::wait_read,
+                                [self = self(), gone](beast::error_code error) {
+                                  beast::error_code unknown;
+                                  *gone = !error && self->stream_.socket().available(unknown) == 0;
+                                });
+    return gone;
+  }
 
   void read() {
     parser_.emplace();

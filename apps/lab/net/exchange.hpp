@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <boost/beast/http.hpp>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -17,6 +19,12 @@
 
 namespace microswarm::lab {
 
+/// The export in progress.
+struct ExportProgress {
+  std::atomic<std::uint64_t> session = 0;  ///< 0: none
+  std::atomic<double> share = 0;           ///< completed
+};
+
 /// Data shared by connections; it outlives them.
 struct Shared {
   const Access& access;
@@ -30,8 +38,10 @@ struct Shared {
   /// Runs long work in another thread, which returns its result by post().
   std::function<void(std::function<void()>)> work;
   std::function<void(std::function<void()>)> post;
-  /// Runs exports one by one in a separate thread, which is stopped at the end.
-  std::function<void(std::function<void(const Stop&)>)> export_;
+  /// Runs exports one by one in a separate thread. `gone` stops one; at the end all are stopped.
+  std::function<void(std::shared_ptr<std::atomic<bool>> gone, std::function<void(const Stop&)>)>
+      export_;
+  ExportProgress& progress;
 };
 
 /// A request and its response, for the handler of the request. Call it in the thread of input and
@@ -53,8 +63,9 @@ class Exchange : public std::enable_shared_from_this<Exchange> {
   /// Response {"error": why}.
   virtual void refuse(boost::beast::http::status status, const std::string& why) = 0;
   void nothing() { refuse(boost::beast::http::status::not_found, "there is nothing here"); }
-  /// The response may take any time.
-  virtual void wait() = 0;
+  /// The response may take any time. The flag is set when the other side closes the connection
+  /// before.
+  virtual std::shared_ptr<std::atomic<bool>> wait() = 0;
   /// Responds with the result of `make`, which is called in another thread.
   void later(std::function<HttpResponse()> make);
 

@@ -57,8 +57,13 @@ std::optional<RunExport> read_run_export(std::string_view name, std::string_view
 }
 
 Download make_run_export(const RunExport& wanted, const experiment::Record& record,
-                         const Stop& stop) {
+                         const Stop& stop, const std::function<void(double share)>& show) {
   report::RunVideoOptions options = wanted.options;
+  if (show)
+    options.progress = [&show](const std::string&) {
+      return [&show](double share, const std::string&) { show(share); };
+    };
+  if (stop()) throw InputError("the export was stopped");
   if (wanted.photo)
     options.report = {.photo = formats::read_photograph(wanted.photo->file),
                       .um_per_px = wanted.photo->um_per_px};

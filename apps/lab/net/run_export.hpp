@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string_view>
 
@@ -25,8 +26,8 @@ struct RunExport {
 /// name. Throws InputError for an invalid number.
 std::optional<RunExport> read_run_export(std::string_view name, std::string_view target);
 
-/// Makes the export. Throws InputError if it fails or was stopped.
+/// Makes the export. Throws InputError if it fails or was stopped. `show` gets the completed share.
 Download make_run_export(const RunExport& wanted, const experiment::Record& record,
-                         const Stop& stop);
+                         const Stop& stop, const std::function<void(double share)>& show = {});
 
 }  // namespace microswarm::lab

@@ -83,7 +83,8 @@ class Server::Impl {
   bool has_ended() const { return hub_.has_ended() && !works_; }
 
   void end() {
-    ends_ = true;
+    for (const auto& one : exports_)
+      if (const auto gone = one.lock()) *gone = true;
     hub_.end();
     worker_.stop();
     exporter_.stop();
@@ -135,27 +136,33 @@ class Server::Impl {
   }
 
   Shared shared() {
-    return {.access = *access_,
-            .hub = hub_,
-            .library = library_,
-            .thumbnails = thumbnails_,
-            .uploads = uploads_,
-            .opening = options_.opening,
-            .queue = options_.queue,
-            .connections = connections_,
-            .work =
-                [this](std::function<void()> work) {
-                  asio::post(worker_, [this, work = std::move(work)] {
-                    works_ = true;
-                    work();
-                    works_ = false;
-                  });
-                },
-            .post = [this](std::function<void()> work) { asio::post(io_, std::move(work)); },
-            .export_ =
-                [this](std::function<void(const Stop&)> work) {
-                  asio::post(exporter_, [this, work = std::move(work)] { work(Stop(&ends_)); });
-                }};
+    return {
+        .access = *access_,
+        .hub = hub_,
+        .library = library_,
+        .thumbnails = thumbnails_,
+        .uploads = uploads_,
+        .opening = options_.opening,
+        .queue = options_.queue,
+        .connections = connections_,
+        .work =
+            [this](std::function<void()> work) {
+              asio::post(worker_, [this, work = std::move(work)] {
+                works_ = true;
+                work();
+                works_ = false;
+              });
+            },
+        .post = [this](std::function<void()> work) { asio::post(io_, std::move(work)); },
+        .export_ =
+            [this](std::shared_ptr<std::atomic<bool>> gone, std::function<void(const Stop&)> work) {
+              std::erase_if(exports_, [](const auto& one) { return one.expired(); });
+              exports_.push_back(gone);
+              asio::post(exporter_, [gone = std::move(gone), work = std::move(work)] {
+                work(Stop(gone.get()));
+              });
+            },
+        .progress = progress_};
   }
 
   void tick(const Stop& stop) {
@@ -184,7 +191,8 @@ class Server::Impl {
   std::optional<Access> access_;
   std::size_t connections_ = 0;
   std::atomic<bool> works_ = false;
-  std::atomic<bool> ends_ = false;
+  std::vector<std::weak_ptr<std::atomic<bool>>> exports_;  ///< flags that stop them
+  ExportProgress progress_;
   asio::io_context io_{1};
   Hub hub_;
   asio::thread_pool worker_{1};

@@ -3,9 +3,18 @@
 
 namespace microswarm::lab {
 
+namespace {
+
+/// The file's name from any folder; empty for an empty one.
+std::string from_anywhere(const std::filesystem::path& file) {
+  return file.empty() ? "" : std::filesystem::absolute(file).lexically_normal().string();
+}
+
+}  // namespace
+
 Source to_source(const Opening& opening) {
-  return {.file = opening.file.string(),
-          .rig = opening.options.rig.string(),
+  return {.file = from_anywhere(opening.file),
+          .rig = from_anywhere(opening.options.rig),
           .settings = opening.options.settings.texts(),
           .rig_settings = opening.options.rig_settings.texts(),
           .live = opening.live.has_value(),

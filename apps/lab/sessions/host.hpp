@@ -72,6 +72,11 @@ class Host {
   virtual void ask(std::uint64_t page, Request request);
   /// Whether it drives the coils of a rig, and must not be delayed.
   virtual bool drives() const { return false; }
+  /// Pauses what nobody watches.
+  virtual void rest() {}
+  /// Approximate memory of its record [B], and the time of its newest frame [s].
+  std::size_t bytes() const { return bytes_; }
+  double newest() const { return newest_; }
   /// Sets the coils of its rig to zero, if any.
   virtual void stop(const std::string& why);
   /// Calls `work` with the session between two ticks, in the session's thread.
@@ -115,6 +120,8 @@ class Host {
   Callbacks callbacks_;
   Publisher publisher_;
   std::atomic<bool> ends_ = false;
+  std::atomic<std::size_t> bytes_ = 0;
+  std::atomic<double> newest_ = 0;
 
  private:
   void run();

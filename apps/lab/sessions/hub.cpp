@@ -120,9 +120,41 @@ void Hub::sweep() {
   std::vector<std::uint64_t> left;
   for (auto& [number, running] : sessions_) {
     running.unwatched = is_watched(number) || !running.is_open ? 0 : running.unwatched + 1;
-    if (running.unwatched >= 2) left.push_back(number);
+    if (running.unwatched == 2) running.host->rest();
+    const bool is_live = running.host->opening().live.has_value();
+    if (running.unwatched >= 2 &&
+        (is_live || running.unwatched * limits_.sweep_period >= limits_.keep))
+      left.push_back(number);
   }
   for (const std::uint64_t number : left) close(number);
+  close_largest();
+}
+
+/// Closes the longest unwatched sessions while all unwatched ones take too much memory.
+void Hub::close_largest() {
+  std::size_t bytes = 0;
+  std::ptrdiff_t count = 0;
+  for (const auto& [number, running] : sessions_)
+    if (running.unwatched >= 2) bytes += running.host->bytes(), ++count;
+  for (; bytes > limits_.kept && count > 1; --count) {
+    const auto longest = std::ranges::max_element(
+        sessions_, {}, [](const auto& one) { return one.second.unwatched; });
+    bytes -= longest->second.host->bytes();
+    close(longest->first);
+  }
+}
+
+std::vector<Hub::Open> Hub::open_sessions() const {
+  std::vector<Open> list;
+  list.reserve(sessions_.size());
+  for (const auto& [number, running] : sessions_)
+    if (running.is_open)
+      list.push_back({.session = number,
+                      .file = running.host->opening().file.string(),
+                      .newest = running.host->newest(),
+                      .watched = is_watched(number),
+                      .live = running.host->opening().live.has_value()});
+  return list;
 }
 
 bool Hub::is_watched(std::uint64_t session) const {
@@ -130,13 +162,15 @@ bool Hub::is_watched(std::uint64_t session) const {
                              [&](const auto& page) { return page.second.session == session; });
 }
 
-/// Closes the oldest unwatched session, never one on a rig.
+/// Closes the session that is unwatched for the longest time, never one on a rig.
 void Hub::close_unwatched() {
-  const auto found = std::ranges::find_if(sessions_, [this](const auto& one) {
-    const auto& [number, running] = one;
-    return running.is_open && !running.host->opening().live && !is_watched(number);
-  });
-  if (found != sessions_.end()) close(found->first);
+  auto longest = sessions_.end();
+  for (auto it = sessions_.begin(); it != sessions_.end(); ++it) {
+    const auto& [number, running] = *it;
+    if (!running.is_open || running.host->opening().live || is_watched(number)) continue;
+    if (longest == sessions_.end() || running.unwatched > longest->second.unwatched) longest = it;
+  }
+  if (longest != sessions_.end()) close(longest->first);
 }
 
 void Hub::reap() {

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "lab/sessions/host.hpp"
 #include "lab/sessions/limits.hpp"
@@ -42,6 +43,15 @@ class Hub {
   /// there are too many, the oldest unwatched one is closed.
   void open(Opening opening, std::function<void(const Outcome<std::uint64_t>&)> opened);
   bool has(std::uint64_t session) const;
+  /// One of the open sessions.
+  struct Open {
+    std::uint64_t session;
+    std::string file;
+    double newest;  ///< time of its newest frame [s]
+    bool watched;
+    bool live;  ///< on a rig in real time
+  };
+  std::vector<Open> open_sessions() const;
   /// Source of an open session.
   const Opening& find_opening(std::uint64_t session) const {
     return sessions_.at(session).host->opening();
@@ -65,7 +75,8 @@ class Hub {
   /// Sets the coils of every rig to zero.
   void stop(const std::string& why);
 
-  /// Closes sessions that were unwatched since the call before the last one.
+  /// Pauses sessions that were unwatched since the call before the last one, and closes those that
+  /// the limits no longer keep.
   void sweep();
   /// Frees ended sessions.
   void reap();
@@ -91,6 +102,7 @@ class Hub {
   };
   bool is_watched(std::uint64_t session) const;
   void close_unwatched();
+  void close_largest();
   void deliver(std::uint64_t session, std::uint64_t page, const MessagePtr& message);
   std::uint64_t wait(std::uint64_t session, std::function<void(const std::string&)> settle);
   void settle(std::uint64_t waiting, const std::string& trouble);

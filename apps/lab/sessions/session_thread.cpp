@@ -22,7 +22,24 @@ Clock::duration wall_time(double seconds) {
   return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
 }
 
+/// Approximate memory of a record and of the rows made from it [B].
+std::size_t bytes_of(const experiment::Record& record) {
+  const auto all = [](const auto& list, auto&& bytes_of_one) {
+    return list.empty() ? 0 : list.size() * bytes_of_one(list.back());
+  };
+  return record.frames.size() * (sizeof(experiment::Frame) + sizeof(Row)) +
+         all(record.robots, [](const auto& one) { return one.positions.size() * sizeof(Vec2); }) +
+         all(record.plans, [](const auto& one) { return one.plan.tree.size() * sizeof(TreeNode); });
+}
+
 }  // namespace
+
+void SessionThread::rest() {
+  later([this] {
+    publisher_.standing.plays = false;
+    publisher_.changed();
+  });
+}
 
 /// Handles requests and the tick that is due, and publishes the changes.
 void SessionThread::serve() {
@@ -31,6 +48,8 @@ void SessionThread::serve() {
   if (standing.growing && Clock::now() >= looks_) look_for_more();
   if (standing.plays && !standing.ended && Clock::now() >= due_) advance();
   publisher_.publish(*session_, shown(), [this] { return present_view(); });
+  bytes_ = bytes_of(session_->record());
+  newest_ = publisher_.newest();
 }
 
 /// Time of the next tick, of the next possible frame message, or of the next check of a record.

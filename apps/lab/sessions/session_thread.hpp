@@ -20,6 +20,8 @@ class SessionThread : public Host {
   SessionThread(const SessionThread&) = delete;
   SessionThread& operator=(const SessionThread&) = delete;
 
+  void rest() override;
+
  private:
   void open() override;
   void serve() override;

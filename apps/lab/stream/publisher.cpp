@@ -10,11 +10,24 @@ const AggregationDiagnostics* aggregation_diagnostics(const experiment::Session&
   return std::get_if<AggregationDiagnostics>(&shown.diagnostics());
 }
 
+/// Adds a change KEY=VALUE in place of an earlier one of the key.
+void note_change(Standing& standing, const std::string& change) {
+  const std::string key = change.substr(0, change.find('=') + 1);
+  std::erase_if(standing.changes, [&](const std::string& one) { return one.starts_with(key); });
+  standing.changes.push_back(change);
+}
+
 }  // namespace
+
+void Publisher::add(Row row) {
+  standing.steered |= row.state == NavigatorState::manual || row.state == NavigatorState::paused;
+  rows_.push_back(std::move(row));
+}
 
 void Publisher::clear() {
   rows_.clear();
   events_.clear();
+  changes_ = 0;
   told_rows_ = told_events_ = 0;
   told_plans_ = 0;
   told_nodes_.clear();
@@ -31,15 +44,16 @@ void Publisher::take(const experiment::Record& record) {
 void Publisher::take_more(const experiment::Record& record) {
   const auto& steps = record.result.timing.steps;
   for (std::size_t i = rows_.size(); i < record.frames.size(); ++i)
-    rows_.push_back(
-        to_row({.frame = record.frames[i], .step_time = i < steps.size() ? steps[i] : 0}));
+    add(to_row({.frame = record.frames[i], .step_time = i < steps.size() ? steps[i] : 0}));
   for (std::size_t i = events_.size(); i < record.events.size(); ++i)
     events_.push_back(record.events[i]);
+  for (; changes_ < record.changes.size(); ++changes_)
+    note_change(standing, record.changes[changes_].setting);
   standing.frames = record.frames.size();
 }
 
 void Publisher::take(const experiment::Tick& tick) {
-  rows_.push_back(to_row(tick));
+  add(to_row(tick));
   events_.insert(events_.end(), tick.events.begin(), tick.events.end());
   standing.frames = rows_.size();
   is_fresh_ = true;
@@ -51,7 +65,10 @@ void Publisher::welcome(std::uint64_t page, const MessagePtr& hello, experiment:
   send_(page, hello);
   send_(page, rows_message(rows_, events_, true));
   if (!view.tree.empty()) send_(page, plan_message(view));
-  if (const auto* plan = aggregation_diagnostics(shown)) send_(page, aggregation_message(*plan));
+  // A record without diagnostics keeps no regions: those of now are the newest known.
+  const auto* past = aggregation_diagnostics(shown);
+  if (const auto* plan = past ? past : aggregation_diagnostics(session))
+    send_(page, aggregation_message(*plan));
   standing.frame = view.number;
   send_(page, frame_message(view, shown.diagnostics()));
   send_(page, standing_message(standing, session.result()));
@@ -60,9 +77,7 @@ void Publisher::welcome(std::uint64_t page, const MessagePtr& hello, experiment:
 void Publisher::set(experiment::Session& session, const Request& request, Issues& issues) {
   issues = session.set(request.key, request.value);
   if (!issues.empty()) return;
-  std::erase_if(standing.changes,
-                [&](const std::string& one) { return one.starts_with(request.key + "="); });
-  standing.changes.push_back(request.key + "=" + request.value);
+  note_change(standing, request.key + "=" + request.value);
   tell_standing(session);  // first, so that a page with the new scenario also has the changes
   send_(0, scenario_message(session.scenario()));
   is_fresh_ = true;

@@ -34,6 +34,8 @@ class Publisher {
   void changed() { has_changed_ = true; }
   bool has_rows() const { return !rows_.empty(); }
   std::size_t rows() const { return rows_.size(); }
+  /// Time of the newest row [s].
+  double newest() const { return rows_.empty() ? 0 : rows_.back().t; }
   /// Earliest time of the next frame message.
   Stop::Clock::time_point next_frame() const { return published_ + frame_period; }
 
@@ -59,12 +61,14 @@ class Publisher {
   Standing standing;
 
  private:
+  void add(Row row);
   void tell_frame(const experiment::Session& shown, const experiment::SessionView& view);
   void tell_rows();
 
   Send send_;
   std::vector<Row> rows_;
   std::vector<experiment::RunEvent> events_;
+  std::size_t changes_ = 0;  ///< number of those of a record
   std::size_t told_rows_ = 0;
   std::size_t told_events_ = 0;
   std::uint64_t told_plans_ = 0;

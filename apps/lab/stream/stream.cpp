@@ -206,8 +206,11 @@ std::string command_line(const Source& source, bool is_record) {
 }
 
 Json hello_json(const experiment::Session& session, const Source& source) {
-  const experiment::Scenario& scenario = session.scenario();
+  const experiment::Scenario& scenario =
+      session.is_playback() ? session.record().scene.scenario : session.scenario();
   const Map& map = session.map();
+  Json states = Json::array();
+  for (const auto& [state, word] : enum_names(NavigatorState{})) states.push_back(word);
   Json photo;
   if (source.photo)
     photo = {{"file", source.photo->file.string()}, {"um_per_px", source.photo->um_per_px}};
@@ -221,6 +224,7 @@ Json hello_json(const experiment::Session& session, const Source& source) {
           {"playback", session.is_playback()},
           {"scenario", to_json_value(scenario)},
           {"changeable", experiment::changeable_keys()},
+          {"states", std::move(states)},
           {"map",
            {{"lo", point(map.bounds().lo)},
             {"hi", point(map.bounds().hi)},
@@ -341,6 +345,7 @@ MessagePtr standing_message(const Standing& standing, const experiment::RunResul
                        {"ended", standing.ended},
                        {"growing", standing.growing},
                        {"mode", word(standing.mode)},
+                       {"steered", standing.steered},
                        {"changes", standing.changes},
                        {"status", to_string(result.status)},
                        {"state", result.state},

@@ -40,6 +40,7 @@ struct Standing {
   bool ended = false;
   bool growing = false;  ///< whether it is a record that a run still writes
   experiment::OperatingMode mode = experiment::OperatingMode::autonomous;
+  bool steered = false;              ///< whether it was held or steered by hand since the start
   std::vector<std::string> changes;  ///< since the start, KEY=VALUE, one for each key
   std::string trouble;               ///< why it could not continue; empty otherwise
 };

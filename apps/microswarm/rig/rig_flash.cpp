@@ -36,8 +36,8 @@ struct FlashOptions {
 };
 
 /// Settings of the firmware's Makefile.
-constexpr std::array<std::string_view, 6> settings{"LIMITS", "SLEW",       "EMERGENCY_STOP",
-                                                   "PROBES", "PROBE_OHMS", "MAX_DEGC"};
+constexpr std::array<std::string_view, 6> build_settings{"LIMITS", "SLEW",       "EMERGENCY_STOP",
+                                                         "PROBES", "PROBE_OHMS", "MAX_DEGC"};
 
 /// Source of the firmware, beside the shipped scenarios. Throws InputError if it is not there.
 fs::path firmware_folder() {
@@ -71,9 +71,10 @@ void require_settings(const std::vector<std::string>& given) {
     const bool is_plain = std::ranges::all_of(value, [](char c) {
       return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == ',' || c == '-';
     });
-    if (std::ranges::find(settings, key) == settings.end() || value.empty() || !is_plain)
+    if (std::ranges::find(build_settings, key) == build_settings.end() || value.empty() ||
+        !is_plain)
       throw InputError(fmt::format("--set {}: must be KEY=VALUE, with a KEY of {}", setting,
-                                   fmt::join(settings, ", ")));
+                                   fmt::join(build_settings, ", ")));
   }
 }
 

@@ -31,6 +31,7 @@ const click = 4; // movement that still counts as a click [px]
 /** Pointer, wheel and touch on the scene's canvas: pan, zoom, drag. */
 export class Pointer {
   private readonly fingers = new Map<number, Point>();
+  private readonly end = new AbortController(); // of the listeners
   private drag: { what: Grip; from: Point; grip: Point } | undefined; // in µm
   private pan: { moved: number; began: Point } | undefined;
 
@@ -39,11 +40,16 @@ export class Pointer {
     private readonly on: Touched,
   ) {
     canvas.style.touchAction = 'none';
-    canvas.addEventListener('pointerdown', (event) => this.down(event));
-    canvas.addEventListener('pointermove', (event) => this.move(event));
-    canvas.addEventListener('pointerup', (event) => this.up(event, false));
-    canvas.addEventListener('pointercancel', (event) => this.up(event, true));
-    canvas.addEventListener('wheel', (event) => this.wheel(event), { passive: false });
+    const { signal } = this.end;
+    canvas.addEventListener('pointerdown', (event) => this.down(event), { signal });
+    canvas.addEventListener('pointermove', (event) => this.move(event), { signal });
+    canvas.addEventListener('pointerup', (event) => this.up(event, false), { signal });
+    canvas.addEventListener('pointercancel', (event) => this.up(event, true), { signal });
+    canvas.addEventListener('wheel', (event) => this.wheel(event), { passive: false, signal });
+  }
+
+  destroy(): void {
+    this.end.abort();
   }
 
   private place(event: MouseEvent): Point {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import 'pixi.js/unsafe-eval'; // the page's policy forbids eval
-import { Container, WebGLRenderer } from 'pixi.js';
+import { AccessibilitySystem, Container, WebGLRenderer, extensions, loadEnvironmentExtensions } from 'pixi.js';
 import { type Palette, type Theme, palettes, preferredTheme } from '../palette';
 import type { Message, Point, Request } from '../protocol';
 import { ringsOf } from './draw';
@@ -87,10 +87,14 @@ export class Scene {
   private plays = false;
   private isRecord = false;
   private follows = false;
+  private readonly pointer: Pointer;
   private isGone = false;
+  private unwatchDensity = () => undefined as void;
   private hasCamera = false;
 
   static async create(): Promise<Scene> {
+    await loadEnvironmentExtensions(false);
+    extensions.remove(AccessibilitySystem); // after a press of Tab its element covers the canvas
     const renderer = new WebGLRenderer();
     const init = renderer.init({
       antialias: true,
@@ -110,10 +114,11 @@ export class Scene {
     this.root.className = 'scene';
     this.root.append(renderer.canvas);
     renderer.canvas.style.display = 'block';
+    this.describe('Map');
     this.stage.addChild(this.world);
     for (const layer of this.all) this.world.addChild(layer.world);
     for (const layer of this.all) this.stage.addChild(layer.screen);
-    new Pointer(renderer.canvas, {
+    this.pointer = new Pointer(renderer.canvas, {
       view: this.view,
       hit: (screen) => this.hit(screen),
       touch: (touch) => this.touch(touch),
@@ -129,7 +134,10 @@ export class Scene {
     this.isGone = true;
     cancelAnimationFrame(this.requested);
     this.sizes.disconnect();
+    this.unwatchDensity();
+    this.pointer.destroy(); // Pixi's shared geometries keep the canvas
     this.stage.destroy({ children: true });
+    this.renderer.view.texture.destroy(true); // else a cache of Pixi keeps the canvas
     this.renderer.destroy(true);
   }
 
@@ -151,6 +159,12 @@ export class Scene {
     for (const layer of this.all) if (layer.take(message)) this.stale.add(layer);
     this.ask();
     this.schedule();
+  }
+
+  /** Says to those who do not see the canvas what it shows. */
+  describe(text: string): void {
+    this.renderer.canvas.setAttribute!('role', 'img');
+    this.renderer.canvas.setAttribute!('aria-label', text);
   }
 
   /** Shows the whole map. */
@@ -300,6 +314,7 @@ export class Scene {
       this.watchDensity();
     };
     density.addEventListener('change', moved, { once: true });
+    this.unwatchDensity = () => density.removeEventListener('change', moved);
   }
 
   private schedule(): void {
@@ -343,7 +358,8 @@ export class Scene {
     if (robots.length > 0) this.view.centre([(2 * x) / robots.length, (2 * y) / robots.length]);
   }
 
-  private hit(screen: Point): { what: Grip; place?: Point } {
+  /** The object at a place on the screen. */
+  hit(screen: Point): { what: Grip; place?: Point } {
     const map = { what: { kind: 'map' } as const };
     if (this.isRecord) return map;
     const mark =

@@ -66,6 +66,12 @@ std::shared_ptr<Navigator> RunningExperiment::made() const {
                                     Rng(scenario_.seed, Purpose::planner, trial_));
 }
 
+std::vector<Vec2> RunningExperiment::first_robots() const {
+  const auto truth = plant_->ground_truth();
+  if (!truth) return {};
+  return {truth->robots.begin(), truth->robots.end()};
+}
+
 const Tick* RunningExperiment::step(const Stop& stop) {
   const Tick* tick = episode_.step(stop);
   last_navigator_.reset();

@@ -34,6 +34,7 @@ class RunningExperiment : public SessionSource {
   /// swarm, which is a contact.
   Issues set(const std::string& key, const std::string& value) override;
   Operation* operation() override { return &operation_; }
+  std::vector<Vec2> first_robots() const override;
   const Scenario& scenario() const override { return scenario_; }
   const World& world() const override { return world_; }
 

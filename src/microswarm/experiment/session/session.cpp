@@ -79,6 +79,10 @@ SessionView Session::view() const {
   if (tick_) return session_view(*tick_, ticks_ - 1, plans_);
   SessionView view;
   if (scenario().start) view.frame.pose = *scenario().start;
+  if (!scenario().robots) return view;
+  view.robots = source_->first_robots();
+  for (const Vec2 robot : view.robots)
+    view.frame.pose.position += robot / static_cast<double>(view.robots.size());
   return view;
 }
 

@@ -79,7 +79,7 @@ class Session {
   const Map& map() const { return *source_->world().map; }
   /// The newest tick; null before the first. Valid until the next step.
   const Tick* tick() const { return tick_; }
-  /// Current state; before the first tick only a frame at t = 0.
+  /// Current state; before the first tick only a frame at t = 0 and the robots, if known.
   SessionView view() const;
   /// Diagnostics of the navigator in the newest tick, computed when they are first asked for; of a
   /// record, those that it keeps. Valid until the next step.

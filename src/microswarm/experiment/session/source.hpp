@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "microswarm/core/errors/issue.hpp"
 #include "microswarm/experiment/record/record.hpp"
@@ -29,6 +30,8 @@ class SessionSource {
     (void)frame;
     return std::nullopt;
   }
+  /// Positions of the robots before the first tick [µm]; none for a swarm or if unknown.
+  virtual std::vector<Vec2> first_robots() const { return {}; }
   /// The current scenario with all changes.
   virtual const Scenario& scenario() const = 0;
   virtual const World& world() const = 0;
