@@ -13,7 +13,7 @@ namespace {
 constexpr double kernel = 0.05;         // [decades] standard deviation of the smoothing
 constexpr double gap_depth = 0.25;      // of a gap, beside the lower of its sides
 constexpr double min_width = 0.15;      // [decades] of a gap
-constexpr double wide = 0.5;            // [decades] of a gap that pairs of robots cannot make
+constexpr double wide_gap = 0.5;        // [decades] of a gap that pairs of robots cannot make
 constexpr double rare = 0.01;           // share of all features that outliers have at most
 constexpr double enough_robots = 0.25;  // beside lighter features that have a tone
 constexpr double min_count = 3;         // features on either side
@@ -121,7 +121,7 @@ MassKinds mass_kinds(std::span<const double> masses, std::span<const double> oth
   for (const MassGap& gap : gaps) {
     const double below = count_between(sorted, from, gap.noise_to);
     const double above = count_between(sorted, gap.robots_from, infinity);
-    const bool is_wide = width(gap) > std::max(wide, kinds.gap ? width(*kinds.gap) : 0);
+    const bool is_wide = width(gap) > std::max(wide_gap, kinds.gap ? width(*kinds.gap) : 0);
     const bool hides = kinds.gap ? below <= rare * static_cast<double>(sorted.size())
                                  : above >= enough_robots * below;
     if (is_noise(sorted, sorted_other, from, gap.noise_to) || (is_wide && hides)) kinds.gap = gap;
@@ -130,7 +130,8 @@ MassKinds mass_kinds(std::span<const double> masses, std::span<const double> oth
   kinds.has_noise = kinds.gap.has_value();
   const double last = kinds.gap ? kinds.gap->robots_from : 0;
   // What lies beyond a wide gap is robots, though bright ones may have dark rings and as many.
-  if (!(kinds.gap && width(*kinds.gap) > wide) && is_noise(sorted, sorted_other, last, infinity)) {
+  if (!(kinds.gap && width(*kinds.gap) > wide_gap) &&
+      is_noise(sorted, sorted_other, last, infinity)) {
     kinds.has_noise = true;
     kinds.gap.reset();  // all of them are noise
   }
