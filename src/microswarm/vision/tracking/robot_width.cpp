@@ -21,7 +21,7 @@ constexpr int around_rings = 3;          // in which the background is looked fo
 constexpr std::size_t lightest_of = 10;  // the tenth lightest value around is the background
 constexpr double edge_share = 0.6;       // of the contrast, which a ray must exceed
 constexpr double wide_share = 0.4;       // of the rays
-constexpr int blurred = 3;               // [px], against noise
+constexpr int blur_px = 3;               // [px], against noise
 
 /// Directions of the rays, all alike around.
 const std::array<Vec2, ray_count>& directions() {
@@ -41,7 +41,7 @@ class Greys {
  public:
   Greys(const formats::Image& grey, ParticleTone tone)
       : sign_(tone == ParticleTone::dark ? -1 : 1) {
-    cv::blur(as_mat(grey), smooth_, {blurred, blurred});
+    cv::blur(as_mat(grey), smooth_, {blur_px, blur_px});
   }
   /// Nothing outside of the picture.
   std::optional<double> at(Vec2 place) const {
