@@ -27,6 +27,15 @@ std::size_t files_in(const fs::path& folder) {
       std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
 }
 
+TEST(Uploads, AScenarioThatWouldTakeLongToReadIsRefused) {
+  const Lab lab;
+  const std::string large(2 * 1024 * 1024 + 1, '#');
+  const Reply sent = send(lab, "large.yaml", large);
+  EXPECT_EQ(sent.result(), http::status::bad_request);
+  EXPECT_NE(sent.body().find("2 MiB"), std::string::npos) << sent.body();
+  EXPECT_NE(sent.body().find("large.yaml"), std::string::npos) << sent.body();
+}
+
 TEST(Uploads, APhotographBecomesAnExperiment) {
   fs::path folder;
   {

@@ -17,6 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr int max_files = 200;
 constexpr std::size_t max_total = 512 * 1024 * 1024;
+constexpr std::size_t max_scenario = 2 * 1024 * 1024;  // read in 20 s at most
 
 /// Removes a file in its destructor unless it is kept.
 class Trial {
@@ -49,6 +50,10 @@ Upload Uploads::keep(std::string_view name, const std::string& bytes, const Libr
   const bool is_picture = formats::has_image_extension(name);
   if (!is_picture && extension != ".yaml" && extension != ".h5")
     throw InputError(shown, "neither a photograph, a scenario (.yaml) nor a record (.h5)");
+  if (extension == ".yaml" && bytes.size() > max_scenario)
+    throw InputError(shown, fmt::format("a scenario of {:.1f} MiB, a page may send 2 MiB: put it "
+                                        "into the lab's folder, or start the lab with it",
+                                        static_cast<double>(bytes.size()) / (1024 * 1024)));
   if (size_ + bytes.size() > max_total)
     throw InputError("the uploads of this lab are too large together: start it again");
   const fs::path file = new_file(extension);

@@ -19,9 +19,9 @@ void note_change(Standing& standing, const std::string& change) {
 
 }  // namespace
 
-void Publisher::add(Row row) {
+void Publisher::add(const Row& row) {
   standing.steered |= row.state == NavigatorState::manual || row.state == NavigatorState::paused;
-  rows_.push_back(std::move(row));
+  rows_.push_back(row);
 }
 
 void Publisher::clear() {

@@ -61,7 +61,7 @@ class Publisher {
   Standing standing;
 
  private:
-  void add(Row row);
+  void add(const Row& row);
   void tell_frame(const experiment::Session& shown, const experiment::SessionView& view);
   void tell_rows();
 
