@@ -12,12 +12,10 @@
 namespace microswarm {
 namespace {
 
-/// Real-time priority of the calling thread; 0 for none.
 int priority() {
-  int policy = 0;
   sched_param param{};
-  ::pthread_getschedparam(::pthread_self(), &policy, &param);
-  return policy == SCHED_RR ? param.sched_priority : 0;
+  ::sched_getparam(0, &param);
+  return ::sched_getscheduler(0) == SCHED_RR ? param.sched_priority : 0;
 }
 
 TEST(Priority, IsTheThreadsAndItsThreadsUntilItsEnd) {
@@ -46,6 +44,14 @@ TEST(Priority, IsTheThreadsAndItsThreadsUntilItsEnd) {
     EXPECT_EQ(lowered, 0);
   }
   EXPECT_EQ(priority(), 0);
+}
+
+TEST(Priority, IsNotInheritedIfThatIsNotMeant) {
+  const RealtimePriority raised(10, RealtimePriority::Inherited::no);
+  int inherited = -1;
+  std::thread([&] { inherited = realtime_priority(); }).join();
+  EXPECT_EQ(inherited, 0);
+  EXPECT_EQ(realtime_priority(), raised.is_permitted() ? 10 : 0);
 }
 
 TEST(Priority, WithoutPermissionNothingChanges) {

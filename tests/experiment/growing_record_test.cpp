@@ -7,6 +7,7 @@
 #include <optional>
 #include <thread>
 
+#include "microswarm/core/errors/write_error.hpp"
 #include "microswarm/core/execution/stop.hpp"
 #include "tests/experiment/scenes.hpp"
 #include "tests/files.hpp"
@@ -71,12 +72,15 @@ TEST(GrowingRecords, RemainUntilTheWholeRecordIsInPlace) {
     if (is_written) session.record_to(whole);
     growing.reset();
     EXPECT_EQ(std::filesystem::exists(part), !is_written);
-    if (!is_written) EXPECT_GT(read_record(part).frames.size(), 0u);
+    if (!is_written) {
+      EXPECT_GT(read_record(part).frames.size(), 0u);
+    }
   }
   const auto no_file = folder / "full/run.h5";  // that nobody can write
   std::filesystem::create_directories(no_file);
   std::filesystem::copy_file(part, part_file(no_file));
   const Record record = read_record(part);
+  EXPECT_THROW(write_whole_record(record, no_file), WriteError);
   const std::string told = to_string(test::issues_of([&] { write_whole_record(record, no_file); }));
   EXPECT_NE(told.find(no_file.string() + ": cannot write"), std::string::npos) << told;
   EXPECT_NE(told.find(part_file(no_file).string()), std::string::npos) << told;

@@ -18,6 +18,7 @@
 #include "lab/net/http.hpp"
 #include "lab/sessions/hub.hpp"
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/execution/priority.hpp"
 
 namespace microswarm::lab {
 namespace {
@@ -70,6 +71,7 @@ class Server::Impl {
   }
 
   bool run(const Stop& stop) {
+    const RealtimePriority priority(options_.priority, RealtimePriority::Inherited::no);
     for (Tcp::acceptor& acceptor : acceptors_) accept(acceptor);
     tick(stop);
     io_.run();

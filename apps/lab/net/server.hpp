@@ -23,6 +23,7 @@ struct ServerOptions {
   std::string listen{};                        ///< address; empty for this computer alone
   std::uint16_t port = 0;                      ///< 0 for any free port
   Limits limits{};
+  int priority = 0;  ///< real-time one of the thread of input and output, which hears a stop
   std::function<void()> lives = [] {};  ///< called by the loop of input and output, every 50 ms
 };
 

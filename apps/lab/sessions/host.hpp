@@ -28,6 +28,7 @@ struct RigOpening {
   /// The coils are at ambient temperature; said for one run of all sessions.
   std::shared_ptr<std::atomic<bool>> coils_cold = std::make_shared<std::atomic<bool>>(false);
   bool drawn_swarm = false;
+  int priority = 0;  ///< real-time one of what stops the coils; 0 for none
   /// Called in the coils' thread after each output of a run that drives them.
   std::function<void()> driven{};
   /// Called after such a run with its fault, if any, when the coils are at zero.

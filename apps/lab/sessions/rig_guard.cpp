@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <utility>
+
+#include "microswarm/core/execution/priority.hpp"
 
 namespace microswarm::lab {
 
@@ -39,8 +42,10 @@ std::uint64_t RigGuard::stops() const {
   return stops_;
 }
 
-void RigGuard::watch(std::shared_ptr<rig::LiveSession> session, bool listens, std::uint64_t stops) {
+void RigGuard::watch(std::shared_ptr<rig::LiveSession> session, bool listens, std::uint64_t stops,
+                     int priority) {
   const std::lock_guard lock(mutex_);
+  priority_ = priority;
   session_ = std::move(session);
   listens_ = listens;
   if (listens) heard_ = Clock::now();  // no current was sent so far
@@ -57,8 +62,10 @@ void RigGuard::release() {
 }
 
 void RigGuard::run() {
+  std::optional<RealtimePriority> priority;
   std::unique_lock lock(mutex_);
   while (!ends_) {
+    if (priority_ > realtime_priority()) priority.emplace(priority_);
     if (session_ && why_.why.empty() && listens_ && Clock::now() >= heard_ + patience) {
       ++stops_;
       why_ = {fmt::format("no word from the page for {:.1f} s",

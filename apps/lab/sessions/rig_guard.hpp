@@ -38,7 +38,9 @@ class RigGuard {
   std::uint64_t stops() const;
   /// Guards a session whose opening began after `stops` stop requests; a later one stops it. With
   /// `listens` the page must not be silent.
-  void watch(std::shared_ptr<rig::LiveSession> session, bool listens, std::uint64_t stops);
+  /// `priority` is the real-time one of its thread from then on; 0 for none.
+  void watch(std::shared_ptr<rig::LiveSession> session, bool listens, std::uint64_t stops,
+             int priority = 0);
   /// Releases the session, after a stop in progress, if any.
   void release();
 
@@ -51,6 +53,7 @@ class RigGuard {
   bool listens_ = false;
   bool is_stopping_ = false;
   bool ends_ = false;
+  int priority_ = 0;
   std::uint64_t stops_ = 0;
   rig::Fault why_;  ///< of a pending stop
   Clock::time_point heard_{};

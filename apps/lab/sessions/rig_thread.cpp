@@ -11,6 +11,7 @@
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/rig/runtime/rig_checks.hpp"
+#include "microswarm/rig/runtime/rig_priority.hpp"
 #include "microswarm/vision/image/threads.hpp"
 
 namespace microswarm::lab {
@@ -142,7 +143,7 @@ void RigThread::begin_run(bool dry, std::uint64_t stops) {
   halted_ = false;
   live_ = std::make_shared<rig::LiveSession>(on, options);
   if (!dry) *opening_.live->coils_cold = false;  // said once, of the coils as they were then
-  guard_.watch(live_, !dry, stops);
+  guard_.watch(live_, !dry, stops, rig::urgent_priority(on.rig));
   if (!options.folder.empty())
     growing_ =
         std::make_unique<experiment::GrowingRecord>(live_->session(), options.folder / record_name);

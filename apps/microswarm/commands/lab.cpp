@@ -11,6 +11,7 @@
 #include "lab/sessions/record_watch.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/rig/params/rig_experiment.hpp"
+#include "microswarm/rig/runtime/rig_priority.hpp"
 #include "rig/keys/rig_keys.hpp"
 #include "rig/rig_notes.hpp"
 #include "rig/rig_settings.hpp"
@@ -92,7 +93,8 @@ std::optional<lab::Opening> to_opening(const LabOptions& o) {
   opening.live = lab::RigOpening{.out = o.out,
                                  .without_limits = o.without_limits,
                                  .coils_cold = std::make_shared<std::atomic<bool>>(o.coils_cold),
-                                 .drawn_swarm = o.drawn_swarm};
+                                 .drawn_swarm = o.drawn_swarm,
+                                 .priority = rig::urgent_priority(on.rig)};
   return opening;
 }
 
@@ -110,6 +112,7 @@ int lab_command(const LabOptions& o, const Context& context) {
   options.lives = [&] { service.live(); };
   std::string fault;  // of the last run that drove the coils
   if (options.opening && options.opening->live) {
+    options.priority = options.opening->live->priority;
     options.opening->live->driven = [&] { service.drive(); };
     options.opening->live->ended = [&](const std::string& why) { service.rest(fault = why); };
     options.opening->live->note = [](const std::string& line) { note_each({line}); };

@@ -2,6 +2,7 @@
 #include "commands/run_output.hpp"
 
 #include <cmath>
+#include <exception>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
@@ -169,11 +170,13 @@ int tell_run(const experiment::Session& session, const RunOutput& o,
   const experiment::RunResult& result = session.result();
   const std::string hash = record.hash();
   // Print a result even if it cannot be saved, and save it even if it cannot be printed.
-  std::optional<InputError> lost;
+  std::exception_ptr lost;  // with its type: a disk that is full is another fault than a report
+  std::string why_lost;
   try {
     if (!o.out.empty()) keep(record, o, report);
   } catch (const InputError& e) {
-    lost = e;
+    lost = std::current_exception();
+    why_lost = e.what();
   }
   if (o.json) {
     nlohmann::ordered_json json = run_json(result, hash);
@@ -191,8 +194,8 @@ int tell_run(const experiment::Session& session, const RunOutput& o,
           "wrote {}\n",
           (std::filesystem::path(o.out) / (o.no_report ? "run.h5" : "index.html")).string()));
   }
-  if (lost && result.status != Status::fault) throw InputError(*lost);
-  if (lost) note("microswarm: {}\n", lost->what());  // the other error is more serious
+  if (lost && result.status != Status::fault) std::rethrow_exception(lost);
+  if (lost) note("microswarm: {}\n", why_lost);  // the other error is more serious
   if (result.status == Status::fault) return hardware;
   return result.status == Status::solved ? ok : not_reached;
 }

@@ -118,7 +118,8 @@ int rig_check(const CheckOptions& o, const Stop& stop) {
   const rig::CommissioningState commissioning = rig::commissioning_state(rig);
   if (const std::string state = to_text(commissioning, std::time(nullptr)); !state.empty())
     answers.say(rig::missing_commissioning(rig, commissioning).empty(), "measured", state);
-  if (rig::has_coil_device(rig)) answer(answers, {rig::check_computer(rig, o.seconds, stop)});
+  if (rig::has_coil_device(rig) || rig.params.realtime_priority > 0)
+    answer(answers, {rig::check_computer(rig, o.seconds, stop)});
   ask_camera(rig, on, o, stop, answers);
   ask_driver(rig, o, stop, answers);
   if (stop()) return not_reached;

@@ -5,6 +5,8 @@
 #include <chrono>
 #include <utility>
 
+#include "microswarm/core/execution/priority.hpp"
+
 namespace microswarm::cli {
 
 RigKeys::RigKeys(std::function<void()> stop, std::function<void(const Key&)> other,
@@ -19,6 +21,9 @@ RigKeys::~RigKeys() {
 }
 
 void RigKeys::listen() {
+  // One above the ticks, whose priority it has inherited.
+  const int inherited = realtime_priority();
+  const RealtimePriority priority(inherited > 0 ? inherited + 1 : 0);
   std::string input;
   while (!over_ && !ended_.requested()) {
     if (!terminal_.prepare())

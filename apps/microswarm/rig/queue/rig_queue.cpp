@@ -12,6 +12,7 @@
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/rig/queue/run_queue.hpp"
 #include "microswarm/rig/runtime/disk_space.hpp"
+#include "microswarm/rig/runtime/rig_priority.hpp"
 #include "microswarm/rig/session/fault_command.hpp"
 #include "rig/queue/queue_progress.hpp"
 #include "rig/real_coils.hpp"
@@ -189,6 +190,9 @@ int rig_queue(const RigQueueOptions& o, const Context& context) {
   ServiceManager service;
   service.ready();
   rig::QueueEnd end{};
+  {
+    const rig::RigPriority is_permitted(rig);  // else refused now, rather than run by run
+  }
   {
     QueueProgress progress(service, context);
     QueueRuns runs(o, rig, progress, service, context);

@@ -3,6 +3,8 @@
 
 #include <pthread.h>
 
+#include <cstdlib>
+
 namespace microswarm {
 
 /// A mutex between threads of unlike priority: the thread that holds it inherits the real-time
@@ -21,7 +23,9 @@ class InheritingMutex {
   InheritingMutex(const InheritingMutex&) = delete;
   InheritingMutex& operator=(const InheritingMutex&) = delete;
 
-  void lock() { ::pthread_mutex_lock(&mutex_); }
+  void lock() {
+    if (::pthread_mutex_lock(&mutex_) != 0) std::abort();  // never without the lock
+  }
   bool try_lock() { return ::pthread_mutex_trylock(&mutex_) == 0; }
   void unlock() { ::pthread_mutex_unlock(&mutex_); }
 

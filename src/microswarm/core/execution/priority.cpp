@@ -7,29 +7,29 @@
 namespace microswarm {
 namespace {
 
+/// Of the calling thread, which 0 names.
 bool set(int policy, int priority) {
   sched_param param{};
   param.sched_priority = priority;
-  return ::pthread_setschedparam(::pthread_self(), policy, &param) == 0;
-}
-
-/// Real-time priority of the calling thread; 0 for none.
-int priority_now() {
-  int policy = SCHED_OTHER;
-  sched_param param{};
-  ::pthread_getschedparam(::pthread_self(), &policy, &param);
-  return param.sched_priority;
+  return ::sched_setscheduler(0, policy, &param) == 0;
 }
 
 }  // namespace
 
-RealtimePriority::RealtimePriority(int priority) {
-  if (priority <= priority_now()) return;
-  is_raised_ = is_permitted_ = set(SCHED_RR, priority);
+int realtime_priority() {
+  sched_param param{};
+  ::sched_getparam(0, &param);
+  return param.sched_priority;
+}
+
+RealtimePriority::RealtimePriority(int priority, Inherited inherited) {
+  if (priority <= realtime_priority()) return;
+  if (inherited == Inherited::no) reset_ = SCHED_RESET_ON_FORK;
+  is_raised_ = is_permitted_ = set(SCHED_RR | reset_, priority);
 }
 
 RealtimePriority::~RealtimePriority() {
-  if (is_raised_ && ::pthread_equal(thread_, ::pthread_self())) set(SCHED_OTHER, 0);
+  if (is_raised_ && ::pthread_equal(thread_, ::pthread_self())) set(SCHED_OTHER | reset_, 0);
 }
 
 void lower_priority() {

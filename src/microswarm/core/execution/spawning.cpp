@@ -35,8 +35,12 @@ void mind_children() {
 Spawning::Spawning() {
   posix_spawn_file_actions_init(&actions_);
   posix_spawnattr_init(&attributes_);
-  posix_spawnattr_setflags(&attributes_,
-                           POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
+  posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF |
+                                             POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSCHEDULER);
+  // No real-time priority of the thread that starts it.
+  const sched_param usual{};
+  posix_spawnattr_setschedpolicy(&attributes_, SCHED_OTHER);
+  posix_spawnattr_setschedparam(&attributes_, &usual);
   sigset_t every, none;
   sigfillset(&every);
   sigemptyset(&none);

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <system_error>
 
-#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/errors/write_error.hpp"
 #include "microswarm/core/execution/priority.hpp"
 
 namespace microswarm::experiment {
@@ -70,7 +70,7 @@ void write_whole_record(const Record& record, const std::filesystem::path& file)
   } catch (const InputError& error) {
     std::error_code none;
     if (!std::filesystem::exists(part_file(file), none)) throw;
-    throw InputError(
+    throw WriteError(
         fmt::format("{}; the record so far is kept as {}", error.what(), part_file(file).string()));
   }
 }

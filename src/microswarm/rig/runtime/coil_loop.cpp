@@ -9,6 +9,7 @@
 
 #include "microswarm/core/errors/write_error.hpp"
 #include "microswarm/core/execution/clock.hpp"
+#include "microswarm/core/execution/priority.hpp"
 #include "microswarm/rig/runtime/device_limits.hpp"
 #include "microswarm/rig/runtime/standstill.hpp"
 
@@ -90,6 +91,7 @@ Fault CoilLoop::fault() const {
 }
 
 void CoilLoop::run() {
+  const RealtimePriority priority(limits_.priority);
   const auto period = std::chrono::duration_cast<Clock::duration>(Seconds(1 / limits_.rate));
   auto due = Clock::now();
   auto last = due;

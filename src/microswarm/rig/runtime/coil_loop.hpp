@@ -34,6 +34,7 @@ struct CoilLoopLimits {
   int max_trips = 1;        ///< times the coils may switch off by themselves within a window
   double trip_window = 10;  ///< [s]
   double max_pause = 0.3;   ///< longest standstill of the program or the computer [s]
+  int priority = 0;         ///< real-time priority of the loop's thread; 0 for none
 };
 
 /// Sends currents in real time from its own thread, so that the field continues while a navigator

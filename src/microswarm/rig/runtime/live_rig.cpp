@@ -23,8 +23,8 @@ const RigParams& checked(const Rig& rig, const experiment::Scenario& scenario) {
 
 CoilLoopLimits loop_limits(const Rig& rig, double tick) {
   const SafetyParams& safety = rig.params.safety;
-  return {rig.params.drive_rate, deadman(rig, tick), safety.max_trips, safety.trip_window,
-          safety.max_pause};
+  return {rig.params.drive_rate, deadman(rig, tick), safety.max_trips,
+          safety.trip_window,    safety.max_pause,   urgent_priority(rig)};
 }
 
 void check_picture(const Rig& rig, const experiment::Scenario& scenario,

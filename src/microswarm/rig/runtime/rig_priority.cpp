@@ -13,4 +13,9 @@ RigPriority::RigPriority(const Rig& rig) : priority_(rig.params.realtime_priorit
                                      rig.params.realtime_priority));
 }
 
+int urgent_priority(const Rig& rig) {
+  const int priority = rig.params.realtime_priority;
+  return priority > 0 ? priority + 1 : 0;
+}
+
 }  // namespace microswarm::rig

@@ -16,4 +16,8 @@ class RigPriority {
   RealtimePriority priority_;
 };
 
+/// Priority of what must not wait for ticks and pictures, the coils and all that stops them: one
+/// more than the rig's; 0 for none.
+int urgent_priority(const Rig& rig);
+
 }  // namespace microswarm::rig
