@@ -28,6 +28,7 @@ extern "C" {
 #include <vector>
 
 #include "microswarm/formats/media/libav_free.hpp"
+#include "microswarm/formats/media/libav_messages.hpp"
 
 namespace microswarm::formats {
 namespace {
@@ -40,16 +41,6 @@ constexpr int max_bad_packets = 64;                    // before the first pictu
 constexpr std::int64_t max_video_pixels = 64'000'000;  // as of images
 
 using Format = std::unique_ptr<AVFormatContext, FreeBy<avformat_close_input>>;
-
-/// The library's messages as OpenCV sets them: errors, or what its environment variable says.
-void set_messages() {
-  static const bool once = [] {
-    const char* level = std::getenv("OPENCV_FFMPEG_LOGLEVEL");
-    av_log_set_level(level ? std::atoi(level) : AV_LOG_ERROR);
-    return true;
-  }();
-  static_cast<void>(once);
-}
 
 /// Reads the first pictures, none larger than allowed.
 bool find_streams(AVFormatContext& format) {

@@ -10,11 +10,13 @@ extern "C" {
 #include <libswscale/swscale.h>
 }
 
+#include <cerrno>
 #include <opencv2/core.hpp>
 #include <string>
 #include <thread>
 
 #include "microswarm/formats/media/libav_free.hpp"
+#include "microswarm/formats/media/libav_messages.hpp"
 
 namespace microswarm::formats {
 namespace {
@@ -33,12 +35,9 @@ class H264Output : public VideoOutput {
   H264Output() : packet_(av_packet_alloc()), frame_(av_frame_alloc()) {}
   H264Output(const H264Output&) = delete;
   H264Output& operator=(const H264Output&) = delete;
-  ~H264Output() override {
-    if (!is_begun_) return;
-    encode(nullptr);
-    av_write_trailer(format_.get());
-  }
+  ~H264Output() override { end(); }
 
+  /// False without an encoder; what the file refuses is kept for finish().
   bool open(const fs::path& file, const VideoForm& form) {
     const std::string url = "file:" + fs::absolute(file).string();
     AVFormatContext* made = nullptr;
@@ -52,17 +51,22 @@ class H264Output : public VideoOutput {
       return false;
     stream_->time_base = encoder_->time_base;
     stream_->avg_frame_rate = encoder_->framerate;
-    if (avio_open(&made->pb, url.c_str(), AVIO_FLAG_WRITE) < 0) return false;
+    keep(avio_open(&made->pb, url.c_str(), AVIO_FLAG_WRITE));
+    if (error_ != 0) return true;
     is_begun_ = avformat_write_header(made, nullptr) >= 0;
-    return is_begun_;
+    keep(made->pb->error);
+    return is_begun_ || error_ != 0;
   }
 
   void write(const cv::Mat& picture) override {
-    if (av_frame_make_writable(frame_.get()) < 0) return;
+    if (error_ != 0) return;
+    keep(av_frame_make_writable(frame_.get()));
+    if (picture.cols < frame_->width || picture.rows < frame_->height) keep(AVERROR(EINVAL));
+    if (error_ != 0) return;
     scaler_.reset(sws_getCachedContext(scaler_.release(), frame_->width, frame_->height,
                                        AV_PIX_FMT_BGR24, frame_->width, frame_->height,
                                        encoder_->pix_fmt, SWS_BICUBIC, nullptr, nullptr, nullptr));
-    if (!scaler_ || picture.cols < frame_->width || picture.rows < frame_->height) return;
+    if (!scaler_) return keep(AVERROR(ENOMEM));
     const std::uint8_t* from[4] = {picture.data, nullptr, nullptr, nullptr};
     const int steps[4] = {static_cast<int>(picture.step), 0, 0, 0};
     sws_scale(scaler_.get(), from, steps, 0, frame_->height, frame_->data, frame_->linesize);
@@ -70,7 +74,28 @@ class H264Output : public VideoOutput {
     encode(frame_.get());
   }
 
+  int finish() override {
+    end();
+    return error_;
+  }
+
  private:
+  /// Keeps the first error, as errno; those of the library itself as EIO.
+  void keep(int code) {
+    constexpr int max_errno = 4095;
+    if (code < 0 && error_ == 0) error_ = -code <= max_errno ? -code : EIO;
+  }
+
+  void end() {
+    if (!format_) return;
+    if (is_begun_) {
+      encode(nullptr);
+      keep(av_write_trailer(format_.get()));
+    }
+    keep(avio_closep(&format_->pb));
+    format_.reset();
+  }
+
   bool open_encoder(const AVCodec& codec, const VideoForm& form) {
     constexpr int even = ~1;  // colours are stored for two by two pixels
     AVCodecContext& to = *encoder_;
@@ -98,11 +123,11 @@ class H264Output : public VideoOutput {
 
   /// Gives the encoder a picture, or the end, and writes what is ready.
   void encode(const AVFrame* picture) {
-    if (avcodec_send_frame(encoder_.get(), picture) < 0) return;
+    keep(avcodec_send_frame(encoder_.get(), picture));
     while (avcodec_receive_packet(encoder_.get(), packet_.get()) >= 0) {
       av_packet_rescale_ts(packet_.get(), encoder_->time_base, stream_->time_base);
       packet_->stream_index = stream_->index;
-      av_interleaved_write_frame(format_.get(), packet_.get());
+      keep(av_interleaved_write_frame(format_.get(), packet_.get()));
     }
   }
 
@@ -114,11 +139,13 @@ class H264Output : public VideoOutput {
   AVStream* stream_ = nullptr;
   std::int64_t pictures_ = 0;
   bool is_begun_ = false;
+  int error_ = 0;  ///< the first, as errno
 };
 
 }  // namespace
 
 std::unique_ptr<VideoOutput> create_h264(const fs::path& file, const VideoForm& form) {
+  set_messages();
   auto output = std::make_unique<H264Output>();
   if (!output->open(file, form)) return nullptr;
   return output;

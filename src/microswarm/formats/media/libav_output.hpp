@@ -9,8 +9,8 @@
 
 namespace microswarm::formats {
 
-/// Creates an H.264 video of colour pictures; null without such an encoder, or if the file cannot
-/// be written.
+/// Creates an H.264 video of colour pictures; null without such an encoder. If the file cannot be
+/// written, its finish() returns why.
 std::unique_ptr<VideoOutput> create_h264(const std::filesystem::path& file, const VideoForm& form);
 
 }  // namespace microswarm::formats

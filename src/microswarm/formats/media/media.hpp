@@ -57,6 +57,8 @@ class VideoOutput {
   virtual ~VideoOutput() = default;
   /// Adds a picture, grey or blue, green, red.
   virtual void write(const cv::Mat& picture) = 0;
+  /// Writes the end; the errno of the first picture or part that was not written, or 0.
+  virtual int finish() = 0;
 };
 
 /// Encoding of a video.
@@ -93,8 +95,8 @@ class Media {
   virtual Photograph decode(std::span<const std::byte> bytes) const = 0;
   /// Opens a video; null if it cannot be read.
   virtual std::unique_ptr<VideoInput> open(const std::filesystem::path& file) const = 0;
-  /// Creates a video, of H.264 with at most held_pictures in memory; null without such an encoder,
-  /// or if the file cannot be written.
+  /// Creates a video, of H.264 with at most held_pictures in memory; null without such an encoder.
+  /// If the file cannot be written, it is null too, or `finish` of the video returns why.
   virtual std::unique_ptr<VideoOutput> create(const std::filesystem::path& file,
                                               const VideoForm& form) const = 0;
   /// Pictures in a video, counted without decoding them; 0 if it cannot be read.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // libmicroswarm_media.so, the only part that is linked with OpenCV's imgcodecs and videoio and with
 // FFmpeg.
+#include <cerrno>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
+#include <utility>
 
 #include "microswarm/formats/media/libav_input.hpp"
 #include "microswarm/formats/media/libav_output.hpp"
@@ -30,11 +32,22 @@ int fourcc(VideoCodec codec) {
 
 class OpenCvOutput : public VideoOutput {
  public:
-  explicit OpenCvOutput(const cv::VideoWriter& video) : video_(video) {}
-  void write(const cv::Mat& picture) override { video_.write(picture); }
+  OpenCvOutput(const cv::VideoWriter& video, fs::path file)
+      : video_(video), file_(std::move(file)) {}
+  void write(const cv::Mat& picture) override {
+    video_.write(picture);
+    ++pictures_;
+  }
+  /// videoio reports no error, so the file's pictures are counted.
+  int finish() override {
+    video_.release();
+    return count_libav_packets(file_) < pictures_ ? EIO : 0;
+  }
 
  private:
   cv::VideoWriter video_;
+  fs::path file_;
+  int pictures_ = 0;
 };
 
 class OpenCvMedia : public Media {
@@ -66,7 +79,7 @@ class OpenCvMedia : public Media {
                     {form.width, form.height},
                     {cv::VIDEOWRITER_PROP_IS_COLOR, form.colours ? 1 : 0}))
       return nullptr;
-    return std::make_unique<OpenCvOutput>(video);
+    return std::make_unique<OpenCvOutput>(video, file);
   }
 
   int count_pictures(const fs::path& file) const override { return count_libav_packets(file); }

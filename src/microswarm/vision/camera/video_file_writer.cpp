@@ -3,8 +3,9 @@
 
 #include <cstdio>
 #include <opencv2/imgproc.hpp>
+#include <system_error>
 
-#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/errors/write_error.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/formats/images/gif.hpp"
 #include "microswarm/formats/media/media.hpp"
@@ -80,7 +81,10 @@ std::optional<std::filesystem::path> VideoFileWriter::commit() {
   if (p.pictures == 0) return std::nullopt;
   std::filesystem::path folder = p.file;
   if (!p.staged) return folder.replace_extension();
+  const int error = p.video ? p.video->finish() : 0;
   p.video.reset();
+  if (error != 0)
+    throw WriteError(p.file.string(), "cannot write: " + std::generic_category().message(error));
   if (p.gif) p.gif->finish();
   if (std::filesystem::file_size(p.staged->path()) == 0)
     throw InputError(p.file.string(), "cannot write: the video stayed empty");

@@ -23,7 +23,8 @@ class VideoFileWriter {
 
   /// Appends a colour picture; all must have one size. Throws InputError as check_image_size.
   void add(const formats::Image& picture);
-  /// Ends the video and returns the path of the file or folder; nothing without pictures.
+  /// Ends the video and returns the path of the file or folder; nothing without pictures. Throws
+  /// WriteError "PATH: cannot write: REASON", and leaves no file, where a picture was not written.
   std::optional<std::filesystem::path> commit();
 
  private:
