@@ -5,7 +5,7 @@ import { type StreamState, pauseBefore, verdictOf } from './reconnect';
 const gone = 'The lab has ended or cannot be reached. Start it again and open the address that it prints.';
 
 /** Sends a request to the server; an error has the server's text. */
-export async function call<T>(method: 'GET' | 'POST', path: string, body?: unknown): Promise<T> {
+export async function call<T>(method: 'GET' | 'POST' | 'DELETE', path: string, body?: unknown): Promise<T> {
   const response = await fetch(path, {
     method,
     ...(body === undefined ? {} : { body: JSON.stringify(body) }),
