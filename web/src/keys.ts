@@ -65,6 +65,7 @@ export class Keys {
 
   private press(event: KeyboardEvent): void {
     const target = event.target as HTMLElement;
+    if (document.querySelector('dialog:modal')) return; // it has its own keys
     if (this.dialog.open || event.ctrlKey || event.altKey || event.metaKey) return;
     if (target.matches(writable) && event.key === 'Escape') target.blur();
     if (isTaken(target, event.key)) return;
