@@ -20,7 +20,7 @@ export async function call<T>(method: 'GET' | 'POST' | 'DELETE', path: string, b
 /** Status with which the server answers for a session; undefined if it does not. */
 export async function statusOf(session: number): Promise<number | undefined> {
   try {
-    return (await fetch(`/api/sessions/${session}`)).status;
+    return (await fetch(`/api/sessions/${session}`, { signal: AbortSignal.timeout(5000) })).status;
   } catch {
     return undefined;
   }

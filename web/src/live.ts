@@ -11,6 +11,7 @@ export class Live {
   hello: Hello | undefined;
   standing: Standing | undefined;
   rig: RigStanding | undefined;
+  private heard = 0; // time of the last message [ms]
   readonly history = new History();
   /** Time shown by the scene, and time under the pointer on a plot or the time line [s]. */
   shown = 0;
@@ -32,6 +33,12 @@ export class Live {
   get isTouched(): boolean {
     const { standing } = this;
     return standing !== undefined && (standing.changes.length > 0 || standing.steered || standing.mode !== 'autonomous');
+  }
+
+  /** Time since the last message, while a rig runs and so sends some; else 0 [s]. */
+  get silence(): number {
+    const runs = this.rig?.state === 'dry' || this.rig?.state === 'armed';
+    return runs ? (performance.now() - this.heard) / 1000 : 0;
   }
 
   /** Starts the stream, once all listeners are registered. */
@@ -96,6 +103,7 @@ export class Live {
   }
 
   private take(message: Message): void {
+    this.heard = performance.now();
     if (message.type === 'hello') this.hello = message;
     if (message.type === 'scenario' && this.hello) this.hello.scenario = message.scenario;
     if (message.type === 'standing') this.standing = message;
