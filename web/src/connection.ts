@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { type Answer, type Message, type Request, read } from './protocol';
-import { type StreamState, pauseBefore, verdictOf } from './reconnect';
+import { type StreamState, attemptsAfter, pauseBefore, verdictOf } from './reconnect';
 
 const gone = 'The lab has ended or cannot be reached. Start it again and open the address that it prints.';
 
@@ -43,6 +43,7 @@ export class Connection {
   private readonly listeners: Listener[] = [];
   private next = 1;
   private attempts = 0;
+  private opened: number | undefined; // time at which the stream opened [ms]
   private timer: number | undefined;
   private isLeft = false;
 
@@ -89,7 +90,7 @@ export class Connection {
     socket.binaryType = 'arraybuffer';
     socket.onmessage = (event) => this.take(read(event.data as ArrayBuffer));
     socket.onopen = () => {
-      this.attempts = 0;
+      this.opened = performance.now();
       this.onState('open', '');
     };
     socket.onclose = () => void this.broke();
@@ -98,6 +99,9 @@ export class Connection {
 
   private async broke(): Promise<void> {
     if (this.isLeft) return;
+    const life = this.opened === undefined ? 0 : performance.now() - this.opened;
+    this.opened = undefined;
+    this.attempts = attemptsAfter(this.attempts, life);
     this.settle(closed);
     const verdict = verdictOf(await statusOf(this.session), this.what);
     if (this.isLeft) return;

@@ -11,6 +11,8 @@ export class Live {
   hello: Hello | undefined;
   standing: Standing | undefined;
   rig: RigStanding | undefined;
+  /** Whether the session is gone. */
+  isClosed = false;
   private heard = 0; // time of the last message [ms]
   readonly history = new History();
   /** Time shown by the scene, and time under the pointer on a plot or the time line [s]. */
@@ -44,6 +46,7 @@ export class Live {
   /** Starts the stream, once all listeners are registered. */
   open(): void {
     this.connection = new Connection(this.session, this.what, (state, text) => {
+      this.isClosed = state === 'closed';
       for (const one of this.staters) one(state, text);
     });
     this.connection.listen((message) => this.take(message));
