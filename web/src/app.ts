@@ -24,25 +24,32 @@ function named(): Promise<Page> {
 }
 
 let shown = ''; // address of the page
+let routes = 0; // number of changes of the page
+let isAsking = false; // whether the page may be left
 
 async function route(): Promise<void> {
   const wanted = location.hash;
   if (wanted === shown && page) return; // it came back after a person stayed
   if (page?.mayLeave && page.isAtRisk?.()) {
     history.replaceState(null, '', shown);
-    if (!(await page.mayLeave())) return;
+    if (isAsking) return; // one question at a time
+    isAsking = true;
+    const goes = await page.mayLeave().finally(() => (isAsking = false));
+    if (!goes) return;
     history.pushState(null, '', wanted);
   }
+  const own = ++routes;
   page?.leave();
   page = undefined;
   shown = wanted;
   const place = document.getElementById('page');
   try {
     const made = await named();
-    if (location.hash !== wanted) return made.leave();
+    if (own !== routes) return made.leave(); // another address came meanwhile
     page = made;
     place?.replaceChildren(made.root);
   } catch (error) {
+    if (own !== routes) return;
     const why = element('p', { class: 'trouble', role: 'alert' }, (error as Error).message);
     place?.replaceChildren(element('div', { class: 'fault' }, element('a', { href: '#/', class: 'button quiet' }, '‹ Gallery'), why));
   }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 import { type Answer, type Message, type Request, read } from './protocol';
-import { type StreamState, pauseBefore, verdictOf } from './reconnect';
+import { type StreamState, attemptsAfter, pauseBefore, verdictOf } from './reconnect';
 
 const gone = 'The lab has ended or cannot be reached. Start it again and open the address that it prints.';
 
 /** Sends a request to the server; an error has the server's text. */
-export async function call<T>(method: 'GET' | 'POST', path: string, body?: unknown): Promise<T> {
+export async function call<T>(method: 'GET' | 'POST' | 'DELETE', path: string, body?: unknown): Promise<T> {
   const response = await fetch(path, {
     method,
     ...(body === undefined ? {} : { body: JSON.stringify(body) }),
@@ -20,7 +20,7 @@ export async function call<T>(method: 'GET' | 'POST', path: string, body?: unkno
 /** Status with which the server answers for a session; undefined if it does not. */
 export async function statusOf(session: number): Promise<number | undefined> {
   try {
-    return (await fetch(`/api/sessions/${session}`)).status;
+    return (await fetch(`/api/sessions/${session}`, { signal: AbortSignal.timeout(5000) })).status;
   } catch {
     return undefined;
   }
@@ -43,6 +43,7 @@ export class Connection {
   private readonly listeners: Listener[] = [];
   private next = 1;
   private attempts = 0;
+  private opened: number | undefined; // time at which the stream opened [ms]
   private timer: number | undefined;
   private isLeft = false;
 
@@ -89,7 +90,7 @@ export class Connection {
     socket.binaryType = 'arraybuffer';
     socket.onmessage = (event) => this.take(read(event.data as ArrayBuffer));
     socket.onopen = () => {
-      this.attempts = 0;
+      this.opened = performance.now();
       this.onState('open', '');
     };
     socket.onclose = () => void this.broke();
@@ -98,6 +99,9 @@ export class Connection {
 
   private async broke(): Promise<void> {
     if (this.isLeft) return;
+    const life = this.opened === undefined ? 0 : performance.now() - this.opened;
+    this.opened = undefined;
+    this.attempts = attemptsAfter(this.attempts, life);
     this.settle(closed);
     const verdict = verdictOf(await statusOf(this.session), this.what);
     if (this.isLeft) return;

@@ -2,7 +2,6 @@
 import { element } from './dom';
 import { eventName } from './events';
 import type { Live } from './live';
-import { number } from './numbers';
 
 const most = 200; // maximum number of events listed
 
@@ -14,10 +13,9 @@ export function eventList(live: Live, seek: (time: number) => void): HTMLElement
     const { events } = live.history;
     if (events.length === listed) return;
     listed = events.length;
-    const items = events.slice(0, most).map(({ t_s, kind, clearance_um }) => {
-      const gap = clearance_um === null ? '' : `, gap ${number(clearance_um, 3)} µm`;
+    const items = events.slice(0, most).map(({ t_s, kind }) => {
       const button = element('button', { type: 'button', class: 'quiet', onclick: () => seek(t_s) }, `${t_s.toFixed(1)} s`);
-      return element('li', {}, button, ` ${eventName(kind)}${gap}`);
+      return element('li', {}, button, ` ${eventName(kind)}`);
     });
     const rest = events.length - items.length;
     if (events.length === 0) items.push(element('li', { class: 'doc' }, 'None so far.'));

@@ -24,6 +24,7 @@ export function exportPanel(live: Live, scene: Scene): HTMLElement {
   const video = () => new URLSearchParams({ from: String(from.get() ?? ''), to: String(to.get() ?? ''), speed: speed.value, width: width.value });
   const path = `/api/sessions/${live.session}`;
   let cancel: AbortController | undefined;
+  const buttons: HTMLButtonElement[] = [];
 
   /** Says how far the export is. */
   const tell = async (name: string) => {
@@ -32,9 +33,10 @@ export function exportPanel(live: Live, scene: Scene): HTMLElement {
   };
   const act = (label: string, name: string, title: string, make: (signal: AbortSignal) => Promise<Blob>) => {
     const button = element('button', { type: 'button', title, onclick: () => void run() }, label);
+    buttons.push(button);
     const run = async () => {
-      cancel?.abort();
       cancel = new AbortController();
+      for (const one of buttons) one.disabled = true; // one export at a time
       stop.hidden = false;
       said.value = `Making ${name} …`;
       const asks = window.setInterval(() => void tell(name), 700);
@@ -46,6 +48,7 @@ export function exportPanel(live: Live, scene: Scene): HTMLElement {
       }
       window.clearInterval(asks);
       stop.hidden = true;
+      for (const one of buttons) one.disabled = false;
     };
     return button;
   };

@@ -30,10 +30,11 @@ export class Keys {
     if (event.detail > 0 && !this.dialog.open) at?.blur();
   };
 
-  /** Opens the dialog, not modal, so that the rest of the page stays usable. */
+  /** The dialog is not modal if the rest of the page must stay usable; no key acts but ? unless `mayAct`. */
   constructor(
     private readonly list: Key[],
     private readonly isModal = true,
+    private readonly mayAct: () => boolean = () => true,
   ) {
     list.push({ keys: ['?'], shown: '?', does: 'show the keys', act: () => this.help() });
     const rows = list.map((one) =>
@@ -65,11 +66,12 @@ export class Keys {
 
   private press(event: KeyboardEvent): void {
     const target = event.target as HTMLElement;
+    if (document.querySelector('dialog:modal')) return; // it has its own keys
     if (this.dialog.open || event.ctrlKey || event.altKey || event.metaKey) return;
     if (target.matches(writable) && event.key === 'Escape') target.blur();
     if (isTaken(target, event.key)) return;
     const found = this.list.find((one) => one.keys.includes(event.key));
-    if (!found) return;
+    if (!found || !(this.mayAct() || found.keys.includes('?'))) return;
     event.preventDefault();
     found.act(event);
   }

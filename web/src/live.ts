@@ -11,6 +11,9 @@ export class Live {
   hello: Hello | undefined;
   standing: Standing | undefined;
   rig: RigStanding | undefined;
+  /** Whether the session is gone. */
+  isClosed = false;
+  private heard = 0; // time of the last message [ms]
   readonly history = new History();
   /** Time shown by the scene, and time under the pointer on a plot or the time line [s]. */
   shown = 0;
@@ -34,9 +37,16 @@ export class Live {
     return standing !== undefined && (standing.changes.length > 0 || standing.steered || standing.mode !== 'autonomous');
   }
 
+  /** Time since the last message, while a rig runs and so sends some; else 0 [s]. */
+  get silence(): number {
+    const runs = this.rig?.state === 'dry' || this.rig?.state === 'armed';
+    return runs ? (performance.now() - this.heard) / 1000 : 0;
+  }
+
   /** Starts the stream, once all listeners are registered. */
   open(): void {
     this.connection = new Connection(this.session, this.what, (state, text) => {
+      this.isClosed = state === 'closed';
       for (const one of this.staters) one(state, text);
     });
     this.connection.listen((message) => this.take(message));
@@ -96,6 +106,7 @@ export class Live {
   }
 
   private take(message: Message): void {
+    this.heard = performance.now();
     if (message.type === 'hello') this.hello = message;
     if (message.type === 'scenario' && this.hello) this.hello.scenario = message.scenario;
     if (message.type === 'standing') this.standing = message;

@@ -2,9 +2,9 @@
 import { element } from './dom';
 import type { Live } from './live';
 
-/** Whether only its record can repeat a run, since it was changed or steered. */
+/** Whether only its record can repeat a run, since it was changed or steered; never one that is gone. */
 export function isAtRisk(live: Live): boolean {
-  return live.isTouched && !live.hello?.live && !live.hello?.playback;
+  return live.isTouched && !live.isClosed && !live.hello?.live && !live.hello?.playback;
 }
 
 interface Words {
@@ -22,7 +22,7 @@ const anew: Words = {
 };
 const away: Words = {
   title: 'Leave this run?',
-  text: 'The run was changed or steered while it ran. It pauses and is kept for 30 minutes under "Open runs" of the gallery; only its record keeps it for good.',
+  text: 'The run was changed or steered while it ran. It pauses and is kept for 30 minutes under "Open runs" of the gallery, unless others need its place; only its record keeps it for good.',
   keep: 'Stay here',
   go: 'Leave',
 };

@@ -5,6 +5,11 @@ export function pauseBefore(attempt: number): number {
   return Math.min(5000, 250 * 2 ** Math.min(attempt, 10));
 }
 
+/** Number of attempts that count against a stream that broke after this time [ms]; one that lived begins anew. */
+export function attemptsAfter(attempts: number, life: number): number {
+  return life >= 5000 ? 0 : attempts;
+}
+
 /** State of a stream; `lost`: it broke and is being opened again; `closed`: it has ended. */
 export type StreamState = 'open' | 'lost' | 'closed';
 

@@ -4,7 +4,9 @@ import type { Drive } from './drive';
 import type { Live } from './live';
 import { type Controls, type RigInfo, type RigStanding, said } from './protocol';
 import { number } from './numbers';
-import { type ConsoleView, actOf, consoleOf } from './rig_view';
+import { type ConsoleView, actOf, consoleOf, isSilent } from './rig_view';
+
+const answerTime = 500; // maximum time of the answer to a stop [ms]
 
 export interface RigConsole {
   /** The bar, which is always visible. */
@@ -25,10 +27,23 @@ export function rigConsole(live: Live, drive: Drive, say: (text: string, isTroub
     const answer = await live.ask(request);
     say(said(answer));
   };
-  const stop = () => void live.ask({ do: 'stop' });
+  let stops = 0; // number of the last stop
+  let isStopUnanswered = false;
+  const stop = async () => {
+    const own = ++stops;
+    const late = window.setTimeout(() => {
+      isStopUnanswered = true;
+      show();
+    }, answerTime);
+    await live.ask({ do: 'stop' });
+    window.clearTimeout(late);
+    if (own !== stops || isLost) return; // a broken stream answers too
+    isStopUnanswered = false;
+    show();
+  };
 
   const badge = element('strong', { class: 'badge-rig', role: 'status' });
-  const stopButton = element('button', { type: 'button', class: 'stop', title: 'Coils to zero at once (space or Esc)', onclick: stop }, 'STOP');
+  const stopButton = element('button', { type: 'button', class: 'stop', title: 'Coils to zero at once (space or Esc)', onclick: () => void stop() }, 'STOP');
   const words = element('span', { class: 'why', tabindex: '0' });
   const armButton = button('Arm …', 'Drive the coils', () => openPanel());
   const dryButton = button('Dry run', 'Restart without driving the coils', () => void ask({ do: 'dry' }));
@@ -78,7 +93,7 @@ export function rigConsole(live: Live, drive: Drive, say: (text: string, isTroub
     panel,
   );
 
-  const view = () => consoleOf({ rig, controls, mode: live.standing?.mode, arms, isLost });
+  const view = () => consoleOf({ rig, controls, mode: live.standing?.mode, arms, isLost, silence: arms ? 0 : live.silence, isStopUnanswered });
   const show = () => {
     const now = view();
     bar.dataset['state'] = now.state;
@@ -92,8 +107,10 @@ export function rigConsole(live: Live, drive: Drive, say: (text: string, isTroub
     }
   };
   live.listen((message) => {
-    if (message.type === 'rig') rig = message;
-    else if (message.type === 'controls') controls = message;
+    if (message.type === 'rig') {
+      rig = message;
+      if (rig.state === 'ended') isStopUnanswered = false;
+    } else if (message.type === 'controls') controls = message;
     else if (message.type !== 'standing' && message.type !== 'hello') return;
     show();
   });
@@ -105,6 +122,7 @@ export function rigConsole(live: Live, drive: Drive, say: (text: string, isTroub
 
   const beat = new Worker('/beat.js', { type: 'module' });
   beat.onmessage = () => {
+    if (isSilent(live.silence) || bar.dataset['state'] === 'silent') show();
     if (controls?.holds && !isLost) live.tell({ do: 'beat' });
   };
   const key = (event: KeyboardEvent) => {
@@ -113,7 +131,7 @@ export function rigConsole(live: Live, drive: Drive, say: (text: string, isTroub
     event.stopImmediatePropagation();
     if (act === 'close') return closePanel();
     event.preventDefault();
-    stop();
+    void stop();
   };
   window.addEventListener('keydown', key, { capture: true });
   show();

@@ -28,12 +28,16 @@ const sights: { [trouble: string]: string } = {
 export function rigTab(live: Live): HTMLElement {
   const root = element('div', { class: 'rig-numbers' });
   let drawn = 0;
+  let later: number | undefined;
   let numbers: RigStanding | undefined;
   let now: RigStanding | undefined;
   let isLost = false;
   const draw = () => {
+    window.clearTimeout(later);
     if (!numbers || !now) return;
-    const stale = staleWords(now, numbers, isLost);
+    const runs = now.state === 'dry' || now.state === 'armed';
+    if (runs && root.isConnected) later = window.setTimeout(draw, 1000); // they become old without a message
+    const stale = staleWords(now, numbers, isLost, live.silence);
     root.classList.toggle('stale', stale !== '');
     root.replaceChildren(...(stale ? [element('p', { class: 'when', role: 'status' }, stale)] : []), ...sections(numbers, live.hello?.rig_info));
   };

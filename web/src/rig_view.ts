@@ -8,6 +8,7 @@ const badges = {
   armed: '⚡ ARMED',
   ended: '■ Coils at zero',
   lost: '✕ Connection lost',
+  silent: '? Nothing heard',
 };
 
 export interface Known {
@@ -18,6 +19,10 @@ export interface Known {
   arms: boolean;
   /** Whether the stream is broken. */
   isLost: boolean;
+  /** Time since the last message of the rig while it should send some, or 0 [s]. */
+  silence: number;
+  /** Whether a stop has no answer in time. */
+  isStopUnanswered: boolean;
 }
 
 interface Shown {
@@ -35,9 +40,9 @@ export interface ConsoleView {
   buttons: { [name in 'stop' | 'arm' | 'dry' | 'hold' | 'manual' | 'end' | 'take']: Shown };
 }
 
-export function consoleOf({ rig, controls, mode, arms, isLost }: Known): ConsoleView {
+export function consoleOf({ rig, controls, mode, arms, isLost, silence, isStopUnanswered }: Known): ConsoleView {
   const isHot = !isLost && (arms || rig?.state === 'armed' || rig?.state === 'opening');
-  const state = isLost ? 'lost' : arms ? 'opening' : (rig?.state ?? 'opening');
+  const state = isLost ? 'lost' : isSilent(silence) ? 'silent' : arms ? 'opening' : (rig?.state ?? 'opening');
   const holds = controls?.holds ?? false;
   const runs = rig?.state === 'dry' || rig?.state === 'armed';
   const driving = { hidden: !holds || !runs, disabled: isLost };
@@ -46,9 +51,16 @@ export function consoleOf({ rig, controls, mode, arms, isLost }: Known): Console
   return {
     state,
     badge: isUnsure ? '■ Stopped, zero not confirmed' : badges[state],
-    words: isLost
-      ? 'The lab, or the watchdog of the device, sets the coils to zero. The connection is being opened again.'
-      : wordsOf(rig, controls),
+    words: [
+      isStopUnanswered ? 'STOP was not answered: use the emergency stop!' : '',
+      isLost
+        ? 'The lab, or the watchdog of the device, sets the coils to zero. The connection is being opened again.'
+        : isSilent(silence)
+          ? `Nothing heard for ${Math.floor(silence)} s: what the coils do is not known.`
+          : wordsOf(rig, controls),
+    ]
+      .filter((one) => one !== '')
+      .join(' '),
     isHot,
     buttons: {
       stop: { hidden: false, disabled: isLost || !(runs || isHot) },
@@ -62,6 +74,11 @@ export function consoleOf({ rig, controls, mode, arms, isLost }: Known): Console
   };
 }
 
+/** Whether a rig, which sends ten messages per second, was not heard for too long. */
+export function isSilent(silence: number): boolean {
+  return silence >= 1.5;
+}
+
 /** Effect of a key, regardless of the focus. */
 export function actOf(key: string, isHot: boolean, asks: boolean): 'stop' | 'close' | undefined {
   if (isHot && (key === ' ' || key === 'Escape')) return 'stop';
@@ -69,9 +86,10 @@ export function actOf(key: string, isHot: boolean, asks: boolean): 'stop' | 'clo
 }
 
 /** Time and reason of a rig's numbers that are not of now; empty if they are. */
-export function staleWords(now: RigStanding, numbers: RigStanding, isLost: boolean): string {
+export function staleWords(now: RigStanding, numbers: RigStanding, isLost: boolean, silence = 0): string {
   const at = `${(numbers.t_s ?? 0).toFixed(1)} s`;
   if (isLost) return `Last heard at ${at}: the connection is broken.`;
+  if (isSilent(silence)) return `Last heard at ${at}: nothing for ${Math.floor(silence)} s.`;
   if (now.state === 'opening') return `Of the run before, at ${at}: the rig is being opened.`;
   if (now.state !== 'ended') return '';
   const zero =

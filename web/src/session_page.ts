@@ -44,6 +44,7 @@ export async function sessionPage(session: number, isRig = false): Promise<Page>
   const rig = isRig ? rigConsole(live, drive, say) : undefined;
   const compare = () => openCopy(live, parameters).catch((error: Error) => say(error.message));
 
+  let isOpen = false;
   const arrow = (by: number) => (event: KeyboardEvent) => {
     if (!drive.key(event, true)) time.transport.seekBy(by * (event.shiftKey ? 10 : 1));
   };
@@ -57,7 +58,7 @@ export async function sessionPage(session: number, isRig = false): Promise<Page>
       { keys: ['Escape'], shown: 'Esc', does: 'deselect the tool', act: () => hands.choose(undefined) },
       { keys: ['x'], shown: 'x', does: 'use the chosen tool at the middle of the view', act: () => hands.use() },
     ]),
-  ], !isRig);
+  ], !isRig, () => isOpen);
   const up = (event: KeyboardEvent) => drive.key(event, false);
   const blur = () => drive.release();
   window.addEventListener('keyup', up);
@@ -109,6 +110,7 @@ export async function sessionPage(session: number, isRig = false): Promise<Page>
   live.onState((state, text) => {
     say(text);
     root.dataset['stream'] = state;
+    isOpen = state === 'open';
     over.inert = parameters.root.inert = state !== 'open';
   });
   live.open();

@@ -13,8 +13,9 @@ namespace microswarm::lab {
 Hub::Hub(Post post, const Limits& limits) : post_(std::move(post)), limits_(limits) {}
 
 void Hub::open(Opening opening, std::function<void(const Outcome<std::uint64_t>&)> opened) {
-  if (sessions_.size() >= limits_.sessions) close_unwatched();
-  if (sessions_.size() >= limits_.sessions || closing_.size() >= limits_.sessions)
+  const auto spare = static_cast<std::size_t>(
+      std::ranges::count_if(sessions_, [this](const auto& one) { return makes_room(one.first); }));
+  if (sessions_.size() - spare >= limits_.sessions || closing_.size() >= limits_.sessions)
     return opened({.trouble = fmt::format("{} sessions are open, which is the limit: close one",
                                           limits_.sessions)});
   if (opening.live)
@@ -31,7 +32,10 @@ void Hub::open(Opening opening, std::function<void(const Outcome<std::uint64_t>&
   const std::uint64_t waits =
       wait(number, [this, number, opened = std::move(opened)](const std::string& trouble) {
         const auto found = sessions_.find(number);
-        if (found != sessions_.end() && trouble.empty()) found->second.is_open = true;
+        if (found != sessions_.end() && trouble.empty()) {
+          if (sessions_.size() > limits_.sessions) close_unwatched();  // now that it has opened
+          found->second.is_open = true;
+        }
         if (!trouble.empty()) close(number);
         opened({.value = number, .trouble = trouble});
       });
@@ -162,12 +166,18 @@ bool Hub::is_watched(std::uint64_t session) const {
                              [&](const auto& page) { return page.second.session == session; });
 }
 
+/// Whether it is closed for others: it is open, unwatched and not on a rig.
+bool Hub::makes_room(std::uint64_t session) const {
+  const Running& running = sessions_.at(session);
+  return running.is_open && !running.host->opening().live && !is_watched(session);
+}
+
 /// Closes the session that is unwatched for the longest time, never one on a rig.
 void Hub::close_unwatched() {
   auto longest = sessions_.end();
   for (auto it = sessions_.begin(); it != sessions_.end(); ++it) {
     const auto& [number, running] = *it;
-    if (!running.is_open || running.host->opening().live || is_watched(number)) continue;
+    if (!makes_room(number)) continue;
     if (longest == sessions_.end() || running.unwatched > longest->second.unwatched) longest = it;
   }
   if (longest != sessions_.end()) close(longest->first);

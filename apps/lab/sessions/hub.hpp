@@ -40,7 +40,7 @@ class Hub {
   const Limits& limits() const { return limits_; }
 
   /// Opens a session; `opened` gets its number. The session of a rig is joined if it is open. If
-  /// there are too many, the oldest unwatched one is closed.
+  /// there are too many, the oldest unwatched one is closed after it has opened.
   void open(Opening opening, std::function<void(const Outcome<std::uint64_t>&)> opened);
   bool has(std::uint64_t session) const;
   /// One of the open sessions.
@@ -101,6 +101,7 @@ class Hub {
     std::function<void(const std::string& trouble)> settle;
   };
   bool is_watched(std::uint64_t session) const;
+  bool makes_room(std::uint64_t session) const;
   void close_unwatched();
   void close_largest();
   void deliver(std::uint64_t session, std::uint64_t page, const MessagePtr& message);

@@ -32,6 +32,7 @@ bool RigGuard::hears() const {
 void RigGuard::stop(const std::string& why, rig::FaultKind kind) {
   const std::lock_guard lock(mutex_);
   ++stops_;
+  last_kind_ = kind;
   if (!session_) return;
   why_ = {why, kind};
   changed_.notify_all();
@@ -49,7 +50,7 @@ void RigGuard::watch(std::shared_ptr<rig::LiveSession> session, bool listens, st
   session_ = std::move(session);
   listens_ = listens;
   if (listens) heard_ = Clock::now();  // no current was sent so far
-  if (stops_ != stops) why_ = {"it was stopped while it was opened", rig::FaultKind::person};
+  if (stops_ != stops) why_ = {"it was stopped while it was opened", last_kind_};
   changed_.notify_all();
 }
 
@@ -68,6 +69,7 @@ void RigGuard::run() {
     if (priority_ > realtime_priority()) priority.emplace(priority_);
     if (session_ && why_.why.empty() && listens_ && Clock::now() >= heard_ + patience) {
       ++stops_;
+      last_kind_ = rig::FaultKind::person;
       why_ = {fmt::format("no word from the page for {:.1f} s",
                           std::chrono::duration<double>(patience).count()),
               rig::FaultKind::person};

@@ -55,7 +55,8 @@ class RigGuard {
   bool ends_ = false;
   int priority_ = 0;
   std::uint64_t stops_ = 0;
-  rig::Fault why_;  ///< of a pending stop
+  rig::Fault why_;                                   ///< of a pending stop
+  rig::FaultKind last_kind_ = rig::FaultKind::none;  ///< of the last stop request
   Clock::time_point heard_{};
   std::thread thread_;
 };

@@ -9,6 +9,7 @@ const live = (more) => ({ session: 1, isTouched: true, hello: { live: false, pla
 test('only what a record alone can repeat is at risk', () => {
   assert.equal(isAtRisk(live()), true);
   assert.equal(isAtRisk(live({ isTouched: false })), false);
+  assert.equal(isAtRisk(live({ isClosed: true })), false);
   assert.equal(isAtRisk(live({ hello: { live: true, playback: false } })), false);
   assert.equal(isAtRisk(live({ hello: { live: false, playback: true } })), false);
 });

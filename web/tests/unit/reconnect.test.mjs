@@ -3,13 +3,19 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { source } from './source.mjs';
 
-const { pauseBefore, verdictOf } = await source('reconnect');
+const { attemptsAfter, pauseBefore, verdictOf } = await source('reconnect');
 
 test('attempts are soon at first, then every five seconds, without an end', () => {
   const pauses = Array.from({ length: 2000 }, (_, i) => pauseBefore(i));
   assert.ok(pauses[0] <= 300);
   pauses.slice(1).forEach((pause, i) => assert.ok(pause >= pauses[i]));
   assert.equal(pauses.at(-1), 5000);
+});
+
+test('a stream that opens and breaks at once is not opened ever faster', () => {
+  assert.equal(attemptsAfter(6, 0), 6);
+  assert.equal(attemptsAfter(6, 200), 6);
+  assert.equal(attemptsAfter(6, 60_000), 0);
 });
 
 test('only a session that is gone, or another lab, ends the attempts', () => {

@@ -6,7 +6,7 @@ import { source } from './source.mjs';
 const { actOf, barOf, consoleOf, staleWords } = await source('rig_view');
 const rig = (state, more = {}) => ({ type: 'rig', state, why: '', zero_confirmed: null, stop_trouble: '', folder: '', ...more });
 const holder = { holds: true, free: false, pages: 1 };
-const known = { controls: holder, mode: 'autonomous', arms: false, isLost: false };
+const known = { controls: holder, mode: 'autonomous', arms: false, isLost: false, silence: 0, isStopUnanswered: false };
 const enabled = ({ buttons }) => Object.keys(buttons).filter((name) => !buttons[name].hidden && !buttons[name].disabled).sort();
 
 test('what can be pressed in each state', () => {
@@ -47,6 +47,23 @@ test('numbers after a stop or a break say of when they are', () => {
   assert.match(staleWords(rig('ended', { zero_confirmed: false }), numbers, false), /NOT confirmed/);
   assert.match(staleWords(rig('opening'), numbers, false), /run before/);
   assert.match(staleWords(numbers, numbers, true), /Last heard at 12\.3 s/);
+});
+
+test('a rig that is not heard is not called armed, and can be stopped', () => {
+  const view = consoleOf({ ...known, rig: rig('armed'), silence: 4.2 });
+  assert.equal(view.state, 'silent');
+  assert.doesNotMatch(view.badge, /ARMED/);
+  assert.match(view.words, /Nothing heard for 4 s/);
+  assert.equal(view.isHot, true);
+  assert.ok(enabled(view).includes('stop'));
+  assert.equal(consoleOf({ ...known, rig: rig('armed'), silence: 0.3 }).state, 'armed');
+  const numbers = rig('armed', { t_s: 12.34 });
+  assert.match(staleWords(numbers, numbers, false, 4.2), /Last heard at 12\.3 s: nothing for 4 s/);
+});
+
+test('a stop without an answer calls for the emergency stop', () => {
+  for (const isLost of [false, true])
+    assert.match(consoleOf({ ...known, rig: rig('armed'), isLost, isStopUnanswered: true }).words, /^STOP was not answered: use the emergency stop/);
 });
 
 test('bars of signed values begin in the middle', () => {
