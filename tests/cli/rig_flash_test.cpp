@@ -61,7 +61,8 @@ TEST_F(RigFlash, AnInstallationHasItsOwnFirmware) {
 
 TEST_F(RigFlash, SaysWhatIsMissingOrWrong) {
   refused({"rig", "flash", "--set", "LIMIT=500"}, naming("--set LIMIT=500", {"LIMITS"}));
-  refused({"rig", "flash", "--set", "SLEW=$(touch x)"}, naming("--set SLEW=$(touch x)", {"KEY"}));
+  refused({"rig", "flash", "--set", "SLEW=$(touch x)"},
+          naming("--set SLEW=$(touch x)", {"4 to 255"}));
   at.environment.emplace_back("AVRDUDE_FAILS", "1");
   const Outcome failed = run({"rig", "flash"});
   EXPECT_EQ(failed.code, 4) << failed.err;
@@ -71,6 +72,25 @@ TEST_F(RigFlash, SaysWhatIsMissingOrWrong) {
   EXPECT_TRUE(names(wrong.err, "MAX_DEGC needs PROBES")) << wrong.err;
   at.path = (at.folder / "bin").string();
   refused({"rig", "flash"}, naming("", {"make, avr-gcc", "apt install"}));
+}
+
+TEST_F(RigFlash, TakesOnlyValuesThatTheFirmwareIsMadeFor) {
+  const auto refuses = [&](const std::string& setting, const std::string& limit) {
+    refused({"rig", "flash", "--set", setting}, naming("--set " + setting, {limit}));
+  };
+  for (const char* limits : {"-800,1000,1000,1000,1000,1000", "8000,1,1,1,1,1", "800",
+                             "075,1,1,1,1,1", "1,1,1,1,1,1,1", "1,1,1,1,1,", "0x10,1,1,1,1,1", "",
+                             "+1,1,1,1,1,1", "99999999999,1,1,1,1,1", "1, 1,1,1,1,1"})
+    refuses(std::string("LIMITS=") + limits, "6 whole numbers of 0 to 1000");
+  for (const char* degc : {"80-10", "075", "241", "-1", "90.5"})
+    refuses(std::string("MAX_DEGC=") + degc, "0 to 240");
+  refuses("PROBES=1,1,2,0,0,0", "0 to 1");
+  refuses("PROBE_OHMS=499", "500 to 6000");
+  refuses("SLEW=3", "4 to 255");
+  refuses("SLEW", "KEY=VALUE");
+  refuses("EMERGENCY_STOP=None", "must be none");
+  refused({"rig", "flash", "--set", "SLEW=50", "--set", "SLEW=60"},
+          naming("--set SLEW=60", {"twice"}));
 }
 
 }  // namespace

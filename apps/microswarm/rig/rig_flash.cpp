@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -35,9 +36,21 @@ struct FlashOptions {
   std::string out;
 };
 
-/// Settings of the firmware's Makefile.
-constexpr std::array<std::string_view, 6> build_settings{"LIMITS", "SLEW",       "EMERGENCY_STOP",
-                                                         "PROBES", "PROBE_OHMS", "MAX_DEGC"};
+/// Setting of the firmware's Makefile: whole numbers, with commas, or a word if there are none.
+struct BuildSetting {
+  std::string_view key;
+  std::size_t numbers = 1;
+  int least = 0, most = 0;
+  std::string_view word{};
+};
+
+constexpr std::array<BuildSetting, 6> build_settings{
+    {{.key = "LIMITS", .numbers = 6, .most = 1000},
+     {.key = "SLEW", .least = 4, .most = 255},
+     {.key = "EMERGENCY_STOP", .numbers = 0, .word = "none"},
+     {.key = "PROBES", .numbers = 6, .most = 1},
+     {.key = "PROBE_OHMS", .least = 500, .most = 6000},
+     {.key = "MAX_DEGC", .most = 240}}};
 
 /// Source of the firmware, beside the shipped scenarios. Throws InputError if it is not there.
 fs::path firmware_folder() {
@@ -63,18 +76,49 @@ void require_programs(const std::vector<std::string>& programs) {
                      "; in Debian: apt install gcc-avr avr-libc make avrdude");
 }
 
+/// Whether it is plain decimal digits: a leading 0 would be octal to the compiler.
+bool is_number(std::string_view text, int least, int most) {
+  int number = 0;
+  const auto [end, error] = std::from_chars(text.begin(), text.end(), number);
+  return error == std::errc() && end == text.end() && text == std::to_string(number) &&
+         number >= least && number <= most;
+}
+
+bool fits(std::string_view value, const BuildSetting& setting) {
+  if (setting.numbers == 0) return value == setting.word;
+  if (value.find_first_of(" \t\n\v\f\r") != value.npos) return false;
+  const auto numbers = split(value, ',');
+  return numbers.size() == setting.numbers && std::ranges::all_of(numbers, [&](const auto& one) {
+           return is_number(one, setting.least, setting.most);
+         });
+}
+
+std::string values_text(const BuildSetting& setting) {
+  if (setting.numbers == 0) return std::string(setting.word);
+  return setting.numbers == 1
+             ? fmt::format("a whole number of {} to {}", setting.least, setting.most)
+             : fmt::format("{} whole numbers of {} to {}, with commas", setting.numbers,
+                           setting.least, setting.most);
+}
+
+/// Throws InputError for a setting that is unknown, given twice or of another value.
 void require_settings(const std::vector<std::string>& given) {
-  for (const std::string& setting : given) {
-    const std::string_view key = std::string_view(setting).substr(0, setting.find('='));
-    const std::string_view value =
-        std::string_view(setting).substr(std::min(key.size() + 1, setting.size()));
-    const bool is_plain = std::ranges::all_of(value, [](char c) {
-      return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == ',' || c == '-';
-    });
-    if (std::ranges::find(build_settings, key) == build_settings.end() || value.empty() ||
-        !is_plain)
-      throw InputError(fmt::format("--set {}: must be KEY=VALUE, with a KEY of {}", setting,
-                                   fmt::join(build_settings, ", ")));
+  std::vector<std::string_view> keys;
+  for (const std::string& one : given) {
+    const std::size_t equals = one.find('=');
+    const std::string_view key = std::string_view(one).substr(0, equals);
+    const auto* const setting = std::ranges::find(build_settings, key, &BuildSetting::key);
+    if (equals == one.npos || setting == build_settings.end()) {
+      std::string known;
+      for (const BuildSetting& each : build_settings)
+        known += fmt::format("{}{}", known.empty() ? "" : ", ", each.key);
+      throw InputError(fmt::format("--set {}: must be KEY=VALUE, with a KEY of {}", one, known));
+    }
+    if (!fits(std::string_view(one).substr(equals + 1), *setting))
+      throw InputError(fmt::format("--set {}: must be {}", one, values_text(*setting)));
+    if (std::ranges::find(keys, key) != keys.end())
+      throw InputError(fmt::format("--set {}: {} is given twice", one, key));
+    keys.push_back(key);
   }
 }
 
