@@ -72,7 +72,7 @@ static void reply(uint8_t type, uint8_t sequence, uint8_t result) {
     n += put_u16(packet + n, now_ms());
     packet[n++] = reset_cause;
     packet[n++] = trip | (emergency() ? trip_open_now : 0);
-    packet[n++] = SLEW;
+    packet[n++] = (SLEW);
     n += put_u16(packet + n, scale);
     n += put_u16(packet + n, crc16((const uint8_t*)&aim, sizeof aim));
     n += put_u16(packet + n, phase);

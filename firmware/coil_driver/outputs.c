@@ -12,10 +12,17 @@
 #define WIDTH_OF_FULL_SCALE 52364UL  // 65536 · TOP / FULL_SCALE
 #define ENABLE PA6
 #define UNSCALED 32768U
+#define SLEW_PER_TICK ((SLEW) / TICKS_PER_MS)
 
-#if SLEW < TICKS_PER_MS || SLEW > 255
+#if (SLEW) < TICKS_PER_MS || (SLEW) > 255
 #error SLEW is not between 4 and 255
 #endif
+
+#define ARE_SHARES(a, b, c, d, e, f) \
+  (IS_SHARE(a) && IS_SHARE(b) && IS_SHARE(c) && IS_SHARE(d) && IS_SHARE(e) && IS_SHARE(f))
+#define IS_SHARE(limit) ((limit) >= 0 && (limit) <= FULL_SCALE)
+#define ARE_SHARES_OF(...) ARE_SHARES(__VA_ARGS__)
+_Static_assert(ARE_SHARES_OF(LIMITS), "LIMITS are not six of 0 to 1000");
 
 static const int16_t limits[CHANNELS] = {LIMITS};
 
@@ -152,10 +159,10 @@ void outputs_tick(void) {
   }
   for (uint8_t c = 0; c < CHANNELS; ++c) {
     int16_t left = rest[c];
-    if (left > SLEW / TICKS_PER_MS)
-      left -= SLEW / TICKS_PER_MS;
-    else if (left < -(SLEW / TICKS_PER_MS))
-      left += SLEW / TICKS_PER_MS;
+    if (left > SLEW_PER_TICK)
+      left -= SLEW_PER_TICK;
+    else if (left < -SLEW_PER_TICK)
+      left += SLEW_PER_TICK;
     else
       left = 0;
     rest[c] = left;

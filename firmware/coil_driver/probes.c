@@ -28,10 +28,10 @@ uint8_t probes_trip(void) { return trip_none; }
 #if !ANY_OF(PROBES)
 #error PROBES names no channel
 #endif
-#if PROBE_OHMS < 500 || PROBE_OHMS > 6000
+#if (PROBE_OHMS) < 500 || (PROBE_OHMS) > 6000
 #error PROBE_OHMS is not between 500 and 6000
 #endif
-#if defined MAX_DEGC && (MAX_DEGC < 0 || MAX_DEGC > 240)
+#if defined MAX_DEGC && ((MAX_DEGC) < 0 || (MAX_DEGC) > 240)
 #error MAX_DEGC is not between 0 and 240
 #endif
 
@@ -69,7 +69,7 @@ static void select(uint8_t from) {
 
 static int16_t temperature_of(uint16_t sum_of_readings) {
   const uint32_t share = sum_of_readings + READINGS / 2;  // the middle of a step
-  const uint32_t resistance = 10UL * PROBE_OHMS * share / (SCALE - share);
+  const uint32_t resistance = 10UL * share * (PROBE_OHMS) / (SCALE - share);
   if (resistance < table[0]) return probe_shorted;
   if (resistance > table[ROWS - 1]) return probe_open;
   uint8_t row = 0;
@@ -80,6 +80,7 @@ static int16_t temperature_of(uint16_t sum_of_readings) {
 }
 
 #ifdef MAX_DEGC
+#define HOTTEST (10 * (MAX_DEGC))  // [0.1 °C]
 
 static bool hot[CHANNELS];
 
@@ -87,9 +88,9 @@ static bool is_mark(int16_t mean) { return mean == probe_open || mean == probe_s
 
 static void compare(int16_t mean) {
   if (is_mark(mean)) return;
-  if (mean > 10 * MAX_DEGC)
+  if (mean > HOTTEST)
     hot[channel] = true;
-  else if (mean < 10 * MAX_DEGC - COOLER)
+  else if (mean < HOTTEST - COOLER)
     hot[channel] = false;
 }
 

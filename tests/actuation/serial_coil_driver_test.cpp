@@ -224,8 +224,10 @@ TEST(SerialCoilDriverPty, FormerFirmwareIsToldHowToRenewIt) {
       SerialCoilDriver driver(params_of(device));
       FAIL();
     } catch (const HardwareError& e) {
-      EXPECT_TRUE(test::is_one_line_naming(
-          e.what(), device.port(), {"version " + std::to_string(version), "microswarm rig flash"}));
+      EXPECT_TRUE(
+          test::is_one_line_naming(e.what(), device.port(),
+                                   {"version " + std::to_string(version),
+                                    "microswarm rig flash, port " + device.port(), "settings"}));
     }
   }
 }

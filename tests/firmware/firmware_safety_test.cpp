@@ -176,5 +176,29 @@ TEST(FirmwareLimits, AreThoseGivenToMakeAndKeepTheDirection) {
   EXPECT_TRUE(mega.when({500, -100, 150, -200, 250, -200}));
 }
 
+/// The firmware's program by `make` with these settings; empty if it is refused.
+std::string built_with(const std::string& settings) {
+  const Folder out;
+  const std::string make =
+      "make --silent -C " MICROSWARM_SOURCE_DIR "/firmware/coil_driver OUT=" + (out / "").string() +
+      " " + settings + " >/dev/null 2>&1";
+  return std::system(make.c_str()) == 0 ? read_file(out / "coil_driver.hex") : std::string();
+}
+
+TEST(FirmwareSettings, ThatWouldDriveWithoutALimitAreNotBuilt) {
+  for (const char* wrong :
+       {"LIMITS=-800,1000,1000,1000,1000,1000", "LIMITS=8000,1000,1000,1000,1000,1000",
+        "LIMITS=800", "LIMITS=1,1,1,1,1,1,1", "SLEW=100-99", "EMERGENCY_STOP=None"})
+    EXPECT_EQ(built_with(wrong), "") << wrong;
+  EXPECT_NE(built_with("LIMITS=0,1000,1000,1000,1000,1000"), "");
+}
+
+TEST(FirmwareSettings, AreValuesAsAWhole) {
+  const std::string probes = "PROBES=1,1,1,0,0,0 ";
+  const std::string plain = built_with(probes + "MAX_DEGC=70 PROBE_OHMS=2200 SLEW=60");
+  EXPECT_NE(plain, "");
+  EXPECT_EQ(built_with(probes + "MAX_DEGC=80-10 PROBE_OHMS=2000+200 SLEW=50+10"), plain);
+}
+
 }  // namespace
 }  // namespace microswarm

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "microswarm/config/yaml.hpp"
+#include "microswarm/rig/runtime/coil_notes.hpp"
+#include "tests/messages.hpp"
 
 namespace microswarm::rig {
 namespace {
@@ -48,6 +50,41 @@ TEST(CoilLoad, WithoutALimitItIsTheLargestCurrent) {
   EXPECT_EQ(meter.load().max_current, std::nullopt);
   EXPECT_EQ(meter.load().temperature, 41);
   EXPECT_EQ(meter.load().max_temperature, std::nullopt);
+}
+
+class CoilNotesTest : public testing::Test {
+ protected:
+  std::vector<std::string> take() { return notes.take(output, system); }
+
+  actuation::CoilSystem system{
+      read_yaml_text<actuation::CoilSystemParams>(
+          "{coils: {type: helmholtz}, drives: [{max_temperature_degc: 90}]}", "coils"),
+      "coils"};
+  actuation::CoilOutput output;
+  CoilNotes notes;
+};
+
+TEST_F(CoilNotesTest, ALooseProbeIsNamedOnceThoughItComesBack) {
+  const std::string loose = "the probe of channel 2 is open";
+  output.probe_trouble = loose;
+  ASSERT_EQ(take().size(), 1u);
+  for (int i = 0; i < 100; ++i) {
+    output.probe_trouble = i % 2 == 0 ? "" : loose;
+    EXPECT_TRUE(take().empty());
+  }
+  output.probe_trouble = loose + ", the probe of channel 3 is shorted";
+  const std::vector<std::string> other = take();
+  ASSERT_EQ(other.size(), 1u);
+  EXPECT_TRUE(other.front().starts_with("the probe of channel 3 is shorted: ")) << other.front();
+}
+
+TEST_F(CoilNotesTest, ACoilThatItsProbeShowsBeyondItsLimitIsNamedOnce) {
+  output.temperatures = Eigen::Vector3d(25, 90, 25);
+  EXPECT_TRUE(take().empty());
+  output.temperatures[1] = 500;
+  EXPECT_EQ(take(), std::vector<std::string>{"coil y is at 500 °C by its probe, limit 90 °C"});
+  output.temperatures[1] = 510;
+  EXPECT_TRUE(take().empty());
 }
 
 }  // namespace

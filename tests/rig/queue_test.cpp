@@ -341,6 +341,27 @@ TEST_F(QueueTest, CommentsInTheRigsFileDoNotChangeIt) {
   EXPECT_NE(hash(), before);
 }
 
+TEST_F(QueueTest, AGridThatChangesAwayFromItsCentreIsAnotherRig) {
+  const auto grid = [&](int axis, double more) {
+    std::string text = "8\n2 2 2\n-0.01 0.01\n-0.01 0.01\n-0.01 0.01\n";
+    for (const double x : {-0.01, 0.01})
+      for (const double y : {-0.01, 0.01})
+        for (const double z : {-0.01, 0.01}) {
+          const double b = 0.001 + more * x;  // at the centre always the same
+          text += fmt::format("{} {} {} {} {} {}\n", x, y, z, axis == 0 ? b : 0, axis == 1 ? b : 0,
+                              axis == 2 ? b : 0);
+        }
+    folder.with(fmt::format("coil{}.txt", axis), text);
+  };
+  for (int axis = 0; axis < 3; ++axis) grid(axis, 0);
+  folder.with("coils.yaml", "coils: {type: vfield, files: [coil0.txt, coil1.txt, coil2.txt]}\n");
+  const auto hash = [&] { return rig_hash(read_rig(folder / "rig.yaml")); };
+  const std::string before = hash();
+  EXPECT_EQ(hash(), before);
+  grid(1, 0.01);
+  EXPECT_NE(hash(), before);
+}
+
 TEST_F(QueueTest, AChangedRigIsToldWhenTheQueueGoesOn) {
   const std::string text = "entries: [{scenario: a.yaml}, {scenario: b.yaml}]\n";
   results["b"] = {faulty(FaultKind::device)};

@@ -122,7 +122,7 @@ SerialCoilDriver::SerialCoilDriver(const SerialCoilParams& params)
   if (reply->version != coil_link_version || reply->result != CoilResult::ok)
     throw HardwareError(fmt::format(
         "{0}: its firmware speaks version {1} of the protocol, this program {2}; renew it "
-        "with microswarm rig flash",
+        "with microswarm rig flash, port {0}, with the settings of before",
         params_.port, reply->version, coil_link_version));
 }
 

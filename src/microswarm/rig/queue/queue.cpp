@@ -181,11 +181,17 @@ Queue open_queue(const fs::path& path, const fs::path& rig_file, const Settings&
 }
 
 std::string rig_hash(const Rig& rig) {
+  const fs::path file = rig.folder / rig.params.coils;
+  const auto coils = read_yaml_file<actuation::CoilSystemParams>(file);
+  std::vector<std::string> named;
+  if (const auto* const mpem = std::get_if<actuation::MpemCoils>(&coils.coils))
+    named = {mpem->file};
+  if (const auto* const grids = std::get_if<actuation::VfieldCoils>(&coils.coils))
+    named = grids->files;
   Hash hash;
   hash.text(to_yaml(rig.params));
-  hash.text(to_yaml(read_yaml_file<actuation::CoilSystemParams>(rig.folder / rig.params.coils)));
-  const actuation::Actuation centre = rig.system.at(rig.system.centre());  // by its own files
-  for (const double value : centre.field.reshaped()) hash.value(value);
+  hash.text(to_yaml(coils));
+  for (const std::string& name : named) hash.text(read_file(input_folder(file) / name));
   return hash.hex();
 }
 

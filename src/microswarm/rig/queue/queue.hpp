@@ -49,7 +49,7 @@ Queue open_queue(const std::filesystem::path& queue, const std::filesystem::path
                  const Settings& rig_settings);
 
 /// Fingerprint of a rig: the values of its file with its settings and of its coils' file, and the
-/// field per ampere at the centre. Comments do not count.
+/// bytes of the calibration or grids that the latter names. Comments in the former do not count.
 std::string rig_hash(const Rig& rig);
 
 /// Opens an item on its rig.

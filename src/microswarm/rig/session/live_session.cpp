@@ -245,9 +245,8 @@ std::vector<std::string> LiveSession::take_notes() {
   if (kept_.seen_until && !std::exchange(told_sightings_, true))
     notes.push_back(
         fmt::format("the record keeps {} sightings: later ones are left out", options_.max_logged));
-  if (std::string trouble = plant_->load().output.probe_trouble;
-      trouble != std::exchange(told_probes_, trouble) && !trouble.empty())
-    notes.push_back(std::move(trouble) + ": by its model alone that coil may be warmer than known");
+  for (std::string& note : coil_notes_.take(plant_->load().output, on_.rig.system))
+    notes.push_back(std::move(note));
   for (std::string& note : plant_->take_notes()) notes.push_back(std::move(note));
   if (std::string low = look_at_disk(); !low.empty()) notes.push_back(std::move(low));
   return notes;

@@ -12,6 +12,7 @@
 
 #include "microswarm/experiment/session/session.hpp"
 #include "microswarm/rig/commissioning/commissioning.hpp"
+#include "microswarm/rig/runtime/coil_notes.hpp"
 #include "microswarm/rig/runtime/coil_temperatures.hpp"
 #include "microswarm/rig/runtime/command_log.hpp"
 #include "microswarm/rig/runtime/devices.hpp"
@@ -95,7 +96,8 @@ class LiveSession {
   /// After close(): the recorded video, if requested.
   std::optional<vision::RecordedVideo> video() const;
   /// Notes that came up since the last call, each once: little space on the disk, more values
-  /// than the record keeps, changes of the pictures. To be called in the thread that steps.
+  /// than the record keeps, broken probes and hot coils, changes of the pictures. To be called in
+  /// the thread that steps.
   std::vector<std::string> take_notes();
   /// Numbers of the newest tick; to be called in the thread that steps.
   LiveStatus status() const;
@@ -123,7 +125,7 @@ class LiveSession {
   std::unique_ptr<vision::VideoRecorder> video_;
   std::vector<std::string> warnings_;
   std::atomic<bool> currents_full_ = false;
-  std::string told_probes_;  // trouble with probes, as last reported
+  CoilNotes coil_notes_;
   bool told_currents_ = false, told_sightings_ = false, told_space_ = false;
   double disk_due_ = 0;   ///< time of the next look at the disk [s]
   double state_due_ = 0;  ///< time of the next state of the pictures that is kept [s]
