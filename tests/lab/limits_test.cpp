@@ -47,6 +47,20 @@ TEST(Limits, TheOldestSessionThatNobodyWatchesMakesRoom) {
   EXPECT_TRUE(is_there(newer));
 }
 
+TEST(Limits, AFileThatDoesNotOpenTakesNoRoom) {
+  ServerOptions options;
+  options.limits.sessions = 2;
+  const Lab lab(options);
+  const std::string at = "/api/sessions/" + std::to_string(open(lab));
+  open(lab);
+  const Json wrong{{"file", lab.file}, {"settings", {"goal_tolerance_um=-1"}}};
+  EXPECT_EQ(ask(lab, http::verb::post, "/api/sessions", wrong.dump()).result(),
+            http::status::bad_request);
+  EXPECT_EQ(get(lab, at).result(), http::status::ok);
+  open(lab);
+  EXPECT_EQ(get(lab, at).result(), http::status::not_found);
+}
+
 TEST(Limits, ASessionThatNobodyWatchesPausesAndIsKept) {
   ServerOptions options;
   options.limits.sweep_period = 100ms;
