@@ -5,7 +5,7 @@ export function pauseBefore(attempt: number): number {
   return Math.min(5000, 250 * 2 ** Math.min(attempt, 10));
 }
 
-/** Number of attempts that count against a stream that broke after this time [ms]; one that lived begins anew. */
+/** Number of attempts that count against a stream that broke after this time [ms]; one that lived begins again. */
 export function attemptsAfter(attempts: number, life: number): number {
   return life >= 5000 ? 0 : attempts;
 }
