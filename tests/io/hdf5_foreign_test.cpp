@@ -25,9 +25,10 @@ class ForeignHdf5 : public testing::Test {
     H5Fclose(made);
     return error_of([&] { read_hdf5(read_file(folder / "x.h5"), "x.h5")->numbers("/a"); });
   }
-  static void create(hid_t file, const char* name, hsize_t count, hid_t properties) {
+  static void create(hid_t file, const char* name, hsize_t count, hid_t properties,
+                     hid_t type = H5T_IEEE_F64LE) {
     const hid_t space = H5Screate_simple(1, &count, nullptr);
-    H5Dclose(H5Dcreate2(file, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, properties, H5P_DEFAULT));
+    H5Dclose(H5Dcreate2(file, name, type, space, H5P_DEFAULT, properties, H5P_DEFAULT));
     H5Sclose(space);
     H5Pclose(properties);
   }
@@ -91,6 +92,18 @@ TEST_F(ForeignHdf5, RowsNeedStorage) {
   EXPECT_TRUE(is_one_line_naming(
       complaint([](hid_t file) { create(file, "/a", 99'000'000, H5Pcreate(H5P_DATASET_CREATE)); }),
       "x.h5", {"/a", "fewer values than rows"}));
+}
+
+TEST_F(ForeignHdf5, NumbersAreNotWiderThanTheyCanBe) {
+  const hid_t wide = H5Tcopy(H5T_IEEE_F64LE);
+  H5Tset_size(wide, 1'000'000);
+  EXPECT_TRUE(is_one_line_naming(complaint([&](hid_t file) {
+                                   const hid_t properties = H5Pcreate(H5P_DATASET_CREATE);
+                                   H5Pset_alloc_time(properties, H5D_ALLOC_TIME_EARLY);
+                                   create(file, "/a", 3, properties, wide);
+                                 }),
+                                 "x.h5", {"/a", "no column of numbers"}));
+  H5Tclose(wide);
 }
 
 TEST_F(ForeignHdf5, PackedZerosAreRead) {

@@ -112,6 +112,12 @@ Id open_column(const ImageReader& reader, hid_t file, const std::string& path, h
   return set;
 }
 
+/// Whether a type is of this class and not wider than a number: HDF5 converts values through a
+/// buffer for them, which a damaged width makes gigabytes.
+bool is_number(hid_t type, H5T_class_t kind) {
+  return H5Tget_class(type) == kind && H5Tget_size(type) <= sizeof(double);
+}
+
 template <class T>
 std::vector<T> read_column(const ImageReader& reader, hid_t file, const std::string& path,
                            H5T_class_t kind, hid_t type) {
@@ -119,7 +125,7 @@ std::vector<T> read_column(const ImageReader& reader, hid_t file, const std::str
   hsize_t count = 0;
   const Id set = open_column(reader, file, path, count);
   const Id stored(H5Dget_type(set), H5Tclose);
-  if (H5Tget_class(stored) != kind) reader.fail(path + " is no column of numbers of its kind");
+  if (!is_number(stored, kind)) reader.fail(path + " is no column of numbers of its kind");
   std::vector<T> values(count);
   if (count > 0 && H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
     reader.fail(path + " is damaged");
@@ -153,7 +159,7 @@ void read_attribute(const ImageReader& reader, hid_t file, const std::string& pa
   const Id attribute = open_attribute(reader, file, path, name);
   const Id space(H5Aget_space(attribute), H5Sclose);
   const Id stored(H5Aget_type(attribute), H5Tclose);
-  if (H5Sget_simple_extent_npoints(space) != 1 || H5Tget_class(stored) != kind ||
+  if (H5Sget_simple_extent_npoints(space) != 1 || !is_number(stored, kind) ||
       H5Aread(attribute, type, value) < 0)
     reader.fail("attribute " + std::string(name) + " at " + path + " is of another kind");
 }
