@@ -44,7 +44,7 @@ export async function sessionPage(session: number, isRig = false): Promise<Page>
   const rig = isRig ? rigConsole(live, drive, say) : undefined;
   const compare = () => openCopy(live, parameters).catch((error: Error) => say(error.message));
 
-  let isOpen = false;
+  let isBroken = false; // before it opens, keys wait for its answer
   const arrow = (by: number) => (event: KeyboardEvent) => {
     if (!drive.key(event, true)) time.transport.seekBy(by * (event.shiftKey ? 10 : 1));
   };
@@ -58,7 +58,7 @@ export async function sessionPage(session: number, isRig = false): Promise<Page>
       { keys: ['Escape'], shown: 'Esc', does: 'deselect the tool', act: () => hands.choose(undefined) },
       { keys: ['x'], shown: 'x', does: 'use the chosen tool at the middle of the view', act: () => hands.use() },
     ]),
-  ], !isRig, () => isOpen);
+  ], !isRig, () => isRig || !isBroken);
   const up = (event: KeyboardEvent) => drive.key(event, false);
   const blur = () => drive.release();
   window.addEventListener('keyup', up);
@@ -110,7 +110,7 @@ export async function sessionPage(session: number, isRig = false): Promise<Page>
   live.onState((state, text) => {
     say(text);
     root.dataset['stream'] = state;
-    isOpen = state === 'open';
+    isBroken = state !== 'open';
     over.inert = parameters.root.inert = state !== 'open';
   });
   live.open();
