@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <ctime>
 #include <optional>
 #include <string>
 #include <utility>
@@ -410,7 +409,7 @@ TEST(ThickLine, RepeatedPointsAreADisc) {
   EXPECT_EQ(parts.discs[0].radius, 5);
 }
 
-// A union of so many edges that cross would take hours.
+// A union of so many edges that cross does not end soon.
 TEST(GeoJsonErrors, ARingThatCrossesItselfTooOften) {
   Rng rng(6, Purpose::test);
   std::string points;
@@ -418,10 +417,8 @@ TEST(GeoJsonErrors, ARingThatCrossesItselfTooOften) {
     points += fmt::format("[{:.4f},{:.4f}],", rng.uniform(0, 1e4), rng.uniform(0, 1e4));
   const std::string text =
       fmt::format(R"({{"type":"Polygon","coordinates":[[[0,0],{}[0,0]]]}})", points);
-  const auto began = std::clock();
   EXPECT_TRUE(
       test::is_one_line_naming(geojson_complaint(text), "x.geojson:1", {"60001 edges", "at most"}));
-  EXPECT_LT(static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC, 10);
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 
 #include "microswarm/core/maths/rng.hpp"
 #include "microswarm/geometry/predicates.hpp"
@@ -117,13 +116,11 @@ std::vector<Segment> serpentine(int edges, double angle) {
   return made;
 }
 
-// A grid would compare 2·10⁸ pairs.
+// A grid would compare 2·10⁸ pairs at each angle, for minutes.
 TEST(EdgeMeetings, LongParallelEdgesAreSwept) {
   for (const double angle : {0.0, 0.3, 0.7854, 1.5707963}) {
     const auto edges = serpentine(20'000, angle);
-    const auto began = std::clock();
     EXPECT_EQ(meetings(edges).size(), edges.size() - 1) << angle;
-    EXPECT_LT(static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC, 1) << angle;
   }
 }
 
@@ -131,13 +128,11 @@ TEST(EdgeMeetings, GivesUpWhereEdgesCrossTooOften) {
   Rng rng(4, Purpose::test);
   const auto edges = lattice_ring(rng, 100'000, 1 << 20);
   std::size_t count = 0;
-  const auto began = std::clock();
   EXPECT_FALSE(for_each_meeting(body_of(edges), [&](std::size_t, std::size_t) {
     ++count;
     return true;
   }));
   EXPECT_LE(count, max_edge_meetings(edges.size()) + 1);
-  EXPECT_LT(static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC, 10);
 }
 
 TEST(EdgeMeetings, EndsWhenItIsAsked) {
