@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <filesystem>
 #include <sstream>
 #include <string>
 
@@ -89,7 +90,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace microswarm::experiment;
   static const MemoryFile file;
   static const std::string whole = [] {
-    const std::string name = "/tmp/fuzz_record_" + std::to_string(::getpid()) + ".h5";
+    const std::string file_name = "fuzz_record_" + std::to_string(::getpid()) + ".h5";
+    const std::string name = (std::filesystem::temp_directory_path() / file_name).string();
     write_record(sample(), name);
     std::string bytes = read_file(name);
     ::unlink(name.c_str());
