@@ -7,8 +7,8 @@ from pathlib import Path
 
 LICENCE = "SPDX-License-Identifier: Apache-2.0"
 LONGEST = 450  # lines; a file is one reader's sitting
-FOLDERS = ["src", "apps", "tests", "tools", "cmake", "scripts", ".ci"]
-PATTERNS = ["*.cpp", "*.hpp", "*.in", "*.cmake", "CMakeLists.txt", "*.py"]
+FOLDERS = ["src", "apps", "tests", "tools", "cmake", "scripts", "web/src", ".ci"]
+PATTERNS = ["*.cpp", "*.hpp", "*.in", "*.cmake", "CMakeLists.txt", "*.py", "*.ts"]
 
 
 def sources(root):

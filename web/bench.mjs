@@ -7,7 +7,8 @@ const quick = process.argv.includes('--quick');
 const browser = await startBrowser();
 const rows = [];
 
-const quantile = (values, share) => values.sort((a, b) => a - b)[Math.min(values.length - 1, Math.floor(share * values.length))];
+const quantile = (values, share) =>
+  values.sort((a, b) => a - b)[Math.min(values.length - 1, Math.floor(share * values.length))];
 
 /** What the browser draws with, as a part of rows' names; nothing for a graphics card. */
 async function renderer() {
@@ -46,32 +47,47 @@ async function firstPicture() {
     times.push(run.took);
     await end(run);
   }
-  rows.push({ name: `page${by}`, quantity: 'start of the program to the first picture, median', unit: 'ms', ours: quantile(times, 0.5), aim: 1000 });
+  rows.push({
+    name: `page${by}`,
+    quantity: 'start of the program to the first picture, median',
+    unit: 'ms',
+    ours: quantile(times, 0.5),
+    aim: 1000,
+  });
 }
 
 /** From a change in the page to the picture that has it, while the session plays. */
 async function changedPicture() {
   const run = await open('scenarios/papers/radar/twelve.yaml');
-  const times = await run.page.evaluate(async (changes) => {
-    const { connection, scene } = window.microswarm;
-    const frame = () => new Promise((resolve) => requestAnimationFrame(resolve));
-    const goal = () => JSON.stringify(scene.goal.places[0].at);
-    await connection.ask({ do: 'play' });
-    const times = [];
-    for (let k = 0; k < changes; ++k) {
-      await new Promise((resolve) => setTimeout(resolve, 20 + 30 * Math.random()));
-      const before = goal();
-      const began = performance.now();
-      void connection.ask({ do: 'set', key: 'goal_um', value: `[${4000 + 10 * (k % 2)}, 1200]` });
-      while (goal() === before) await frame();
-      const { pictures } = scene;
-      while (scene.pictures === pictures) await frame();
-      times.push(performance.now() - began);
-    }
-    return times;
-  }, quick ? 40 : 200);
+  const times = await run.page.evaluate(
+    async (changes) => {
+      const { connection, scene } = window.microswarm;
+      const frame = () => new Promise((resolve) => requestAnimationFrame(resolve));
+      const goal = () => JSON.stringify(scene.goal.places[0].at);
+      await connection.ask({ do: 'play' });
+      const times = [];
+      for (let k = 0; k < changes; ++k) {
+        await new Promise((resolve) => setTimeout(resolve, 20 + 30 * Math.random()));
+        const before = goal();
+        const began = performance.now();
+        void connection.ask({ do: 'set', key: 'goal_um', value: `[${4000 + 10 * (k % 2)}, 1200]` });
+        while (goal() === before) await frame();
+        const { pictures } = scene;
+        while (scene.pictures === pictures) await frame();
+        times.push(performance.now() - began);
+      }
+      return times;
+    },
+    quick ? 40 : 200,
+  );
   await end(run);
-  rows.push({ name: `page${by}`, quantity: 'change to its picture, p99', unit: 'ms', ours: quantile(times, 0.99), aim: 100 });
+  rows.push({
+    name: `page${by}`,
+    quantity: 'change to its picture, p99',
+    unit: 'ms',
+    ours: quantile(times, 0.99),
+    aim: 100,
+  });
 }
 
 /** Pictures of as many robots as fast as they are drawn. */

@@ -20,7 +20,8 @@ await build({
   outdir: out,
   logLevel: 'warning',
 });
-for (const name of ['app.js', 'app.css']) writeFileSync(join(out, `${name}.gz`), gzipSync(readFileSync(join(out, name)), { level: 9 }));
+for (const name of ['app.js', 'app.css'])
+  writeFileSync(join(out, `${name}.gz`), gzipSync(readFileSync(join(out, name)), { level: 9 }));
 copyFileSync(join(here, 'src/index.html'), join(out, 'index.html'));
 writeFileSync(join(out, 'licences.txt'), licences());
 

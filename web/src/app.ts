@@ -51,7 +51,9 @@ async function route(): Promise<void> {
   } catch (error) {
     if (own !== routes) return;
     const why = element('p', { class: 'trouble', role: 'alert' }, (error as Error).message);
-    place?.replaceChildren(element('div', { class: 'fault' }, element('a', { href: '#/', class: 'button quiet' }, '‹ Gallery'), why));
+    place?.replaceChildren(
+      element('div', { class: 'fault' }, element('a', { href: '#/', class: 'button quiet' }, '‹ Gallery'), why),
+    );
   }
 }
 

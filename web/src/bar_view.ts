@@ -4,7 +4,12 @@ import { speeds } from './speeds';
 import type { Transport } from './transport';
 
 /** State of the bar's buttons. */
-export function barView(time: Pick<Transport, 'anyPlays' | 'allEnded' | 'isOver'>, standing: Pick<Standing, 'frame' | 'frames' | 'growing' | 'speed'>, isRecord: boolean, looksBack: boolean) {
+export function barView(
+  time: Pick<Transport, 'anyPlays' | 'allEnded' | 'isOver'>,
+  standing: Pick<Standing, 'frame' | 'frames' | 'growing' | 'speed'>,
+  isRecord: boolean,
+  looksBack: boolean,
+) {
   const { anyPlays: plays, allEnded: ended, isOver: over } = time;
   const isNewest = !looksBack && (!isRecord || standing.frame + 1 >= standing.frames);
   return {

@@ -31,9 +31,15 @@ export async function comparePage(numbers: number[]): Promise<Page> {
     }),
   );
   const restart = () => Promise.all(sides.map((side, i) => side.parameters.restart([], `run ${names[i]}`)));
-  const time = timeBar(sides.map((side) => side.live), restart);
+  const time = timeBar(
+    sides.map((side) => side.live),
+    restart,
+  );
   const table = element('div', { class: 'table' });
-  const plots = new Plots(sides.map((side) => side.live), time.transport.seekTime);
+  const plots = new Plots(
+    sides.map((side) => side.live),
+    time.transport.seekTime,
+  );
   const layers = layersTab(sides.map((side) => side.stage.scene));
 
   const settingsOf = (live: Live) => combine(live.hello?.settings ?? [], live.standing?.changes ?? []);
@@ -47,7 +53,11 @@ export async function comparePage(numbers: number[]): Promise<Page> {
       const status = live.standing?.ended ? live.standing.status : (live.standing?.state ?? '');
       side.caption.replaceChildren(
         element('strong', {}, names[i] as string),
-        element('span', { class: 'own' }, shown || (lists[0]?.join() === lists[1]?.join() ? 'same settings' : 'settings of the file')),
+        element(
+          'span',
+          { class: 'own' },
+          shown || (lists[0]?.join() === lists[1]?.join() ? 'same settings' : 'settings of the file'),
+        ),
         element('output', { class: 'status' }, status.replaceAll('_', ' ')),
       );
       side.figure.dataset['status'] = live.standing?.status ?? '';
@@ -59,7 +69,12 @@ export async function comparePage(numbers: number[]): Promise<Page> {
     if (isPlaying && performance.now() - drawn < 250) return;
     drawn = performance.now();
     describe();
-    table.replaceChildren(metricsTable(names, sides.map((side) => side.live.standing?.metrics ?? {})));
+    table.replaceChildren(
+      metricsTable(
+        names,
+        sides.map((side) => side.live.standing?.metrics ?? {}),
+      ),
+    );
   };
   for (const side of sides)
     side.live.listen((message) => {
@@ -68,7 +83,12 @@ export async function comparePage(numbers: number[]): Promise<Page> {
   const fit = () => sides.forEach((side) => side.stage.scene.fit());
   const keys = new Keys([
     ...timeKeys(time),
-    { keys: ['ArrowLeft'], shown: '←', does: 'previous frame', act: (e) => time.transport.seekBy(e.shiftKey ? -10 : -1) },
+    {
+      keys: ['ArrowLeft'],
+      shown: '←',
+      does: 'previous frame',
+      act: (e) => time.transport.seekBy(e.shiftKey ? -10 : -1),
+    },
     { keys: ['ArrowRight'], shown: '→', does: 'next frame', act: (e) => time.transport.seekBy(e.shiftKey ? 10 : 1) },
     { keys: ['f'], shown: 'f', does: 'fit the maps', act: fit },
   ]);

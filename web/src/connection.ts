@@ -32,7 +32,11 @@ export async function requireOpen(session: number): Promise<void> {
   if (status !== 200) throw new Error(verdictOf(status, 'This run').text);
 }
 
-const closed: Answer = { type: 'answer', id: 0, issues: [{ keys: [], text: 'The connection is broken: nothing was changed.' }] };
+const closed: Answer = {
+  type: 'answer',
+  id: 0,
+  issues: [{ keys: [], text: 'The connection is broken: nothing was changed.' }],
+};
 
 type Listener = (message: Message) => void;
 

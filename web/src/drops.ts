@@ -3,7 +3,11 @@ import { element } from './dom';
 
 /** Takes files that are dropped anywhere in the window, which says so while one is dragged over it; returns the function that ends it. */
 export function takeDrops(take: (files: File[]) => void): () => void {
-  const sign = element('div', { class: 'drop-here', hidden: true }, element('strong', {}, 'Drop it: a photograph, a scenario or a record'));
+  const sign = element(
+    'div',
+    { class: 'drop-here', hidden: true },
+    element('strong', {}, 'Drop it: a photograph, a scenario or a record'),
+  );
   document.body.append(sign);
   const over = (event: DragEvent) => {
     event.preventDefault();

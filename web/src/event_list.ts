@@ -14,7 +14,11 @@ export function eventList(live: Live, seek: (time: number) => void): HTMLElement
     if (events.length === listed) return;
     listed = events.length;
     const items = events.slice(0, most).map(({ t_s, kind }) => {
-      const button = element('button', { type: 'button', class: 'quiet', onclick: () => seek(t_s) }, `${t_s.toFixed(1)} s`);
+      const button = element(
+        'button',
+        { type: 'button', class: 'quiet', onclick: () => seek(t_s) },
+        `${t_s.toFixed(1)} s`,
+      );
       return element('li', {}, button, ` ${eventName(kind)}`);
     });
     const rest = events.length - items.length;

@@ -21,7 +21,13 @@ export function exportPanel(live: Live, scene: Scene): HTMLElement {
     numberEntry({ placeholder: label, 'aria-label': label, title }, undefined, (trouble) => (said.value = trouble));
   const from = time('from s', 'First time of the video [s]; empty: the start');
   const to = time('to s', 'Last time of the video [s]; empty: the newest frame');
-  const video = () => new URLSearchParams({ from: String(from.get() ?? ''), to: String(to.get() ?? ''), speed: speed.value, width: width.value });
+  const video = () =>
+    new URLSearchParams({
+      from: String(from.get() ?? ''),
+      to: String(to.get() ?? ''),
+      speed: speed.value,
+      width: width.value,
+    });
   const path = `/api/sessions/${live.session}`;
   let cancel: AbortController | undefined;
   const buttons: HTMLButtonElement[] = [];
@@ -63,7 +69,9 @@ export function exportPanel(live: Live, scene: Scene): HTMLElement {
       act('SVG', 'picture.svg', 'The run at this time, as vector graphics', (signal) =>
         fetched(`${path}/picture.svg?t=${live.shown}`, signal),
       ),
-      act('CSV', 'plots.csv', 'The numbers of the plots', () => Promise.resolve(new Blob([csvOf(live.history.columns, live.hello?.states ?? [])], { type: 'text/csv' }))),
+      act('CSV', 'plots.csv', 'The numbers of the plots', () =>
+        Promise.resolve(new Blob([csvOf(live.history.columns, live.hello?.states ?? [])], { type: 'text/csv' })),
+      ),
     ),
     element(
       'div',

@@ -123,7 +123,13 @@ function controlOf(id: string, schema: Schema, nullable: boolean, sliding: Slidi
 }
 
 function toggle(id: string, change: (value: Json) => void): Control {
-  const box = element('input', { id, type: 'checkbox', role: 'switch', class: 'switch', onchange: () => change(box.checked) });
+  const box = element('input', {
+    id,
+    type: 'checkbox',
+    role: 'switch',
+    class: 'switch',
+    onchange: () => change(box.checked),
+  });
   return { nodes: [box], show: (value) => (box.checked = value === true) };
 }
 

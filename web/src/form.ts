@@ -69,7 +69,8 @@ export class Form {
       one.setIssue(text);
       if (text !== '') first ??= one.root;
     }
-    for (let group = first?.closest('details'); group; group = group.parentElement?.closest('details')) group.open = true;
+    for (let group = first?.closest('details'); group; group = group.parentElement?.closest('details'))
+      group.open = true;
     first?.scrollIntoView({ block: 'nearest' });
   }
 
@@ -79,8 +80,7 @@ export class Form {
     if (!isGroup(schema)) return this.fieldNode(key, schema, fields);
     const body: HTMLElement[] = [];
     if (value === null || value === undefined) {
-      if (allowsNull(schema))
-        body.push(element('p', { class: 'doc' }, 'None in this scenario.'));
+      if (allowsNull(schema)) body.push(element('p', { class: 'doc' }, 'None in this scenario.'));
     } else if (inner.oneOf) {
       body.push(this.kindNode(key, inner, fields));
       this.addProperties(body, key, alternative(inner, value), value, fields);
@@ -90,7 +90,13 @@ export class Form {
     return this.group(key, described(schema).doc, body);
   }
 
-  private addProperties(to: HTMLElement[], key: string, schema: Schema | undefined, value: Json, fields: Field[]): void {
+  private addProperties(
+    to: HTMLElement[],
+    key: string,
+    schema: Schema | undefined,
+    value: Json,
+    fields: Field[],
+  ): void {
     for (const [name, one] of Object.entries(schema?.properties ?? {}))
       if (name !== 'type') to.push(this.node(`${key}.${name}`, one, at(value, name), fields));
   }
@@ -140,7 +146,11 @@ export class Form {
           type: 'button',
           class: 'remove',
           disabled: !this.owner.canChange(),
-          onclick: () => this.owner.change(key, entries.filter((_, k) => k !== i)),
+          onclick: () =>
+            this.owner.change(
+              key,
+              entries.filter((_, k) => k !== i),
+            ),
         },
         'Remove',
       );
@@ -179,7 +189,10 @@ export class Form {
     const now = this.owner.isAtOnce(key);
     return element(
       'span',
-      { class: now ? 'badge now' : 'badge', title: now ? 'Takes effect at the next tick' : 'Takes effect at a restart' },
+      {
+        class: now ? 'badge now' : 'badge',
+        title: now ? 'Takes effect at the next tick' : 'Takes effect at a restart',
+      },
       now ? 'at once' : 'restart',
     );
   }

@@ -75,7 +75,11 @@ export async function galleryPage(): Promise<Page> {
       'section',
       {},
       element('h2', {}, heading(folder)),
-      element('div', { class: 'cards' }, ...entries.map((entry) => card(entry, () => void attempt({ file: entry.file })))),
+      element(
+        'div',
+        { class: 'cards' },
+        ...entries.map((entry) => card(entry, () => void attempt({ file: entry.file }))),
+      ),
     ),
   );
   const none = element('p', { class: 'doc', hidden: true }, 'No experiment matches.');
@@ -97,14 +101,29 @@ export async function galleryPage(): Promise<Page> {
   });
   document.title = 'microswarm lab';
   const again = listing.open
-    ? [element('button', { type: 'button', onclick: () => void attempt({}) }, 'Open the experiment of the command line')]
+    ? [
+        element(
+          'button',
+          { type: 'button', onclick: () => void attempt({}) },
+          'Open the experiment of the command line',
+        ),
+      ]
     : [];
   const { sessions } = await call<{ sessions: OpenRun[] }>('GET', '/api/sessions');
   const queue = listing.queue ? queueSection() : undefined;
   const root = element(
     'div',
     { class: 'gallery' },
-    element('header', { class: 'top' }, element('h1', {}, 'microswarm lab'), search, ...again, element('button', { type: 'button', class: 'choose', onclick: () => chooser.click() }, 'Open a file …'), chooser, themeSwitch()),
+    element(
+      'header',
+      { class: 'top' },
+      element('h1', {}, 'microswarm lab'),
+      search,
+      ...again,
+      element('button', { type: 'button', class: 'choose', onclick: () => chooser.click() }, 'Open a file …'),
+      chooser,
+      themeSwitch(),
+    ),
     trouble,
     none,
     ...(queue ? [queue.root] : []),
@@ -135,7 +154,12 @@ function openRuns(sessions: OpenRun[]): HTMLElement {
       `${name.slice(name.lastIndexOf('/') + 1)} · ${t_s.toFixed(1)} s${watched ? ' · shown by a page' : ''}`,
     ),
   );
-  return element('section', { class: 'open-runs' }, element('h2', {}, 'Open runs'), element('div', { class: 'row' }, ...links));
+  return element(
+    'section',
+    { class: 'open-runs' },
+    element('h2', {}, 'Open runs'),
+    element('div', { class: 'row' }, ...links),
+  );
 }
 
 function card(entry: Entry, act: () => void): HTMLElement {

@@ -24,15 +24,23 @@ export interface Entry {
 export function cardText(entry: Entry): { name: string; text: string; trouble: string } {
   const { trouble } = entry;
   if (!entry.record) return { name: entry.name, text: entry.description, trouble };
-  const parts = [entry.outcome, entry.navigator, entry.written].filter((one) => one !== '').map((one) => one.replaceAll('_', ' '));
+  const parts = [entry.outcome, entry.navigator, entry.written]
+    .filter((one) => one !== '')
+    .map((one) => one.replaceAll('_', ' '));
   const folder = entry.file.split('/').at(-2) ?? '';
   // Most records are called run.h5: their folders distinguish them.
-  return { name: entry.name === 'run' && folder ? `${folder} / run` : entry.name, text: [`Record of ${entry.description || 'a run'}`, ...parts].join(' · '), trouble };
+  return {
+    name: entry.name === 'run' && folder ? `${folder} / run` : entry.name,
+    text: [`Record of ${entry.description || 'a run'}`, ...parts].join(' · '),
+    trouble,
+  };
 }
 
 const largest = 64 * 1024 * 1024; // bytes, as the server takes
 
 /** Reason why a file cannot be taken; empty if it can. */
 export function refusal(name: string, bytes: number): string {
-  return bytes > largest ? `${name} has ${Math.ceil(bytes / 1024 / 1024)} MiB; at most ${largest / 1024 / 1024} MiB can be opened here.` : '';
+  return bytes > largest
+    ? `${name} has ${Math.ceil(bytes / 1024 / 1024)} MiB; at most ${largest / 1024 / 1024} MiB can be opened here.`
+    : '';
 }

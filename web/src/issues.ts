@@ -28,7 +28,10 @@ export function routed(issues: Issue[], fields: string[], asked: string[]): Rout
 /** A text with the label of a field in place of its key. */
 function named(text: string, key: string): string {
   const name = key.slice(key.lastIndexOf('.') + 1);
-  return text.replace(new RegExp(`(^|\\s)(${key.replaceAll('.', '\\.')}|${name})(?=\\s)`, 'g'), `$1${words(name).label}`);
+  return text.replace(
+    new RegExp(`(^|\\s)(${key.replaceAll('.', '\\.')}|${name})(?=\\s)`, 'g'),
+    `$1${words(name).label}`,
+  );
 }
 
 function fieldFor(key: string, fields: Set<string>, asked: string[]): string | undefined {

@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Connection } from './connection';
 import { History } from './history';
-import { type Answer, type Hello, type Message, type Request, type RigStanding, type Standing, doubles } from './protocol';
+import {
+  type Answer,
+  type Hello,
+  type Message,
+  type Request,
+  type RigStanding,
+  type Standing,
+  doubles,
+} from './protocol';
 import type { StreamState } from './reconnect';
 
 type Listener = (message: Message) => void;
@@ -34,7 +42,9 @@ export class Live {
   /** Whether the session was changed, held or steered by hand since its start. */
   get isTouched(): boolean {
     const { standing } = this;
-    return standing !== undefined && (standing.changes.length > 0 || standing.steered || standing.mode !== 'autonomous');
+    return (
+      standing !== undefined && (standing.changes.length > 0 || standing.steered || standing.mode !== 'autonomous')
+    );
   }
 
   /** Time since the last message, while a rig runs and so sends some; else 0 [s]. */

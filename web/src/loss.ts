@@ -30,7 +30,9 @@ const away: Words = {
 /** Whether a run may be discarded; asks if it is at risk. `name`: of the run, if there are several. */
 export function mayBeginAnew(live: Live, name = ''): Promise<boolean> {
   const hasBegun = (live.standing?.frames ?? 0) > 0; // before that, its settings repeat its changes
-  return hasBegun && isAtRisk(live) ? goes([live], name ? { ...anew, title: `Restart ${name}?` } : anew) : Promise.resolve(true);
+  return hasBegun && isAtRisk(live)
+    ? goes([live], name ? { ...anew, title: `Restart ${name}?` } : anew)
+    : Promise.resolve(true);
 }
 
 /** Whether a page of these runs may be left; asks if one is at risk. */
@@ -52,13 +54,32 @@ export async function askWhen(shown: number, newest: number): Promise<'now' | 'c
 
 async function goes(lives: Live[], words: Words): Promise<boolean> {
   const links = lives.map(({ session }) =>
-    element('a', { href: `/api/sessions/${session}/record.h5`, download: 'record.h5', class: 'button' }, 'Download record.h5'),
+    element(
+      'a',
+      { href: `/api/sessions/${session}/record.h5`, download: 'record.h5', class: 'button' },
+      'Download record.h5',
+    ),
   );
-  return (await asks(words.title, words.text, [[words.keep, 'keep', ''], [words.go, 'primary anew', 'go']], links)) === 'go';
+  return (
+    (await asks(
+      words.title,
+      words.text,
+      [
+        [words.keep, 'keep', ''],
+        [words.go, 'primary anew', 'go'],
+      ],
+      links,
+    )) === 'go'
+  );
 }
 
 /** Asks in a dialog; answers are label, class and value of each button. */
-function asks(title: string, text: string, answers: [string, string, string][], more: HTMLElement[] = []): Promise<string> {
+function asks(
+  title: string,
+  text: string,
+  answers: [string, string, string][],
+  more: HTMLElement[] = [],
+): Promise<string> {
   return new Promise((resolve) => {
     const buttons = answers.map(([label, name, value]) =>
       element('button', { type: 'button', class: name, onclick: () => dialog.close(value) }, label),

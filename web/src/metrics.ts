@@ -19,7 +19,14 @@ export function metricsOf(metrics: { [key: string]: Json }, group = ''): Metric[
     const { label, unit } = words(key);
     if (value !== null && typeof value === 'object' && !Array.isArray(value))
       return metricsOf(value, `${group}${label}: `);
-    return [{ key: group + key, label: group + ((group && within[key]) || label), unit, value: typeof value === 'number' ? value : undefined }];
+    return [
+      {
+        key: group + key,
+        label: group + ((group && within[key]) || label),
+        unit,
+        value: typeof value === 'number' ? value : undefined,
+      },
+    ];
   });
 }
 
@@ -37,10 +44,27 @@ export function metricsTable(names: string[], runs: { [key: string]: Json }[]): 
       const sign = difference !== undefined && difference > 0 ? '+' : '';
       cells.push(element('td', { class: difference ? 'differs' : '' }, sign + shown(difference)));
     }
-    return element('tr', { 'data-metric': metric.key }, element('th', { scope: 'row' }, metric.label), ...cells, element('td', { class: 'unit' }, metric.unit));
+    return element(
+      'tr',
+      { 'data-metric': metric.key },
+      element('th', { scope: 'row' }, metric.label),
+      ...cells,
+      element('td', { class: 'unit' }, metric.unit),
+    );
   });
-  const head = element('tr', {}, element('td', {}), ...heads.map((one) => element('th', { scope: 'col' }, one)), element('td', {}));
-  return element('table', { class: 'metrics' }, ...(names.length > 1 ? [element('thead', {}, head)] : []), element('tbody', {}, ...rows));
+  const head = element(
+    'tr',
+    {},
+    element('td', {}),
+    ...heads.map((one) => element('th', { scope: 'col' }, one)),
+    element('td', {}),
+  );
+  return element(
+    'table',
+    { class: 'metrics' },
+    ...(names.length > 1 ? [element('thead', {}, head)] : []),
+    element('tbody', {}, ...rows),
+  );
 }
 
 /** B − A; zero for a rounding error. */

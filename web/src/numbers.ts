@@ -33,11 +33,15 @@ export function number(value: number, digits = 4): string {
 
 /** A number as a person types it, with a decimal point or comma, or why the text is none. */
 export function typedNumber(text: string): { value: number } | { trouble: string } {
-  const bare = text.trim().replace(/^[−–]/, '-').replace(/(?<=\d)[\u0020\u00a0\u202f](?=\d{3}(?!\d))/g, '');
+  const bare = text
+    .trim()
+    .replace(/^[−–]/, '-')
+    .replace(/(?<=\d)[\u0020\u00a0\u202f](?=\d{3}(?!\d))/g, '');
   // Three digits after a comma may be thousands.
   if (/^[+-]?[1-9]\d*,\d{3}$/.test(bare) || (/^[+-]?[\d.,]+$/.test(bare) && bare.includes(',') && bare.includes('.')))
     return { trouble: `${text.trim()} can be read as two numbers: write it with a decimal point only.` };
-  if (!/^[+-]?(\d+[.,]?\d*|[.,]\d+)(e[+-]?\d+)?$/i.test(bare)) return { trouble: text.trim() === '' ? 'This needs a number.' : `${text.trim()} is no number.` };
+  if (!/^[+-]?(\d+[.,]?\d*|[.,]\d+)(e[+-]?\d+)?$/i.test(bare))
+    return { trouble: text.trim() === '' ? 'This needs a number.' : `${text.trim()} is no number.` };
   const value = Number(bare.replace(',', '.'));
   return Number.isFinite(value) ? { value } : { trouble: `${text.trim()} is too large a number.` };
 }

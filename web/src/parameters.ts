@@ -37,7 +37,17 @@ export class Parameters {
     'aria-label': 'Find a parameter',
     oninput: () => this.filter(),
   });
-  private readonly undoButton = element('button', { type: 'button', class: 'undo', title: 'Take the last change back', hidden: true, onclick: () => void this.undo() }, '↶ Undo');
+  private readonly undoButton = element(
+    'button',
+    {
+      type: 'button',
+      class: 'undo',
+      title: 'Take the last change back',
+      hidden: true,
+      onclick: () => void this.undo(),
+    },
+    '↶ Undo',
+  );
   private readonly bar = element('div', { class: 'waiting', role: 'status', hidden: true });
   private readonly trouble = element('p', { class: 'issue', role: 'alert', hidden: true });
 
@@ -57,11 +67,24 @@ export class Parameters {
       name,
     );
     const when = element('p', { class: 'when', role: 'status', hidden: true });
-    this.root = element('div', { class: 'parameters' }, element('div', { class: 'find' }, this.search, this.undoButton), when, this.trouble, this.form.root, this.bar);
+    this.root = element(
+      'div',
+      { class: 'parameters' },
+      element('div', { class: 'find' }, this.search, this.undoButton),
+      when,
+      this.trouble,
+      this.form.root,
+      this.bar,
+    );
     let ended = false;
     live.listen((message) => {
       if (message.type === 'standing' || message.type === 'frame') {
-        const text = parametersNote(live.hello?.playback ?? false, live.standing, live.shown, live.history.times.at(-1) ?? 0);
+        const text = parametersNote(
+          live.hello?.playback ?? false,
+          live.standing,
+          live.shown,
+          live.history.times.at(-1) ?? 0,
+        );
         when.hidden = text === '';
         if (when.textContent !== text) when.textContent = text;
       }
@@ -141,7 +164,8 @@ export class Parameters {
   /** Changes the type of an object, which gets its defaults, or the values that it had with this type before. */
   private changeType(key: string, type: string): void {
     const present = at(this.wanted(), key);
-    if (present && typeof present === 'object' && !Array.isArray(present)) this.tuned.set(`${key}:${String(present['type'])}`, present);
+    if (present && typeof present === 'object' && !Array.isArray(present))
+      this.tuned.set(`${key}:${String(present['type'])}`, present);
     void this.change(key, this.tuned.get(`${key}:${type}`) ?? { type });
   }
 
@@ -170,12 +194,21 @@ export class Parameters {
   }
 
   private filter(): void {
-    this.form.filter(this.search.value.toLowerCase().split(/\s+/).filter((one) => one !== ''));
+    this.form.filter(
+      this.search.value
+        .toLowerCase()
+        .split(/\s+/)
+        .filter((one) => one !== ''),
+    );
   }
 
   /** Shows each issue at its field, or above the form. */
   private showIssues(answer: Answer, asked: string[]): void {
-    const { at: places, loose } = routed(answer.issues, this.form.fields.map((one) => one.key), asked);
+    const { at: places, loose } = routed(
+      answer.issues,
+      this.form.fields.map((one) => one.key),
+      asked,
+    );
     this.trouble.hidden = loose.length === 0;
     this.trouble.textContent = said({ ...answer, issues: loose });
     this.form.showIssues(places);
@@ -194,7 +227,11 @@ export class Parameters {
     const button = (label: string, name: string, act: () => void) =>
       element('button', { type: 'button', class: name, onclick: act }, label);
     this.bar.replaceChildren(
-      element('span', {}, count === 1 ? 'One change takes effect after a restart.' : `${count} changes take effect after a restart.`),
+      element(
+        'span',
+        {},
+        count === 1 ? 'One change takes effect after a restart.' : `${count} changes take effect after a restart.`,
+      ),
       button('Restart', 'primary restart', () => void this.restart()),
       button('Discard', 'discard', () => this.discard()),
     );
@@ -205,7 +242,5 @@ export class Parameters {
 function shapeOf(value: Json): Json {
   if (Array.isArray(value)) return value.some((one) => one && typeof one === 'object') ? value.map(shapeOf) : 0;
   if (value === null || typeof value !== 'object') return value === null ? null : 0;
-  return Object.fromEntries(
-    Object.entries(value).map(([key, one]) => [key, key === 'type' ? one : shapeOf(one)]),
-  );
+  return Object.fromEntries(Object.entries(value).map(([key, one]) => [key, key === 'type' ? one : shapeOf(one)]));
 }

@@ -39,9 +39,22 @@ class PhotoPage {
   private readonly scale = this.numeric('um-per-px', 'µm per pixel', 1);
   private readonly length = this.numeric('distance', 'Distance of the two points in µm', 1000, () => this.measure());
   private readonly robots = this.numeric('robots', 'Robots', 256);
-  private readonly gather = element('input', { type: 'checkbox', role: 'switch', class: 'switch', onchange: () => this.begin() });
-  private readonly make = element('button', { type: 'button', class: 'primary', disabled: true, onclick: () => void this.play() }, 'Make the experiment');
-  private readonly next = element('button', { type: 'button', class: 'primary next', onclick: () => this.go(this.step === 'scale' ? 'vessels' : 'places') }, 'Next');
+  private readonly gather = element('input', {
+    type: 'checkbox',
+    role: 'switch',
+    class: 'switch',
+    onchange: () => this.begin(),
+  });
+  private readonly make = element(
+    'button',
+    { type: 'button', class: 'primary', disabled: true, onclick: () => void this.play() },
+    'Make the experiment',
+  );
+  private readonly next = element(
+    'button',
+    { type: 'button', class: 'primary next', onclick: () => this.go(this.step === 'scale' ? 'vessels' : 'places') },
+    'Next',
+  );
   private readonly buttons: HTMLButtonElement[];
   private readonly panels: { [step in Step]: HTMLElement };
   private step: Step = 'scale';
@@ -52,7 +65,11 @@ class PhotoPage {
   constructor(private readonly photo: Photograph) {
     const { name, address, width_px: width, height_px: height } = photo;
     this.canvas = new PhotoCanvas(name, address, width, height, (at) => this.put(at));
-    this.vessels = new VesselSearch(photo.file, (picture) => this.canvas.show(picture), (text) => this.say(text));
+    this.vessels = new VesselSearch(
+      photo.file,
+      (picture) => this.canvas.show(picture),
+      (text) => this.say(text),
+    );
     this.panels = {
       scale: element('div', {}, this.length.root, this.scale.root),
       vessels: this.vessels.form,
@@ -80,7 +97,14 @@ class PhotoPage {
         themeSwitch(),
       ),
       element('div', { class: 'photo-stage' }, this.canvas.root),
-      element('aside', { class: 'photo-side' }, this.hint, element('div', { class: 'row' }, this.next, this.vessels.found), this.trouble, ...Object.values(this.panels)),
+      element(
+        'aside',
+        { class: 'photo-side' },
+        this.hint,
+        element('div', { class: 'row' }, this.next, this.vessels.found),
+        this.trouble,
+        ...Object.values(this.panels),
+      ),
     );
     this.go('scale');
   }

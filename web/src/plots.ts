@@ -81,10 +81,16 @@ export class Plots {
       legend: { show: false },
       scales: {
         x: { time: false },
-        y: { range: (_, lo, hi) => (lo === hi ? [Math.min(0, lo), Math.max(1, hi)] : uPlot.rangeNum(lo, hi, 0.1, true) as [number, number]) },
+        y: {
+          range: (_, lo, hi) =>
+            lo === hi ? [Math.min(0, lo), Math.max(1, hi)] : (uPlot.rangeNum(lo, hi, 0.1, true) as [number, number]),
+        },
       },
       cursor: { drag: { x: false, y: false }, y: false, points: { size: 6 } },
-      axes: [{ ...axis, values: (_, all) => all.map((one) => `${one} s`) }, { ...axis, size: 46 }],
+      axes: [
+        { ...axis, values: (_, all) => all.map((one) => `${one} s`) },
+        { ...axis, size: 46 },
+      ],
       series: [
         {},
         ...this.lives.map((_, i) => ({

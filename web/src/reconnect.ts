@@ -21,9 +21,16 @@ export interface Verdict {
 /** Fate of a broken stream, by the status with which the server answers for its session; undefined without an answer. */
 export function verdictOf(status: number | undefined, what: string): Verdict {
   if (status === undefined)
-    return { state: 'lost', text: 'The lab has ended or cannot be reached. Trying again; if it has ended, start it and open the address that it prints.' };
+    return {
+      state: 'lost',
+      text: 'The lab has ended or cannot be reached. Trying again; if it has ended, start it and open the address that it prints.',
+    };
   if (status === 404)
-    return { state: 'closed', text: `${what} is closed: nobody watched it for 30 minutes, or others needed its place. Open its file again from the gallery.` };
-  if (status === 403) return { state: 'closed', text: 'The lab was started again: open the address that it printed last.' };
+    return {
+      state: 'closed',
+      text: `${what} is closed: nobody watched it for 30 minutes, or others needed its place. Open its file again from the gallery.`,
+    };
+  if (status === 403)
+    return { state: 'closed', text: 'The lab was started again: open the address that it printed last.' };
   return { state: 'lost', text: 'The connection broke. It is being opened again; the run is kept.' };
 }

@@ -35,7 +35,11 @@ export function recordTab(live: Live, scene: Scene, compare: () => void, seek: (
   const links = downloads.map((name) =>
     element('a', { href: `/api/sessions/${live.session}/${name}`, download: name, class: 'button' }, name),
   );
-  const driven = element('p', { class: 'doc', hidden: true }, 'While the coils are driven nothing can be downloaded: stop the rig first.');
+  const driven = element(
+    'p',
+    { class: 'doc', hidden: true },
+    'While the coils are driven nothing can be downloaded: stop the rig first.',
+  );
   const files = element('div', { class: 'row' }, ...links);
   live.listen((message) => {
     if (message.type !== 'rig') return;

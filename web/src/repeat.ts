@@ -18,23 +18,44 @@ export interface Repeat {
 export function repeatOf({ command, playback }: Source, { changes, steered }: Done): Repeat {
   const byHand = steered ? 'It was held or steered by hand.' : '';
   if (playback)
-    return { changes, none: `None. ${byHand}`.trim(), command, note: 'This command repeats the recorded run and compares it with the record.' };
-  const made = { changes, none: steered ? `None. ${byHand}` : 'None so far.', command: command + changes.map((one) => ` --set ${shellWord(one)}`).join('') };
+    return {
+      changes,
+      none: `None. ${byHand}`.trim(),
+      command,
+      note: 'This command repeats the recorded run and compares it with the record.',
+    };
+  const made = {
+    changes,
+    none: steered ? `None. ${byHand}` : 'None so far.',
+    command: command + changes.map((one) => ` --set ${shellWord(one)}`).join(''),
+  };
   const record = 'The record repeats it: microswarm replay record.h5.';
-  if (steered) return { ...made, note: `The run was held or steered by hand, so no command line repeats it. ${record}` };
-  if (changes.length > 0) return { ...made, note: `This command applies the changes from the start, so its run is another one. ${record}` };
+  if (steered)
+    return { ...made, note: `The run was held or steered by hand, so no command line repeats it. ${record}` };
+  if (changes.length > 0)
+    return { ...made, note: `This command applies the changes from the start, so its run is another one. ${record}` };
   return { ...made, note: 'This command repeats the run.' };
 }
 
 /** Heading of the metrics, with the time of which they are where the picture is of another. */
-export function metricsHeading(playback: boolean, standing: Pick<Standing, 'looks_back' | 'growing'> | undefined, newest: number): string {
+export function metricsHeading(
+  playback: boolean,
+  standing: Pick<Standing, 'looks_back' | 'growing'> | undefined,
+  newest: number,
+): string {
   if (playback) return standing?.growing ? 'Metrics of the record so far' : 'Metrics of the whole record';
   return standing?.looks_back ? `Metrics so far, at ${newest.toFixed(1)} s` : 'Metrics so far';
 }
 
 /** Note on parameters that are not of the time in the picture; empty if they are. */
-export function parametersNote(playback: boolean, standing: Pick<Standing, 'looks_back' | 'changes'> | undefined, shown: number, newest: number): string {
-  if (playback && standing && standing.changes.length > 0) return 'These are the values at the start of the record. The tab Record lists their changes.';
+export function parametersNote(
+  playback: boolean,
+  standing: Pick<Standing, 'looks_back' | 'changes'> | undefined,
+  shown: number,
+  newest: number,
+): string {
+  if (playback && standing && standing.changes.length > 0)
+    return 'These are the values at the start of the record. The tab Record lists their changes.';
   if (playback || !standing?.looks_back) return '';
   return `The picture is of ${shown.toFixed(1)} s. These are the values of now, ${newest.toFixed(1)} s; a change acts now.`;
 }

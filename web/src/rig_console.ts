@@ -43,13 +43,19 @@ export function rigConsole(live: Live, drive: Drive, say: (text: string, isTroub
   };
 
   const badge = element('strong', { class: 'badge-rig', role: 'status' });
-  const stopButton = element('button', { type: 'button', class: 'stop', title: 'Coils to zero at once (space or Esc)', onclick: () => void stop() }, 'STOP');
+  const stopButton = element(
+    'button',
+    { type: 'button', class: 'stop', title: 'Coils to zero at once (space or Esc)', onclick: () => void stop() },
+    'STOP',
+  );
   const words = element('span', { class: 'why', tabindex: '0' });
   const armButton = button('Arm …', 'Drive the coils', () => openPanel());
   const dryButton = button('Dry run', 'Restart without driving the coils', () => void ask({ do: 'dry' }));
   const takeButton = button('Take the controls', 'No page has the controls', () => void ask({ do: 'control' }));
-  const holdButton = button('Hold', 'Hold the swarm', () =>
-    void ask({ do: 'hold', on: live.standing?.mode !== 'hold' }),
+  const holdButton = button(
+    'Hold',
+    'Hold the swarm',
+    () => void ask({ do: 'hold', on: live.standing?.mode !== 'hold' }),
   );
   const manualButton = button('Steer', 'Steer with the arrow keys or a gamepad (m)', () => drive.toggle());
   const endButton = button('End', 'End the run and keep its record', () => void ask({ do: 'end' }));
@@ -81,7 +87,15 @@ export function rigConsole(live: Live, drive: Drive, say: (text: string, isTroub
   const closePanel = () => {
     panel.hidden = true;
   };
-  const buttons = { stop: stopButton, arm: armButton, dry: dryButton, hold: holdButton, manual: manualButton, end: endButton, take: takeButton };
+  const buttons = {
+    stop: stopButton,
+    arm: armButton,
+    dry: dryButton,
+    hold: holdButton,
+    manual: manualButton,
+    end: endButton,
+    take: takeButton,
+  };
 
   const bar = element(
     'section',
@@ -93,7 +107,16 @@ export function rigConsole(live: Live, drive: Drive, say: (text: string, isTroub
     panel,
   );
 
-  const view = () => consoleOf({ rig, controls, mode: live.standing?.mode, arms, isLost, silence: arms ? 0 : live.silence, isStopUnanswered });
+  const view = () =>
+    consoleOf({
+      rig,
+      controls,
+      mode: live.standing?.mode,
+      arms,
+      isLost,
+      silence: arms ? 0 : live.silence,
+      isStopUnanswered,
+    });
   const show = () => {
     const now = view();
     bar.dataset['state'] = now.state;

@@ -39,7 +39,10 @@ export function rigTab(live: Live): HTMLElement {
     if (runs && root.isConnected) later = window.setTimeout(draw, 1000); // they become old without a message
     const stale = staleWords(now, numbers, isLost, live.silence);
     root.classList.toggle('stale', stale !== '');
-    root.replaceChildren(...(stale ? [element('p', { class: 'when', role: 'status' }, stale)] : []), ...sections(numbers, live.hello?.rig_info));
+    root.replaceChildren(
+      ...(stale ? [element('p', { class: 'when', role: 'status' }, stale)] : []),
+      ...sections(numbers, live.hello?.rig_info),
+    );
   };
   live.listen((message) => {
     if (message.type !== 'rig') return;
@@ -100,7 +103,11 @@ function share(value: number): string {
 }
 
 function row(kind: 'th' | 'td', cells: string[]): HTMLElement {
-  return element('tr', {}, ...cells.map((one, i) => element(i === 0 && one !== '' ? 'th' : one === '' ? 'td' : kind, {}, one)));
+  return element(
+    'tr',
+    {},
+    ...cells.map((one, i) => element(i === 0 && one !== '' ? 'th' : one === '' ? 'td' : kind, {}, one)),
+  );
 }
 
 function table(rows: [string, string][]): HTMLElement {
@@ -122,7 +129,11 @@ function bars(values: number[], names: string[], limits: (number | null)[], unit
       const fill = element('span', { class: Math.abs(value) > 0.9 * most ? 'fill high' : 'fill' });
       fill.style.left = `${100 * from}%`;
       fill.style.right = `${100 * (1 - to)}%`;
-      const bar = element('span', { class: signed ? 'bar signed' : 'bar', role: 'img', 'aria-label': `${name}: ${text}` }, fill);
+      const bar = element(
+        'span',
+        { class: signed ? 'bar signed' : 'bar', role: 'img', 'aria-label': `${name}: ${text}` },
+        fill,
+      );
       return [element('span', {}, name), bar, element('span', { class: 'value' }, text)];
     }),
   );

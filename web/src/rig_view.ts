@@ -109,7 +109,8 @@ export function barOf(value: number, most: number, signed: boolean): { from: num
 }
 
 function wordsOf(rig: RigStanding | undefined, controls: Controls | undefined): string {
-  const watches = controls && !controls.holds && !controls.free ? 'Another page has the controls; this page can stop the rig.' : '';
+  const watches =
+    controls && !controls.holds && !controls.free ? 'Another page has the controls; this page can stop the rig.' : '';
   if (!rig || rig.state === 'opening') return 'Opening the devices.';
   if (rig.state === 'armed') return watches;
   if (rig.state === 'dry') return watches || 'No current is sent to the coils.';

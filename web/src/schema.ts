@@ -47,7 +47,8 @@ export function isGroup(schema: Schema): boolean {
 export function described(schema: Schema): { doc: string; unit: string } {
   const found = /^(.*?)\s*(?:\[([^\]]+)\])?$/s.exec(schema.description ?? '');
   const unit = found?.[2] ?? '';
-  const isUnit = /^[µ°a-zA-Z²³·/%^0-9−-]+$/.test(unit) && /µ|°|^(s|m|T|A|K|V|W|g|mT|Hz|kHz|1\/s|rad.*|px.*|%)/.test(unit);
+  const isUnit =
+    /^[µ°a-zA-Z²³·/%^0-9−-]+$/.test(unit) && /µ|°|^(s|m|T|A|K|V|W|g|mT|Hz|kHz|1\/s|rad.*|px.*|%)/.test(unit);
   return isUnit ? { doc: found?.[1] ?? '', unit } : { doc: schema.description ?? '', unit: '' };
 }
 

@@ -48,17 +48,23 @@ export async function sessionPage(session: number, isRig = false): Promise<Page>
   const arrow = (by: number) => (event: KeyboardEvent) => {
     if (!drive.key(event, true)) time.transport.seekBy(by * (event.shiftKey ? 10 : 1));
   };
-  const keys = new Keys([
-    ...(isRig ? stopKeys : timeKeys(time)),
-    { keys: ['ArrowLeft'], shown: '←', does: 'previous frame (Shift: ten) · steer left', act: arrow(-1) },
-    { keys: ['ArrowRight'], shown: '→', does: 'next frame (Shift: ten) · steer right', act: arrow(1) },
-    { keys: ['ArrowUp', 'ArrowDown'], shown: '↑ ↓', does: 'steer (Shift: slowly)', act: arrow(0) },
-    ...tools.keys,
-    ...(isRig ? [] : [
-      { keys: ['Escape'], shown: 'Esc', does: 'deselect the tool', act: () => hands.choose(undefined) },
-      { keys: ['x'], shown: 'x', does: 'use the chosen tool at the middle of the view', act: () => hands.use() },
-    ]),
-  ], !isRig, () => isRig || !isBroken);
+  const keys = new Keys(
+    [
+      ...(isRig ? stopKeys : timeKeys(time)),
+      { keys: ['ArrowLeft'], shown: '←', does: 'previous frame (Shift: ten) · steer left', act: arrow(-1) },
+      { keys: ['ArrowRight'], shown: '→', does: 'next frame (Shift: ten) · steer right', act: arrow(1) },
+      { keys: ['ArrowUp', 'ArrowDown'], shown: '↑ ↓', does: 'steer (Shift: slowly)', act: arrow(0) },
+      ...tools.keys,
+      ...(isRig
+        ? []
+        : [
+            { keys: ['Escape'], shown: 'Esc', does: 'deselect the tool', act: () => hands.choose(undefined) },
+            { keys: ['x'], shown: 'x', does: 'use the chosen tool at the middle of the view', act: () => hands.use() },
+          ]),
+    ],
+    !isRig,
+    () => isRig || !isBroken,
+  );
   const up = (event: KeyboardEvent) => drive.key(event, false);
   const blur = () => drive.release();
   window.addEventListener('keyup', up);

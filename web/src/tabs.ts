@@ -13,7 +13,13 @@ export function tabs(id: string, list: Tab[]): HTMLElement {
   const buttons = list.map((tab, i) =>
     element(
       'button',
-      { role: 'tab', type: 'button', id: `${id}-tab-${i}`, 'aria-controls': `${id}-panel-${i}`, onclick: () => show(i) },
+      {
+        role: 'tab',
+        type: 'button',
+        id: `${id}-tab-${i}`,
+        'aria-controls': `${id}-panel-${i}`,
+        onclick: () => show(i),
+      },
       tab.name,
     ),
   );

@@ -21,7 +21,12 @@ export function timeKeys({ transport: time }: TimeBar): Key[] {
     { keys: ['.'], shown: '.', does: 'single tick', act: time.step },
     { keys: ['Home'], shown: 'Home', does: 'first frame', act: () => time.seek(0) },
     { keys: ['End'], shown: 'End', does: 'newest frame', act: time.live },
-    { keys: ['n', 'N'], shown: 'n, N', does: 'next event, event before', act: (event) => time.seekEvent(event.key === 'n' ? 1 : -1) },
+    {
+      keys: ['n', 'N'],
+      shown: 'n, N',
+      does: 'next event, event before',
+      act: (event) => time.seekEvent(event.key === 'n' ? 1 : -1),
+    },
     { keys: ['+', '='], shown: '+', does: 'faster', act: () => time.speed(1) },
     { keys: ['-'], shown: '−', does: 'slower', act: () => time.speed(-1) },
   ];
@@ -41,14 +46,18 @@ export function timeBar(sessions: Live[], again?: () => Promise<unknown>): TimeB
     title: 'Simulated seconds a second (+ −)',
     onchange: () => time.setSpeed(Number(menu.value)),
   });
-  for (const one of speeds)
-    menu.append(element('option', { value: String(one) }, one === 0 ? 'fastest' : `×${one}`));
+  for (const one of speeds) menu.append(element('option', { value: String(one) }, one === 0 ? 'fastest' : `×${one}`));
   const clock = element('output', { class: 'clock', 'aria-live': 'off' }, '0.0 s'); // not said ten times a second
   const total = element('span', { class: 'total', title: 'Time of the newest frame' });
   const line = timeline(sessions, () => time.lead, time.seek);
 
   const take = (standing: Standing) => {
-    const view = barView(time, standing, time.first.hello?.playback ?? false, sessions.some((one) => one.standing?.looks_back));
+    const view = barView(
+      time,
+      standing,
+      time.first.hello?.playback ?? false,
+      sessions.some((one) => one.standing?.looks_back),
+    );
     playButton.textContent = view.play;
     playButton.title = view.playTitle;
     playButton.disabled = !view.canPlay;

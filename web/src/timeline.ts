@@ -67,7 +67,12 @@ export function timeline(
     });
     for (const event of live.history.events) {
       const isContact = event.kind.startsWith('contact');
-      mark(live.history.nearest(event.t_s), isContact ? '--bad' : event.kind === 'goal_reached' ? '--good' : '--accent', 0, height - 9);
+      mark(
+        live.history.nearest(event.t_s),
+        isContact ? '--bad' : event.kind === 'goal_reached' ? '--good' : '--accent',
+        0,
+        height - 9,
+      );
     }
     if (live.pointed !== undefined) mark(live.history.nearest(live.pointed), '--ink', 0, height);
   };

@@ -29,7 +29,9 @@ const places: { [motion: string]: string } = {
 export class Hands {
   readonly tools: HTMLElement;
   private tool: Tool | undefined;
-  private readonly radius = numberEntry({ 'aria-label': 'Radius of a new disc in µm' }, undefined, (trouble) => this.say(trouble));
+  private readonly radius = numberEntry({ 'aria-label': 'Radius of a new disc in µm' }, undefined, (trouble) =>
+    this.say(trouble),
+  );
   private readonly buttons = new Map<Tool, HTMLButtonElement>();
   private last: Promise<void> = Promise.resolve(); // touches are handled in sequence
 
@@ -43,7 +45,12 @@ export class Hands {
     const button = (tool: Tool, label: string) => {
       const made = element(
         'button',
-        { type: 'button', class: `tool-${tool}`, 'aria-pressed': 'false', onclick: () => this.choose(this.tool === tool ? undefined : tool) },
+        {
+          type: 'button',
+          class: `tool-${tool}`,
+          'aria-pressed': 'false',
+          onclick: () => this.choose(this.tool === tool ? undefined : tool),
+        },
         label,
       );
       this.buttons.set(tool, made);
@@ -147,7 +154,10 @@ export class Hands {
   private async remove(touch: Touch): Promise<void> {
     const { kind, index } = touch.what;
     if (kind === 'obstacle' && index !== undefined)
-      return this.apply('obstacles', this.obstacles().filter((_, i) => i !== index));
+      return this.apply(
+        'obstacles',
+        this.obstacles().filter((_, i) => i !== index),
+      );
     const left = this.discs()?.filter((one) => {
       const { centre_um: centre, radius_um: radius } = one as { centre_um: Point; radius_um: number };
       return Math.hypot(touch.at[0] - centre[0], touch.at[1] - centre[1]) > radius;

@@ -78,7 +78,10 @@ test('the page is used by keys and told in words', () =>
   inLab('scenarios/first_flight.yaml', async (page, { picture }) => {
     assert.match(await page.locator('canvas[role=img]').first().getAttribute('aria-label'), /^Map/);
     assert.equal(await page.locator('.clock').getAttribute('aria-live'), 'off');
-    assert.match(await page.locator('.field[data-key="goal_tolerance_um"] .slider').getAttribute('aria-valuetext'), /µm$/);
+    assert.match(
+      await page.locator('.field[data-key="goal_tolerance_um"] .slider').getAttribute('aria-valuetext'),
+      /µm$/,
+    );
     let stops = 0;
     while (stops < 20 && !(await page.evaluate(() => document.activeElement.matches('.play')))) {
       await page.keyboard.press('Tab');
@@ -100,7 +103,11 @@ test('pages that are left leave nothing behind', () =>
       await session.send('HeapProfiler.collectGarbage');
       const { result } = await session.send('Runtime.evaluate', { expression: 'HTMLCanvasElement.prototype' });
       const { objects } = await session.send('Runtime.queryObjects', { prototypeObjectId: result.objectId });
-      const counted = await session.send('Runtime.callFunctionOn', { objectId: objects.objectId, functionDeclaration: 'function () { return this.filter((one) => one.className === "marks").length; }', returnByValue: true });
+      const counted = await session.send('Runtime.callFunctionOn', {
+        objectId: objects.objectId,
+        functionDeclaration: 'function () { return this.filter((one) => one.className === "marks").length; }',
+        returnByValue: true,
+      });
       return counted.result.value;
     };
     const visit = async () => {

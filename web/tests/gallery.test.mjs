@@ -29,10 +29,20 @@ test('scenarios with mistakes say which, records say what they are, and files ar
   assert.match(await card('run.h5').innerText(), /day_1 \/ run[\s\S]*solved/i);
   await card('run.h5').locator('img:not(.none)').waitFor();
   await page.waitForTimeout(1500);
-  assert.ok(await card('run.h5').locator('img').evaluate((one) => one.naturalWidth > 100));
+  assert.ok(
+    await card('run.h5')
+      .locator('img')
+      .evaluate((one) => one.naturalWidth > 100),
+  );
   const headings = await page.locator('.gallery h2').allInnerTexts();
-  assert.ok(headings.some((one) => /first steps/i.test(one)), headings.join());
-  assert.ok(headings.every((one) => !one.includes('usr')), headings.join());
+  assert.ok(
+    headings.some((one) => /first steps/i.test(one)),
+    headings.join(),
+  );
+  assert.ok(
+    headings.every((one) => !one.includes('usr')),
+    headings.join(),
+  );
   await picture('gallery-own');
   await page.getByRole('button', { name: 'Light or dark' }).click();
   await picture('gallery-own-dark');
@@ -40,7 +50,8 @@ test('scenarios with mistakes say which, records say what they are, and files ar
   const taken = await page.evaluate((text) => {
     const data = new DataTransfer();
     data.items.add(new File([text], 'dropped.yaml'));
-    const event = (type) => new DragEvent(type, { dataTransfer: data, bubbles: true, cancelable: true, clientX: 5, clientY: 600 });
+    const event = (type) =>
+      new DragEvent(type, { dataTransfer: data, bubbles: true, cancelable: true, clientX: 5, clientY: 600 });
     const at = document.elementFromPoint(5, 600);
     at.dispatchEvent(event('dragover'));
     const shown = !document.querySelector('.drop-here').hidden;

@@ -84,8 +84,7 @@ export async function openPage(browser, url, size = { width: 1280, height: 800 }
   const host = new URL(url).host;
   page.on('request', (request) => {
     const to = new URL(request.url());
-    if (!['blob:', 'data:'].includes(to.protocol) && to.host !== host)
-      complaints.push(`a request to ${to.host}`);
+    if (!['blob:', 'data:'].includes(to.protocol) && to.host !== host) complaints.push(`a request to ${to.host}`);
   });
   await page.goto(url);
   return {
@@ -98,7 +97,10 @@ export async function openPage(browser, url, size = { width: 1280, height: 800 }
     /** Closes it; complaints that match `allowed` are none. */
     close: async (allowed = undefined) => {
       await context.close();
-      assert.deepEqual(complaints.filter((one) => !allowed?.test(one)), []);
+      assert.deepEqual(
+        complaints.filter((one) => !allowed?.test(one)),
+        [],
+      );
     },
   };
 }

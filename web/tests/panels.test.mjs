@@ -168,29 +168,36 @@ test('a run that ended begins again; one that was touched asks first', () =>
   }));
 
 test('two equal runs that are paused stand at one time', () =>
-  inLab('scenarios/first_flight.yaml', async (page) => {
-    await page.getByRole('tab', { name: 'Record' }).click();
-    await page.click('.record .compare');
-    await page.waitForSelector('.side[data-side="B"] .scene');
-    await page.selectOption('.speed', '5');
-    let before = 0;
-    for (let i = 0; i < 4; ++i) {
-      await page.keyboard.press('Space');
-      const goesOn = (before) =>
-        Number(document.querySelector('tr[data-metric="time_s"] td')?.textContent) > before + 0.5; // no table at first
-      await until(page, goesOn, { wanted: before });
-      await page.keyboard.press('Space');
-      await until(page, () => {
-        const cells = [...document.querySelectorAll('tr[data-metric="time_s"] td')].map((one) => one.textContent);
-        const stands = document.querySelector('.play').textContent.includes('Play');
-        return stands && cells[0] === cells[1];
-      });
-      await page.waitForTimeout(300);
-      const cells = await page.locator('tr[data-metric="time_s"] td').allInnerTexts();
-      assert.equal(cells[0], cells[1]); // and stays there
-      before = Number(cells[0]);
-    }
-  }, '--set', 'swarm.max_speed_um_per_s=5', '--set', 'time_limit_s=3600')); // does not end meanwhile on a busy machine
+  inLab(
+    'scenarios/first_flight.yaml',
+    async (page) => {
+      await page.getByRole('tab', { name: 'Record' }).click();
+      await page.click('.record .compare');
+      await page.waitForSelector('.side[data-side="B"] .scene');
+      await page.selectOption('.speed', '5');
+      let before = 0;
+      for (let i = 0; i < 4; ++i) {
+        await page.keyboard.press('Space');
+        const goesOn = (before) =>
+          Number(document.querySelector('tr[data-metric="time_s"] td')?.textContent) > before + 0.5; // no table at first
+        await until(page, goesOn, { wanted: before });
+        await page.keyboard.press('Space');
+        await until(page, () => {
+          const cells = [...document.querySelectorAll('tr[data-metric="time_s"] td')].map((one) => one.textContent);
+          const stands = document.querySelector('.play').textContent.includes('Play');
+          return stands && cells[0] === cells[1];
+        });
+        await page.waitForTimeout(300);
+        const cells = await page.locator('tr[data-metric="time_s"] td').allInnerTexts();
+        assert.equal(cells[0], cells[1]); // and stays there
+        before = Number(cells[0]);
+      }
+    },
+    '--set',
+    'swarm.max_speed_um_per_s=5',
+    '--set',
+    'time_limit_s=3600',
+  )); // does not end meanwhile on a busy machine
 
 test('a lab that ended is told', async () => {
   const lab = await startLab('scenarios/first_flight.yaml');

@@ -18,7 +18,11 @@ async function type(page, key, value) {
   await page.keyboard.press('Tab');
 }
 const issuesAt = (page) =>
-  page.evaluate(() => [...document.querySelectorAll('.field .issue:not([hidden])')].map((one) => one.closest('.field').dataset.key).sort());
+  page.evaluate(() =>
+    [...document.querySelectorAll('.field .issue:not([hidden])')]
+      .map((one) => one.closest('.field').dataset.key)
+      .sort(),
+  );
 
 test('a bad value is named at its field; what needs a restart waits for one', () =>
   inLab('scenarios/first_flight.yaml', async (page, { picture }) => {
@@ -98,18 +102,29 @@ test('a type of navigator taken again has the values that it had', () =>
     await type(page, 'navigator.speed_um_per_s', '41');
     await until(page, () => window.microswarm.connection.hello.scenario.navigator.speed_um_per_s === 41);
     const menu = '[id="field-navigator.type"]';
-    const other = await page.locator(`${menu} option`).evaluateAll((all, type) => all.map((one) => one.value).find((one) => one === 'radar' && one !== type), before.type);
+    const other = await page
+      .locator(`${menu} option`)
+      .evaluateAll(
+        (all, type) => all.map((one) => one.value).find((one) => one === 'radar' && one !== type),
+        before.type,
+      );
     for (const type of [other, before.type]) {
       await page.selectOption(menu, type);
-      await until(page, (type) => window.microswarm.connection.hello.scenario.navigator.type === type, { wanted: type });
+      await until(page, (type) => window.microswarm.connection.hello.scenario.navigator.type === type, {
+        wanted: type,
+      });
     }
     assert.equal((await scenario()).speed_um_per_s, 41);
     for (const type of [other, before.type]) {
       await page.click('.undo');
-      await until(page, (type) => window.microswarm.connection.hello.scenario.navigator.type === type, { wanted: type });
+      await until(page, (type) => window.microswarm.connection.hello.scenario.navigator.type === type, {
+        wanted: type,
+      });
     }
     await page.click('.undo');
-    await until(page, (speed) => window.microswarm.connection.hello.scenario.navigator.speed_um_per_s === speed, { wanted: before.speed_um_per_s });
+    await until(page, (speed) => window.microswarm.connection.hello.scenario.navigator.speed_um_per_s === speed, {
+      wanted: before.speed_um_per_s,
+    });
     assert.ok(await page.locator('.undo').isHidden());
   }));
 

@@ -71,19 +71,27 @@ test('the vessels of a real photograph are found', { skip: !real && 'no data' },
     await page.getByRole('button', { name: 'Next' }).click();
     await found(page);
     await picture('photo-real');
-  }));
+  }),
+);
 
 test('a wrong file is refused in one line, and a scenario is opened', async () => {
   const lab = await startLab();
   const { page, complaints } = await openPage(browser, lab.url);
   await page.waitForSelector('.card');
-  await page.setInputFiles('input[type=file]', { name: 'notes.txt', mimeType: 'text/plain', buffer: Buffer.from('hello') });
+  await page.setInputFiles('input[type=file]', {
+    name: 'notes.txt',
+    mimeType: 'text/plain',
+    buffer: Buffer.from('hello'),
+  });
   await page.locator('.trouble', { hasText: 'notes.txt: neither a photograph' }).waitFor();
   await page.setInputFiles('input[type=file]', { name: 'a.png', mimeType: 'image/png', buffer: Buffer.from('hello') });
   await page.locator('.trouble', { hasText: 'a.png' }).waitFor();
   await page.setInputFiles('input[type=file]', join(root, 'scenarios/first_flight.yaml'));
   await page.waitForSelector('.session');
   // The refusals themselves.
-  assert.ok(complaints.every((one) => one.includes('status of 400')), complaints.join());
+  assert.ok(
+    complaints.every((one) => one.includes('status of 400')),
+    complaints.join(),
+  );
   assert.equal(await lab.stop(), 0);
 });

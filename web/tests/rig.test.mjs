@@ -182,8 +182,7 @@ test('a page that watches cannot arm or steer, and can stop', async () => {
     await holder.state('dry');
     const { page, close } = await openPage(browser, lab.url);
     await state(page, 'dry');
-    for (const name of ['Arm …', 'Steer', 'Hold'])
-      assert.ok(await page.getByRole('button', { name }).isHidden());
+    for (const name of ['Arm …', 'Steer', 'Hold']) assert.ok(await page.getByRole('button', { name }).isHidden());
     await holder.say({ id: 1, do: 'arm' });
     await state(page, 'armed');
     assert.match(await why(page), /Another page/);
@@ -210,7 +209,11 @@ test('nothing covers the stop button', () =>
           return found?.closest('.stop') !== null;
         });
       });
-    for (const size of [{ width: 1280, height: 800 }, { width: 900, height: 600 }, { width: 600, height: 700 }]) {
+    for (const size of [
+      { width: 1280, height: 800 },
+      { width: 900, height: 600 },
+      { width: 600, height: 700 },
+    ]) {
       await page.setViewportSize(size);
       assert.ok(await isOnTop());
       await page.getByRole('button', { name: 'Keys' }).click();
@@ -273,8 +276,7 @@ test('a lab that is killed leaves the coils at zero, and the page says that it i
   const { page, picture, close } = await openPage(browser, lab.url);
   await state(page, 'dry');
   await arm(page);
-  for (const end = Date.now() + 20_000; isZero(applied().at(-1)) && Date.now() < end; )
-    await page.waitForTimeout(20);
+  for (const end = Date.now() + 20_000; isZero(applied().at(-1)) && Date.now() < end;) await page.waitForTimeout(20);
   assert.ok(!isZero(applied().at(-1)), `the coils are driven: ${await why(page)}`);
   const began = Date.now();
   await lab.stop('SIGKILL');

@@ -27,8 +27,7 @@ async function playTo(run, file, t, { speed = 0, size, options = [] } = {}) {
       void connection.ask({ do: 'speed', number: speed });
       void connection.ask({ do: 'play' });
       connection.listen((message) => {
-        if (message.type === 'clearance')
-          window.clearance = { ...message, values: numbers(message.values) };
+        if (message.type === 'clearance') window.clearance = { ...message, values: numbers(message.values) };
         if (message.type === 'frame') {
           window.discs = numbers(message.bodies.discs);
           window.frame = message;
@@ -172,7 +171,10 @@ test('the route point and the wait of hierarchical D-RRT* are marked', async (t)
   assert.ok(near(route.at, await screen(await run.page.evaluate(() => window.frame.hierarchical.towards)), 16));
   await take({ towards: [350, 350] });
   assert.deepEqual(await labels(), []); // the goal has its own mark
-  const [towards, wait] = [[1400, 700], [1900, 1100]];
+  const [towards, wait] = [
+    [1400, 700],
+    [1900, 1100],
+  ];
   await take({ towards, wait, wait_since: 12.34 });
   const shown = await labels();
   await run.picture('scene-wait');
@@ -202,21 +204,25 @@ test('a gathering shows its leader, its team and its state in words', async (t) 
   const at = robots.slice(2 * leader, 2 * leader + 2);
   assert.ok(near(mark.at, await run.scene((scene, at) => scene.view.toScreen(at), at), 16));
   assert.match(state.text, new RegExp(`Robot ${leader} leads the team of region ${region}, branch ${branch}\n`));
-  const edge = await run.scene((scene, [region, branch]) => {
-    const { plan } = scene.all.find(({ name }) => name === 'team');
-    const node = plan.region.findIndex((one, i) => one === region && plan.branch[i] === branch);
-    const at = (i) => [plan.nodes[2 * i], plan.nodes[2 * i + 1]];
-    return [at(node), at(plan.next[node])];
-  }, [region, branch]);
+  const edge = await run.scene(
+    (scene, [region, branch]) => {
+      const { plan } = scene.all.find(({ name }) => name === 'team');
+      const node = plan.region.findIndex((one, i) => one === region && plan.branch[i] === branch);
+      const at = (i) => [plan.nodes[2 * i], plan.nodes[2 * i + 1]];
+      return [at(node), at(plan.next[node])];
+    },
+    [region, branch],
+  );
   assert.deepEqual(await drawnAt(run, 'team', edge), [true, true]);
   await run.scene((scene) => {
     const { leader, region, branch, ...rest } = window.frame.gathering;
     scene.take({ ...window.frame, gathering: { ...rest, moves_left: 27, livelock: true } });
   });
   const rollout = await words();
-  assert.deepEqual(rollout.map(({ text }) => text.split('\n').slice(0, -1)), [
-    ['Random robots lead, to break a livelock', '27 moves of the plan are left'],
-  ]);
+  assert.deepEqual(
+    rollout.map(({ text }) => text.split('\n').slice(0, -1)),
+    [['Random robots lead, to break a livelock', '27 moves of the plan are left']],
+  );
   await run.picture('scene-livelock');
   await run.scene((scene) => scene.show('team', false));
   assert.deepEqual(await words(), []);
@@ -536,9 +542,7 @@ test('looking back', async (t) => {
 
 test('the goal moves where it is set', async (t) => {
   const run = await playTo(t, 'scenarios/papers/radar/twelve.yaml', 1, { speed: 4 });
-  await run.page.evaluate(() =>
-    window.microswarm.connection.ask({ do: 'set', key: 'goal_um', value: '[4000, 600]' }),
-  );
+  await run.page.evaluate(() => window.microswarm.connection.ask({ do: 'set', key: 'goal_um', value: '[4000, 600]' }));
   const goal = () => {
     const { scene } = window.microswarm;
     return scene.hit(scene.view.toScreen([4000, 600])).what.kind === 'goal';

@@ -50,7 +50,10 @@ export class Dots extends Mesh {
     const indices = new Uint32Array(6 * capacity);
     for (let k = 0; k < capacity; ++k) {
       uvs.set([0, 0, 1, 0, 1, 1, 0, 1], 8 * k);
-      indices.set([0, 1, 2, 0, 2, 3].map((corner) => 4 * k + corner), 6 * k);
+      indices.set(
+        [0, 1, 2, 0, 2, 3].map((corner) => 4 * k + corner),
+        6 * k,
+      );
     }
     const geometry = this.geometry as MeshGeometry;
     geometry.positions = corners;

@@ -1,15 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shapes that several layers draw. Pixi chooses the number of a circle's sides by its radius in
 // the container's unit, here µm, so that circles are drawn as polygons with enough sides on screen.
-import {
-  Container,
-  type Graphics,
-  Mesh,
-  MeshGeometry,
-  Text,
-  type TextStyleOptions,
-  Texture,
-} from 'pixi.js';
+import { Container, type Graphics, Mesh, MeshGeometry, Text, type TextStyleOptions, Texture } from 'pixi.js';
 import type { View } from './view';
 
 export const font = 'system-ui, sans-serif';
@@ -57,8 +49,7 @@ export class Segments extends Mesh {
     for (const ring of rings) {
       points.set(ring, 2 * first);
       const count = ring.length / 2;
-      for (let i = 0; i < count; ++i)
-        pairs.set([first + i, first + ((i + 1) % count)], 2 * (first + i));
+      for (let i = 0; i < count; ++i) pairs.set([first + i, first + ((i + 1) % count)], 2 * (first + i));
       first += count;
     }
     return new Segments(points, pairs);
@@ -169,11 +160,7 @@ export function fill(to: Graphics, bodies: Rings[], color: number, alpha = 1): v
   }
 }
 
-export function outline(
-  to: Graphics,
-  bodies: Rings[],
-  style: { color: number; width: number; alpha?: number },
-): void {
+export function outline(to: Graphics, bodies: Rings[], style: { color: number; width: number; alpha?: number }): void {
   for (const rings of bodies) for (const one of rings) to.poly([...one]);
   to.stroke(style);
 }

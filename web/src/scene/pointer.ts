@@ -111,8 +111,7 @@ export class Pointer {
   private tell(phase: Touch['phase'], pointer: Point): void {
     const { what, from, grip } = this.drag!;
     const { lo, hi } = this.on.view;
-    const within = (axis: 0 | 1) =>
-      Math.min(Math.max(from[axis] + pointer[axis] - grip[axis], lo[axis]), hi[axis]);
+    const within = (axis: 0 | 1) => Math.min(Math.max(from[axis] + pointer[axis] - grip[axis], lo[axis]), hi[axis]);
     this.on.touch({ phase, what, from, at: [within(0), within(1)] });
   }
 

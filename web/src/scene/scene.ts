@@ -105,7 +105,11 @@ export class Scene {
     });
     await init.catch((error: Error) => {
       const hasNone = !document.createElement('canvas').getContext('webgl2');
-      throw hasNone ? new Error('This browser has no WebGL 2, with which the lab draws: use another, or one with graphics acceleration.') : error;
+      throw hasNone
+        ? new Error(
+            'This browser has no WebGL 2, with which the lab draws: use another, or one with graphics acceleration.',
+          )
+        : error;
     });
     return new Scene(renderer);
   }
@@ -363,8 +367,7 @@ export class Scene {
     const map = { what: { kind: 'map' } as const };
     if (this.isRecord) return map;
     const mark =
-      hitMark('goal', this.goal.places, this.view, screen) ??
-      hitMark('start', this.start.places, this.view, screen);
+      hitMark('goal', this.goal.places, this.view, screen) ?? hitMark('start', this.start.places, this.view, screen);
     if (mark) return mark;
     const obstacle = hitObstacle(this.motion.newest, this.view, screen);
     return obstacle ? { what: obstacle } : map;
@@ -383,7 +386,11 @@ export class Scene {
   private hold({ kind, index }: Grip, from: Point): void {
     const { discs, solids } = this.motion.newest;
     const own = discs.filter((_, i) => discs[i - (i % 4) + 3] === index);
-    const bodies = ringsOf(own, solids.filter(({ number }) => number === index), this.view);
+    const bodies = ringsOf(
+      own,
+      solids.filter(({ number }) => number === index),
+      this.view,
+    );
     this.ghost.hold(kind === 'obstacle' ? { kind, bodies } : { kind, bodies: [], place: from });
   }
 }

@@ -8,5 +8,12 @@ export function sceneText(name: string, frame: { [key: string]: Json }, robots: 
   const who = robots > 0 ? `${robots} robots, their mean` : 'swarm';
   const at = value('x_um') === undefined ? 'no swarm is seen' : `${who} at x ${value('x_um')}, y ${value('y_um')} µm`;
   const goal = value('goal_distance_um');
-  return [`Map of ${name || 'an experiment'}`, `${value('t_s') ?? 0} s`, at, goal === undefined ? '' : `${goal} µm from the goal`].filter((one) => one !== '').join(', ');
+  return [
+    `Map of ${name || 'an experiment'}`,
+    `${value('t_s') ?? 0} s`,
+    at,
+    goal === undefined ? '' : `${goal} µm from the goal`,
+  ]
+    .filter((one) => one !== '')
+    .join(', ');
 }

@@ -38,7 +38,10 @@ test('a later setting replaces those of its key and within it', () => {
 });
 
 test('values and words keep their meaning on a command line', () => {
-  assert.deepEqual([text('radar'), text('no'), text('two words'), text([1, 2])], ['radar', '"no"', '"two words"', '[1,2]']);
+  assert.deepEqual(
+    [text('radar'), text('no'), text('two words'), text([1, 2])],
+    ['radar', '"no"', '"two words"', '[1,2]'],
+  );
   assert.deepEqual([shellWord('seed=3'), shellWord("a='b c'")], ['seed=3', `'a='\\''b c'\\'''`]);
   assert.equal(at({ obstacles: [{ motion: 4 }] }, 'obstacles.0.motion'), 4);
 });

@@ -13,7 +13,8 @@ function serve(refusal, names) {
   globalThis.fetch = async (path, { method, body }) => {
     asked.push(`${method} ${path} ${body ?? ''}`);
     const answer = (ok, json) => ({ ok, json: async () => json });
-    if (method === 'POST') return 'file' in JSON.parse(body) ? answer(!refusal, refusal ?? { session: 8 }) : answer(true, { session: 9 });
+    if (method === 'POST')
+      return 'file' in JSON.parse(body) ? answer(!refusal, refusal ?? { session: 8 }) : answer(true, { session: 9 });
     return answer(true, { name: names?.[path.split('/').at(-1)] });
   };
   return asked;

@@ -22,7 +22,12 @@ test('one goes from event to event', () => {
 
 test('ticks are round, within the range and not too many', () => {
   assert.deepEqual(ticksOf(0, 10, 5), [0, 2, 4, 6, 8, 10]);
-  for (const [lo, hi] of [[0, 0.7], [0.1, 71], [3, 86400], [1e6, 1e6 + 3]])
+  for (const [lo, hi] of [
+    [0, 0.7],
+    [0.1, 71],
+    [3, 86400],
+    [1e6, 1e6 + 3],
+  ])
     for (const most of [3, 10]) {
       const ticks = ticksOf(lo, hi, most);
       assert.ok(ticks.length >= 1 && ticks.length <= most + 1, `${ticks}`);

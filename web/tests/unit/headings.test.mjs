@@ -4,7 +4,16 @@ import { test } from 'node:test';
 import { source } from './source.mjs';
 
 const { cardText, heading, refusal } = await source('headings');
-const record = { file: '/out/R7/run.h5', name: 'run', description: 'first flight', record: true, navigator: 'fmt_star', outcome: 'time_limit', written: '2026-11-30 08:15', trouble: '' };
+const record = {
+  file: '/out/R7/run.h5',
+  name: 'run',
+  description: 'first flight',
+  record: true,
+  navigator: 'fmt_star',
+  outcome: 'time_limit',
+  written: '2026-11-30 08:15',
+  trouble: '',
+};
 
 test('headings do not depend on what else is listed', () => {
   assert.equal(heading('/usr/share/microswarm/scenarios'), 'First steps');

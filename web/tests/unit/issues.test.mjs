@@ -14,11 +14,21 @@ test('each mistake is at its own field', () => {
     { keys: ['swarm.radius_um'], text: 'too small' },
   ];
   const asked = ['start.x_um', 'seed', 'swarm.radius_um'];
-  assert.deepEqual(places(issues, asked), { 'start.x_um': 'outside', seed: 'negative', 'swarm.radius_um': 'too small' });
+  assert.deepEqual(places(issues, asked), {
+    'start.x_um': 'outside',
+    seed: 'negative',
+    'swarm.radius_um': 'too small',
+  });
 });
 
 test('two mistakes at one field are both shown', () =>
-  assert.deepEqual(places([{ keys: ['seed'], text: 'A.' }, { keys: ['seed'], text: 'B.' }]), { seed: 'A. B.' }));
+  assert.deepEqual(
+    places([
+      { keys: ['seed'], text: 'A.' },
+      { keys: ['seed'], text: 'B.' },
+    ]),
+    { seed: 'A. B.' },
+  ));
 
 test('a mistake without a field of its own is at the nearest asked one, or the type of its group', () => {
   const bad = { keys: ['map.discs.2.radius_um'], text: 'no' };

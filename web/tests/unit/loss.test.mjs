@@ -4,7 +4,13 @@ import { test } from 'node:test';
 import { source } from './source.mjs';
 
 const { isAtRisk, mayBeginAnew, mayLeave } = await source('loss');
-const live = (more) => ({ session: 1, isTouched: true, hello: { live: false, playback: false }, standing: { frames: 3 }, ...more });
+const live = (more) => ({
+  session: 1,
+  isTouched: true,
+  hello: { live: false, playback: false },
+  standing: { frames: 3 },
+  ...more,
+});
 
 test('only what a record alone can repeat is at risk', () => {
   assert.equal(isAtRisk(live()), true);

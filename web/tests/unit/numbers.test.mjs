@@ -6,7 +6,18 @@ import { source } from './source.mjs';
 const { typedNumber } = await source('numbers');
 
 test('numbers as people type them', () => {
-  const typed = { '50.5': 50.5, '50,5': 50.5, '0,125': 0.125, ' 1e-3 ': 0.001, '-7': -7, '−7': -7, '+2.': 2, '.5': 0.5, ',5': 0.5, '1 000': 1000 };
+  const typed = {
+    50.5: 50.5,
+    '50,5': 50.5,
+    '0,125': 0.125,
+    ' 1e-3 ': 0.001,
+    '-7': -7,
+    '−7': -7,
+    '+2.': 2,
+    '.5': 0.5,
+    ',5': 0.5,
+    '1 000': 1000,
+  };
   for (const [text, value] of Object.entries(typed)) assert.equal(typedNumber(text).value, value, text);
 });
 

@@ -19,7 +19,8 @@ test('a stream that opens and breaks at once is not opened ever faster', () => {
 });
 
 test('only a session that is gone, or another lab, ends the attempts', () => {
-  for (const status of [undefined, 200, 429, 500, 503]) assert.equal(verdictOf(status, 'The run').state, 'lost', `${status}`);
+  for (const status of [undefined, 200, 429, 500, 503])
+    assert.equal(verdictOf(status, 'The run').state, 'lost', `${status}`);
   assert.equal(verdictOf(404, 'Session A').state, 'closed');
   assert.match(verdictOf(404, 'Session A').text, /^Session A is closed/);
   assert.match(verdictOf(403, 'The run').text, /printed last/);

@@ -4,10 +4,21 @@ import { test } from 'node:test';
 import { source } from './source.mjs';
 
 const { actOf, barOf, consoleOf, staleWords } = await source('rig_view');
-const rig = (state, more = {}) => ({ type: 'rig', state, why: '', zero_confirmed: null, stop_trouble: '', folder: '', ...more });
+const rig = (state, more = {}) => ({
+  type: 'rig',
+  state,
+  why: '',
+  zero_confirmed: null,
+  stop_trouble: '',
+  folder: '',
+  ...more,
+});
 const holder = { holds: true, free: false, pages: 1 };
 const known = { controls: holder, mode: 'autonomous', arms: false, isLost: false, silence: 0, isStopUnanswered: false };
-const enabled = ({ buttons }) => Object.keys(buttons).filter((name) => !buttons[name].hidden && !buttons[name].disabled).sort();
+const enabled = ({ buttons }) =>
+  Object.keys(buttons)
+    .filter((name) => !buttons[name].hidden && !buttons[name].disabled)
+    .sort();
 
 test('what can be pressed in each state', () => {
   assert.deepEqual(enabled(consoleOf({ ...known, rig: rig('dry') })), ['arm', 'end', 'hold', 'manual', 'stop']);
@@ -36,14 +47,22 @@ test('a zero that is not confirmed is not called coils at zero', () => {
 test('space and Esc stop what is hot; Esc closes the question of a cold one', () => {
   for (const key of [' ', 'Escape']) for (const asks of [true, false]) assert.equal(actOf(key, true, asks), 'stop');
   assert.equal(actOf('Escape', false, true), 'close');
-  for (const [key, hot, asks] of [[' ', false, true], [' ', false, false], ['Escape', false, false], ['Enter', true, true]])
+  for (const [key, hot, asks] of [
+    [' ', false, true],
+    [' ', false, false],
+    ['Escape', false, false],
+    ['Enter', true, true],
+  ])
     assert.equal(actOf(key, hot, asks), undefined);
 });
 
 test('numbers after a stop or a break say of when they are', () => {
   const numbers = rig('armed', { t_s: 12.34, currents_a: [2.2] });
   assert.equal(staleWords(numbers, numbers, false), '');
-  assert.match(staleWords(rig('ended', { zero_confirmed: true }), numbers, false), /before the stop, at 12\.3 s.*confirmed/);
+  assert.match(
+    staleWords(rig('ended', { zero_confirmed: true }), numbers, false),
+    /before the stop, at 12\.3 s.*confirmed/,
+  );
   assert.match(staleWords(rig('ended', { zero_confirmed: false }), numbers, false), /NOT confirmed/);
   assert.match(staleWords(rig('opening'), numbers, false), /run before/);
   assert.match(staleWords(numbers, numbers, true), /Last heard at 12\.3 s/);
@@ -63,7 +82,10 @@ test('a rig that is not heard is not called armed, and can be stopped', () => {
 
 test('a stop without an answer calls for the emergency stop', () => {
   for (const isLost of [false, true])
-    assert.match(consoleOf({ ...known, rig: rig('armed'), isLost, isStopUnanswered: true }).words, /^STOP was not answered: use the emergency stop/);
+    assert.match(
+      consoleOf({ ...known, rig: rig('armed'), isLost, isStopUnanswered: true }).words,
+      /^STOP was not answered: use the emergency stop/,
+    );
 });
 
 test('bars of signed values begin in the middle', () => {

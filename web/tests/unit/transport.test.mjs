@@ -14,7 +14,15 @@ function session(times, standing = {}) {
   history.take(['t_s'], Float64Array.from(times), [{ t_s: 0.2, kind: 'contact_wall' }], true);
   const asked = [];
   const ask = (request) => Promise.resolve(asked.push(request));
-  return { history, asked, ask, standing: { plays: false, ended: false, frame: 0, speed: 1, ...standing }, shown: 0, hello: {}, seek: (frame) => asked.push({ do: 'seek', number: frame }) };
+  return {
+    history,
+    asked,
+    ask,
+    standing: { plays: false, ended: false, frame: 0, speed: 1, ...standing },
+    shown: 0,
+    hello: {},
+    seek: (frame) => asked.push({ do: 'seek', number: frame }),
+  };
 }
 
 test('two runs are paused, and the one behind goes on to the time of the other', async () => {
@@ -48,7 +56,10 @@ test('a run that ended begins again with play; one of a record does not', async 
 test('the buttons of the bar', () => {
   const standing = { frame: 4, frames: 5, growing: false, speed: 3 };
   const none = { anyPlays: false, allEnded: false, isOver: false };
-  assert.deepEqual([barView(none, standing, false, false).play, barView({ ...none, anyPlays: true }, standing, false, false).play], ['▶ Play', '❚❚ Pause']);
+  assert.deepEqual(
+    [barView(none, standing, false, false).play, barView({ ...none, anyPlays: true }, standing, false, false).play],
+    ['▶ Play', '❚❚ Pause'],
+  );
   assert.equal(barView({ ...none, allEnded: true, isOver: true }, standing, false, false).play, '↻ Restart');
   assert.equal(barView({ ...none, allEnded: true }, standing, false, false).canPlay, false);
   assert.equal(barView({ ...none, allEnded: true }, standing, true, false).canPlay, true);
@@ -59,5 +70,15 @@ test('the buttons of the bar', () => {
 });
 
 test('speeds go up and down and end at the fastest', () => {
-  assert.deepEqual([fasterSpeed(1, 1), fasterSpeed(1, -1), fasterSpeed(50, 1), fasterSpeed(0, 1), fasterSpeed(0.1, -1), fasterSpeed(3, 1)], [2, 0.5, 0, 0, 0.1, 10]);
+  assert.deepEqual(
+    [
+      fasterSpeed(1, 1),
+      fasterSpeed(1, -1),
+      fasterSpeed(50, 1),
+      fasterSpeed(0, 1),
+      fasterSpeed(0.1, -1),
+      fasterSpeed(3, 1),
+    ],
+    [2, 0.5, 0, 0, 0.1, 10],
+  );
 });

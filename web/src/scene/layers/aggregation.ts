@@ -42,7 +42,10 @@ export class Aggregation extends Layer {
       this.drawn = colours;
     }
     this.routes.clear();
-    for (const [width, color] of [[5, colours.paper], [2, colours.ink]] as const) {
+    for (const [width, color] of [
+      [5, colours.paper],
+      [2, colours.ink],
+    ] as const) {
       for (const { gate } of this.plan?.regions ?? []) polyline(this.routes, this.route(gate));
       this.routes.stroke({ width: view.um(width), color, join: 'round', alpha: 0.8 });
     }

@@ -55,8 +55,7 @@ export class Clearance extends Layer {
     this.high.text = lengthText(most);
     for (const text of [this.low, this.high]) ink(text, colours.ink, colours.ground);
     this.key.clear();
-    for (let i = 0; i < keyWidth; i += 4)
-      this.key.rect(i, 0, 4, 8).fill(between(colours.heat, i / keyWidth));
+    for (let i = 0; i < keyWidth; i += 4) this.key.rect(i, 0, 4, 8).fill(between(colours.heat, i / keyWidth));
     this.key.rect(0, 0, keyWidth, 8).stroke({ width: 1, color: colours.wallEdge, alignment: 0 });
   }
 

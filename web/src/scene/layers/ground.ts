@@ -14,6 +14,9 @@ export class Ground extends Layer {
   }
   draw({ view, colours }: Drawing): void {
     const { lo, hi } = view;
-    this.area.clear().rect(lo[0], lo[1], hi[0] - lo[0], hi[1] - lo[1]).fill(colours.paper);
+    this.area
+      .clear()
+      .rect(lo[0], lo[1], hi[0] - lo[0], hi[1] - lo[1])
+      .fill(colours.paper);
   }
 }

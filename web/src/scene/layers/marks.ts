@@ -73,7 +73,9 @@ export class Start extends Marks {
     to.circle(0, 0, 6).stroke({ width: 2, color });
     if (heading === undefined) return;
     const [x, y] = [Math.cos(heading), -Math.sin(heading)];
-    to.moveTo(6 * x, 6 * y).lineTo(15 * x, 15 * y).stroke({ width: 2, color });
+    to.moveTo(6 * x, 6 * y)
+      .lineTo(15 * x, 15 * y)
+      .stroke({ width: 2, color });
   }
 }
 

@@ -28,8 +28,7 @@ export class ObstacleTrails extends Layer {
   /** Also collects while hidden, so that the trails are complete when shown. */
   follow({ number, discs, solids }: Drawing['now']): void {
     const count = discs.length / 4 + solids.length;
-    if (number < this.frame || count !== this.trails.length)
-      this.trails = Array.from({ length: count }, () => []);
+    if (number < this.frame || count !== this.trails.length) this.trails = Array.from({ length: count }, () => []);
     this.frame = number;
     for (let i = 0; i < discs.length / 4; ++i) add(this.trails[i]!, discs[4 * i]!, discs[4 * i + 1]!);
     solids.forEach(({ rings }, i) => add(this.trails[discs.length / 4 + i]!, ...middle(rings[0]!)));

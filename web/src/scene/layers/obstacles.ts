@@ -42,7 +42,10 @@ const none = new Float32Array();
 
 /** Whether an outline spans most of the map, as a deforming channel does: it cannot be dragged. */
 export function isGround(ring: Float32Array, { lo, hi }: View): boolean {
-  const [low, high]: [Point, Point] = [[Infinity, Infinity], [-Infinity, -Infinity]];
+  const [low, high]: [Point, Point] = [
+    [Infinity, Infinity],
+    [-Infinity, -Infinity],
+  ];
   ring.forEach((value, i) => {
     const axis = (i % 2) as 0 | 1;
     low[axis] = Math.min(low[axis], value);

@@ -38,7 +38,10 @@ export class Path extends Layer {
       polyline(this.band, this.points);
       this.band.stroke({ width: 2 * this.clearance, color: colours.path, alpha: 0.12, ...round });
     }
-    for (const [width, color] of [[5, colours.paper], [2, colours.path]] as const) {
+    for (const [width, color] of [
+      [5, colours.paper],
+      [2, colours.path],
+    ] as const) {
       polyline(this.line, this.points);
       const alpha = width > 2 ? 0.7 : 1;
       this.line.stroke({ width: view.um(width), color, alpha, ...round });

@@ -50,7 +50,10 @@ export class Radar extends Layer {
     const heading = scan.straight ?? best;
     if (heading === undefined) return;
     this.choice.rotation = heading;
-    for (const [width, color] of [[6, paper], [3, radar.chosen]] as const)
+    for (const [width, color] of [
+      [6, paper],
+      [3, radar.chosen],
+    ] as const)
       this.arrow(scan.radius, detection + view.um(16), view.um(9), { width: view.um(width), color });
   }
 
@@ -68,7 +71,7 @@ export class Radar extends Layer {
       const share = fate !== 0 || high <= low ? 1 : (score - low) / (high - low);
       return radius + (detection - radius) * (fate === 0 ? shortest + (1 - shortest) * share : 1);
     };
-    for (let first = 0; first < beams.length; ) {
+    for (let first = 0; first < beams.length;) {
       const fate = beams[first]!.fate;
       let end = first;
       while (end < beams.length && beams[end]!.fate === fate) ++end;

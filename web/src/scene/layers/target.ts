@@ -26,13 +26,11 @@ export class Target extends Layer {
   draw({ colours }: Drawing): void {
     this.pin.visible = this.at !== undefined && !this.isGoal(this.at);
     this.cross.clear();
-    for (const [width, color] of [[5, colours.paper], [2.5, colours.circle]] as const)
-      this.cross
-        .moveTo(-4, -4)
-        .lineTo(4, 4)
-        .moveTo(-4, 4)
-        .lineTo(4, -4)
-        .stroke({ width, color, cap: 'round' });
+    for (const [width, color] of [
+      [5, colours.paper],
+      [2.5, colours.circle],
+    ] as const)
+      this.cross.moveTo(-4, -4).lineTo(4, 4).moveTo(-4, 4).lineTo(4, -4).stroke({ width, color, cap: 'round' });
   }
 
   /** At the goal its mark is sufficient. */

@@ -45,7 +45,10 @@ export class Team extends Layer {
     const color = mixed(colours.radar.safety, colours.paper, 0.45); // opaque: its strokes overlap
     this.branch.stroke({ width: view.um(9), color, cap: 'round' });
     this.ring.clear();
-    for (const [width, color] of [[6, colours.paper], [2.5, colours.ink]] as const)
+    for (const [width, color] of [
+      [6, colours.paper],
+      [2.5, colours.ink],
+    ] as const)
       this.ring.circle(0, 0, 9).stroke({ width, color });
     ink(this.word, colours.ink, colours.paper);
     this.word.anchor.set(0, 1);

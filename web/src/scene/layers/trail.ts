@@ -31,8 +31,7 @@ export class Trail extends Layer {
     const [x, y] = [columns.indexOf('x_um'), columns.indexOf('y_um')];
     if (x < 0 || y < 0) return;
     const numbers = doubles(rows);
-    for (let i = 0; i < numbers.length; i += columns.length)
-      this.way.push(numbers[i + x]!, numbers[i + y]!);
+    for (let i = 0; i < numbers.length; i += columns.length) this.way.push(numbers[i + x]!, numbers[i + y]!);
   }
 
   draw({ view, now, colours }: Drawing): void {

@@ -56,7 +56,10 @@ class Mark extends Pin {
 
   draw(text: string, color: number, paper: number, shape: (to: Graphics) => Graphics): void {
     this.symbol.clear();
-    for (const [width, colour] of [[6, paper], [2.5, color]] as const)
+    for (const [width, colour] of [
+      [6, paper],
+      [2.5, color],
+    ] as const)
       shape(this.symbol).stroke({ width, color: colour, cap: 'round', join: 'round' });
     this.text.text = text;
     ink(this.text, color, paper);
