@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <initializer_list>
 #include <numbers>
@@ -173,11 +174,13 @@ MapParts read(const PolygonsMap& spec, const fs::path&, Issues& issues) {
   MapParts parts{{spec.lo, spec.hi}, {}, {}};
   for (std::size_t i = 0; i < spec.walls.size(); ++i) {
     Polygon wall = normalised({spec.walls[i], {}});
-    if (wall.outer.empty() || signed_area(wall.outer) == 0)
+    const double area = wall.outer.empty() ? 0 : signed_area(wall.outer);
+    // A wall without a finite area has coordinates that check() refuses.
+    if (area == 0)
       issues.add("map.walls_um." + std::to_string(i),
                  "map.walls_um[" + std::to_string(i) +
                      "]: at least 3 points with an area between them expected");
-    else if (const auto fault = find_ring_fault(wall))
+    else if (const auto fault = std::isfinite(area) ? find_ring_fault(wall) : std::nullopt)
       parts.notes.push_back(
           fmt::format("map.walls_um[{}] crosses itself at ({:.6g}, {:.6g}) µm; all that it goes "
                       "round is a wall",

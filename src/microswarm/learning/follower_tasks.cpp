@@ -68,7 +68,8 @@ FollowerTask follower_task(const FollowerTaskParams& params, std::uint64_t seed,
   swarm.max_turn_rate = rng.uniform(params.min_turn_rate, params.max_turn_rate);
   if (rng.uniform() < params.unlimited_share) swarm.max_turn_rate = at_once;
   swarm.response_lag = rng.uniform(0.05, 0.15);
-  swarm.drift = rng.uniform(0, params.max_flow) * speed * unit_vector(rng.uniform(-pi, pi));
+  const Vec2 flow = unit_vector(rng.uniform(-pi, pi));
+  swarm.drift = rng.uniform(0, params.max_flow) * speed * flow;
   swarm.speed_factor = rng.uniform(1 - params.speed_error, 1 + params.speed_error);
   swarm.position_noise = rng.uniform(0, params.random_drift);
   swarm.heading_noise = rng.uniform(0, params.heading_noise);

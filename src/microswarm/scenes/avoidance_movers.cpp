@@ -20,7 +20,8 @@ Vec2 random_place(const Ground& ground, Rng& rng) {
   const std::vector<Vec2>& lane = ground.lanes[rng.below(ground.lanes.size())];
   const std::size_t leg = rng.below(lane.size() - 1);
   const double share = rng.uniform();
-  const Vec2 aside = 0.4 * ground.lane_room * rng.uniform() * unit_vector(rng.uniform(-pi, pi));
+  const Vec2 direction = unit_vector(rng.uniform(-pi, pi));
+  const Vec2 aside = 0.4 * ground.lane_room * rng.uniform() * direction;
   return (1 - share) * lane[leg] + share * lane[leg + 1] + aside;
 }
 
@@ -59,7 +60,8 @@ Shape random_shape(double most, double& extent, Rng& rng) {
 
 HarmonicLine random_line(const Ground& ground, Rng& rng) {
   HarmonicLine line{.centre = random_place(ground, rng), .phase = rng.uniform()};
-  line.amplitude = rng.uniform(120, 450) * unit_vector(rng.uniform(-pi, pi));
+  const Vec2 direction = unit_vector(rng.uniform(-pi, pi));
+  line.amplitude = rng.uniform(120, 450) * direction;
   return line;
 }
 

@@ -41,7 +41,8 @@ SwarmParams random_swarm(Hardship hardship, Rng& rng) {
     ribbon.max_turn_rate = rng.uniform(1.5, 4);
   } else {
     ribbon.max_turn_rate = 2 * pi;
-    ribbon.drift = rng.uniform(5, 15) * unit_vector(rng.uniform(-pi, pi));
+    const Vec2 downstream = unit_vector(rng.uniform(-pi, pi));
+    ribbon.drift = rng.uniform(5, 15) * downstream;
     ribbon.speed_factor = rng.uniform(0.85, 1);
   }
   return ribbon;

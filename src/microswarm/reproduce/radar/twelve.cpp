@@ -54,8 +54,8 @@ void scatter(experiment::Scenario& scenario, double top_speed, std::uint32_t tri
     for (int draw = 0; draw < max_draws; ++draw) {
       const double x = map.lo.x + length * rng.uniform(0.15, 0.9);
       line.centre = rounded({x, map.lo.y + height * rng.uniform(0.15, 0.85)});
-      line.amplitude =
-          rounded(height * rng.uniform(0.1, 0.4) * unit_vector(rng.uniform(0, 2 * pi)));
+      const Vec2 direction = unit_vector(rng.uniform(0, 2 * pi));
+      line.amplitude = rounded(height * rng.uniform(0.1, 0.4) * direction);
       const Segment sweep{line.centre - line.amplitude, line.centre + line.amplitude};
       if (distance(scenario.start->position, sweep) > keep_off &&
           distance(*scenario.goal, sweep) > keep_off)
