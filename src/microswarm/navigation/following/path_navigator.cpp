@@ -49,7 +49,7 @@ bool PathNavigator::path_is_clear(const Snapshot& world, Pose2 pose) const {
   PathPosition position = position_;
   for (double t = 0; t < params_.horizon && !arrives(pose.position); t += tick) {
     const auto next = follower_.command(path_, position, pose, params_.lookahead, speed()).command;
-    const Pose2 moved = unicycle_step(pose, next, swarm().max_turn_rate, tick);
+    const Pose2 moved = predict_unicycle(pose, next, swarm().max_turn_rate, tick);
     if (!world.is_free(Segment{pose.position, moved.position}, r)) return false;
     pose = moved;
   }

@@ -43,7 +43,7 @@ void SafetyLookahead::roll_out(const Start& start, const Steering& steer, Visit&
       command = steer(pose, k * params_.tuning.check_step);
       next_command += period_;
     }
-    const Pose2 next = unicycle_step(pose, command, max_turn_rate_, params_.tuning.check_step);
+    const Pose2 next = predict_unicycle(pose, command, max_turn_rate_, params_.tuning.check_step);
     if (!visit(Segment{pose.position, next.position}, begin + k * params_.tuning.check_step))
       return;
     pose = next;

@@ -42,9 +42,9 @@ struct SwarmResponse {
     if (*this == SwarmResponse{}) return from + commanded;
     return from + speed_factor * commanded + dt * flow;
   }
-  /// Its pose after `dt` [s] with a command, see unicycle_step.
+  /// Its pose after `dt` [s] with a command, see predict_unicycle.
   Pose2 step(const Pose2& pose, const Command& command, double turn_rate, double dt) const {
-    Pose2 next = unicycle_step(pose, command, turn_rate, dt);
+    Pose2 next = predict_unicycle(pose, command, turn_rate, dt);
     if (!(*this == SwarmResponse{}))
       next.position = moved(pose.position, next.position - pose.position, dt);
     return next;
