@@ -32,6 +32,8 @@ class DynamicShortestPath {
   /// Move [µm] of the follower towards the other. There must be one.
   Vec2 move(const Robots& robots);
   std::size_t follower() const { return follower_; }
+  /// The robot that it follows.
+  std::size_t target() const { return other_; }
   /// Point that the last move leads to.
   Vec2 waypoint() const { return step_to_.waypoint(); }
   /// Whether it gave up.

@@ -25,6 +25,8 @@ class SwarmDistances {
 
   /// F(n, t) [µm] at the last update.
   double mean() const { return mean_; }
+  /// Number of robots at the last update.
+  double count() const { return count_; }
   /// The distance [µm] that must fall below σ.
   double left(Gathered measure) const;
   const RobotsOnMap& robots() const { return robots_; }
