@@ -27,22 +27,36 @@ AggregationNavigator::AggregationNavigator(const AggregationParams& params, cons
 
 void AggregationNavigator::prepare(const Snapshot& world, const Stop& stop) {
   params_ = fitted(params_, world.map(), rng_);
-  params_.sigma = std::min(params_.sigma, 0.5 * goal_tolerance());
+  params_.sigma = std::min(params_.sigma, goal_tolerance());
   params_.step = std::min(params_.step, max_move());
   map_.emplace(world.map(), goal_, params_, rng_, MoveRule::any_direction, stop);
   if (map_->was_stopped) {
     map_.reset();
     return;
   }
-  policy_.emplace(*map_, params_);
   RobotSteeringNavigator::prepare(world, stop);
+  begin();
+}
+
+void AggregationNavigator::begin() {
+  policy_.emplace(*map_, params_);
   if (params_.method == Aggregation::rollout) rollout_.emplace(*map_, stepper(), params_, rng_);
 }
 
 Decision AggregationNavigator::decide(const Robots& robots, double, const Stop& stop) {
   const std::optional<Vec2> displacement =
       rollout_ ? rollout_->next(robots, stop) : policy_->next(robots);
-  if (!displacement) return hold(NavigatorState::arrived);
+  if (!displacement) {
+    constexpr int patience = 20;    // ticks in which the task should have seen it
+    constexpr double closer = 0.8;  // of the distance at which the task goes on
+    if (++ticks_gathered_ > patience) {
+      ticks_gathered_ = 0;
+      params_.sigma *= closer;
+      begin();
+    }
+    return hold(NavigatorState::arrived);
+  }
+  ticks_gathered_ = 0;
   if (!rollout_) step_view().local_target = policy_->waypoint();
   return move(*displacement, NavigatorState::gather);
 }

@@ -23,8 +23,8 @@ class AggregationNavigator : public RobotSteeringNavigator {
   using Params = AggregationParams;
   static std::string_view unsupported_reason(const Task& task);
 
-  /// It continues until the mean path length to the goal is at most half of the goal tolerance,
-  /// independent of the task's measure.
+  /// It gathers until the mean path length to the goal is below the goal tolerance, by the tree's
+  /// paths, and more closely where the task goes on after that.
   AggregationNavigator(const AggregationParams& params, const Task& task, Rng rng);
 
   /// Grows the tree. Throws InputError as AggregationMap does.
@@ -37,10 +37,12 @@ class AggregationNavigator : public RobotSteeringNavigator {
 
  private:
   Decision decide(const Robots& robots, double now, const Stop& stop) override;
+  void begin();
 
   AggregationParams params_;
   Vec2 goal_;
   Rng rng_;
+  int ticks_gathered_ = 0;
   std::optional<AggregationMap> map_;
   std::optional<AggregationPolicy> policy_;
   std::optional<RolloutPolicy> rollout_;

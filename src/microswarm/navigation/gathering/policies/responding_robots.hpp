@@ -43,8 +43,8 @@ class RespondingRobots {
 
  private:
   struct Tally {
-    float commanded = 0;  ///< length of moves that were free for it [µm]
-    float followed = 0;   ///< of its own motion, along them [µm]
+    float commanded = 0;  ///< moves that were free for it [µm]
+    float followed = 0;   ///< its motion along them [µm]
   };
   struct Judged {
     std::size_t robot;
