@@ -52,6 +52,34 @@ TEST(GatherQuery, StartsStandInPlaceOfANumber) {
   EXPECT_THROW(open_gathering(formats::to_parts(room()), spec(), query, "room"), InputError);
 }
 
+// A hall 300 µm wide, and a room of 30 µm behind a corridor of 4 µm.
+TEST(GatherQuery, AGoalInANarrowPlaceIsNotReachedFromTheHall) {
+  const Box box{{0, 0}, {400, 300}};
+  const Map map(
+      box, {Polygon{{{300, 0}, {400, 0}, {400, 135}, {360, 135}, {360, 148}, {300, 148}}, {}},
+            Polygon{{{300, 152}, {360, 152}, {360, 165}, {400, 165}, {400, 300}, {300, 300}}, {}}});
+  formats::PolygonsMap source;
+  source.lo = box.lo;
+  source.hi = box.hi;
+  GatherQuery query{.goal = {385, 150}, .robots = 32, .max_steps = 20};
+  GatherExperiment made = open_gathering(formats::to_parts(map), source, query, "hall");
+  EXPECT_GT(made.measured_width, 100);
+  EXPECT_NEAR(made.experiment.scenario().goal_tolerance, 30, 3);
+  Session session(std::move(made.experiment));
+  EXPECT_NE(session.finish().status, Status::solved);
+  EXPECT_TRUE(session.notes().empty());
+}
+
+TEST(GatherQuery, RobotsThatAreGatheredAtTheStartAreANote) {
+  GatherQuery query = gather_query();
+  query.starts = {{60, 60}, {70, 60}};
+  Session session(open_gathering(formats::to_parts(room()), spec(), query, "room").experiment);
+  EXPECT_EQ(session.finish().status, Status::solved);
+  ASSERT_EQ(session.notes().size(), 1u);
+  EXPECT_NE(session.notes()[0].find(" µm, is within goal_tolerance_um, 100 µm"), std::string::npos)
+      << session.notes()[0];
+}
+
 GlobalQuery global_query() {
   return {.starts = {{60, 300}, {60, 250}}, .goals = {{330, 300}, {330, 200}}};
 }

@@ -90,7 +90,7 @@ std::filesystem::path make_photo_scenario(const std::filesystem::path& photograp
     scenario.robots.emplace().count = request.robots;
     scenario.goal = free_place(map, *request.goal, 0.05 * width, width, "place to gather");
     scenario.navigator = navigation::AggregationParams{};
-    experiment::fit_gathering(scenario, width, max_steps);
+    experiment::fit_gathering(scenario, width, width_around(map, *scenario.goal), max_steps);
   }
   const std::filesystem::path made = uploads.new_file(".yaml");
   write_file_atomically(made, experiment::scenario_text(scenario));

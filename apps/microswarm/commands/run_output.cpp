@@ -5,6 +5,7 @@
 #include <exception>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "microswarm/config/write.hpp"
@@ -64,16 +65,18 @@ std::string um(double length) {
   return std::isfinite(length) ? fmt::format("{:.1f} µm", length) : "–";
 }
 
-std::string robots_summary(const experiment::RunResult& result, const RobotSwarmParams& robots) {
+std::string robots_summary(const experiment::RunResult& result,
+                           const experiment::Scenario& scenario) {
+  const RobotSwarmParams& robots = *scenario.robots;
   const experiment::Metrics& m = result.metrics;
   const bool gathered = result.status == Status::solved && robots.goals.empty();
   const std::string planning =
       robots.goals.empty() ? "" : fmt::format("  planning  {} times\n", m.planning_events);
-  return fmt::format("{} after {:.1f} s and {} commands\n  {} {:.1f} µm\n{}",
+  return fmt::format("{} after {:.1f} s and {} commands\n  {} {:.1f} µm, of at most {:.4g} µm\n{}",
                      gathered ? "gathered" : ending(result), m.time, result.timing.steps.size(),
                      robots.goals.empty() ? "goal      mean distance"
                                           : "goals     largest distance of a robot from its goal",
-                     m.goal_distance, planning);
+                     m.goal_distance, scenario.goal_tolerance, planning);
 }
 
 std::string avoidance_text(const experiment::Avoidance& a) {
@@ -157,11 +160,14 @@ void finish_run(experiment::Session& session, const Stop& stop) {
   experiment::ProgressListener progress(scenario, [&](const experiment::RunProgress& p) {
     bar.update(std::max(p.distance_done, p.time_spent));
   });
+  const std::size_t noted = session.notes().size();
   bool began = false;
   while (const experiment::Tick* tick = session.step(stop)) {
     if (!std::exchange(began, true)) note_regions(session);
     progress.on_tick(*tick);
   }
+  for (const std::string& more : std::span(session.notes()).subspan(noted))
+    note("note: {}\n", more);
 }
 
 int tell_run(const experiment::Session& session, const RunOutput& o,
@@ -180,14 +186,15 @@ int tell_run(const experiment::Session& session, const RunOutput& o,
   }
   if (o.json) {
     nlohmann::ordered_json json = run_json(result, hash);
+    json["goal_tolerance_um"] = session.scenario().goal_tolerance;
     json["notes"] = session.notes();
     if (o.rig_timing) json["rig_timing"] = o.rig_timing();
     if (o.commissioning) json["commissioning"] = o.commissioning();
     o.print(json.dump(2) + "\n");
   } else {
-    const auto& robots = session.scenario().robots;
+    const experiment::Scenario& scenario = session.scenario();
     o.print(fmt::format("{}{}  record    {}\n",
-                        robots ? robots_summary(result, *robots) : summary(result),
+                        scenario.robots ? robots_summary(result, scenario) : summary(result),
                         hold_text(record), hash));
     if (!o.out.empty() && !lost)
       o.print(fmt::format(

@@ -42,7 +42,8 @@ GatherExperiment open_gathering(formats::MapParts map, formats::MapSpec spec,
     throw InputError(name, fmt::format("goal {}", why));
   Rng rng(query.seed, Purpose::planner);
   made.measured_width = channel_width(*world.map, rng);
-  fit_gathering(scenario, query.channel_width.value_or(made.measured_width), query.max_steps);
+  fit_gathering(scenario, query.channel_width.value_or(made.measured_width),
+                width_around(*world.map, query.goal), query.max_steps);
   made.notes = set_values(scenario, query.settings);
   made.notes.insert(made.notes.begin(), of_map.begin(), of_map.end());
   made.experiment.keys = name;

@@ -5,14 +5,15 @@
 
 namespace microswarm::experiment {
 
-void fit_gathering(Scenario& scenario, double width, int max_steps) {
+void fit_gathering(Scenario& scenario, double width, double goal_width, int max_steps) {
   constexpr double speed = 80;  // [µm/s]
   auto& params = std::get<navigation::AggregationParams>(scenario.navigator);
   params.scale = width / navigation::published_channel_width;
   scenario.robots->max_speed = speed;
   scenario.tick = params.step * params.scale / speed;
   scenario.time_limit = max_steps * scenario.tick;
-  scenario.goal_tolerance = width;
+  constexpr double narrow = 0.7;  // of the typical width, for a goal in a narrower place
+  scenario.goal_tolerance = goal_width < narrow * width ? goal_width : width;
 }
 
 void fit_swarm(Scenario& scenario, double width) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/experiment/session/session.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -44,6 +46,11 @@ const Tick* Session::step(const Stop& stop) {
   if (recorder_) recorder_->on_tick(*tick);
   if (metrics_) metrics_->on_tick(*tick);
   for (RunListener* listener : listeners_) listener->on_tick(*tick);
+  if (tick->end && ticks_ == 1 && result().status == Status::solved)
+    notes_.push_back(fmt::format(
+        "nothing was to be done: the distance to the goal, {:.4g} µm, is within goal_tolerance_um, "
+        "{:.4g} µm, at the start",
+        result().metrics.goal_distance, scenario().goal_tolerance));
   if (tick->end)
     for (RunListener* listener : listeners_) listener->on_end(result());
   return tick;
