@@ -48,7 +48,7 @@ Decision AggregationNavigator::decide(const Robots& robots, double, const Stop& 
       rollout_ ? rollout_->next(robots, stop) : policy_->next(robots);
   if (!displacement) {
     constexpr int patience = 20;    // ticks in which the task should have seen it
-    constexpr double closer = 0.8;  // of the distance at which the task goes on
+    constexpr double closer = 0.8;  // of the distance at which the task continues
     if (++ticks_gathered_ > patience) {
       ticks_gathered_ = 0;
       params_.sigma *= closer;

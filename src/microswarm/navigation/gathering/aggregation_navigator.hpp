@@ -24,7 +24,7 @@ class AggregationNavigator : public RobotSteeringNavigator {
   static std::string_view unsupported_reason(const Task& task);
 
   /// It gathers until the mean path length to the goal is below the goal tolerance, by the tree's
-  /// paths, and more closely where the task goes on after that.
+  /// paths, and more closely where the task continues after that.
   AggregationNavigator(const AggregationParams& params, const Task& task, Rng rng);
 
   /// Grows the tree. Throws InputError as AggregationMap does.
