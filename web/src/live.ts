@@ -41,6 +41,11 @@ export class Live {
     private readonly connect: Connect = (onState) => new ServerStream(session, what, onState),
   ) {}
 
+  /** Whether it is at a server, which gives files, videos and copies. */
+  get isServed(): boolean {
+    return this.session > 0;
+  }
+
   /** Whether the session was changed, held or steered by hand since its start. */
   get isTouched(): boolean {
     const { standing } = this;

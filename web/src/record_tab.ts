@@ -10,8 +10,13 @@ import { metricsHeading, repeatOf } from './repeat';
 
 const downloads = ['record.h5', 'scenario.yaml', 'frames.csv', 'events.csv'];
 
-/** Metrics so far, changes, the command that repeats them, and downloads. */
-export function recordTab(live: Live, scene: Scene, compare: () => void, seek: (time: number) => void): HTMLElement {
+/** Metrics so far, changes, the command that repeats them, and what a server gives: downloads, and copies to `compare`. */
+export function recordTab(
+  live: Live,
+  scene: Scene,
+  seek: (time: number) => void,
+  compare: (() => void) | undefined,
+): HTMLElement {
   const metrics = element('div', { class: 'table' });
   const heading = element('h2', {});
   const changesHeading = element('h2', {});
@@ -84,17 +89,19 @@ export function recordTab(live: Live, scene: Scene, compare: () => void, seek: (
     note,
     element('div', { class: 'row' }, copy, copied),
     ...eventList(live, seek),
-    element('h2', {}, 'Download'),
-    driven,
-    files,
+    ...(live.isServed ? [element('h2', {}, 'Download'), driven, files] : []),
     element('h2', {}, 'Export the view'),
     exportPanel(live, scene),
-    element('h2', {}, 'Compare'),
-    element(
-      'div',
-      { class: 'row' },
-      element('button', { type: 'button', class: 'compare', onclick: compare }, 'Compare with a copy'),
-    ),
+    ...(compare
+      ? [
+          element('h2', {}, 'Compare'),
+          element(
+            'div',
+            { class: 'row' },
+            element('button', { type: 'button', class: 'compare', onclick: compare }, 'Compare with a copy'),
+          ),
+        ]
+      : []),
   );
 }
 
