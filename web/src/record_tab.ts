@@ -59,7 +59,7 @@ export function recordTab(
     const repeat = repeatOf(live.hello, live.standing ?? { changes: [], steered: false });
     changes.replaceChildren(...repeat.changes.map((one) => element('li', {}, element('code', {}, one))));
     if (repeat.changes.length === 0) changes.replaceChildren(element('li', { class: 'doc' }, repeat.none));
-    heading.textContent = metricsHeading(playback, live.standing, live.history.times.at(-1) ?? 0);
+    heading.textContent = metricsHeading(playback, live.standing);
     changesHeading.textContent = playback ? 'Changes in the record' : 'Changes since the start';
     note.textContent = repeat.note;
     if (command.textContent !== repeat.command) {

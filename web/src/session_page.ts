@@ -26,13 +26,13 @@ const stopKeys: Key[] = [
   { keys: [], shown: 'space, Esc', does: 'stop: coils to zero at once, while it is armed', act: () => undefined },
 ];
 
-/** What the page of a session offers besides scene, layers, plots and time line. */
+/** Parts of a session's page besides scene, layers, plots and time line. */
 export interface Offers {
   /** The console of a rig in real time. */
   rig: boolean;
   /** Parameters, dragging, steering and restart. */
   changes: boolean;
-  /** What the page is, in a tab of its own. */
+  /** Text on the page, for a separate tab. */
   about?: HTMLElement;
 }
 
@@ -51,7 +51,7 @@ export async function pageOf(live: Live, { rig: isRig, changes, about }: Offers)
   const parameters = changes ? new Parameters(live) : undefined;
   const time = timeBar([live], isRig || !parameters ? undefined : () => parameters.restart());
   const plots = new Plots([live], time.transport.seekTime);
-  const layers = layersTab([scene]);
+  const layers = layersTab([scene], live);
   const drive = changes ? new Drive(live) : undefined;
   const hands = parameters ? new Hands(live, scene, parameters, say) : undefined;
   const tools = sceneTools(live, scene, drive, isRig);

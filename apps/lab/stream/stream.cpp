@@ -349,7 +349,8 @@ MessagePtr standing_message(const Standing& standing, const experiment::RunResul
                        {"changes", standing.changes},
                        {"status", to_string(result.status)},
                        {"state", result.state},
-                       {"metrics", to_json_value(result.metrics)},
+                       {"metrics", to_json_value(standing.past_metrics.value_or(result.metrics))},
+                       {"decisions_every", standing.decisions_every},
                        {"trouble", standing.trouble}},
                       Message::Kind::standing);
 }

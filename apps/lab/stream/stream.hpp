@@ -42,7 +42,10 @@ struct Standing {
   experiment::OperatingMode mode = experiment::OperatingMode::autonomous;
   bool steered = false;              ///< whether it was held or steered by hand since the start
   std::vector<std::string> changes;  ///< since the start, KEY=VALUE, one for each key
-  std::string trouble;               ///< why it could not continue; empty otherwise
+  /// Metrics at the shown frame, while an earlier one is shown.
+  std::optional<experiment::Metrics> past_metrics;
+  std::uint64_t decisions_every = 1;  ///< diagnostics are kept of every such frame
+  std::string trouble;                ///< why it could not continue; empty otherwise
 };
 
 /// A photograph as background of the map, lower left corner at the origin.
