@@ -60,6 +60,6 @@ export function parametersNote(
 export function decisionsNote(standing: Pick<Standing, 'looks_back' | 'decisions_every'> | undefined): string {
   const every = standing?.looks_back ? standing.decisions_every : 1;
   return every > 1
-    ? `Decisions of this run are kept of every ${every}th frame: others show none. With record.diagnostics all are kept.`
+    ? `Decisions of this run are kept of one frame in ${every}: others show none. With record.diagnostics all are kept.`
     : '';
 }

@@ -36,6 +36,7 @@ test('a change in the past asks whether it acts now or in a branch, and numbers 
     await page.click('.loss .keep');
     assert.deepEqual((await standing()).changes, []);
     await page.keyboard.press('ArrowRight');
+    await until(page, () => window.microswarm.connection.standing.frame === 1);
     await page.keyboard.press('ArrowRight');
     await until(page, () => window.microswarm.connection.standing.frame === 2);
     await dragGoal(page);

@@ -295,8 +295,7 @@ MessagePtr aggregation_message(const AggregationDiagnostics& plan) {
                        {"regions", std::move(regions)}});
 }
 
-MessagePtr clearance_message(const Map& map) {
-  constexpr double max_cells = 40'000;
+MessagePtr clearance_message(const Map& map, double max_cells) {
   const Box& box = map.bounds();
   double cell = std::sqrt(box.width() * box.height() / max_cells);
   const auto count = [&cell](double length) { return std::ceil(length / cell); };

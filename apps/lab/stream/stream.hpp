@@ -74,8 +74,8 @@ MessagePtr scenario_message(const experiment::Scenario& scenario);
 MessagePtr frame_message(const experiment::SessionView& view, const Diagnostics& diagnostics);
 MessagePtr plan_message(const experiment::SessionView& view);
 MessagePtr aggregation_message(const AggregationDiagnostics& plan);
-/// Clearance of the map at the centres of square cells, row by row from below.
-MessagePtr clearance_message(const Map& map);
+/// Clearance of the map at the centres of at most so many square cells, row by row from below.
+MessagePtr clearance_message(const Map& map, double max_cells = 40'000);
 MessagePtr rows_message(std::span<const Row> rows, std::span<const experiment::RunEvent> events,
                         bool anew);
 MessagePtr standing_message(const Standing& standing, const experiment::RunResult& result);

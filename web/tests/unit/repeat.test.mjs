@@ -36,7 +36,7 @@ test('numbers that are not of the picture say of when they are', () => {
   assert.equal(parametersNote(false, now, 71), '');
   assert.equal(parametersNote(true, now, 3), '');
   assert.match(parametersNote(true, { ...now, changes: ['seed=2'] }, 3), /3\.0 s/);
-  assert.match(decisionsNote(back), /every 4th/);
+  assert.match(decisionsNote(back), /one frame in 4/);
   assert.equal(decisionsNote(now), '');
   assert.equal(decisionsNote({ ...back, decisions_every: 1 }), '');
 });
