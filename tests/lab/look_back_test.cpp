@@ -103,6 +103,13 @@ TEST(LookBack, ABranchIsTheRunUpToAPastFrame) {
   EXPECT_EQ(standing["frames"], 9);
   EXPECT_EQ(standing["steered"], true);
   EXPECT_EQ(standing["changes"], Json({"goal_tolerance_um=31"}));
+  copy.does({{"do", "seek"}, {"number", 2}});
+  const Json past = copy.until("frame", [](const Json& one) { return one["number"] == 2; });
+  EXPECT_TRUE(past.contains("hierarchical"));
+  EXPECT_EQ(
+      copy.until("standing",
+                 [](const Json& one) { return one["looks_back"] == true; })["metrics"]["time_s"],
+      past["frame"]["t_s"]);
   for (int i = 0; i < 11; ++i) copy.does({{"do", "step"}});
   EXPECT_EQ(frames_of(lab, same), frames_of(lab, session));
 
@@ -153,7 +160,7 @@ TEST(Past, KeepsWithinItsMemory) {
   EXPECT_EQ(rows.front().t, 0);
   EXPECT_NEAR(rows[1].t - rows[0].t, 0.1 * static_cast<double>(past.period()), 1e-9);
   for (const std::uint64_t frame : {0, 17, 5'000, 9'999}) {
-    const double time = past.metrics(frame).time;
+    const double time = past.metrics(frame)->time;
     EXPECT_LE(time, 0.1 * static_cast<double>(frame) + 1e-9);
     EXPECT_GE(time, 0.1 * static_cast<double>(frame) - 0.5);
   }

@@ -131,9 +131,8 @@ void Host::operate(const Request& request, Issues& issues) {
     operation->end();
 }
 
-void Host::keep(const experiment::Tick& tick) {
-  publisher_.take(tick);
-  kept_.add(tick, session().result().metrics, session().scenario().record.diagnostics);
+void Host::keep(const experiment::Tick& tick, const experiment::Session& of) {
+  kept_.add(tick, of.result().metrics, of.scenario().record.diagnostics);
 }
 
 void Host::look_back(double frame, Issues& issues) {

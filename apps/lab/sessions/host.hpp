@@ -123,8 +123,8 @@ class Host {
   void look_back(double frame, Issues& issues);
   void look_at_newest();
   bool looks_back() const { return past_ != nullptr; }
-  /// Takes a tick of the run, for looking back.
-  void keep(const experiment::Tick& tick);
+  /// Keeps parts of a tick of the run, for looking back.
+  void keep(const experiment::Tick& tick, const experiment::Session& of);
   /// Session that is shown.
   const experiment::Session& shown() { return past_ ? *past_ : session(); }
 

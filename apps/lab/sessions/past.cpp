@@ -64,8 +64,8 @@ void Past::halve() {
   period_ *= 2;
 }
 
-experiment::Metrics Past::metrics(std::uint64_t frame) const {
-  if (metrics_.empty()) return {};
+std::optional<experiment::Metrics> Past::metrics(std::uint64_t frame) const {
+  if (metrics_.empty()) return std::nullopt;
   return metrics_[std::min<std::uint64_t>(frame / metrics_period_, metrics_.size() - 1)];
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "microswarm/experiment/record/diagnostics_log.hpp"
@@ -24,8 +25,8 @@ class Past {
   const experiment::DiagnosticsLog& diagnostics() const { return log_; }
   /// Diagnostics are kept of every such tick.
   std::uint64_t period() const { return period_; }
-  /// The newest metrics kept that are not later than a frame; those of nothing if there are none.
-  experiment::Metrics metrics(std::uint64_t frame) const;
+  /// The newest metrics kept that are not later than a frame; nothing if there are none.
+  std::optional<experiment::Metrics> metrics(std::uint64_t frame) const;
   /// Approximate memory [B].
   std::size_t bytes() const { return bytes_ + metrics_.size() * sizeof(experiment::Metrics); }
 

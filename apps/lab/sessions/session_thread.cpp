@@ -83,7 +83,9 @@ void SessionThread::open() {
 }
 
 void SessionThread::open_branch(const Branch& branch) {
-  session_ = experiment::branch(*branch.record, branch.frame, Stop(&ends_));
+  kept_ = Past();
+  session_ = experiment::branch(*branch.record, branch.frame, Stop(&ends_),
+                                [this](const experiment::Session& of) { keep(*of.tick(), of); });
   if (!session_) throw std::runtime_error("it was closed");
   publisher_.clear();
   publisher_.take(session_->record());
@@ -240,7 +242,10 @@ void SessionThread::advance() {
   do {
     const experiment::Tick* tick = session_->step(stop);
     if (tick && session_->is_playback()) publisher_.freshen();
-    if (tick && !session_->is_playback()) keep(*tick);
+    if (tick && !session_->is_playback()) {
+      publisher_.take(*tick);
+      keep(*tick, *session_);
+    }
     standing.ended = !tick || tick->end;
     if (is_there()) standing.plays = false;
     if (standing.speed > 0) due_ += wall_time(session_->scenario().tick / standing.speed);

@@ -186,7 +186,8 @@ ReplayResult replay(const Record& record, const Stop& stop) {
   return {.identical = identical, .stopped = false, .difference = std::move(difference)};
 }
 
-std::unique_ptr<Session> branch(const Record& record, std::size_t frame, const Stop& stop) {
+std::unique_ptr<Session> branch(const Record& record, std::size_t frame, const Stop& stop,
+                                const std::function<void(const Session&)>& ticked) {
   require_simulated(record);
   if (!record.navigator.empty())
     throw InputError("a run with an external navigator cannot be continued");
@@ -199,6 +200,7 @@ std::unique_ptr<Session> branch(const Record& record, std::size_t frame, const S
   for (std::size_t i = 0; i <= frame && record.frames[i].state != NavigatorState::end; ++i) {
     inputs.give(i);
     if (!session->step(stop) || stop()) return nullptr;
+    if (ticked) ticked(*session);
   }
   if (!inputs.refused().empty()) throw InputError(inputs.refused());
   return session;

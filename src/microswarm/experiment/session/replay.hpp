@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -22,8 +23,10 @@ struct ReplayResult {
 ReplayResult replay(const Record& record, const Stop& stop = {});
 
 /// Runs the stored scene again up to this frame, with the same changes and steering, and leaves it
-/// open: it continues as the run did, unless it is changed. Null if the caller stopped it. Throws
-/// InputError for a run on a rig, with an external navigator, or without this frame.
-std::unique_ptr<Session> branch(const Record& record, std::size_t frame, const Stop& stop = {});
+/// open: it continues as the run did, unless it is changed. `ticked` is called after each tick.
+/// Null if the caller stopped it. Throws InputError for a run on a rig, with an external navigator,
+/// or without this frame.
+std::unique_ptr<Session> branch(const Record& record, std::size_t frame, const Stop& stop = {},
+                                const std::function<void(const Session&)>& ticked = {});
 
 }  // namespace microswarm::experiment
