@@ -3,7 +3,7 @@ import { element } from './dom';
 import { eventList } from './event_list';
 import { exportPanel } from './export_panel';
 import type { Live } from './live';
-import { metricsTable } from './metrics';
+import { headingAt, metricsTable, numbersAt } from './metrics';
 import type { Json } from './protocol';
 import type { Scene } from './scene/scene';
 import { metricsHeading, repeatOf } from './repeat';
@@ -19,6 +19,8 @@ export function recordTab(
 ): HTMLElement {
   const metrics = element('div', { class: 'table' });
   const heading = element('h2', {});
+  const moment = element('div', { class: 'table moment' });
+  const momentHeading = element('h2', {});
   const changesHeading = element('h2', {});
   const note = element('p', { class: 'doc' });
   const changes = element('ol', { class: 'changes' });
@@ -76,12 +78,16 @@ export function recordTab(
     if (message.plays && performance.now() - drawn < 250) return;
     drawn = performance.now();
     metrics.replaceChildren(metricsTable([''], [last]));
+    momentHeading.textContent = headingAt(live.history, message.frame, live.hello?.states ?? []);
+    moment.replaceChildren(metricsTable([''], [numbersAt(live.history, message.frame)]));
   });
   return element(
     'div',
     { class: 'record' },
     heading,
     metrics,
+    momentHeading,
+    moment,
     changesHeading,
     changes,
     element('h2', {}, 'Command line'),

@@ -64,8 +64,8 @@ void Publisher::welcome(std::uint64_t page, const MessagePtr& hello, experiment:
                         const experiment::Session& shown, const experiment::SessionView& view) {
   tell_rows();
   send_(page, hello);
-  if (shown.is_playback()) send_(page, scenario_message(shown.scenario()));
   send_(page, rows_message(rows_, events_, true));
+  if (shown.is_playback()) send_(page, scenario_message(shown.scenario()));
   if (!view.tree.empty()) send_(page, plan_message(view));
   // A record without diagnostics keeps no regions: those of now are the newest known.
   const auto* past = aggregation_diagnostics(shown);
