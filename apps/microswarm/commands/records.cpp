@@ -66,7 +66,10 @@ int write_page(const ReportCommand& o, const experiment::Record& record,
                            .progress = progress_bars()};
   if (options.photo) page.photo_jpeg = lab::to_jpeg(o.photo.file);
   const lab::RunPage made = lab::write_run_page(record, o.page, page, context.stop);
-  if (made.stopped) return ok;
+  if (made.stopped) {
+    note("{}: stopped, so it is not written\n", o.page);
+    return ok;
+  }
   print("wrote {}: {} frames, {:.1f} MB\n", o.page, made.frames,
         static_cast<double>(made.bytes) / 1e6);
   if (made.every > 1)
