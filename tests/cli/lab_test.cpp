@@ -377,5 +377,34 @@ TEST_F(LabCommand, CtrlCEndsItWhileALargeMapIsRead) {
   EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count(), 5);
 }
 
+class ReportPage : public CommandLine {};
+
+TEST_F(ReportPage, ARunIsOneFile) {
+  write("flight.yaml", two_rooms());
+  good({"run", "flight.yaml", "--out", "out", "--no-report"});
+  const std::string said = good({"report", "out/run.h5", "--page", "run.html"});
+  EXPECT_TRUE(said.starts_with("wrote run.html: ")) << said;
+  EXPECT_TRUE(said.ends_with(" MB\n")) << said;
+  EXPECT_FALSE(exists("report"));
+  EXPECT_TRUE(read("run.html").starts_with("<!doctype html>"));
+  good({"report", "out/run.h5", "--page", "both.html", "--out", "page"});
+  EXPECT_TRUE(exists("page/index.html") && exists("both.html"));
+}
+
+TEST_F(ReportPage, ADamagedRecordOrAnotherNameIsRefusedInALine) {
+  write("flight.yaml", two_rooms());
+  good({"run", "flight.yaml", "--out", "out", "--no-report"});
+  write("cut.h5", read("out/run.h5").substr(0, 5000));
+  const Outcome cut = run({"report", "cut.h5", "--page", "run.html"});
+  EXPECT_EQ(cut.code, 2);
+  EXPECT_TRUE(is_one_line_naming(cut.err, "microswarm: cut.h5", {})) << cut.err;
+  const Outcome named = run({"report", "out/run.h5", "--page", "run.pdf"});
+  EXPECT_EQ(named.code, 2);
+  const Outcome nowhere = run({"report", "out/run.h5", "--page", "no/where.html"});
+  EXPECT_EQ(nowhere.code, 2);
+  EXPECT_TRUE(is_one_line_naming(nowhere.err, "microswarm: no/where.html", {})) << nowhere.err;
+  EXPECT_FALSE(exists("run.html") || exists("run.pdf"));
+}
+
 }  // namespace
 }  // namespace microswarm::test

@@ -5,14 +5,18 @@ import { element } from './dom';
 import { galleryPage } from './gallery';
 import type { Page } from './page';
 import { photoPage } from './photo_page';
+import { playerPage } from './player';
 import { sessionPage } from './session_page';
 import { startTheme } from './theme';
 import { photograph } from './uploads';
 
 let page: Page | undefined;
 
-/** The page of the current address: #/session/7, #/rig/7, #/compare/7/8, else the gallery. */
+const run = document.getElementById('run'); // in a file that plays itself
+
+/** The run in the page, or the page of the current address: #/session/7, #/rig/7, #/compare/7/8, else the gallery. */
 function named(): Promise<Page> {
+  if (run) return playerPage(run.textContent ?? '');
   const session = /^#\/session\/(\d+)$/.exec(location.hash);
   if (session) return sessionPage(Number(session[1]));
   const rig = /^#\/rig\/(\d+)$/.exec(location.hash);
@@ -52,7 +56,12 @@ async function route(): Promise<void> {
     if (own !== routes) return;
     const why = element('p', { class: 'trouble', role: 'alert' }, (error as Error).message);
     place?.replaceChildren(
-      element('div', { class: 'fault' }, element('a', { href: '#/', class: 'button quiet' }, '‹ Gallery'), why),
+      element(
+        'div',
+        { class: 'fault' },
+        ...(run ? [] : [element('a', { href: '#/', class: 'button quiet' }, '‹ Gallery')]),
+        why,
+      ),
     );
   }
 }
@@ -62,5 +71,5 @@ window.addEventListener('beforeunload', (event) => {
 });
 startTheme();
 window.addEventListener('hashchange', () => void route());
-history.replaceState(null, '', location.pathname + location.hash); // without the token
+if (!run) history.replaceState(null, '', location.pathname + location.hash); // without the token
 void route();

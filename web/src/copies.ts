@@ -25,6 +25,13 @@ export async function openAgain(live: Live, settings: string[]): Promise<number>
   throw new Error(`${own} is no longer in the folders of this lab.`);
 }
 
+/** Opens the run of a session again, repeated up to the frame that it shows; from there on it has these changes. */
+export async function openBranch(live: Live, changes: string[]): Promise<number> {
+  const { settings } = live.hello ?? { settings: [] };
+  const body = { branch: live.session, frame: live.standing?.frame, settings, changes };
+  return (await call<{ session: number }>('POST', '/api/sessions', body)).session;
+}
+
 /** Opens the experiment of a session a second time beside it; both start at 0. */
 export async function openCopy(live: Live, parameters: Parameters): Promise<void> {
   const settings = parameters.settings();

@@ -23,7 +23,10 @@ export function eventList(live: Live, seek: (time: number) => void): HTMLElement
     });
     const rest = events.length - items.length;
     if (events.length === 0) items.push(element('li', { class: 'doc' }, 'None so far.'));
-    if (rest > 0) items.push(element('li', { class: 'doc' }, `and ${rest} more: events.csv has all.`));
+    if (rest > 0)
+      items.push(
+        element('li', { class: 'doc' }, `and ${rest} more: ${live.isServed ? 'events.csv' : 'the record'} has all.`),
+      );
     list.replaceChildren(...items);
   };
   live.listen((message) => {

@@ -8,7 +8,7 @@ import type { Scene } from './scene/scene';
 
 const speeds = [1, 2, 4, 8, 16, 32];
 
-/** Export of the view as files: picture, vector drawing, numbers of the plots, video of the run. */
+/** Export of the view as files: picture, numbers of the plots, and from a server vector drawing and video. */
 export function exportPanel(live: Live, scene: Scene): HTMLElement {
   const said = element('output', { class: 'doc' });
   const speed = element('select', { 'aria-label': 'Speed of the video', title: 'Seconds of the run per second' });
@@ -45,7 +45,7 @@ export function exportPanel(live: Live, scene: Scene): HTMLElement {
       for (const one of buttons) one.disabled = true; // one export at a time
       stop.hidden = false;
       said.value = `Making ${name} …`;
-      const asks = window.setInterval(() => void tell(name), 700);
+      const asks = live.isServed ? window.setInterval(() => void tell(name), 700) : undefined;
       try {
         save(await make(cancel.signal), name);
         said.value = `${name} is made.`;
@@ -58,21 +58,7 @@ export function exportPanel(live: Live, scene: Scene): HTMLElement {
     };
     return button;
   };
-  const stop = element('button', { type: 'button', hidden: true, onclick: () => cancel?.abort() }, 'Cancel');
-  return element(
-    'div',
-    { class: 'exports' },
-    element(
-      'div',
-      { class: 'row' },
-      act('PNG', 'picture.png', 'The scene as shown', () => scene.picture()),
-      act('SVG', 'picture.svg', 'The run at this time, as vector graphics', (signal) =>
-        fetched(`${path}/picture.svg?t=${live.shown}`, signal),
-      ),
-      act('CSV', 'plots.csv', 'The numbers of the plots', () =>
-        Promise.resolve(new Blob([csvOf(live.history.columns, live.hello?.states ?? [])], { type: 'text/csv' })),
-      ),
-    ),
+  const videos = () => [
     element(
       'div',
       { class: 'row' },
@@ -82,6 +68,27 @@ export function exportPanel(live: Live, scene: Scene): HTMLElement {
       width,
     ),
     element('div', { class: 'row' }, from.root, to.root),
+  ];
+  const stop = element('button', { type: 'button', hidden: true, onclick: () => cancel?.abort() }, 'Cancel');
+  return element(
+    'div',
+    { class: 'exports' },
+    element(
+      'div',
+      { class: 'row' },
+      act('PNG', 'picture.png', 'The scene as shown', () => scene.picture()),
+      ...(live.isServed
+        ? [
+            act('SVG', 'picture.svg', 'The run at this time, as vector graphics', (signal) =>
+              fetched(`${path}/picture.svg?t=${live.shown}`, signal),
+            ),
+          ]
+        : []),
+      act('CSV', 'plots.csv', 'The numbers of the plots', () =>
+        Promise.resolve(new Blob([csvOf(live.history.columns, live.hello?.states ?? [])], { type: 'text/csv' })),
+      ),
+    ),
+    ...(live.isServed ? videos() : []),
     element('div', { class: 'row' }, stop, said),
   );
 }

@@ -1,13 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 import { element } from './dom';
+import type { Live } from './live';
+import { decisionsNote } from './repeat';
 import type { Scene } from './scene/scene';
 
-/** Switches for the scene's layers. */
-export function layersTab(scenes: Scene[]): { root: HTMLElement; show: () => void } {
-  const root = element('div', { class: 'layers' });
+/** Switches for the scene's layers, and a note on decisions that the session does not have. */
+export function layersTab(scenes: Scene[], live?: Live): { root: HTMLElement; show: () => void } {
+  const list = element('div', { class: 'layers' });
+  const note = element('p', { class: 'when', role: 'status', hidden: true });
+  const root = element('div', {}, note, list);
+  live?.listen((message) => {
+    if (message.type !== 'standing') return;
+    const text = decisionsNote(message);
+    note.hidden = text === '';
+    if (note.textContent !== text) note.textContent = text;
+  });
   const show = () => {
     const layers = scenes[0]?.layers() ?? [];
-    root.replaceChildren(
+    list.replaceChildren(
       ...layers.map((layer) => {
         const box = element('input', {
           type: 'checkbox',

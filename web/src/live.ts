@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { Connection } from './connection';
+import type { Connect, Connection } from './connection';
 import { History } from './history';
 import {
   type Answer,
@@ -11,6 +11,7 @@ import {
   doubles,
 } from './protocol';
 import type { StreamState } from './reconnect';
+import { ServerStream } from './server_stream';
 
 type Listener = (message: Message) => void;
 
@@ -33,11 +34,17 @@ export class Live {
   private wanted: number | undefined;
   private seeks = false;
 
-  /** `what` names the session in texts. */
+  /** `what` names the session in texts. One that is at no server has the number 0 and its own `connect`. */
   constructor(
     readonly session: number,
-    private readonly what: string,
+    what: string,
+    private readonly connect: Connect = (onState) => new ServerStream(session, what, onState),
   ) {}
+
+  /** Whether it is at a server, which gives files, videos and copies. */
+  get isServed(): boolean {
+    return this.session > 0;
+  }
 
   /** Whether the session was changed, held or steered by hand since its start. */
   get isTouched(): boolean {
@@ -55,7 +62,7 @@ export class Live {
 
   /** Starts the stream, once all listeners are registered. */
   open(): void {
-    this.connection = new Connection(this.session, this.what, (state, text) => {
+    this.connection = this.connect((state, text) => {
       this.isClosed = state === 'closed';
       for (const one of this.staters) one(state, text);
     });

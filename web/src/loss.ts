@@ -41,25 +41,35 @@ export function mayLeave(lives: Live[]): Promise<boolean> {
   return risky.length > 0 ? goes(risky, away) : Promise.resolve(true);
 }
 
-/** Time at which a change acts that was made while an earlier time is shown: `now`, in a `copy` from the start, or not at all. */
-export async function askWhen(shown: number, newest: number): Promise<'now' | 'copy' | ''> {
-  const text = `The picture is of ${shown.toFixed(1)} s, and the run stands at ${newest.toFixed(1)} s. The past cannot be changed: the change can act now, or in a copy of the run from its start.`;
+/** Place at which a change acts that was made while an earlier time is shown: `now`, in a `branch`, which is a copy of the run up to that time, or nowhere. */
+export async function askWhen(live: Live): Promise<'now' | 'branch' | ''> {
+  const shown = live.shown.toFixed(1);
+  const newest = (live.history.times.at(-1) ?? 0).toFixed(1);
+  const hasEnded = live.standing?.ended;
+  const canBranch = live.isServed && !live.hello?.rig;
+  const places = [
+    ...(canBranch ? [`in a branch, which is a copy of the run up to ${shown} s that goes on with it`] : []),
+    ...(hasEnded ? [] : ['now']),
+  ];
+  const text = `The picture is of ${shown} s, and the run ${hasEnded ? 'ended' : 'stands'} at ${newest} s. The past cannot be changed${places.length > 0 ? `: the change can act ${places.join(', or ')}.` : '.'}`;
   const answer = await asks('Change the past?', text, [
     ['Cancel', 'keep', ''],
-    ['In a copy from 0 s', 'copy', 'copy'],
-    [`Now, at ${newest.toFixed(1)} s`, 'primary now', 'now'],
+    ...(hasEnded ? [] : [[`Now, at ${newest} s`, 'now', 'now'] as [string, string, string]]),
+    ...(canBranch ? [[`Branch at ${shown} s`, 'primary branch', 'branch'] as [string, string, string]] : []),
   ]);
-  return answer as 'now' | 'copy' | '';
+  return answer as 'now' | 'branch' | '';
 }
 
 async function goes(lives: Live[], words: Words): Promise<boolean> {
-  const links = lives.map(({ session }) =>
-    element(
-      'a',
-      { href: `/api/sessions/${session}/record.h5`, download: 'record.h5', class: 'button' },
-      'Download record.h5',
-    ),
-  );
+  const links = lives
+    .filter((live) => live.isServed)
+    .map(({ session }) =>
+      element(
+        'a',
+        { href: `/api/sessions/${session}/record.h5`, download: 'record.h5', class: 'button' },
+        'Download record.h5',
+      ),
+    );
   return (
     (await asks(
       words.title,

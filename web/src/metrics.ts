@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { element } from './dom';
+import type { History } from './history';
 import { number, words } from './numbers';
 import type { Json } from './protocol';
 
@@ -28,6 +29,19 @@ export function metricsOf(metrics: { [key: string]: Json }, group = ''): Metric[
       },
     ];
   });
+}
+
+const momentary = ['clearance_um', 'goal_distance_um', 'speed_um_per_s', 'avoidance_cost', 'step_time_s'];
+
+/** Numbers of one tick. */
+export function numbersAt(history: History, frame: number): { [key: string]: Json } {
+  return Object.fromEntries(momentary.map((name) => [name, history.column(name)[frame] ?? null]));
+}
+
+/** Time and state of a tick, as a heading of its numbers. */
+export function headingAt(history: History, frame: number, states: string[]): string {
+  const state = states[history.column('state')[frame] ?? -1];
+  return `At ${(history.times[frame] ?? 0).toFixed(1)} s${state ? `: ${state.replaceAll('_', ' ')}` : ''}`;
 }
 
 /** Table of the metrics of one or more runs, with the difference of two. */

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Changes } from './changes';
 import { call } from './connection';
+import { openBranch } from './copies';
 import { element } from './dom';
 import { Form } from './form';
 import { routed } from './issues';
 import type { Live } from './live';
-import { mayBeginAnew } from './loss';
+import { askWhen, mayBeginAnew } from './loss';
 import { type Answer, type Json, type Scenario, said } from './protocol';
 import { parametersNote } from './repeat';
 import type { Schema } from './schema';
@@ -59,7 +60,7 @@ export class Parameters {
     this.form = new Form(
       {
         wanted: () => this.wanted(),
-        change: (key, value) => void this.change(key, value),
+        change: (key, value) => void this.change(key, () => value),
         changeType: (key, type) => this.changeType(key, type),
         isAtOnce: (key) => this.isAtOnce(key),
         canChange: () => !live.hello?.playback,
@@ -79,12 +80,7 @@ export class Parameters {
     let ended = false;
     live.listen((message) => {
       if (message.type === 'standing' || message.type === 'frame') {
-        const text = parametersNote(
-          live.hello?.playback ?? false,
-          live.standing,
-          live.shown,
-          live.history.times.at(-1) ?? 0,
-        );
+        const text = parametersNote(live.hello?.playback ?? false, live.standing, live.shown);
         when.hidden = text === '';
         if (when.textContent !== text) when.textContent = text;
       }
@@ -126,16 +122,48 @@ export class Parameters {
 
   /** Whether a key takes effect at the next tick, otherwise at a restart. */
   isAtOnce(key: string): boolean {
-    const top = key.split('.')[0] as string;
-    return !this.live.standing?.ended && (this.live.hello?.changeable.includes(top) ?? false);
+    return !this.live.standing?.ended && this.isChangeable(key);
   }
 
-  async change(key: string, value: Json): Promise<Answer | undefined> {
+  /** Whether an earlier frame is shown, from which a branch with another value of the key can continue. */
+  isOfPast(key: string): boolean {
+    return (this.live.standing?.looks_back ?? false) && this.isChangeable(key);
+  }
+
+  /** Changes a value; `make` makes it of the scenario on which it acts. */
+  async change(key: string, make: () => Json): Promise<Answer | undefined> {
+    if (this.isOfPast(key)) {
+      const elsewhere = await this.actElsewhere(key, make);
+      if (elsewhere) return elsewhere;
+    }
+    const value = make();
     const before = at(this.wanted(), key);
     const answer = await this.apply(key, value);
     if (before !== undefined && !answer?.issues.length) this.done.push([key, before]);
     this.undoButton.hidden = this.done.length === 0;
     return answer;
+  }
+
+  /** Asks where a change acts while an earlier time is shown; nothing if it acts now, to which it returns. */
+  private async actElsewhere(key: string, make: () => Json): Promise<Answer | undefined> {
+    const answer: Answer = { ...kept, issues: [] };
+    const wanted = await askWhen(this.live);
+    if (wanted === 'now') {
+      await this.live.ask({ do: 'live' });
+      return undefined;
+    }
+    try {
+      if (wanted === 'branch') location.hash = `#/session/${await openBranch(this.live, [`${key}=${text(make())}`])}`;
+    } catch (error) {
+      answer.issues.push({ keys: [key], text: (error as Error).message });
+    }
+    this.rebuild(); // the value of this run is as before
+    this.showIssues(answer, [key]);
+    return answer;
+  }
+
+  private isChangeable(key: string): boolean {
+    return this.live.hello?.changeable.includes(key.split('.')[0] as string) ?? false;
   }
 
   /** Takes the last change back, by another one. */
@@ -166,7 +194,7 @@ export class Parameters {
     const present = at(this.wanted(), key);
     if (present && typeof present === 'object' && !Array.isArray(present))
       this.tuned.set(`${key}:${String(present['type'])}`, present);
-    void this.change(key, this.tuned.get(`${key}:${type}`) ?? { type });
+    void this.change(key, () => this.tuned.get(`${key}:${type}`) ?? { type });
   }
 
   private wanted(): Scenario {

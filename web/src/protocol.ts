@@ -172,6 +172,7 @@ export interface Standing {
   status: string;
   state: string;
   metrics: { [key: string]: Json };
+  decisions_every: number; // diagnostics are kept of every such frame
   trouble: string;
 }
 

@@ -3,17 +3,24 @@ import { element } from './dom';
 import { eventList } from './event_list';
 import { exportPanel } from './export_panel';
 import type { Live } from './live';
-import { metricsTable } from './metrics';
+import { headingAt, metricsTable, numbersAt } from './metrics';
 import type { Json } from './protocol';
 import type { Scene } from './scene/scene';
 import { metricsHeading, repeatOf } from './repeat';
 
 const downloads = ['record.h5', 'scenario.yaml', 'frames.csv', 'events.csv'];
 
-/** Metrics so far, changes, the command that repeats them, and downloads. */
-export function recordTab(live: Live, scene: Scene, compare: () => void, seek: (time: number) => void): HTMLElement {
+/** Metrics so far, changes, the command that repeats them, and what a server gives: downloads, and copies to `compare`. */
+export function recordTab(
+  live: Live,
+  scene: Scene,
+  seek: (time: number) => void,
+  compare: (() => void) | undefined,
+): HTMLElement {
   const metrics = element('div', { class: 'table' });
   const heading = element('h2', {});
+  const moment = element('div', { class: 'table moment' });
+  const momentHeading = element('h2', {});
   const changesHeading = element('h2', {});
   const note = element('p', { class: 'doc' });
   const changes = element('ol', { class: 'changes' });
@@ -54,7 +61,7 @@ export function recordTab(live: Live, scene: Scene, compare: () => void, seek: (
     const repeat = repeatOf(live.hello, live.standing ?? { changes: [], steered: false });
     changes.replaceChildren(...repeat.changes.map((one) => element('li', {}, element('code', {}, one))));
     if (repeat.changes.length === 0) changes.replaceChildren(element('li', { class: 'doc' }, repeat.none));
-    heading.textContent = metricsHeading(playback, live.standing, live.history.times.at(-1) ?? 0);
+    heading.textContent = metricsHeading(playback, live.standing);
     changesHeading.textContent = playback ? 'Changes in the record' : 'Changes since the start';
     note.textContent = repeat.note;
     if (command.textContent !== repeat.command) {
@@ -71,12 +78,16 @@ export function recordTab(live: Live, scene: Scene, compare: () => void, seek: (
     if (message.plays && performance.now() - drawn < 250) return;
     drawn = performance.now();
     metrics.replaceChildren(metricsTable([''], [last]));
+    momentHeading.textContent = headingAt(live.history, message.frame, live.hello?.states ?? []);
+    moment.replaceChildren(metricsTable([''], [numbersAt(live.history, message.frame)]));
   });
   return element(
     'div',
     { class: 'record' },
     heading,
     metrics,
+    momentHeading,
+    moment,
     changesHeading,
     changes,
     element('h2', {}, 'Command line'),
@@ -84,17 +95,19 @@ export function recordTab(live: Live, scene: Scene, compare: () => void, seek: (
     note,
     element('div', { class: 'row' }, copy, copied),
     ...eventList(live, seek),
-    element('h2', {}, 'Download'),
-    driven,
-    files,
+    ...(live.isServed ? [element('h2', {}, 'Download'), driven, files] : []),
     element('h2', {}, 'Export the view'),
     exportPanel(live, scene),
-    element('h2', {}, 'Compare'),
-    element(
-      'div',
-      { class: 'row' },
-      element('button', { type: 'button', class: 'compare', onclick: compare }, 'Compare with a copy'),
-    ),
+    ...(compare
+      ? [
+          element('h2', {}, 'Compare'),
+          element(
+            'div',
+            { class: 'row' },
+            element('button', { type: 'button', class: 'compare', onclick: compare }, 'Compare with a copy'),
+          ),
+        ]
+      : []),
   );
 }
 

@@ -40,22 +40,26 @@ export function repeatOf({ command, playback }: Source, { changes, steered }: Do
 /** Heading of the metrics, with the time of which they are where the picture is of another. */
 export function metricsHeading(
   playback: boolean,
-  standing: Pick<Standing, 'looks_back' | 'growing'> | undefined,
-  newest: number,
+  standing: Pick<Standing, 'looks_back' | 'growing' | 'metrics'> | undefined,
 ): string {
   if (playback) return standing?.growing ? 'Metrics of the record so far' : 'Metrics of the whole record';
-  return standing?.looks_back ? `Metrics so far, at ${newest.toFixed(1)} s` : 'Metrics so far';
+  return standing?.looks_back ? `Metrics up to ${Number(standing.metrics['time_s']).toFixed(1)} s` : 'Metrics so far';
 }
 
-/** Note on parameters that are not of the time in the picture; empty if they are. */
+/** Note on parameters and decisions while an earlier time is in the picture; empty if it is none. */
 export function parametersNote(
   playback: boolean,
   standing: Pick<Standing, 'looks_back' | 'changes'> | undefined,
   shown: number,
-  newest: number,
 ): string {
-  if (playback && standing && standing.changes.length > 0)
-    return 'These are the values at the start of the record. The tab Record lists their changes.';
-  if (playback || !standing?.looks_back) return '';
-  return `The picture is of ${shown.toFixed(1)} s. These are the values of now, ${newest.toFixed(1)} s; a change acts now.`;
+  const { looks_back: looksBack, changes } = standing ?? { looks_back: false, changes: [] };
+  return looksBack || (playback && changes.length > 0) ? `These are the values at ${shown.toFixed(1)} s.` : '';
+}
+
+/** Note on decisions that a long run no longer has; empty if it has all. */
+export function decisionsNote(standing: Pick<Standing, 'looks_back' | 'decisions_every'> | undefined): string {
+  const every = standing?.looks_back ? standing.decisions_every : 1;
+  return every > 1
+    ? `Decisions of this run are kept of one frame in ${every}: others show none. With record.diagnostics all are kept.`
+    : '';
 }

@@ -10,12 +10,12 @@ export interface SceneTools {
   keys: Key[];
 }
 
-/** Zoom, fit, follow and steer, over the scene and by keys. A rig steers from its console. */
-export function sceneTools(live: Live, scene: Scene, drive: Drive, isRig: boolean): SceneTools {
+/** Zoom, fit, follow and, with a drive, steer, over the scene and by keys. A rig steers from its console. */
+export function sceneTools(live: Live, scene: Scene, drive: Drive | undefined, isRig: boolean): SceneTools {
   let follows = false;
   const toggleFollow = () => scene.follow(!follows);
   const followButton = toolButton('Follow', 'Follow the swarm (l)', toggleFollow);
-  const manualButton = toolButton('Steer', 'Steer with the arrow keys or a gamepad (m)', () => drive.toggle());
+  const manualButton = toolButton('Steer', 'Steer with the arrow keys or a gamepad (m)', () => drive?.toggle());
   scene.onFollow((on) => {
     follows = on;
     followButton.setAttribute('aria-pressed', String(on));
@@ -32,12 +32,12 @@ export function sceneTools(live: Live, scene: Scene, drive: Drive, isRig: boolea
       toolButton('+', 'Zoom in', () => scene.zoomBy(1.25)),
       toolButton('Fit', 'Fit the map (f)', () => scene.fit()),
       followButton,
-      manualButton,
+      ...(drive ? [manualButton] : []),
     ),
     keys: [
       { keys: ['f'], shown: 'f', does: 'fit the map', act: () => scene.fit() },
       { keys: ['l'], shown: 'l', does: 'follow the swarm', act: toggleFollow },
-      { keys: ['m'], shown: 'm', does: 'steer by hand', act: () => drive.toggle() },
+      ...(drive ? [{ keys: ['m'], shown: 'm', does: 'steer by hand', act: () => drive.toggle() }] : []),
     ],
   };
 }

@@ -26,36 +26,56 @@ const stopKeys: Key[] = [
   { keys: [], shown: 'space, Esc', does: 'stop: coils to zero at once, while it is armed', act: () => undefined },
 ];
 
-/** Page of one session: scene, panels and time line; for a rig in real time also the console. */
+/** Parts of a session's page besides scene, layers, plots and time line. */
+export interface Offers {
+  /** The console of a rig in real time. */
+  rig: boolean;
+  /** Parameters, dragging, steering and restart. */
+  changes: boolean;
+  /** Text on the page, for a separate tab. */
+  about?: HTMLElement;
+}
+
+/** Page of a session at the server; for a rig in real time also the console. */
 export async function sessionPage(session: number, isRig = false): Promise<Page> {
   await requireOpen(session);
+  return pageOf(new Live(session, 'The run'), { rig: isRig, changes: true });
+}
+
+/** Page of a session: scene, panels and time line. */
+export async function pageOf(live: Live, { rig: isRig, changes, about }: Offers): Promise<Page> {
   const { root: trouble, say } = notice();
-  const live = new Live(session, 'The run');
   const stage = await stageFor(live);
   const { scene } = stage;
   scene.keepFree(60); // for the tools above it
-  const parameters = new Parameters(live);
-  const time = timeBar([live], isRig ? undefined : () => parameters.restart());
+  const parameters = changes ? new Parameters(live) : undefined;
+  const time = timeBar([live], isRig || !parameters ? undefined : () => parameters.restart());
   const plots = new Plots([live], time.transport.seekTime);
-  const layers = layersTab([scene]);
-  const drive = new Drive(live);
-  const hands = new Hands(live, scene, parameters, say);
+  const layers = layersTab([scene], live);
+  const drive = changes ? new Drive(live) : undefined;
+  const hands = parameters ? new Hands(live, scene, parameters, say) : undefined;
   const tools = sceneTools(live, scene, drive, isRig);
-  const rig = isRig ? rigConsole(live, drive, say) : undefined;
-  const compare = () => openCopy(live, parameters).catch((error: Error) => say(error.message));
+  const rig = isRig && drive ? rigConsole(live, drive, say) : undefined;
+  const compare =
+    parameters && live.isServed
+      ? () => void openCopy(live, parameters).catch((error: Error) => say(error.message))
+      : undefined;
 
   let isBroken = false; // before it opens, keys wait for its answer
   const arrow = (by: number) => (event: KeyboardEvent) => {
-    if (!drive.key(event, true)) time.transport.seekBy(by * (event.shiftKey ? 10 : 1));
+    if (!drive?.key(event, true)) time.transport.seekBy(by * (event.shiftKey ? 10 : 1));
   };
+  const [left, right] = drive ? [' · steer left', ' · steer right'] : ['', ''];
   const keys = new Keys(
     [
       ...(isRig ? stopKeys : timeKeys(time)),
-      { keys: ['ArrowLeft'], shown: '←', does: 'previous frame (Shift: ten) · steer left', act: arrow(-1) },
-      { keys: ['ArrowRight'], shown: '→', does: 'next frame (Shift: ten) · steer right', act: arrow(1) },
-      { keys: ['ArrowUp', 'ArrowDown'], shown: '↑ ↓', does: 'steer (Shift: slowly)', act: arrow(0) },
+      { keys: ['ArrowLeft'], shown: '←', does: `previous frame (Shift: ten)${left}`, act: arrow(-1) },
+      { keys: ['ArrowRight'], shown: '→', does: `next frame (Shift: ten)${right}`, act: arrow(1) },
+      ...(drive
+        ? [{ keys: ['ArrowUp', 'ArrowDown'], shown: '↑ ↓', does: 'steer (Shift: slowly)', act: arrow(0) }]
+        : []),
       ...tools.keys,
-      ...(isRig
+      ...(isRig || !hands
         ? []
         : [
             { keys: ['Escape'], shown: 'Esc', does: 'deselect the tool', act: () => hands.choose(undefined) },
@@ -65,12 +85,12 @@ export async function sessionPage(session: number, isRig = false): Promise<Page>
     !isRig,
     () => isRig || !isBroken,
   );
-  const up = (event: KeyboardEvent) => drive.key(event, false);
-  const blur = () => drive.release();
+  const up = (event: KeyboardEvent) => drive?.key(event, false);
+  const blur = () => drive?.release();
   window.addEventListener('keyup', up);
   window.addEventListener('blur', blur);
 
-  const over = element('div', { class: 'over' }, hands.tools, tools.root);
+  const over = element('div', { class: 'over' }, ...(hands ? [hands.tools] : []), tools.root);
   const title = element('h1', { class: 'title' });
   const status = element('output', { class: 'status' });
   const root = element(
@@ -80,7 +100,7 @@ export async function sessionPage(session: number, isRig = false): Promise<Page>
     element(
       'nav',
       { class: 'top' },
-      element('a', { href: '#/', class: 'button quiet' }, '‹ Gallery'),
+      ...(live.isServed ? [element('a', { href: '#/', class: 'button quiet' }, '‹ Gallery')] : []),
       title,
       status,
       trouble,
@@ -89,22 +109,24 @@ export async function sessionPage(session: number, isRig = false): Promise<Page>
     ),
     element('div', { class: 'stage' }, scene.root, over),
     time.root, // before the tabs, so that Play is soon reached by the Tab key
-    tabs(isRig ? 'rig' : 'session', [
+    tabs(isRig ? 'rig' : changes ? 'session' : 'player', [
+      ...(about ? [{ name: 'About', panel: about }] : []),
       ...(isRig ? [{ name: 'Rig', panel: rigTab(live) }] : []),
-      { name: 'Parameters', panel: parameters.root },
+      ...(parameters ? [{ name: 'Parameters', panel: parameters.root }] : []),
       { name: 'Layers', panel: layers.root, shown: layers.show },
       { name: 'Plots', panel: plots.root, shown: () => plots.show() },
-      { name: 'Record', panel: recordTab(live, scene, () => void compare(), time.transport.seekTime) },
+      { name: 'Record', panel: recordTab(live, scene, time.transport.seekTime, compare) },
     ]),
   );
   live.listen((message) => {
     if (message.type === 'hello') {
       const name = String(message.scenario['name'] || message.name);
       title.textContent = name;
-      document.title = `${name} – microswarm lab`;
+      document.title = `${name} – microswarm${live.isServed ? ' lab' : ''}`;
       root.classList.toggle('playback', message.playback);
-      if (message.live !== isRig) location.hash = `#/${message.live ? 'rig' : 'session'}/${session}`;
-      hands.tools.hidden = message.playback || isRig;
+      if (live.isServed && message.live !== isRig)
+        location.hash = `#/${message.live ? 'rig' : 'session'}/${live.session}`;
+      if (hands) hands.tools.hidden = message.playback || isRig;
     }
     if (message.type !== 'standing') return;
     root.dataset['status'] = message.status;
@@ -117,7 +139,8 @@ export async function sessionPage(session: number, isRig = false): Promise<Page>
     say(text);
     root.dataset['stream'] = state;
     isBroken = state !== 'open';
-    over.inert = parameters.root.inert = state !== 'open';
+    over.inert = state !== 'open';
+    if (parameters) parameters.root.inert = over.inert;
   });
   live.open();
   return {
@@ -128,7 +151,7 @@ export async function sessionPage(session: number, isRig = false): Promise<Page>
       window.removeEventListener('keyup', up);
       window.removeEventListener('blur', blur);
       rig?.destroy();
-      drive.destroy();
+      drive?.destroy();
       keys.destroy();
       plots.destroy();
       time.destroy();

@@ -30,7 +30,8 @@ export async function stageFor(live: Live): Promise<Stage> {
   live.listen((message) => {
     if (message.type !== 'hello' || message.photo?.file === photo) return;
     photo = message.photo?.file;
-    const address = photo === undefined ? '' : `/api/sessions/${live.session}/photo.jpg`;
+    const isServed = photo !== undefined && live.isServed;
+    const address = isServed ? `/api/sessions/${live.session}/photo.jpg` : (photo ?? '');
     scene.setBackground(address, [0, 0], message.photo?.um_per_px ?? 1).catch(() => undefined);
   });
   const stopTheme = onTheme((theme) => scene.setTheme(theme));

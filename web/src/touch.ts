@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-import { openAgain } from './copies';
 import { discRadius } from './discs';
 import { element } from './dom';
 import type { Live } from './live';
 import { numberEntry } from './number_entry';
 import type { Parameters } from './parameters';
-import { askWhen } from './loss';
 import { type Json, type Point, said } from './protocol';
-import { at, combine, text } from './settings';
+import { at, text } from './settings';
 import type { Scene, Touch } from './scene/scene';
 
 type Tool = 'obstacle' | 'wall' | 'remove';
@@ -101,7 +99,7 @@ export class Hands {
     if (this.tool === 'wall') return this.addWall(touch.at);
     if (this.tool === 'remove') return this.remove(touch);
     if (touch.at[0] === touch.from[0] && touch.at[1] === touch.from[1]) return;
-    if (kind === 'goal') return this.apply('goal_um', rounded(touch.at));
+    if (kind === 'goal') return this.apply('goal_um', () => rounded(touch.at));
     if (kind === 'start') return this.moveStart(touch.at);
     if (kind === 'obstacle' && index !== undefined)
       return this.moveObstacle(index, touch.at[0] - touch.from[0], touch.at[1] - touch.from[1]);
@@ -120,9 +118,11 @@ export class Hands {
       const [x, y] = point as Point;
       return rounded([x + dx, y + dy]);
     };
-    const before = at(this.live.hello?.scenario, `${motion}.${place}`) ?? [0, 0];
-    const isList = Array.isArray(before) && Array.isArray(before[0]);
-    await this.apply(`${motion}.${place}`, isList ? (before as Json[]).map(shift) : shift(before));
+    await this.apply(`${motion}.${place}`, () => {
+      const before = at(this.live.hello?.scenario, `${motion}.${place}`) ?? [0, 0];
+      const isList = Array.isArray(before) && Array.isArray(before[0]);
+      return isList ? (before as Json[]).map(shift) : shift(before);
+    });
   }
 
   private obstacles(): Json[] {
@@ -141,7 +141,7 @@ export class Hands {
       shape: { type: 'disc', radius_um: this.radius.get() ?? 0 },
       motion: { type: 'still', position_um: rounded(position) },
     };
-    await this.apply('obstacles', [...this.obstacles(), disc]);
+    await this.apply('obstacles', () => [...this.obstacles(), disc]);
   }
 
   private async addWall(position: Point): Promise<void> {
@@ -154,10 +154,7 @@ export class Hands {
   private async remove(touch: Touch): Promise<void> {
     const { kind, index } = touch.what;
     if (kind === 'obstacle' && index !== undefined)
-      return this.apply(
-        'obstacles',
-        this.obstacles().filter((_, i) => i !== index),
-      );
+      return this.apply('obstacles', () => this.obstacles().filter((_, i) => i !== index));
     const left = this.discs()?.filter((one) => {
       const { centre_um: centre, radius_um: radius } = one as { centre_um: Point; radius_um: number };
       return Math.hypot(touch.at[0] - centre[0], touch.at[1] - centre[1]) > radius;
@@ -166,25 +163,11 @@ export class Hands {
     this.say('Nothing to remove here.');
   }
 
-  private async apply(key: string, value: Json): Promise<void> {
-    if (!this.parameters.isAtOnce(key)) return this.restart([`${key}=${text(value)}`]);
-    if (this.live.standing?.looks_back) {
-      const wanted = await askWhen(this.live.shown, this.live.history.times.at(-1) ?? 0);
-      if (!wanted) return;
-      if (wanted === 'copy') return this.copy(`${key}=${text(value)}`);
-      await this.live.ask({ do: 'live' });
-    }
-    const answer = await this.parameters.change(key, value);
-    this.say(said(answer));
-  }
-
-  /** Opens the experiment again from its start, with a further setting; this run is kept. */
-  private async copy(setting: string): Promise<void> {
-    try {
-      location.hash = `#/session/${await openAgain(this.live, combine(this.parameters.settings(), [setting]))}`;
-    } catch (error) {
-      this.say((error as Error).message);
-    }
+  /** Applies a value, which is made of the scenario on which it acts. */
+  private async apply(key: string, make: () => Json): Promise<void> {
+    if (this.parameters.isAtOnce(key) || this.parameters.isOfPast(key))
+      return this.say(said(await this.parameters.change(key, make)));
+    await this.restart([`${key}=${text(make())}`]);
   }
 
   private async restart(settings: string[]): Promise<void> {

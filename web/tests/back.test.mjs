@@ -21,7 +21,7 @@ async function dragGoal(page) {
   await page.mouse.up();
 }
 
-test('a change in the past asks whether it acts now or in a copy, and numbers say of when they are', () =>
+test('a change in the past asks whether it acts now or in a branch, and numbers say of when they are', () =>
   inLab('scenarios/first_flight.yaml', async (page, { picture }) => {
     const standing = () => page.evaluate(() => window.microswarm.connection.standing);
     for (let i = 0; i < 12; ++i) await page.click('.step');
@@ -29,18 +29,24 @@ test('a change in the past asks whether it acts now or in a copy, and numbers sa
     assert.match(await page.locator('.total').innerText(), /of 1\.1 s/);
     await page.keyboard.press('Home');
     await until(page, () => window.microswarm.connection.standing.looks_back);
-    await page.locator('.parameters .when', { hasText: 'The picture is of 0.0 s' }).waitFor();
+    await page.locator('.parameters .when', { hasText: 'values at 0.0 s' }).waitFor();
     await dragGoal(page);
     await page.waitForSelector('dialog.loss');
     await picture('back-asks');
     await page.click('.loss .keep');
     assert.deepEqual((await standing()).changes, []);
+    await page.keyboard.press('ArrowRight');
+    await until(page, () => window.microswarm.connection.standing.frame === 1);
+    await page.keyboard.press('ArrowRight');
+    await until(page, () => window.microswarm.connection.standing.frame === 2);
     await dragGoal(page);
-    await page.click('.loss .copy');
-    await until(page, () => location.hash === '#/session/3' || /session\/[^1]/.test(location.hash));
-    await until(page, () => window.microswarm?.connection.standing?.frames === 0);
-    assert.match((await page.evaluate(() => window.microswarm.connection.hello.settings)).join(), /^goal_um=/);
+    await page.click('.loss .branch');
+    await until(page, () => /session\/[^1]/.test(location.hash));
+    await until(page, () => window.microswarm?.connection.standing?.frames === 3);
+    assert.match((await standing()).changes.join(), /^goal_um=/);
+    await picture('back-branch');
     await page.goBack();
+    await page.click('.loss .anew'); // only its record repeats the branch
     await until(page, () => window.microswarm?.connection.standing?.frames === 12);
     await page.keyboard.press('Home');
     await until(page, () => window.microswarm.connection.standing.looks_back);

@@ -120,18 +120,49 @@ Opening to_opening(const OpenRequest& asked, const Shared& shared) {
   return opening;
 }
 
-/// POST {"file": …, "settings": […]}
-void open_session(Exchange& e, std::string_view) {
-  Opening opening = to_opening(read_open_request(e.request().body()), e.shared());
-  e.wait();
+void open_and_answer(const std::shared_ptr<Exchange>& e, Opening opening) {
   const bool live = opening.live.has_value();
-  e.shared().hub.open(std::move(opening), [self = e.shared_from_this(),
-                                           live](const Outcome<std::uint64_t>& opened) {
+  e->shared().hub.open(std::move(opening), [self = e, live](const Outcome<std::uint64_t>& opened) {
     if (opened.trouble.empty())
       self->write(respond(self->request(), {{"session", opened.value}, {"live", live}}));
     else
       self->refuse(http::status::bad_request, opened.trouble);
   });
+}
+
+using RecordPtr = std::shared_ptr<const experiment::Record>;
+
+RecordPtr copy_record(const experiment::Session& of) {
+  return std::make_shared<const experiment::Record>(experiment::Record(of.record()));
+}
+
+/// Opens a run of a session again, repeated up to a frame.
+void open_branch(Exchange& e, const OpenRequest& asked) {
+  if (!e.shared().hub.has(*asked.branch)) throw InputError("message: there is no such session");
+  const Opening& of = e.shared().hub.find_opening(*asked.branch);
+  Opening opening{.file = of.file, .photo = of.photo};
+  opening.options.settings = Settings(asked.settings, "");
+  opening.check = [&library = e.shared().library, file = of.file](const auto& settings) {
+    library.check(file, settings, {});
+  };
+  opening.branch = Branch{.frame = asked.frame, .changes = asked.changes};
+  e.wait();
+  e.shared().hub.fetch<RecordPtr>(
+      *asked.branch, copy_record,
+      [self = e.shared_from_this(), opening](const Outcome<RecordPtr>& copied) mutable {
+        if (!copied.trouble.empty()) return self->refuse(http::status::bad_request, copied.trouble);
+        opening.branch->record = copied.value;
+        open_and_answer(self, std::move(opening));
+      });
+}
+
+/// POST {"file": …, "settings": […]} or {"branch": …, "frame": …, "changes": […]}
+void open_session(Exchange& e, std::string_view) {
+  const OpenRequest asked = read_open_request(e.request().body());
+  if (asked.branch) return open_branch(e, asked);
+  Opening opening = to_opening(asked, e.shared());
+  e.wait();
+  open_and_answer(e.shared_from_this(), std::move(opening));
 }
 
 Json describe(const Hub::Open& one) {
@@ -212,18 +243,15 @@ void make_export(const std::shared_ptr<Exchange>& exchange, std::shared_ptr<std:
 void export_run(Exchange& e, std::uint64_t session, const std::string& name,
                 const RunExport& wanted) {
   auto gone = e.wait();
-  e.shared().hub.fetch<std::shared_ptr<const experiment::Record>>(
-      session,
-      [](const experiment::Session& of) {
-        return std::make_shared<const experiment::Record>(experiment::Record(of.record()));
-      },
-      [self = e.shared_from_this(), gone = std::move(gone), session, name,
-       wanted](const Outcome<std::shared_ptr<const experiment::Record>>& copied) {
-        if (!copied.trouble.empty())
-          self->refuse(http::status::internal_server_error, copied.trouble);
-        else
-          make_export(self, gone, session, name, wanted, copied.value);
-      });
+  e.shared().hub.fetch<RecordPtr>(session, copy_record,
+                                  [self = e.shared_from_this(), gone = std::move(gone), session,
+                                   name, wanted](const Outcome<RecordPtr>& copied) {
+                                    if (!copied.trouble.empty())
+                                      self->refuse(http::status::internal_server_error,
+                                                   copied.trouble);
+                                    else
+                                      make_export(self, gone, session, name, wanted, copied.value);
+                                  });
 }
 
 /// GET /api/sessions/ID

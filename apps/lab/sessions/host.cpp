@@ -131,6 +131,10 @@ void Host::operate(const Request& request, Issues& issues) {
     operation->end();
 }
 
+void Host::keep(const experiment::Tick& tick, const experiment::Session& of) {
+  kept_.add(tick, of.result().metrics, of.scenario().record.diagnostics);
+}
+
 void Host::look_back(double frame, Issues& issues) {
   Standing& standing = publisher_.standing;
   if (frame < 0 || frame > 1e15 || !publisher_.has_rows()) {
@@ -142,9 +146,14 @@ void Host::look_back(double frame, Issues& issues) {
     session().seek(number);
     standing.ended = false;
   } else {
-    if (!past_)
-      past_ = std::make_unique<experiment::Session>(experiment::Record(session().record()));
+    if (!past_) {
+      experiment::Record record(session().record());
+      if (record.diagnostics.empty()) record.diagnostics = kept_.diagnostics();
+      past_ = std::make_unique<experiment::Session>(std::move(record));
+    }
     past_->seek(number);
+    standing.past_metrics = kept_.metrics(past_->view().number);
+    standing.decisions_every = kept_.period();
     standing.looks_back = true;
     standing.plays = false;
   }
@@ -152,9 +161,13 @@ void Host::look_back(double frame, Issues& issues) {
 }
 
 void Host::look_at_newest() {
-  if (past_) publisher_.freshen();
+  if (past_) {
+    publisher_.freshen();
+    publisher_.tell_scenario(session());
+  }
   past_.reset();
   publisher_.standing.looks_back = false;
+  publisher_.standing.past_metrics.reset();
 }
 
 }  // namespace microswarm::lab

@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "lab/sessions/past.hpp"
 #include "lab/stream/publisher.hpp"
 #include "lab/stream/request.hpp"
 #include "microswarm/experiment/session/session.hpp"
@@ -37,6 +38,13 @@ struct RigOpening {
   std::function<void(const std::string&)> note = [](const std::string&) {};
 };
 
+/// A run that is repeated up to a frame, from which it continues with these changes.
+struct Branch {
+  std::shared_ptr<const experiment::Record> record;
+  std::size_t frame = 0;
+  std::vector<std::string> changes{};  ///< KEY=VALUE
+};
+
 /// Source of a session.
 struct Opening {
   std::filesystem::path file;  ///< scenario or record
@@ -44,6 +52,7 @@ struct Opening {
   /// Throws InputError for settings that are not allowed to a page.
   std::function<void(const Settings& settings)> check{};
   std::optional<BackgroundPhoto> photo{};
+  std::optional<Branch> branch{};    ///< until a restart
   std::optional<RigOpening> live{};  ///< options for real time; without them in simulated time
 };
 Source to_source(const Opening& opening);
@@ -114,12 +123,15 @@ class Host {
   void look_back(double frame, Issues& issues);
   void look_at_newest();
   bool looks_back() const { return past_ != nullptr; }
+  /// Keeps parts of a tick of the run, for looking back.
+  void keep(const experiment::Tick& tick, const experiment::Session& of);
   /// Session that is shown.
   const experiment::Session& shown() { return past_ ? *past_ : session(); }
 
   Opening opening_;
   Callbacks callbacks_;
   Publisher publisher_;
+  Past kept_;
   std::atomic<bool> ends_ = false;
   std::atomic<std::size_t> bytes_ = 0;
   std::atomic<double> newest_ = 0;

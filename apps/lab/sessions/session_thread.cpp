@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <stdexcept>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/experiment/session/replay.hpp"
 
 namespace microswarm::lab {
 namespace {
@@ -48,7 +50,7 @@ void SessionThread::serve() {
   if (standing.growing && Clock::now() >= looks_) look_for_more();
   if (standing.plays && !standing.ended && Clock::now() >= due_) advance();
   publisher_.publish(*session_, shown(), [this] { return present_view(); });
-  bytes_ = bytes_of(session_->record());
+  bytes_ = bytes_of(session_->record()) + kept_.bytes();
   newest_ = publisher_.newest();
 }
 
@@ -67,15 +69,32 @@ std::optional<Stop::Clock::time_point> SessionThread::next_act(bool is_due) cons
 
 void SessionThread::open() {
   if (opening_.check) opening_.check(opening_.options.settings);
+  if (opening_.branch) return open_branch(*opening_.branch);
   watch_.has_changed();
   session_ = rig::open_on_rig(watch_.file(), opening_.options);
   look_at_newest();
   publisher_.clear();
+  kept_ = Past();
   if (!session_->is_playback()) return;
   publisher_.take(session_->record());
   publisher_.standing.growing = watch_.is_growing();
   looks_ = Clock::now() + look_period;
   session_->seek(publisher_.standing.growing ? publisher_.rows() : 0);
+}
+
+void SessionThread::open_branch(const Branch& branch) {
+  kept_ = Past();
+  session_ = experiment::branch(*branch.record, branch.frame, Stop(&ends_),
+                                [this](const experiment::Session& of) { keep(*of.tick(), of); });
+  if (!session_) throw std::runtime_error("it was closed");
+  publisher_.clear();
+  publisher_.take(session_->record());
+  for (const std::string& change : branch.changes) {
+    const Setting setting = parse_setting(change, "changes");
+    Issues issues;
+    publisher_.set(*session_, {.key = setting.key, .value = setting.value}, issues);
+    if (!issues.empty()) throw InputError(*issues.begin());
+  }
 }
 
 void SessionThread::look_for_more() {
@@ -158,6 +177,7 @@ void SessionThread::obey(std::uint64_t, const Request& request, Issues& issues) 
       if (standing.growing && session_->seek(publisher_.rows())) publisher_.freshen();
       break;
     case Ask::set:
+      look_at_newest();
       publisher_.set(*session_, request, issues);
       break;
     case Ask::restart:
@@ -202,12 +222,14 @@ bool SessionThread::is_there() {
 }
 
 void SessionThread::restart(const Request& request) {
-  auto before = opening_.options.settings;
+  const Opening before = opening_;
   opening_.options.settings = Settings(request.settings, "");
+  opening_.branch.reset();
   try {
     open();
   } catch (...) {
-    opening_.options.settings = std::move(before);
+    opening_.options.settings = before.options.settings;
+    opening_.branch = before.branch;
     throw;
   }
   welcome(0);
@@ -220,7 +242,10 @@ void SessionThread::advance() {
   do {
     const experiment::Tick* tick = session_->step(stop);
     if (tick && session_->is_playback()) publisher_.freshen();
-    if (tick && !session_->is_playback()) publisher_.take(*tick);
+    if (tick && !session_->is_playback()) {
+      publisher_.take(*tick);
+      keep(*tick, *session_);
+    }
     standing.ended = !tick || tick->end;
     if (is_there()) standing.plays = false;
     if (standing.speed > 0) due_ += wall_time(session_->scenario().tick / standing.speed);

@@ -24,6 +24,7 @@ class SessionThread : public Host {
 
  private:
   void open() override;
+  void open_branch(const Branch& branch);
   void serve() override;
   experiment::Session& session() override { return *session_; }
   void welcome(std::uint64_t page) override;

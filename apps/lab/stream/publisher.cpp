@@ -30,6 +30,7 @@ void Publisher::clear() {
   changes_ = 0;
   told_rows_ = told_events_ = 0;
   told_plans_ = 0;
+  told_changes_.reset();
   told_nodes_.clear();
   standing = {.speed = standing.speed};
   is_fresh_ = true;
@@ -64,6 +65,7 @@ void Publisher::welcome(std::uint64_t page, const MessagePtr& hello, experiment:
   tell_rows();
   send_(page, hello);
   send_(page, rows_message(rows_, events_, true));
+  if (shown.is_playback()) send_(page, scenario_message(shown.scenario()));
   if (!view.tree.empty()) send_(page, plan_message(view));
   // A record without diagnostics keeps no regions: those of now are the newest known.
   const auto* past = aggregation_diagnostics(shown);
@@ -88,6 +90,7 @@ void Publisher::tell_frame(const experiment::Session& shown, const experiment::S
   has_changed_ = true;
   published_ = Stop::Clock::now();
   tell_rows();
+  tell_scenario(shown, view.number);
   if (view.plans != told_plans_) send_(0, plan_message(view));
   told_plans_ = view.plans;
   if (const auto* plan = aggregation_diagnostics(shown); plan && plan->nodes != told_nodes_) {
@@ -96,6 +99,15 @@ void Publisher::tell_frame(const experiment::Session& shown, const experiment::S
   }
   standing.frame = view.number;
   send_(0, frame_message(view, shown.diagnostics()));
+}
+
+void Publisher::tell_scenario(const experiment::Session& shown, std::uint64_t frame) {
+  std::optional<std::size_t> changes;
+  if (shown.is_playback())
+    changes = std::ranges::count_if(shown.record().changes,
+                                    [&](const auto& change) { return change.frame <= frame; });
+  if (changes != told_changes_) send_(0, scenario_message(shown.scenario()));
+  told_changes_ = changes;
 }
 
 void Publisher::tell_rows() {

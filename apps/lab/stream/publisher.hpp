@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "lab/stream/stream.hpp"
@@ -52,6 +53,9 @@ class Publisher {
   void set(experiment::Session& session, const Request& request, Issues& issues);
 
   void tell_standing(experiment::Session& session);
+  /// Sends the scenario of the run, or that at the shown frame of a record, if another was sent
+  /// last.
+  void tell_scenario(const experiment::Session& shown, std::uint64_t frame = 0);
   /// Sends the standing and the numbers of every tick so far to all pages.
   void tell_all(experiment::Session& session) {
     tell_rows();
@@ -72,6 +76,8 @@ class Publisher {
   std::size_t told_rows_ = 0;
   std::size_t told_events_ = 0;
   std::uint64_t told_plans_ = 0;
+  /// Number of a record's changes in the scenario sent last; nothing for a run's scenario.
+  std::optional<std::size_t> told_changes_{};
   std::vector<AggregationNode> told_nodes_;  ///< tree of the aggregation
   bool is_fresh_ = false;
   bool has_changed_ = false;

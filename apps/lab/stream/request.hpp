@@ -86,13 +86,19 @@ struct Request {
 struct OpenRequest {
   std::optional<std::string> file;    ///< in the listing; default: the command line's experiment
   std::vector<std::string> settings;  ///< KEY=VALUE
-  std::optional<std::string> photo;   ///< background of the map, in the listing or uploaded
-  double um_per_px = 0;               ///< of the photo
+  std::optional<std::uint64_t> branch{};  ///< session whose run is repeated up to `frame`
+  std::uint64_t frame = 0;
+  std::vector<std::string> changes;  ///< KEY=VALUE, of a branch from that frame on
+  std::optional<std::string> photo;  ///< background of the map, in the listing or uploaded
+  double um_per_px = 0;              ///< of the photo
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.file, plain("file", "Scenario or record in the listing."));
     visit(self.settings, plain("settings", "KEY=VALUE of the scenario."));
+    visit(self.branch, plain("branch", "Session whose run is repeated."));
+    visit(self.frame, plain("frame", "Frame up to which it is repeated."));
+    visit(self.changes, plain("changes", "KEY=VALUE of a branch from then on."));
     visit(self.photo, plain("photo", "Background of the map."));
     visit(self.um_per_px, plain("um_per_px", 1e-6, 1e6, "Scale of the photo."));
   }

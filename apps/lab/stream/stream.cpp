@@ -295,8 +295,7 @@ MessagePtr aggregation_message(const AggregationDiagnostics& plan) {
                        {"regions", std::move(regions)}});
 }
 
-MessagePtr clearance_message(const Map& map) {
-  constexpr double max_cells = 40'000;
+MessagePtr clearance_message(const Map& map, double max_cells) {
   const Box& box = map.bounds();
   double cell = std::sqrt(box.width() * box.height() / max_cells);
   const auto count = [&cell](double length) { return std::ceil(length / cell); };
@@ -349,7 +348,8 @@ MessagePtr standing_message(const Standing& standing, const experiment::RunResul
                        {"changes", standing.changes},
                        {"status", to_string(result.status)},
                        {"state", result.state},
-                       {"metrics", to_json_value(result.metrics)},
+                       {"metrics", to_json_value(standing.past_metrics.value_or(result.metrics))},
+                       {"decisions_every", standing.decisions_every},
                        {"trouble", standing.trouble}},
                       Message::Kind::standing);
 }

@@ -42,7 +42,10 @@ struct Standing {
   experiment::OperatingMode mode = experiment::OperatingMode::autonomous;
   bool steered = false;              ///< whether it was held or steered by hand since the start
   std::vector<std::string> changes;  ///< since the start, KEY=VALUE, one for each key
-  std::string trouble;               ///< why it could not continue; empty otherwise
+  /// Metrics at the shown frame, while an earlier one is shown.
+  std::optional<experiment::Metrics> past_metrics;
+  std::uint64_t decisions_every = 1;  ///< diagnostics are kept of every such frame
+  std::string trouble;                ///< why it could not continue; empty otherwise
 };
 
 /// A photograph as background of the map, lower left corner at the origin.
@@ -71,8 +74,8 @@ MessagePtr scenario_message(const experiment::Scenario& scenario);
 MessagePtr frame_message(const experiment::SessionView& view, const Diagnostics& diagnostics);
 MessagePtr plan_message(const experiment::SessionView& view);
 MessagePtr aggregation_message(const AggregationDiagnostics& plan);
-/// Clearance of the map at the centres of square cells, row by row from below.
-MessagePtr clearance_message(const Map& map);
+/// Clearance of the map at the centres of at most so many square cells, row by row from below.
+MessagePtr clearance_message(const Map& map, double max_cells = 40'000);
 MessagePtr rows_message(std::span<const Row> rows, std::span<const experiment::RunEvent> events,
                         bool anew);
 MessagePtr standing_message(const Standing& standing, const experiment::RunResult& result);

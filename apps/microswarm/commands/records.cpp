@@ -3,6 +3,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#ifdef MICROSWARM_HAS_LAB
+#include "lab/files/photograph.hpp"
+#include "lab/player/run_page.hpp"
+#endif
 #include "microswarm/experiment/session/replay.hpp"
 #include "microswarm/report/run_video.hpp"
 #include "support/options.hpp"
@@ -30,6 +34,7 @@ struct ReportCommand {
   std::string file;
   std::string out;
   std::string video;
+  std::string page;
   double from = 0;
   std::optional<double> to;
   double speed = 1;
@@ -53,17 +58,42 @@ int write_video(const ReportCommand& o, const experiment::Record& record,
   return video.stopped ? ok : complete;
 }
 
-/// Writes the report, and the video if requested; with --video alone only the video.
+#ifdef MICROSWARM_HAS_LAB
+int write_page(const ReportCommand& o, const experiment::Record& record,
+               const report::ReportOptions& options, const Context& context) {
+  lab::RunPageOptions page{.name = std::filesystem::path(o.file).filename().string(),
+                           .um_per_px = options.um_per_px,
+                           .progress = progress_bars()};
+  if (options.photo) page.photo_jpeg = lab::to_jpeg(o.photo.file);
+  const lab::RunPage made = lab::write_run_page(record, o.page, page, context.stop);
+  if (made.stopped) {
+    note("{}: stopped, so it is not written\n", o.page);
+    return ok;
+  }
+  print("wrote {}: {} frames, {:.1f} MB\n", o.page, made.frames,
+        static_cast<double>(made.bytes) / 1e6);
+  if (made.every > 1)
+    note("{}: one frame in {}, because a page holds at most {} MiB of messages\n", o.page,
+         made.every, page.max_bytes >> 20U);
+  return complete;
+}
+#endif
+
+/// Writes the report, and the video or page if requested; with these alone only them.
 int report_command(const ReportCommand& o, const Context& context) {
   const experiment::Record record = experiment::read_record(o.file);
   const report::ReportOptions options = report_options(o.photo);
-  if (o.video.empty() || !o.out.empty()) {
+  if ((o.video.empty() && o.page.empty()) || !o.out.empty()) {
     const std::string out = o.out.empty() ? "report" : o.out;
     const OutFolder hold(out);
     report::write_run_report(record, out, options);
     print("wrote {}/index.html\n", out);
   }
-  return o.video.empty() ? ok : write_video(o, record, options, context);
+  int code = ok;
+#ifdef MICROSWARM_HAS_LAB
+  if (!o.page.empty()) code = write_page(o, record, options, context);
+#endif
+  return o.video.empty() || context.stop() ? code : write_video(o, record, options, context);
 }
 
 }  // namespace
@@ -84,7 +114,8 @@ void add_replay(Command app, Action& action) {
 void add_report(Command app, Action& action) {
   auto o = std::make_shared<ReportCommand>();
   Command cmd = app.add_command(
-      "report", "Write the report of a record: pictures and an HTML page, or a video",
+      "report",
+      "Write the report of a record: pictures and an HTML page, a video, or the run as a page",
       "report out/first/run.h5 --video out/first/run.mp4 --speed 4");
   cmd.add_option("record", o->file, "Record of a run (run.h5)")
       .required()
@@ -92,7 +123,12 @@ void add_report(Command app, Action& action) {
       .input();
   cmd.add_option("--out", o->out, "Output folder")
       .type_name("FOLDER")
-      .default_text("report, or none with --video");
+      .default_text("report, or none with --video or --page");
+#ifdef MICROSWARM_HAS_LAB
+  cmd.add_option("--page", o->page, "The run as one HTML file that plays in a browser")
+      .type_name("FILE")
+      .check(file_kind({".html", ".htm"}));
+#endif
   cmd.add_option("--video", o->video, "Video of the run to write")
       .type_name("FILE")
       .check(file_kind({".mp4", ".mkv", ".avi", ".gif"}));

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { source } from './source.mjs';
 
-const { metricsHeading, parametersNote, repeatOf } = await source('repeat');
+const { decisionsNote, metricsHeading, parametersNote, repeatOf } = await source('repeat');
 const run = { command: 'microswarm run a.yaml', playback: false };
 const record = { command: 'microswarm replay run.h5', playback: true };
 
@@ -27,12 +27,16 @@ test('a record is repeated by itself, whatever was done in it', () => {
 });
 
 test('numbers that are not of the picture say of when they are', () => {
-  const back = { looks_back: true, growing: false, changes: [] };
-  assert.equal(metricsHeading(false, { ...back, looks_back: false }, 71), 'Metrics so far');
-  assert.match(metricsHeading(false, back, 71), /71\.0 s/);
-  assert.match(metricsHeading(true, back, 71), /whole record/);
-  assert.match(parametersNote(false, back, 3, 71), /3\.0 s.*71\.0 s/);
-  assert.equal(parametersNote(false, { ...back, looks_back: false }, 71, 71), '');
-  assert.equal(parametersNote(true, back, 3, 71), '');
-  assert.match(parametersNote(true, { ...back, changes: ['seed=2'] }, 3, 71), /start of the record/);
+  const back = { looks_back: true, growing: false, changes: [], metrics: { time_s: 3 }, decisions_every: 4 };
+  const now = { ...back, looks_back: false };
+  assert.equal(metricsHeading(false, now), 'Metrics so far');
+  assert.match(metricsHeading(false, back), /3\.0 s/);
+  assert.match(metricsHeading(true, now), /whole record/);
+  assert.match(parametersNote(false, back, 3), /3\.0 s/);
+  assert.equal(parametersNote(false, now, 71), '');
+  assert.equal(parametersNote(true, now, 3), '');
+  assert.match(parametersNote(true, { ...now, changes: ['seed=2'] }, 3), /3\.0 s/);
+  assert.match(decisionsNote(back), /one frame in 4/);
+  assert.equal(decisionsNote(now), '');
+  assert.equal(decisionsNote({ ...back, decisions_every: 1 }), '');
 });

@@ -10,7 +10,6 @@
 #include "microswarm/core/maths/hash.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/experiment/session/played_navigator.hpp"
-#include "microswarm/experiment/session/session.hpp"
 #include "microswarm/io/columns.hpp"
 #include "microswarm/io/tables.hpp"
 
@@ -146,6 +145,11 @@ std::string first_difference(const Metrics& stored, const Metrics& now) {
   return {};
 }
 
+void require_simulated(const Record& record) {
+  if (!record.rig.empty())
+    throw InputError("a run on a rig (" + record.rig + ") cannot be repeated");
+}
+
 /// The first difference of the replay; empty if there is none.
 std::string first_difference(const Record& record, const Record& now, const std::string& refused) {
   Comparison comparison{&record, &now, refused};
@@ -169,8 +173,7 @@ std::string first_difference(const Record& record, const Record& now, const std:
 }  // namespace
 
 ReplayResult replay(const Record& record, const Stop& stop) {
-  if (!record.rig.empty())
-    throw InputError("a run on a rig (" + record.rig + ") cannot be repeated");
+  require_simulated(record);
   SessionParts parts{.trial = record.trial};
   if (!record.navigator.empty()) parts.navigator = std::make_shared<PlayedNavigator>(record);
   Session session({record.scene, build_world(record.scene), {}}, std::move(parts));
@@ -181,6 +184,26 @@ ReplayResult replay(const Record& record, const Stop& stop) {
   std::string difference = first_difference(record, session.record(), inputs.refused());
   const bool identical = difference.empty();
   return {.identical = identical, .stopped = false, .difference = std::move(difference)};
+}
+
+std::unique_ptr<Session> branch(const Record& record, std::size_t frame, const Stop& stop,
+                                const std::function<void(const Session&)>& ticked) {
+  require_simulated(record);
+  if (!record.navigator.empty())
+    throw InputError("a run with an external navigator cannot be continued");
+  if (frame >= record.frames.size())
+    throw InputError("frame " + std::to_string(frame) + ": the run has " +
+                     std::to_string(record.frames.size()));
+  auto session = std::make_unique<Session>(Experiment{record.scene, build_world(record.scene), {}},
+                                           SessionParts{.trial = record.trial});
+  Inputs inputs(record, *session);
+  for (std::size_t i = 0; i <= frame && record.frames[i].state != NavigatorState::end; ++i) {
+    inputs.give(i);
+    if (!session->step(stop) || stop()) return nullptr;
+    if (ticked) ticked(*session);
+  }
+  if (!inputs.refused().empty()) throw InputError(inputs.refused());
+  return session;
 }
 
 }  // namespace microswarm::experiment
