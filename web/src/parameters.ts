@@ -9,7 +9,9 @@ import { mayBeginAnew } from './loss';
 import { type Answer, type Json, type Scenario, said } from './protocol';
 import { parametersNote } from './repeat';
 import type { Schema } from './schema';
-import { at, combine, keyOf, text } from './settings';
+import { at, combine, isSame, keyOf, text } from './settings';
+import { Tuned } from './tuned';
+import { Undo, restartStep } from './undo';
 
 const refused: Answer = {
   type: 'answer',
@@ -27,8 +29,9 @@ export class Parameters {
   private shape = '';
   private readonly changes = new Changes();
   private setting: Promise<unknown> = Promise.resolve(); // the last one sent
-  private readonly done: [string, Json][] = []; // keys changed, and the values before
-  private readonly tuned = new Map<string, Json>(); // objects by key and type, as they were left
+  private readonly undone = new Undo();
+  private readonly tuned = new Tuned();
+  private seen: Scenario = {}; // the last one in the form
   private readonly form: Form;
   private readonly search = element('input', {
     type: 'search',
@@ -109,13 +112,22 @@ export class Parameters {
     await this.setting;
     const asked = [...this.changes.settings(), ...more].map(keyOf);
     const settings = combine(this.settings(), more);
-    const isArmed = this.live.rig?.state === 'armed';
-    if (!isArmed && !(await mayBeginAnew(this.live, name))) return kept;
-    const answer = isArmed ? refused : await this.live.ask({ do: 'restart', settings });
-    if (answer.issues.length === 0) this.changes.clear();
+    const step = restartStep(more, this.live.hello?.scenario);
+    const answer = await this.beginAnew(settings, name);
+    if (answer.issues.length === 0) {
+      this.changes.clear();
+      this.undone.push(step);
+    }
     this.showIssues(answer, asked);
     this.showWaiting();
+    this.showUndo();
     return answer;
+  }
+
+  private async beginAnew(settings: string[], name: string): Promise<Answer> {
+    const isArmed = this.live.rig?.state === 'armed';
+    if (!isArmed && !(await mayBeginAnew(this.live, name))) return kept;
+    return isArmed ? refused : this.live.ask({ do: 'restart', settings });
   }
 
   /** Settings of a session that starts in this one's current state. */
@@ -133,16 +145,28 @@ export class Parameters {
   async change(key: string, value: Json): Promise<Answer | undefined> {
     const before = at(this.wanted(), key);
     const answer = await this.apply(key, value);
-    if (before !== undefined && !answer?.issues.length) this.done.push([key, before]);
-    this.undoButton.hidden = this.done.length === 0;
+    const isMade = before !== undefined && !isSame(before, value) && !answer?.issues.length;
+    if (isMade) this.undone.push({ before: [[key, before]], restarts: false });
+    this.showUndo();
     return answer;
   }
 
   /** Takes the last change back, by another one. */
   private async undo(): Promise<void> {
-    const last = this.done.pop();
-    if (last) await this.apply(...last);
-    this.undoButton.hidden = this.done.length === 0;
+    const last = this.undone.pop(this.wanted());
+    if (last?.restarts) {
+      const settings = last.before.map(([key, value]) => `${key}=${text(value)}`);
+      const answer = await this.beginAnew(combine(this.settings(), settings), '');
+      if (answer.issues.length > 0) this.undone.push(last);
+      this.showIssues(answer, settings.map(keyOf));
+    } else {
+      for (const one of last?.before ?? []) await this.apply(...one);
+    }
+    this.showUndo();
+  }
+
+  private showUndo(): void {
+    this.undoButton.hidden = !this.undone.has(this.wanted());
   }
 
   private async apply(key: string, value: Json): Promise<Answer | undefined> {
@@ -163,10 +187,8 @@ export class Parameters {
 
   /** Changes the type of an object, which gets its defaults, or the values that it had with this type before. */
   private changeType(key: string, type: string): void {
-    const present = at(this.wanted(), key);
-    if (present && typeof present === 'object' && !Array.isArray(present))
-      this.tuned.set(`${key}:${String(present['type'])}`, present);
-    void this.change(key, this.tuned.get(`${key}:${type}`) ?? { type });
+    this.tuned.keep(key, at(this.wanted(), key));
+    void this.change(key, this.tuned.of(key, type) ?? { type });
   }
 
   private wanted(): Scenario {
@@ -178,6 +200,8 @@ export class Parameters {
     const { hello } = this.live;
     if (!this.schema || !hello) return;
     const scenario = this.wanted();
+    this.tuned.follow(this.seen, scenario);
+    this.seen = scenario;
     const shape = JSON.stringify([shapeOf(scenario), this.live.standing?.ended]);
     if (shape !== this.shape) {
       const { lo, hi } = hello.map;
@@ -191,6 +215,7 @@ export class Parameters {
       if (hello.playback) one.setEnabled(false);
     }
     this.showWaiting();
+    this.showUndo();
   }
 
   private filter(): void {

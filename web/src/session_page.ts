@@ -113,8 +113,10 @@ export async function sessionPage(session: number, isRig = false): Promise<Page>
     const text = statusText(message, live.hello?.playback ?? false);
     if (status.value !== text) status.value = text;
   });
+  let streamText = '';
+  live.onLate((text) => say(text || streamText));
   live.onState((state, text) => {
-    say(text);
+    say((streamText = text));
     root.dataset['stream'] = state;
     isBroken = state !== 'open';
     over.inert = parameters.root.inert = state !== 'open';
@@ -122,6 +124,8 @@ export async function sessionPage(session: number, isRig = false): Promise<Page>
   live.open();
   return {
     root,
+    say,
+    keepsFiles: () => (rig?.isHot() ? 'The coils are driven: stop the rig before another file is opened.' : ''),
     isAtRisk: () => isAtRisk(live),
     mayLeave: () => mayLeave([live]),
     leave: () => {

@@ -34,7 +34,7 @@ void list(Exchange& e, std::string_view) {
                       {"outcome", entry.outcome},
                       {"written", entry.written},
                       {"trouble", entry.trouble}});
-    Json json{{"scenarios", std::move(list)}};
+    Json json{{"scenarios", std::move(list)}, {"lab", e.shared().hub.lab()}};
     if (e.shared().opening) json["open"] = true;
     if (!e.shared().queue.empty()) json["queue"] = true;
     return respond(e.request(), json);
@@ -135,11 +135,8 @@ void open_session(Exchange& e, std::string_view) {
 }
 
 Json describe(const Hub::Open& one) {
-  return {{"session", one.session},
-          {"name", one.file},
-          {"t_s", one.newest},
-          {"watched", one.watched},
-          {"live", one.live}};
+  return {{"session", one.session}, {"name", one.file},       {"t_s", one.newest},
+          {"watched", one.watched}, {"changed", one.changed}, {"live", one.live}};
 }
 
 /// GET /api/sessions
@@ -149,10 +146,16 @@ void list_sessions(Exchange& e, std::string_view) {
   e.write(respond(e.request(), {{"sessions", std::move(list)}}));
 }
 
+/// Refuses what is asked of a session that is not open.
+void miss(Exchange& e, std::optional<std::uint64_t> session) {
+  if (!session || e.shared().hub.is_own(*session)) return e.nothing();
+  e.refuse(http::status::gone, "this session was of a lab that has ended");
+}
+
 /// DELETE /api/sessions/ID
 void close_session(Exchange& e, std::string_view session) {
   const auto number = session_number(session);
-  if (!number || !e.shared().hub.has(*number)) return e.nothing();
+  if (!number || !e.shared().hub.has(*number)) return miss(e, number);
   e.shared().hub.close(*number);
   e.write(respond(e.request(), Json::object()));
 }
@@ -237,7 +240,7 @@ void describe_session(Exchange& e, std::uint64_t session) {
 void send_download(Exchange& e, std::string_view path) {
   const std::size_t slash = std::min(path.find('/'), path.size());
   const auto number = session_number(path.substr(0, slash));
-  if (!number || !e.shared().hub.has(*number)) return e.nothing();
+  if (!number || !e.shared().hub.has(*number)) return miss(e, number);
   if (slash == path.size()) return describe_session(e, *number);
   const std::string name(path.substr(slash + 1));
   if (e.shared().hub.drives(*number))
@@ -270,8 +273,7 @@ void write_asset(Exchange& e, std::string_view) {
   const auto file = asset(target_path(view(e.request().target())));
   if (!file) return e.nothing();
   const bool packed =
-      !file->gzip.empty() &&
-      view(e.request()[http::field::accept_encoding]).find("gzip") != std::string_view::npos;
+      !file->gzip.empty() && accepts(view(e.request()[http::field::accept_encoding]), "gzip");
   HttpResponse response = respond(e.request(), http::status::ok, file->media_type,
                                   std::string(packed ? file->gzip : file->bytes));
   if (packed) response.set(http::field::content_encoding, "gzip");

@@ -45,7 +45,7 @@ class Server::Impl {
       : options_(std::move(options)),
         library_(with(options_.folders, uploads_.folder())),
         hub_([this](std::function<void()> work) { asio::post(io_, std::move(work)); },
-             options_.limits),
+             options_.limits, new_lab_number(Hub::max_lab)),
         clock_(io_) {
     remove_left_folders();
     listen();
