@@ -53,9 +53,8 @@ async function route(): Promise<void> {
   } catch (error) {
     if (own !== routes) return;
     const why = element('p', { class: 'trouble', role: 'alert' }, (error as Error).message);
-    place?.replaceChildren(
-      element('div', { class: 'fault' }, element('a', { href: '#/', class: 'button quiet' }, '‹ Gallery'), why),
-    );
+    const back = element('a', { href: '#/', class: 'button quiet' }, '‹ Gallery');
+    place?.replaceChildren(element('div', { class: 'fault' }, back, element('h1', {}, 'Nothing to show'), why));
   }
 }
 

@@ -36,9 +36,11 @@ export async function comparePage(numbers: number[]): Promise<Page> {
       });
       const parameters = new Parameters(live, `field-${names[i]}`);
       const stage = await stageFor(live);
-      const caption = element('figcaption', {});
+      const own = element('span', { class: 'own' });
+      const status = element('output', { class: 'status' });
+      const caption = element('figcaption', {}, element('strong', {}, names[i] as string), own, status);
       const figure = element('figure', { class: 'side', 'data-side': names[i] as string }, caption, stage.scene.root);
-      return { live, stage, caption, figure, parameters };
+      return { live, stage, own, status, figure, parameters };
     }),
   );
   const restart = () => Promise.all(sides.map((side, i) => side.parameters.restart([], `run ${names[i]}`)));
@@ -62,15 +64,10 @@ export async function comparePage(numbers: number[]): Promise<Page> {
       const shown = own.map((one) => (one.length > 60 ? `${keyOf(one)}=…` : one)).join(' · ');
       const { live } = side;
       const status = live.standing?.ended ? live.standing.status : (live.standing?.state ?? '');
-      side.caption.replaceChildren(
-        element('strong', {}, names[i] as string),
-        element(
-          'span',
-          { class: 'own' },
-          shown || (lists[0]?.join() === lists[1]?.join() ? 'same settings' : 'settings of the file'),
-        ),
-        element('output', { class: 'status' }, status.replaceAll('_', ' ')),
-      );
+      side.own.textContent =
+        shown || (lists[0]?.join() === lists[1]?.join() ? 'same settings' : 'settings of the file');
+      const words = status.replaceAll('_', ' ');
+      if (side.status.value !== words) side.status.value = words; // else it is read aloud each time
       side.figure.dataset['status'] = live.standing?.status ?? '';
     });
   };

@@ -6,6 +6,7 @@ import { Form } from './form';
 import { routed } from './issues';
 import type { Live } from './live';
 import { mayBeginAnew } from './loss';
+import { Mover } from './mover';
 import { type Answer, type Json, type Scenario, said } from './protocol';
 import { parametersNote } from './repeat';
 import type { Schema } from './schema';
@@ -33,6 +34,7 @@ export class Parameters {
   private readonly tuned = new Tuned();
   private seen: Scenario = {}; // the last one in the form
   private readonly form: Form;
+  private readonly mover: Mover;
   private readonly search = element('input', {
     type: 'search',
     class: 'search',
@@ -66,6 +68,16 @@ export class Parameters {
         changeType: (key, type) => this.changeType(key, type),
         isAtOnce: (key) => this.isAtOnce(key),
         canChange: () => !live.hello?.playback,
+        listTools: (key) => (this.hasMovers(key) ? this.mover.addButton() : []),
+        entryTools: (key, index) => (this.hasMovers(key) ? this.mover.moveButton(index) : []),
+      },
+      name,
+    );
+    this.mover = new Mover(
+      {
+        scenario: () => this.wanted(),
+        map: () => live.hello?.map ?? { lo: [0, 0], hi: [1, 1] },
+        change: (key, value) => this.change(key, value),
       },
       name,
     );
@@ -189,6 +201,11 @@ export class Parameters {
   private changeType(key: string, type: string): void {
     this.tuned.keep(key, at(this.wanted(), key));
     void this.change(key, this.tuned.of(key, type) ?? { type });
+  }
+
+  /** Whether the entries of a list are moved; robots that are tracked one by one have no obstacles. */
+  private hasMovers(key: string): boolean {
+    return key === 'obstacles' && at(this.live.hello?.scenario, 'robots') == null;
   }
 
   private wanted(): Scenario {

@@ -87,7 +87,7 @@ export async function sessionPage(session: number, isRig = false): Promise<Page>
       toolButton('Keys', 'Show the keys (?)', () => keys.help()),
       themeSwitch(),
     ),
-    element('div', { class: 'stage' }, scene.root, over),
+    element('div', { class: 'stage' }, scene.root, over, drive.stick.root),
     time.root, // before the tabs, so that Play is soon reached by the Tab key
     tabs(isRig ? 'rig' : 'session', [
       ...(isRig ? [{ name: 'Rig', panel: rigTab(live) }] : []),

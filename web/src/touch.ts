@@ -6,6 +6,7 @@ import type { Live } from './live';
 import { numberEntry } from './number_entry';
 import type { Parameters } from './parameters';
 import { askWhen } from './loss';
+import { movedObstacle, restingDisc, rounded } from './obstacle_places';
 import { type Json, type Point, said } from './protocol';
 import { at, combine, text } from './settings';
 import type { Scene, Touch } from './scene/scene';
@@ -16,15 +17,6 @@ const hints: { [tool in Tool]: string } = {
   wall: 'Click the position of the new round wall; the run restarts. Esc: done.',
   remove: 'Click an obstacle or a round wall to remove it. Esc: done.',
 };
-/** Key of a motion's position. */
-const places: { [motion: string]: string } = {
-  still: 'position_um',
-  straight: 'start_um',
-  harmonic_line: 'centre_um',
-  harmonic_arc: 'pivot_um',
-  waypoints: 'points_um',
-};
-
 /** Effects of dragging and clicking in the scene on the session, and the tools for them. */
 export class Hands {
   readonly tools: HTMLElement;
@@ -113,16 +105,9 @@ export class Hands {
   }
 
   private async moveObstacle(index: number, dx: number, dy: number): Promise<void> {
-    const motion = `obstacles.${index}.motion`;
-    const place = places[String(at(this.live.hello?.scenario, `${motion}.type`))];
-    if (!place) return this.say('The motion of this obstacle comes from a file; it cannot be dragged.');
-    const shift = (point: Json) => {
-      const [x, y] = point as Point;
-      return rounded([x + dx, y + dy]);
-    };
-    const before = at(this.live.hello?.scenario, `${motion}.${place}`) ?? [0, 0];
-    const isList = Array.isArray(before) && Array.isArray(before[0]);
-    await this.apply(`${motion}.${place}`, isList ? (before as Json[]).map(shift) : shift(before));
+    const move = movedObstacle(this.live.hello?.scenario, index, [dx, dy]);
+    if (!move) return this.say('The motion of this obstacle comes from a file; it cannot be dragged.');
+    await this.apply(move.key, move.value);
   }
 
   private obstacles(): Json[] {
@@ -137,11 +122,7 @@ export class Hands {
   }
 
   private async addObstacle(position: Point): Promise<void> {
-    const disc = {
-      shape: { type: 'disc', radius_um: this.radius.get() ?? 0 },
-      motion: { type: 'still', position_um: rounded(position) },
-    };
-    await this.apply('obstacles', [...this.obstacles(), disc]);
+    await this.apply('obstacles', [...this.obstacles(), restingDisc(position, this.radius.get() ?? 0)]);
   }
 
   private async addWall(position: Point): Promise<void> {
@@ -192,8 +173,4 @@ export class Hands {
     const trouble = said(answer);
     this.say(trouble || 'The run restarts.', trouble !== '');
   }
-}
-
-function rounded([x, y]: Point): Point {
-  return [Math.round(x * 10) / 10, Math.round(y * 10) / 10];
 }
