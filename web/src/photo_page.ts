@@ -25,8 +25,8 @@ const steps: [Step, string][] = [
 ];
 const hints: { [step in Step]: string } = {
   scale: 'Click two points of known distance, or type the µm per pixel. Keys: arrows and Enter on the photograph.',
-  vessels: 'The outline shows the vessels found.',
-  places: 'Click the start, then the goal, or gather robots at a click.',
+  vessels: 'The outline shows the vessels found. Start and goal of a swarm are in the tinted ones.',
+  places: 'Click the start, then the goal, both in tinted vessels, or gather robots at a click.',
 };
 
 /** From a photograph to an experiment: scale, vessels, start and goal. */

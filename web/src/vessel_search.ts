@@ -93,6 +93,7 @@ function described(found: { [name: string]: number } & { choice?: string }): str
   const percent = (share: number | undefined) => `${number(100 * (share ?? 0), 3)} %`;
   return (
     `Vessels cover ${percent(found['view_share'])} of the view; wide ones are ${number(found['wide_width_px'] ?? 0, 3)} px; ` +
-    `${percent(found['kept_share'])} of ${found['pieces']} pieces are kept. Method: ${found.choice ?? '?'}.`
+    `${percent(found['kept_share'])} of ${found['pieces']} pieces are kept. Method: ${found.choice ?? '?'}. ` +
+    `A swarm fits into the tinted ones, ${percent(found['swarm_share'])} of their area.`
   );
 }

@@ -81,7 +81,7 @@ void take_upload(Exchange& e, std::string_view) {
 /// POST {"file": …, "settings": […]}: the photograph with its vessels.
 void search_vessels(Exchange& e, std::string_view) {
   e.later([&e, asked = read_photo_request(e.request().body())] {
-    FoundVessels found = find_vessels(e.shared().library.find(asked.file), asked);
+    FoundVessels found = e.shared().vessels.find(e.shared().library.find(asked.file), asked);
     HttpResponse response =
         respond(e.request(), http::status::ok, "image/png", std::move(found.png));
     response.set("Microswarm-Vessels", found.json);
@@ -91,8 +91,8 @@ void search_vessels(Exchange& e, std::string_view) {
 
 void make_scenario(Exchange& e, std::string_view) {
   e.later([&e, asked = read_photo_request(e.request().body())] {
-    const auto made =
-        make_photo_scenario(e.shared().library.find(asked.file), asked, e.shared().uploads);
+    const auto made = e.shared().vessels.make_scenario(e.shared().library.find(asked.file), asked,
+                                                       e.shared().uploads);
     return respond(e.request(), {{"file", made.string()}});
   });
 }

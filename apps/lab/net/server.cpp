@@ -144,6 +144,7 @@ class Server::Impl {
         .library = library_,
         .thumbnails = thumbnails_,
         .uploads = uploads_,
+        .vessels = vessels_,
         .opening = options_.opening,
         .queue = options_.queue,
         .connections = connections_,
@@ -190,6 +191,7 @@ class Server::Impl {
   Uploads uploads_;  ///< of the worker
   Library library_;
   Thumbnails thumbnails_;  ///< of the worker
+  VesselSearch vessels_;   ///< of the worker
   std::optional<Access> access_;
   std::size_t connections_ = 0;
   std::atomic<bool> works_ = false;
