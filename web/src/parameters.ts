@@ -10,9 +10,11 @@ import { Mover } from './mover';
 import { type Answer, type Json, type Scenario, said } from './protocol';
 import { parametersNote } from './repeat';
 import type { Schema } from './schema';
+import { shapeOf } from './shape';
 import { at, combine, isSame, keyOf, text } from './settings';
 import { Tuned } from './tuned';
 import { Undo, restartStep } from './undo';
+import { waitingBar } from './waiting_bar';
 
 const refused: Answer = {
   type: 'answer',
@@ -53,7 +55,10 @@ export class Parameters {
     },
     '↶ Undo',
   );
-  private readonly bar = element('div', { class: 'waiting', role: 'status', hidden: true });
+  private readonly bar = waitingBar(
+    () => void this.restart(),
+    () => this.discard(),
+  );
   private readonly trouble = element('p', { class: 'issue', role: 'alert', hidden: true });
 
   /** `name` is the form's own in its page. */
@@ -89,7 +94,7 @@ export class Parameters {
       when,
       this.trouble,
       this.form.root,
-      this.bar,
+      this.bar.root,
     );
     let ended = false;
     live.listen((message) => {
@@ -263,26 +268,6 @@ export class Parameters {
   }
 
   private showWaiting(): void {
-    const { count } = this.changes;
-    this.bar.hidden = count === 0;
-    if (count === 0) return;
-    const button = (label: string, name: string, act: () => void) =>
-      element('button', { type: 'button', class: name, onclick: act }, label);
-    this.bar.replaceChildren(
-      element(
-        'span',
-        {},
-        count === 1 ? 'One change takes effect after a restart.' : `${count} changes take effect after a restart.`,
-      ),
-      button('Restart', 'primary restart', () => void this.restart()),
-      button('Discard', 'discard', () => this.discard()),
-    );
+    this.bar.show(this.changes.count);
   }
-}
-
-/** Shape of a scenario's form: the types of its objects and the lengths of its lists. */
-function shapeOf(value: Json): Json {
-  if (Array.isArray(value)) return value.some((one) => one && typeof one === 'object') ? value.map(shapeOf) : 0;
-  if (value === null || typeof value !== 'object') return value === null ? null : 0;
-  return Object.fromEntries(Object.entries(value).map(([key, one]) => [key, key === 'type' ? one : shapeOf(one)]));
 }

@@ -3,7 +3,7 @@ import { requireOpen } from './connection';
 import { openCopy } from './copies';
 import { element } from './dom';
 import { Drive } from './drive';
-import { type Key, Keys } from './keys';
+import { Keys } from './keys';
 import { layersTab } from './layers_tab';
 import { Live } from './live';
 import { isAtRisk, mayLeave } from './loss';
@@ -15,16 +15,13 @@ import { recordTab } from './record_tab';
 import { rigConsole } from './rig_console';
 import { rigTab } from './rig_tab';
 import { sceneTools, toolButton } from './scene_tools';
+import { sessionKeys } from './session_keys';
 import { stageFor } from './stage';
 import { statusText } from './status';
 import { tabs } from './tabs';
 import { themeSwitch } from './theme';
-import { timeBar, timeKeys } from './time_bar';
+import { timeBar } from './time_bar';
 import { Hands } from './touch';
-
-const stopKeys: Key[] = [
-  { keys: [], shown: 'space, Esc', does: 'stop: coils to zero at once, while it is armed', act: () => undefined },
-];
 
 /** Page of one session: scene, panels and time line; for a rig in real time also the console. */
 export async function sessionPage(session: number, isRig = false): Promise<Page> {
@@ -45,26 +42,7 @@ export async function sessionPage(session: number, isRig = false): Promise<Page>
   const compare = () => openCopy(live, parameters).catch((error: Error) => say(error.message));
 
   let isBroken = false; // before it opens, keys wait for its answer
-  const arrow = (by: number) => (event: KeyboardEvent) => {
-    if (!drive.key(event, true)) time.transport.seekBy(by * (event.shiftKey ? 10 : 1));
-  };
-  const keys = new Keys(
-    [
-      ...(isRig ? stopKeys : timeKeys(time)),
-      { keys: ['ArrowLeft'], shown: '←', does: 'previous frame (Shift: ten) · steer left', act: arrow(-1) },
-      { keys: ['ArrowRight'], shown: '→', does: 'next frame (Shift: ten) · steer right', act: arrow(1) },
-      { keys: ['ArrowUp', 'ArrowDown'], shown: '↑ ↓', does: 'steer (Shift: slowly)', act: arrow(0) },
-      ...tools.keys,
-      ...(isRig
-        ? []
-        : [
-            { keys: ['Escape'], shown: 'Esc', does: 'deselect the tool', act: () => hands.choose(undefined) },
-            { keys: ['x'], shown: 'x', does: 'use the chosen tool at the middle of the view', act: () => hands.use() },
-          ]),
-    ],
-    !isRig,
-    () => isRig || !isBroken,
-  );
+  const keys = new Keys(sessionKeys(time, drive, hands, tools.keys, isRig), !isRig, () => isRig || !isBroken);
   const up = (event: KeyboardEvent) => drive.key(event, false);
   const blur = () => drive.release();
   window.addEventListener('keyup', up);
