@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/net/access.hpp"
+#include "lab/net/http.hpp"
 
 #include <gtest/gtest.h>
 
@@ -69,6 +70,15 @@ TEST(Access, EveryTokenIsAnother) {
   for (int i = 0; i < 100; ++i) tokens.insert(new_token());
   EXPECT_EQ(tokens.size(), 100u);
   for (const std::string& token : tokens) EXPECT_EQ(token.size(), 32u);
+}
+
+TEST(Http, ACodingIsTakenUnlessItsWeightIsZero) {
+  for (const char* header : {"gzip", "br, gzip", "GZIP;q=0.5", "identity;q=0, gzip ; q=0.001", "*",
+                             "br;q=0, *;q=0.1", "*;q=0, gzip"})
+    EXPECT_TRUE(accepts(header, "gzip")) << header;
+  for (const char* header : {"", "br", "gzip;q=0", "br, gzip; q=0.000", "gzip;q=0, *", "*;q=0",
+                             "x-gzip", "gzipped", ",,;q"})
+    EXPECT_FALSE(accepts(header, "gzip")) << header;
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many sessions and pages a lab bears, and who makes room.
+// How many sessions and pages a lab bears, who makes room, and whose they are.
 #include <array>
 
 #include "tests/lab/client.hpp"
@@ -116,6 +116,104 @@ TEST(Limits, SessionsThatNobodyWatchesTakeLimitedMemory) {
   for (int i = 0; i < 600 && open_sessions() > 1; ++i) std::this_thread::sleep_for(100ms);
   std::this_thread::sleep_for(500ms);
   EXPECT_EQ(open_sessions(), 1u);  // one is kept
+}
+
+TEST(Limits, ARunThatWasChangedMakesRoomLast) {
+  ServerOptions options;
+  options.limits.sessions = 3;
+  const Lab lab(options);
+  const std::uint64_t changed = open(lab), older = open(lab), newer = open(lab);
+  {
+    TestPage page(lab, changed);
+    page.does({{"do", "step"}});
+    page.does({{"do", "set"}, {"key", "goal_tolerance_um"}, {"value", "31"}});
+  }
+  const auto is_there = [&](std::uint64_t session) {
+    return get(lab, "/api/sessions/" + std::to_string(session)).result() == http::status::ok;
+  };
+  EXPECT_EQ(Json::parse(get(lab, "/api/sessions").body())["sessions"][0]["changed"], true);
+  open(lab);
+  EXPECT_TRUE(is_there(changed));
+  EXPECT_FALSE(is_there(older));
+  open(lab);
+  EXPECT_TRUE(is_there(changed));
+  EXPECT_FALSE(is_there(newer));
+}
+
+TEST(Limits, MemoryIsTakenFromRunsThatWereNotChanged) {
+  ServerOptions options;
+  options.limits.sweep_period = 100ms;
+  options.limits.kept = 1;
+  const Lab lab(options);
+  const std::uint64_t changed = open(lab), other = open(lab);
+  // Both are watched until the end, so that the changed one is not unwatched for less time.
+  {
+    TestPage first(lab, changed), second(lab, other);
+    first.does({{"do", "step"}});
+    first.does({{"do", "set"}, {"key", "goal_tolerance_um"}, {"value", "31"}});
+    second.does({{"do", "step"}});
+  }
+  const auto open_sessions = [&] {
+    return Json::parse(get(lab, "/api/sessions").body())["sessions"];
+  };
+  for (int i = 0; i < 600 && open_sessions().size() > 1; ++i) std::this_thread::sleep_for(100ms);
+  EXPECT_EQ(open_sessions()[0]["session"], changed);
+}
+
+TEST(Limits, ARunPausesWhenItsLastPageLeaves) {
+  const Lab lab;
+  const std::uint64_t session = open(lab);
+  const auto time = [&] {
+    return Json::parse(get(lab, "/api/sessions/" + std::to_string(session)).body())["t_s"];
+  };
+  const auto goes_on = [&] {
+    std::this_thread::sleep_for(500ms);
+    const Json before = time();
+    std::this_thread::sleep_for(1000ms);
+    return time() != before;
+  };
+  TestPage watcher(lab, session);
+  {
+    TestPage page(lab, session);
+    page.does({{"do", "speed"}, {"number", 0.4}});
+    page.does({{"do", "play"}});
+    page.stream().close(beast::websocket::close_code::none);
+  }
+  EXPECT_TRUE(goes_on()) << "another page watches it";
+  {
+    TestPage page(lab, session);
+    beast::get_lowest_layer(watcher.stream()).close();
+    beast::get_lowest_layer(page.stream()).close();
+  }
+  EXPECT_TRUE(goes_on()) << "a broken connection is not left";
+  {
+    TestPage page(lab, session);
+    page.stream().close(beast::websocket::close_code::going_away);
+  }
+  EXPECT_TRUE(goes_on()) << "a reload is not left";
+  {
+    TestPage page(lab, session);
+    page.stream().close(beast::websocket::close_code::none);
+  }
+  EXPECT_FALSE(goes_on());
+}
+
+TEST(Limits, ASessionOfALabThatEndedIsNoneOfTheNextOne) {
+  ServerOptions options;
+  std::uint64_t before = 0;
+  {
+    const Lab lab(options);
+    options.port = lab.port;
+    before = open(lab);
+  }
+  const Lab lab(options);
+  EXPECT_NE(open(lab), before);
+  const std::string at = "/api/sessions/" + std::to_string(before);
+  for (const char* name : {"", "/record.h5", "/run.gif?from=0&to=1"})
+    EXPECT_EQ(get(lab, at + name).result(), http::status::gone) << name;
+  EXPECT_EQ(ask(lab, http::verb::delete_, at).result(), http::status::gone);
+  EXPECT_FALSE(TestPage(lab, before).is_open());
+  EXPECT_EQ(get(lab, "/api/sessions/x").result(), http::status::not_found);
 }
 
 }  // namespace

@@ -277,7 +277,8 @@ TEST(Server, DownloadsAreWhatTheirNamesSay) {
   EXPECT_EQ(get(lab, at + "events.csv").result(), http::status::ok);
   for (const char* name : {"", "x", "record.h5/", "../record.h5", "frames.csv/x"})
     EXPECT_EQ(get(lab, at + name).result(), http::status::not_found) << name;
-  EXPECT_EQ(get(lab, "/api/sessions/99/record.h5").result(), http::status::not_found);
+  EXPECT_EQ(get(lab, "/api/sessions/" + std::to_string(session + 99) + "/record.h5").result(),
+            http::status::not_found);
 }
 
 TEST(Server, ADownloadedScenarioFindsItsFiles) {

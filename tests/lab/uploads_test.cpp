@@ -53,7 +53,10 @@ TEST(Uploads, APhotographBecomesAnExperiment) {
         ask(lab, http::verb::post, "/api/vessels", Json{{"file", photo["file"]}}.dump());
     ASSERT_EQ(found.result(), http::status::ok) << found.body();
     EXPECT_EQ(found.body().substr(1, 3), "PNG");
-    EXPECT_GT(Json::parse(found["Microswarm-Vessels"].to_string())["view_share"], 0.1);
+    const Json numbers = Json::parse(found["Microswarm-Vessels"].to_string());
+    EXPECT_GT(numbers["view_share"], 0.1);
+    EXPECT_GT(numbers["swarm_share"], 0.3);
+    EXPECT_LT(numbers["swarm_share"], 1);
     for (const Json& more : {Json{{"robots", 16}}, Json{{"start", {200, 480}}}}) {
       Json asked{{"file", photo["file"]}, {"um_per_px", 5}, {"goal", {450, 480}}};
       asked.update(more);

@@ -71,6 +71,20 @@ TEST(Vessels, BlankAndTinyPicturesHaveNone) {
   }
 }
 
+TEST(Vessels, WideOnesAreThoseThatADiscFits) {
+  VesselSegmentation found;
+  found.vessels = formats::Mask(120, 80);
+  for (int x = 0; x < 120; ++x) {
+    for (int y = 10; y < 31; ++y) found.vessels.at(x, y) = 1;
+    for (int y = 50; y < 57; ++y) found.vessels.at(x, y) = 1;
+  }
+  const formats::Mask wide = wide_vessels(found, 11);
+  for (int x = 20; x < 100; ++x)
+    for (int y = 0; y < 80; ++y) EXPECT_EQ(wide.at(x, y) != 0, y >= 10 && y < 31) << x << ", " << y;
+  EXPECT_EQ(wide_vessels(found, 5).at(60, 53), 1);
+  EXPECT_EQ(wide_vessels(found, 25).at(60, 20), 0);
+}
+
 TEST(Outline, KeepsAreaAndPieces) {
   const Drawn d = drawn(300, 3);
   const auto regions = outline(d.truth, 2, 2);

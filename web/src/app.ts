@@ -2,7 +2,9 @@
 import './app.css';
 import { comparePage } from './compare_page';
 import { element } from './dom';
+import { takeDrops } from './drops';
 import { galleryPage } from './gallery';
+import { openFiles } from './opening';
 import type { Page } from './page';
 import { photoPage } from './photo_page';
 import { playerPage } from './player';
@@ -60,6 +62,7 @@ async function route(): Promise<void> {
         'div',
         { class: 'fault' },
         ...(run ? [] : [element('a', { href: '#/', class: 'button quiet' }, '‹ Gallery')]),
+        element('h1', {}, 'Nothing to show'),
         why,
       ),
     );
@@ -68,6 +71,12 @@ async function route(): Promise<void> {
 
 window.addEventListener('beforeunload', (event) => {
   if (page?.isAtRisk?.()) event.preventDefault();
+});
+takeDrops((files) => {
+  const say = page?.say ?? (() => undefined);
+  const kept = page?.keepsFiles?.() ?? '';
+  if (kept) say(kept);
+  else if (page) void openFiles(files, say);
 });
 startTheme();
 window.addEventListener('hashchange', () => void route());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Json, Scenario } from './protocol';
-import { at, text } from './settings';
+import { at, isSame, text } from './settings';
 
 /** Changes of a scenario by key that it does not have yet: they wait for a restart, or for an answer. */
 export class Changes {
@@ -57,8 +57,4 @@ export class Changes {
     }
     return wanted;
   }
-}
-
-function isSame(a: Json | undefined, b: Json): boolean {
-  return JSON.stringify(a) === JSON.stringify(b);
 }

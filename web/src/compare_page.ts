@@ -6,11 +6,13 @@ import { layersTab } from './layers_tab';
 import { Live } from './live';
 import { isAtRisk, mayLeave } from './loss';
 import { metricsTable } from './metrics';
+import { notice } from './notice';
 import type { Page } from './page';
 import { Parameters } from './parameters';
 import { Plots } from './plots';
 import { combine, keyOf } from './settings';
 import { stageFor } from './stage';
+import { Streams } from './streams';
 import { tabs } from './tabs';
 import { themeSwitch } from './theme';
 import { timeBar, timeKeys } from './time_bar';
@@ -18,16 +20,27 @@ import { timeBar, timeKeys } from './time_bar';
 /** Two sessions side by side, with a common time and one table of metrics. */
 export async function comparePage(numbers: number[]): Promise<Page> {
   const names = ['A', 'B'];
-  const trouble = element('p', { class: 'trouble', role: 'alert' });
+  const { root: trouble, say } = notice();
+  const streams = new Streams();
   const sides = await Promise.all(
     numbers.map(async (number, i) => {
       await requireOpen(number);
       const live = new Live(number, `Run ${names[i]}`);
-      live.onState((_, text) => trouble.replaceChildren(text));
+      live.onLate((text) => say(text || streams.text));
+      live.onState((state, text) => {
+        streams.take(i, state, text);
+        say(streams.text);
+        root.dataset['stream'] = streams.state;
+        parameters.root.inert = state !== 'open';
+        both.disabled = !streams.isOpen;
+      });
+      const parameters = new Parameters(live, `field-${names[i]}`);
       const stage = await stageFor(live);
-      const caption = element('figcaption', {});
+      const own = element('span', { class: 'own' });
+      const status = element('output', { class: 'status' });
+      const caption = element('figcaption', {}, element('strong', {}, names[i] as string), own, status);
       const figure = element('figure', { class: 'side', 'data-side': names[i] as string }, caption, stage.scene.root);
-      return { live, stage, caption, figure, parameters: new Parameters(live, `field-${names[i]}`) };
+      return { live, stage, own, status, figure, parameters };
     }),
   );
   const restart = () => Promise.all(sides.map((side, i) => side.parameters.restart([], `run ${names[i]}`)));
@@ -51,15 +64,10 @@ export async function comparePage(numbers: number[]): Promise<Page> {
       const shown = own.map((one) => (one.length > 60 ? `${keyOf(one)}=…` : one)).join(' · ');
       const { live } = side;
       const status = live.standing?.ended ? live.standing.status : (live.standing?.state ?? '');
-      side.caption.replaceChildren(
-        element('strong', {}, names[i] as string),
-        element(
-          'span',
-          { class: 'own' },
-          shown || (lists[0]?.join() === lists[1]?.join() ? 'same settings' : 'settings of the file'),
-        ),
-        element('output', { class: 'status' }, status.replaceAll('_', ' ')),
-      );
+      side.own.textContent =
+        shown || (lists[0]?.join() === lists[1]?.join() ? 'same settings' : 'settings of the file');
+      const words = status.replaceAll('_', ' ');
+      if (side.status.value !== words) side.status.value = words; // else it is read aloud each time
       side.figure.dataset['status'] = live.standing?.status ?? '';
     });
   };
@@ -81,17 +89,18 @@ export async function comparePage(numbers: number[]): Promise<Page> {
       if (message.type === 'standing' || message.type === 'hello') show();
     });
   const fit = () => sides.forEach((side) => side.stage.scene.fit());
-  const keys = new Keys([
-    ...timeKeys(time),
-    {
-      keys: ['ArrowLeft'],
-      shown: '←',
-      does: 'previous frame',
-      act: (e) => time.transport.seekBy(e.shiftKey ? -10 : -1),
-    },
-    { keys: ['ArrowRight'], shown: '→', does: 'next frame', act: (e) => time.transport.seekBy(e.shiftKey ? 10 : 1) },
-    { keys: ['f'], shown: 'f', does: 'fit the maps', act: fit },
-  ]);
+  const arrow = (by: number) => (event: KeyboardEvent) => time.transport.seekBy(by * (event.shiftKey ? 10 : 1));
+  const keys = new Keys(
+    [
+      ...timeKeys(time),
+      { keys: ['ArrowLeft'], shown: '←', does: 'previous frame (Shift: ten)', act: arrow(-1) },
+      { keys: ['ArrowRight'], shown: '→', does: 'next frame (Shift: ten)', act: arrow(1) },
+      { keys: ['f'], shown: 'f', does: 'fit the maps', act: fit },
+    ],
+    true,
+    () => streams.isOpen,
+  );
+  const both = element('button', { type: 'button', class: 'both', onclick: () => void restart() }, 'Restart both');
   document.title = 'Compare – microswarm lab';
   const root = element(
     'div',
@@ -103,7 +112,7 @@ export async function comparePage(numbers: number[]): Promise<Page> {
       element('h1', { class: 'title' }, 'Compare'),
       element('div', { class: 'spacer' }),
       trouble,
-      element('button', { type: 'button', class: 'both', onclick: () => void restart() }, 'Restart both'),
+      both,
       element('button', { type: 'button', title: 'Show the keys (?)', onclick: () => keys.help() }, 'Keys'),
       themeSwitch(),
     ),
@@ -120,6 +129,7 @@ export async function comparePage(numbers: number[]): Promise<Page> {
   const lives = sides.map((side) => side.live);
   return {
     root,
+    say,
     isAtRisk: () => lives.some(isAtRisk),
     mayLeave: () => mayLeave(lives),
     leave: () => {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Live } from './live';
+import { Stick } from './stick';
 import { at } from './settings';
 
 const period = 100; // ms between commands
@@ -11,14 +12,23 @@ const arrows: { [key: string]: [number, number] } = {
   ArrowDown: [0, -1],
 };
 
-/** Steering by hand: arrow keys, slow with Shift, or the left stick of a gamepad. */
+/** Steering by hand: arrow keys, slow with Shift, a stick on the screen, or the left stick of a gamepad. */
 export class Drive {
   private readonly pressed = new Set<string>();
   private isSlow = false;
+  readonly stick = new Stick((x, y) => {
+    this.touched = [x, y];
+    this.send();
+  });
+  private touched: [number, number] = [0, 0];
   private moves = false;
   private readonly timer = window.setInterval(() => this.send(), period);
 
-  constructor(private readonly live: Live) {}
+  constructor(private readonly live: Live) {
+    live.listen((message) => {
+      if (message.type === 'standing') this.stick.show(message.mode === 'manual');
+    });
+  }
 
   get isManual(): boolean {
     return this.live.standing?.mode === 'manual';
@@ -42,7 +52,7 @@ export class Drive {
 
   release(): void {
     this.pressed.clear();
-    this.send();
+    this.stick.release();
   }
 
   destroy(): void {
@@ -60,6 +70,7 @@ export class Drive {
       const scale = (this.isSlow ? 0.3 : 1) / Math.hypot(x, y);
       return [x * scale, y * scale];
     }
+    if (this.touched.some((one) => one !== 0)) return this.touched;
     const pad = navigator.getGamepads().find((one) => one?.connected);
     const stick: [number, number] = [pad?.axes[0] ?? 0, -(pad?.axes[1] ?? 0)];
     return Math.hypot(...stick) > deadZone ? stick : [0, 0];

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import { element } from './dom';
 
-/** Takes files that are dropped anywhere in the window, which says so while one is dragged over it; returns the function that ends it. */
-export function takeDrops(take: (files: File[]) => void): () => void {
+/** Takes files that are dropped anywhere in the window, which says so while one is dragged over it. */
+export function takeDrops(take: (files: File[]) => void): void {
   const sign = element(
     'div',
     { class: 'drop-here', hidden: true },
@@ -25,10 +25,4 @@ export function takeDrops(take: (files: File[]) => void): () => void {
   window.addEventListener('dragover', over);
   window.addEventListener('dragleave', leave);
   window.addEventListener('drop', drop);
-  return () => {
-    window.removeEventListener('dragover', over);
-    window.removeEventListener('dragleave', leave);
-    window.removeEventListener('drop', drop);
-    sign.remove();
-  };
 }

@@ -4,6 +4,7 @@ import { csvOf } from './csv';
 import { element } from './dom';
 import type { Live } from './live';
 import { numberEntry } from './number_entry';
+import { showOutcome, showProgress } from './progress';
 import type { Scene } from './scene/scene';
 
 const speeds = [1, 2, 4, 8, 16, 32];
@@ -35,7 +36,7 @@ export function exportPanel(live: Live, scene: Scene): HTMLElement {
   /** Says how far the export is. */
   const tell = async (name: string) => {
     const { share } = await call<{ share: number | null }>('GET', `${path}/export`).catch(() => ({ share: null }));
-    if (!stop.hidden && share !== null) said.value = `Making ${name}: ${Math.floor(100 * share)} %`;
+    if (!stop.hidden && share !== null) showProgress(said, `Making ${name}: ${Math.floor(100 * share)} %`);
   };
   const act = (label: string, name: string, title: string, make: (signal: AbortSignal) => Promise<Blob>) => {
     const button = element('button', { type: 'button', title, onclick: () => void run() }, label);
@@ -44,13 +45,13 @@ export function exportPanel(live: Live, scene: Scene): HTMLElement {
       cancel = new AbortController();
       for (const one of buttons) one.disabled = true; // one export at a time
       stop.hidden = false;
-      said.value = `Making ${name} …`;
+      showOutcome(said, `Making ${name} …`);
       const asks = live.isServed ? window.setInterval(() => void tell(name), 700) : undefined;
       try {
         save(await make(cancel.signal), name);
-        said.value = `${name} is made.`;
+        showOutcome(said, `${name} is made.`);
       } catch (error) {
-        said.value = (error as Error).name === 'AbortError' ? 'Cancelled.' : (error as Error).message;
+        showOutcome(said, (error as Error).name === 'AbortError' ? 'Cancelled.' : (error as Error).message);
       }
       window.clearInterval(asks);
       stop.hidden = true;

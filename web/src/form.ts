@@ -19,6 +19,9 @@ export interface FormOwner {
   changeType(key: string, type: string): void;
   isAtOnce(key: string): boolean;
   canChange(): boolean;
+  /** Further controls of a list of groups, and of one of its entries. */
+  listTools(key: string): HTMLElement[];
+  entryTools(key: string, index: number): HTMLElement[];
 }
 
 /** A scenario as a form made from its schema: groups that fold, with a field for each value. */
@@ -154,12 +157,16 @@ export class Form {
         },
         'Remove',
       );
-      group.append(remove);
+      group.append(
+        element('div', { class: 'row' }, ...(this.owner.canChange() ? this.owner.entryTools(key, i) : []), remove),
+      );
       return group;
     });
     if (entries.length === 0) body.push(element('p', { class: 'doc' }, 'None.'));
     if (entries.length > most)
       body.push(element('p', { class: 'doc' }, `The first ${most} of ${entries.length} are shown.`));
+    const tools = this.owner.canChange() ? this.owner.listTools(key) : [];
+    if (tools.length > 0) body.push(element('div', { class: 'row' }, ...tools));
     return this.group(key, described(schema).doc, body);
   }
 

@@ -2,68 +2,45 @@
 import type { Page } from './page';
 import { call } from './connection';
 import { element } from './dom';
-import { takeDrops } from './drops';
 import { type Entry, cardText, heading } from './headings';
+import { open, openFiles } from './opening';
+import { type OpenRun, openRuns } from './open_runs';
 import { queueSection } from './queue';
 import { themeSwitch } from './theme';
-import { upload } from './uploads';
 
 interface Listing {
   scenarios: Entry[];
+  lab: number;
   open?: boolean;
   queue?: boolean;
-}
-
-interface OpenRun {
-  session: number;
-  name: string;
-  t_s: number;
-  watched: boolean;
-  live: boolean;
-}
-
-/** Opens an experiment and shows its page. */
-async function open(body: { file?: string; settings?: string[] }): Promise<void> {
-  const { session, live } = await call<{ session: number; live: boolean }>('POST', '/api/sessions', body);
-  location.hash = `#/${live ? 'rig' : 'session'}/${session}`;
 }
 
 /** Everything that can be opened. The program's own argument is opened at once, the first time. */
 export async function galleryPage(): Promise<Page> {
   const listing = await call<Listing>('GET', '/api/scenarios');
   const trouble = element('p', { class: 'trouble', role: 'alert' });
+  const say = (text: string) => trouble.replaceChildren(text);
   const attempt = (body: { file?: string }) => {
-    trouble.replaceChildren();
+    say('');
     return open(body).then(
       () => true,
       (error: Error) => {
-        trouble.replaceChildren(error.message);
+        say(error.message);
         return false;
       },
     );
   };
-  if (listing.open && !sessionStorage.getItem('opened')) {
+  if (listing.open && sessionStorage.getItem('opened') !== String(listing.lab)) {
     const isOpen = await attempt({});
-    sessionStorage.setItem('opened', 'yes'); // after it: a page reloaded meanwhile opens it again
+    sessionStorage.setItem('opened', String(listing.lab)); // after it: a page reloaded meanwhile opens it again
     if (isOpen) return { root: element('p', { class: 'doc' }, 'Opening …'), leave: () => undefined };
   }
-  const take = async (file: File | undefined) => {
-    if (!file) return;
-    trouble.replaceChildren(`${file.name} is being read …`);
-    try {
-      const made = await upload(file);
-      if (made.kind === 'photograph') location.hash = '#/photo';
-      else await attempt({ file: made.file });
-    } catch (error) {
-      trouble.replaceChildren((error as Error).message);
-    }
-  };
   const chooser = element('input', {
     type: 'file',
     hidden: true,
     'aria-label': 'A file to open',
     accept: '.yaml,.yml,.h5,image/*,.tif,.tiff,.pgm,.ppm',
-    onchange: () => void take(chooser.files?.[0]),
+    onchange: () => void openFiles([...(chooser.files ?? [])], say),
   });
   const folders = new Map<string, Entry[]>();
   for (const entry of listing.scenarios) {
@@ -75,11 +52,7 @@ export async function galleryPage(): Promise<Page> {
       'section',
       {},
       element('h2', {}, heading(folder)),
-      element(
-        'div',
-        { class: 'cards' },
-        ...entries.map((entry) => card(entry, () => void attempt({ file: entry.file }))),
-      ),
+      element('div', { class: 'cards' }, ...entries.map((entry) => card(entry, () => attempt({ file: entry.file })))),
     ),
   );
   const none = element('p', { class: 'doc', hidden: true }, 'No experiment matches.');
@@ -127,42 +100,18 @@ export async function galleryPage(): Promise<Page> {
     trouble,
     none,
     ...(queue ? [queue.root] : []),
-    ...(sessions.length > 0 ? [openRuns(sessions)] : []),
+    ...(sessions.length > 0 ? [openRuns(sessions, say)] : []),
     element('p', { class: 'doc' }, 'Drop a photograph of vessels, a scenario or a record here.'),
     ...sections,
   );
-  const endDrops = takeDrops((files) => {
-    void take(files[0]).then(() => {
-      if (files.length > 1) trouble.append(` Only the first of ${files.length} files was read.`);
-    });
-  });
   return {
     root,
-    leave: () => {
-      queue?.leave();
-      endDrops();
-    },
+    say,
+    leave: () => queue?.leave(),
   };
 }
 
-/** Runs that are open, to come back to. */
-function openRuns(sessions: OpenRun[]): HTMLElement {
-  const links = sessions.map(({ session, name, t_s, live, watched }) =>
-    element(
-      'a',
-      { href: `#/${live ? 'rig' : 'session'}/${session}`, class: 'button' },
-      `${name.slice(name.lastIndexOf('/') + 1)} · ${t_s.toFixed(1)} s${watched ? ' · shown by a page' : ''}`,
-    ),
-  );
-  return element(
-    'section',
-    { class: 'open-runs' },
-    element('h2', {}, 'Open runs'),
-    element('div', { class: 'row' }, ...links),
-  );
-}
-
-function card(entry: Entry, act: () => void): HTMLElement {
+function card(entry: Entry, act: () => Promise<unknown>): HTMLElement {
   const { name, text, trouble } = cardText(entry);
   const picture = element('img', {
     ...(trouble ? {} : { src: `/api/thumbnail?file=${encodeURIComponent(entry.file)}` }),
@@ -171,7 +120,7 @@ function card(entry: Entry, act: () => void): HTMLElement {
     loading: 'lazy',
     onerror: () => picture.classList.add('none'),
   });
-  return element(
+  const root = element(
     'button',
     {
       class: trouble ? 'card wrong' : 'card',
@@ -179,10 +128,18 @@ function card(entry: Entry, act: () => void): HTMLElement {
       title: trouble || text,
       'data-file': entry.file,
       'data-text': `${entry.file} ${name} ${text} ${trouble}`.toLowerCase(),
-      onclick: act,
+      onclick: () => {
+        root.disabled = true; // it takes a while, and a second click would open it twice
+        root.setAttribute('aria-busy', 'true');
+        void act().finally(() => {
+          root.disabled = false;
+          root.removeAttribute('aria-busy');
+        });
+      },
     },
     picture,
     element('strong', {}, name),
     element('span', trouble ? { class: 'issue' } : {}, trouble || text),
   );
+  return root;
 }

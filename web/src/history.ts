@@ -1,10 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
+import { Digest } from './digest';
 import type { RunEvent } from './protocol';
 
 /** Numbers of all ticks so far, a list for each column, and events. */
 export class History {
   readonly columns = new Map<string, number[]>();
   events: RunEvent[] = [];
+  private readonly digests = new Map<string, Digest>();
+
+  /** The column in few points, for a plot. */
+  digest(name: string): Digest {
+    const digest = this.digests.get(name) ?? new Digest(this.column(name));
+    if (this.columns.has(name)) this.digests.set(name, digest);
+    return digest;
+  }
 
   column(name: string): number[] {
     return this.columns.get(name) ?? [];
@@ -17,6 +26,7 @@ export class History {
   take(names: string[], numbers: Float64Array, events: RunEvent[], anew: boolean): void {
     if (anew) {
       this.columns.clear();
+      this.digests.clear();
       this.events = [];
     }
     names.forEach((name, at) => {

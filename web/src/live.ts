@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Connect, Connection } from './connection';
 import { History } from './history';
+import { Patience } from './patience';
 import {
   type Answer,
   type Hello,
@@ -31,6 +32,8 @@ export class Live {
   private readonly listeners: Listener[] = [];
   private readonly pointers: (() => void)[] = [];
   private readonly staters: ((state: StreamState, text: string) => void)[] = [];
+  private readonly laters: ((text: string) => void)[] = [];
+  private readonly patience = new Patience((text) => this.laters.forEach((one) => one(text)));
   private wanted: number | undefined;
   private seeks = false;
 
@@ -79,6 +82,11 @@ export class Live {
     this.staters.push(listener);
   }
 
+  /** Registers a listener for what to say of answers that are late; empty when they have come. */
+  onLate(listener: (text: string) => void): void {
+    this.laters.push(listener);
+  }
+
   onPoint(listener: () => void): void {
     this.pointers.push(listener);
   }
@@ -90,7 +98,8 @@ export class Live {
 
   ask(request: Request): Promise<Answer> {
     if (!this.connection) return Promise.reject(new Error('The session is not open.'));
-    return this.connection.ask(request);
+    const answer = this.connection.ask(request);
+    return this.hello?.live ? answer : this.patience.of(answer); // a rig's console minds its own
   }
 
   tell(request: Request): void {

@@ -27,6 +27,16 @@ const away: Words = {
   go: 'Leave',
 };
 
+/** Whether a run that no page shows may be closed, although only its record can repeat it. */
+export function mayClose(name: string, session: number): Promise<boolean> {
+  return goes([{ session, isServed: true }], {
+    title: `Close ${name}?`,
+    text: 'The run was changed or steered while it ran. Only its record can repeat it, and closing discards the record.',
+    keep: 'Keep the run',
+    go: 'Close it',
+  });
+}
+
 /** Whether a run may be discarded; asks if it is at risk. `name`: of the run, if there are several. */
 export function mayBeginAnew(live: Live, name = ''): Promise<boolean> {
   const hasBegun = (live.standing?.frames ?? 0) > 0; // before that, its settings repeat its changes
@@ -60,7 +70,7 @@ export async function askWhen(live: Live): Promise<'now' | 'branch' | ''> {
   return answer as 'now' | 'branch' | '';
 }
 
-async function goes(lives: Live[], words: Words): Promise<boolean> {
+async function goes(lives: { session: number; isServed: boolean }[], words: Words): Promise<boolean> {
   const links = lives
     .filter((live) => live.isServed)
     .map(({ session }) =>

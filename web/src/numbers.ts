@@ -37,7 +37,11 @@ export function typedNumber(text: string): { value: number } | { trouble: string
     .trim()
     .replace(/^[−–]/, '-')
     .replace(/(?<=\d)[\u0020\u00a0\u202f](?=\d{3}(?!\d))/g, '');
-  // Three digits after a comma may be thousands.
+  // Three digits may be thousands: after a point, if they would be odd as decimals, and after a comma.
+  if (/^[+-]?[1-9]\d{0,2}(\.\d\d0|(\.\d{3}){2,})$/.test(bare)) {
+    const decimal = bare.split('.').length === 2 ? `${Number(bare)} or ` : '';
+    return { trouble: `${text.trim()} can be read as two numbers: write ${decimal}${bare.replaceAll('.', '')}.` };
+  }
   if (/^[+-]?[1-9]\d*,\d{3}$/.test(bare) || (/^[+-]?[\d.,]+$/.test(bare) && bare.includes(',') && bare.includes('.')))
     return { trouble: `${text.trim()} can be read as two numbers: write it with a decimal point only.` };
   if (!/^[+-]?(\d+[.,]?\d*|[.,]\d+)(e[+-]?\d+)?$/i.test(bare))

@@ -7,10 +7,15 @@ import { Form } from './form';
 import { routed } from './issues';
 import type { Live } from './live';
 import { askWhen, mayBeginAnew } from './loss';
+import { Mover } from './mover';
 import { type Answer, type Json, type Scenario, said } from './protocol';
 import { parametersNote } from './repeat';
 import type { Schema } from './schema';
-import { at, combine, keyOf, text } from './settings';
+import { shapeOf } from './shape';
+import { at, combine, isSame, keyOf, text } from './settings';
+import { Tuned } from './tuned';
+import { Undo, restartStep } from './undo';
+import { waitingBar } from './waiting_bar';
 
 const refused: Answer = {
   type: 'answer',
@@ -28,9 +33,11 @@ export class Parameters {
   private shape = '';
   private readonly changes = new Changes();
   private setting: Promise<unknown> = Promise.resolve(); // the last one sent
-  private readonly done: [string, Json][] = []; // keys changed, and the values before
-  private readonly tuned = new Map<string, Json>(); // objects by key and type, as they were left
+  private readonly undone = new Undo();
+  private readonly tuned = new Tuned();
+  private seen: Scenario = {}; // the last one in the form
   private readonly form: Form;
+  private readonly mover: Mover;
   private readonly search = element('input', {
     type: 'search',
     class: 'search',
@@ -49,7 +56,10 @@ export class Parameters {
     },
     '↶ Undo',
   );
-  private readonly bar = element('div', { class: 'waiting', role: 'status', hidden: true });
+  private readonly bar = waitingBar(
+    () => void this.restart(),
+    () => this.discard(),
+  );
   private readonly trouble = element('p', { class: 'issue', role: 'alert', hidden: true });
 
   /** `name` is the form's own in its page. */
@@ -64,6 +74,16 @@ export class Parameters {
         changeType: (key, type) => this.changeType(key, type),
         isAtOnce: (key) => this.isAtOnce(key),
         canChange: () => !live.hello?.playback,
+        listTools: (key) => (this.hasMovers(key) ? this.mover.addButton() : []),
+        entryTools: (key, index) => (this.hasMovers(key) ? this.mover.moveButton(index) : []),
+      },
+      name,
+    );
+    this.mover = new Mover(
+      {
+        scenario: () => this.wanted(),
+        map: () => live.hello?.map ?? { lo: [0, 0], hi: [1, 1] },
+        change: (key, make) => this.change(key, make),
       },
       name,
     );
@@ -75,7 +95,7 @@ export class Parameters {
       when,
       this.trouble,
       this.form.root,
-      this.bar,
+      this.bar.root,
     );
     let ended = false;
     live.listen((message) => {
@@ -105,13 +125,22 @@ export class Parameters {
     await this.setting;
     const asked = [...this.changes.settings(), ...more].map(keyOf);
     const settings = combine(this.settings(), more);
-    const isArmed = this.live.rig?.state === 'armed';
-    if (!isArmed && !(await mayBeginAnew(this.live, name))) return kept;
-    const answer = isArmed ? refused : await this.live.ask({ do: 'restart', settings });
-    if (answer.issues.length === 0) this.changes.clear();
+    const step = restartStep(more, this.live.hello?.scenario);
+    const answer = await this.beginAnew(settings, name);
+    if (answer.issues.length === 0) {
+      this.changes.clear();
+      this.undone.push(step);
+    }
     this.showIssues(answer, asked);
     this.showWaiting();
+    this.showUndo();
     return answer;
+  }
+
+  private async beginAnew(settings: string[], name: string): Promise<Answer> {
+    const isArmed = this.live.rig?.state === 'armed';
+    if (!isArmed && !(await mayBeginAnew(this.live, name))) return kept;
+    return isArmed ? refused : this.live.ask({ do: 'restart', settings });
   }
 
   /** Settings of a session that starts in this one's current state. */
@@ -139,8 +168,9 @@ export class Parameters {
     const value = make();
     const before = at(this.wanted(), key);
     const answer = await this.apply(key, value);
-    if (before !== undefined && !answer?.issues.length) this.done.push([key, before]);
-    this.undoButton.hidden = this.done.length === 0;
+    const isMade = before !== undefined && !isSame(before, value) && !answer?.issues.length;
+    if (isMade) this.undone.push({ before: [[key, before]], restarts: false });
+    this.showUndo();
     return answer;
   }
 
@@ -168,9 +198,20 @@ export class Parameters {
 
   /** Takes the last change back, by another one. */
   private async undo(): Promise<void> {
-    const last = this.done.pop();
-    if (last) await this.apply(...last);
-    this.undoButton.hidden = this.done.length === 0;
+    const last = this.undone.pop(this.wanted());
+    if (last?.restarts) {
+      const settings = last.before.map(([key, value]) => `${key}=${text(value)}`);
+      const answer = await this.beginAnew(combine(this.settings(), settings), '');
+      if (answer.issues.length > 0) this.undone.push(last);
+      this.showIssues(answer, settings.map(keyOf));
+    } else {
+      for (const one of last?.before ?? []) await this.apply(...one);
+    }
+    this.showUndo();
+  }
+
+  private showUndo(): void {
+    this.undoButton.hidden = !this.undone.has(this.wanted());
   }
 
   private async apply(key: string, value: Json): Promise<Answer | undefined> {
@@ -191,10 +232,13 @@ export class Parameters {
 
   /** Changes the type of an object, which gets its defaults, or the values that it had with this type before. */
   private changeType(key: string, type: string): void {
-    const present = at(this.wanted(), key);
-    if (present && typeof present === 'object' && !Array.isArray(present))
-      this.tuned.set(`${key}:${String(present['type'])}`, present);
-    void this.change(key, () => this.tuned.get(`${key}:${type}`) ?? { type });
+    this.tuned.keep(key, at(this.wanted(), key));
+    void this.change(key, () => this.tuned.of(key, type) ?? { type });
+  }
+
+  /** Whether the entries of a list are moved; robots that are tracked one by one have no obstacles. */
+  private hasMovers(key: string): boolean {
+    return key === 'obstacles' && at(this.live.hello?.scenario, 'robots') == null;
   }
 
   private wanted(): Scenario {
@@ -206,6 +250,8 @@ export class Parameters {
     const { hello } = this.live;
     if (!this.schema || !hello) return;
     const scenario = this.wanted();
+    this.tuned.follow(this.seen, scenario);
+    this.seen = scenario;
     const shape = JSON.stringify([shapeOf(scenario), this.live.standing?.ended]);
     if (shape !== this.shape) {
       const { lo, hi } = hello.map;
@@ -219,6 +265,7 @@ export class Parameters {
       if (hello.playback) one.setEnabled(false);
     }
     this.showWaiting();
+    this.showUndo();
   }
 
   private filter(): void {
@@ -249,26 +296,6 @@ export class Parameters {
   }
 
   private showWaiting(): void {
-    const { count } = this.changes;
-    this.bar.hidden = count === 0;
-    if (count === 0) return;
-    const button = (label: string, name: string, act: () => void) =>
-      element('button', { type: 'button', class: name, onclick: act }, label);
-    this.bar.replaceChildren(
-      element(
-        'span',
-        {},
-        count === 1 ? 'One change takes effect after a restart.' : `${count} changes take effect after a restart.`,
-      ),
-      button('Restart', 'primary restart', () => void this.restart()),
-      button('Discard', 'discard', () => this.discard()),
-    );
+    this.bar.show(this.changes.count);
   }
-}
-
-/** Shape of a scenario's form: the types of its objects and the lengths of its lists. */
-function shapeOf(value: Json): Json {
-  if (Array.isArray(value)) return value.some((one) => one && typeof one === 'object') ? value.map(shapeOf) : 0;
-  if (value === null || typeof value !== 'object') return value === null ? null : 0;
-  return Object.fromEntries(Object.entries(value).map(([key, one]) => [key, key === 'type' ? one : shapeOf(one)]));
 }

@@ -25,8 +25,8 @@ const steps: [Step, string][] = [
 ];
 const hints: { [step in Step]: string } = {
   scale: 'Click two points of known distance, or type the µm per pixel. Keys: arrows and Enter on the photograph.',
-  vessels: 'The outline shows the vessels found.',
-  places: 'Click the start, then the goal, or gather robots at a click.',
+  vessels: 'The outline shows the vessels found. Start and goal of a swarm are in the tinted ones.',
+  places: 'Click the start, then the goal, both in tinted vessels, or gather robots at a click.',
 };
 
 /** From a photograph to an experiment: scale, vessels, start and goal. */
@@ -125,9 +125,9 @@ class PhotoPage {
     this.make.disabled = !this.goal;
   }
 
-  private say(text: string): void {
+  readonly say = (text: string): void => {
     this.trouble.textContent = text;
-  }
+  };
 
   private go(to: Step): void {
     if (!(this.scale.get() > 0)) return this.say('The µm per pixel must be above 0.');
@@ -216,6 +216,7 @@ let last: { photo: Photograph; page: PhotoPage } | undefined;
 export function photoPage(photo: Photograph): Promise<Page> {
   document.title = `${photo.name} – microswarm lab`;
   if (last?.photo !== photo) last = { photo, page: new PhotoPage(photo) };
+  const { root, say } = last.page;
   last.page.returned();
-  return Promise.resolve({ root: last.page.root, leave: () => undefined });
+  return Promise.resolve({ root, say, leave: () => undefined });
 }

@@ -115,10 +115,10 @@ export class Plots {
   }
 
   private data(what: Plotted): uPlot.AlignedData {
-    const tables = this.lives.map(({ history }): uPlot.AlignedData => {
-      const values = history.column(what.column);
-      return [history.times, values.map((one) => (Number.isFinite(one) ? one * what.factor : null))];
-    });
+    const most = 2 * Math.max(200, this.root.clientWidth);
+    const tables = this.lives.map(({ history }): uPlot.AlignedData =>
+      history.digest(what.column).line(history.times, most, what.factor),
+    );
     return tables.length === 1 ? (tables[0] as uPlot.AlignedData) : uPlot.join(tables);
   }
 

@@ -30,6 +30,11 @@ export function verdictOf(status: number | undefined, what: string): Verdict {
       state: 'closed',
       text: `${what} is closed: nobody watched it for 30 minutes, or others needed its place. Open its file again from the gallery.`,
     };
+  if (status === 410)
+    return {
+      state: 'closed',
+      text: `${what} was of a lab that has ended, and another one runs here now. Open its file from the gallery.`,
+    };
   if (status === 403)
     return { state: 'closed', text: 'The lab was started again: open the address that it printed last.' };
   return { state: 'lost', text: 'The connection broke. It is being opened again; the run is kept.' };

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+import { armPanel } from './arm_panel';
 import { element } from './dom';
 import type { Drive } from './drive';
 import type { Live } from './live';
-import { type Controls, type RigInfo, type RigStanding, said } from './protocol';
-import { number } from './numbers';
+import { type Controls, type RigStanding, said } from './protocol';
 import { type ConsoleView, actOf, consoleOf, isSilent } from './rig_view';
-
-const answerTime = 500; // maximum time of the answer to a stop [ms]
+import { StopRequest } from './stop_request';
 
 export interface RigConsole {
   /** The bar, which is always visible. */
@@ -27,20 +26,12 @@ export function rigConsole(live: Live, drive: Drive, say: (text: string, isTroub
     const answer = await live.ask(request);
     say(said(answer));
   };
-  let stops = 0; // number of the last stop
-  let isStopUnanswered = false;
-  const stop = async () => {
-    const own = ++stops;
-    const late = window.setTimeout(() => {
-      isStopUnanswered = true;
-      show();
-    }, answerTime);
-    await live.ask({ do: 'stop' });
-    window.clearTimeout(late);
-    if (own !== stops || isLost) return; // a broken stream answers too
-    isStopUnanswered = false;
-    show();
-  };
+  const request = new StopRequest(() => show());
+  const stop = () =>
+    request.send(
+      () => live.ask({ do: 'stop' }),
+      () => isLost,
+    );
 
   const badge = element('strong', { class: 'badge-rig', role: 'status' });
   const stopButton = element(
@@ -49,7 +40,7 @@ export function rigConsole(live: Live, drive: Drive, say: (text: string, isTroub
     'STOP',
   );
   const words = element('span', { class: 'why', tabindex: '0' });
-  const armButton = button('Arm …', 'Drive the coils', () => openPanel());
+  const armButton = button('Arm …', 'Drive the coils', () => panel.open(live.hello?.rig_info));
   const dryButton = button('Dry run', 'Restart without driving the coils', () => void ask({ do: 'dry' }));
   const takeButton = button('Take the controls', 'No page has the controls', () => void ask({ do: 'control' }));
   const holdButton = button(
@@ -60,10 +51,7 @@ export function rigConsole(live: Live, drive: Drive, say: (text: string, isTroub
   const manualButton = button('Steer', 'Steer with the arrow keys or a gamepad (m)', () => drive.toggle());
   const endButton = button('End', 'End the run and keep its record', () => void ask({ do: 'end' }));
 
-  const facts = element('ul', {});
-  const cancel = button('Cancel', '', () => closePanel());
-  const confirm = button('Arm: drive the coils', '', () => {
-    closePanel();
+  const panel = armPanel(() => {
     arms = true;
     show();
     void ask({ do: 'arm' }).finally(() => {
@@ -71,22 +59,6 @@ export function rigConsole(live: Live, drive: Drive, say: (text: string, isTroub
       show();
     });
   });
-  confirm.classList.add('danger');
-  const panel = element(
-    'div',
-    { class: 'arm-panel', role: 'alertdialog', 'aria-label': 'Arm the rig', hidden: true },
-    element('strong', {}, 'Drive the coils?'),
-    facts,
-    element('div', { class: 'row' }, cancel, confirm),
-  );
-  const openPanel = () => {
-    facts.replaceChildren(...factsOf(live.hello?.rig_info).map((one) => element('li', {}, one)));
-    panel.hidden = false;
-    cancel.focus();
-  };
-  const closePanel = () => {
-    panel.hidden = true;
-  };
   const buttons = {
     stop: stopButton,
     arm: armButton,
@@ -104,7 +76,7 @@ export function rigConsole(live: Live, drive: Drive, say: (text: string, isTroub
     badge,
     words,
     element('span', { class: 'acts' }, armButton, dryButton, holdButton, manualButton, endButton, takeButton),
-    panel,
+    panel.root,
   );
 
   const view = () =>
@@ -115,12 +87,12 @@ export function rigConsole(live: Live, drive: Drive, say: (text: string, isTroub
       arms,
       isLost,
       silence: arms ? 0 : live.silence,
-      isStopUnanswered,
+      isStopUnanswered: request.isUnanswered,
     });
   const show = () => {
     const now = view();
     bar.dataset['state'] = now.state;
-    badge.textContent = now.badge;
+    if (badge.textContent !== now.badge) badge.textContent = now.badge; // else it is read aloud each time
     words.textContent = now.words;
     for (const [name, button] of Object.entries(buttons)) {
       const { hidden, disabled, pressed } = now.buttons[name as keyof ConsoleView['buttons']];
@@ -132,14 +104,14 @@ export function rigConsole(live: Live, drive: Drive, say: (text: string, isTroub
   live.listen((message) => {
     if (message.type === 'rig') {
       rig = message;
-      if (rig.state === 'ended') isStopUnanswered = false;
+      if (rig.state === 'ended') request.hasStopped();
     } else if (message.type === 'controls') controls = message;
     else if (message.type !== 'standing' && message.type !== 'hello') return;
     show();
   });
   live.onState((state) => {
     isLost = state !== 'open';
-    if (isLost) closePanel();
+    if (isLost) panel.close();
     show();
   });
 
@@ -149,10 +121,10 @@ export function rigConsole(live: Live, drive: Drive, say: (text: string, isTroub
     if (controls?.holds && !isLost) live.tell({ do: 'beat' });
   };
   const key = (event: KeyboardEvent) => {
-    const act = actOf(event.key, isHot(), !panel.hidden);
+    const act = actOf(event.key, isHot(), !panel.root.hidden);
     if (!act) return;
     event.stopImmediatePropagation();
-    if (act === 'close') return closePanel();
+    if (act === 'close') return panel.close();
     event.preventDefault();
     void stop();
   };
@@ -170,19 +142,4 @@ export function rigConsole(live: Live, drive: Drive, say: (text: string, isTroub
 
 function button(label: string, title: string, act: () => void): HTMLButtonElement {
   return element('button', { type: 'button', title, onclick: act }, label);
-}
-
-/** Facts shown before the coils are driven. */
-function factsOf(info: RigInfo | undefined): string[] {
-  if (!info) return [];
-  const limit = (values: (number | null)[], unit: string) => {
-    const known = values.filter((one): one is number => one !== null);
-    return known.length > 0 ? `at most ${number(Math.max(...known))} ${unit}` : `no limit in ${unit}`;
-  };
-  return [
-    `${info.name}: ${info.coils.length} ${info.real_coils ? 'coils are driven by a device' : 'simulated coils'}, ${info.real_camera ? 'a real camera' : 'a simulated camera'}`,
-    `Field of ${number(info.field_mt)} mT; ${limit(info.max_current_a, 'A')}, ${limit(info.max_temperature_c, '°C')}`,
-    'Space, Esc, the button and closing this page stop it.',
-    ...info.warnings,
-  ];
 }

@@ -3,7 +3,7 @@ import { requireOpen } from './connection';
 import { openCopy } from './copies';
 import { element } from './dom';
 import { Drive } from './drive';
-import { type Key, Keys } from './keys';
+import { Keys } from './keys';
 import { layersTab } from './layers_tab';
 import { Live } from './live';
 import { isAtRisk, mayLeave } from './loss';
@@ -15,16 +15,13 @@ import { recordTab } from './record_tab';
 import { rigConsole } from './rig_console';
 import { rigTab } from './rig_tab';
 import { sceneTools, toolButton } from './scene_tools';
+import { sessionKeys } from './session_keys';
 import { stageFor } from './stage';
 import { statusText } from './status';
 import { tabs } from './tabs';
 import { themeSwitch } from './theme';
-import { timeBar, timeKeys } from './time_bar';
+import { timeBar } from './time_bar';
 import { Hands } from './touch';
-
-const stopKeys: Key[] = [
-  { keys: [], shown: 'space, Esc', does: 'stop: coils to zero at once, while it is armed', act: () => undefined },
-];
 
 /** Parts of a session's page besides scene, layers, plots and time line. */
 export interface Offers {
@@ -62,29 +59,7 @@ export async function pageOf(live: Live, { rig: isRig, changes, about }: Offers)
       : undefined;
 
   let isBroken = false; // before it opens, keys wait for its answer
-  const arrow = (by: number) => (event: KeyboardEvent) => {
-    if (!drive?.key(event, true)) time.transport.seekBy(by * (event.shiftKey ? 10 : 1));
-  };
-  const [left, right] = drive ? [' · steer left', ' · steer right'] : ['', ''];
-  const keys = new Keys(
-    [
-      ...(isRig ? stopKeys : timeKeys(time)),
-      { keys: ['ArrowLeft'], shown: '←', does: `previous frame (Shift: ten)${left}`, act: arrow(-1) },
-      { keys: ['ArrowRight'], shown: '→', does: `next frame (Shift: ten)${right}`, act: arrow(1) },
-      ...(drive
-        ? [{ keys: ['ArrowUp', 'ArrowDown'], shown: '↑ ↓', does: 'steer (Shift: slowly)', act: arrow(0) }]
-        : []),
-      ...tools.keys,
-      ...(isRig || !hands
-        ? []
-        : [
-            { keys: ['Escape'], shown: 'Esc', does: 'deselect the tool', act: () => hands.choose(undefined) },
-            { keys: ['x'], shown: 'x', does: 'use the chosen tool at the middle of the view', act: () => hands.use() },
-          ]),
-    ],
-    !isRig,
-    () => isRig || !isBroken,
-  );
+  const keys = new Keys(sessionKeys(time, drive, hands, tools.keys, isRig), !isRig, () => isRig || !isBroken);
   const up = (event: KeyboardEvent) => drive?.key(event, false);
   const blur = () => drive?.release();
   window.addEventListener('keyup', up);
@@ -107,7 +82,7 @@ export async function pageOf(live: Live, { rig: isRig, changes, about }: Offers)
       toolButton('Keys', 'Show the keys (?)', () => keys.help()),
       themeSwitch(),
     ),
-    element('div', { class: 'stage' }, scene.root, over),
+    element('div', { class: 'stage' }, scene.root, over, ...(drive ? [drive.stick.root] : [])),
     time.root, // before the tabs, so that Play is soon reached by the Tab key
     tabs(isRig ? 'rig' : changes ? 'session' : 'player', [
       ...(about ? [{ name: 'About', panel: about }] : []),
@@ -135,8 +110,10 @@ export async function pageOf(live: Live, { rig: isRig, changes, about }: Offers)
     const text = statusText(message, live.hello?.playback ?? false);
     if (status.value !== text) status.value = text;
   });
+  let streamText = '';
+  live.onLate((text) => say(text || streamText));
   live.onState((state, text) => {
-    say(text);
+    say((streamText = text));
     root.dataset['stream'] = state;
     isBroken = state !== 'open';
     over.inert = state !== 'open';
@@ -145,6 +122,8 @@ export async function pageOf(live: Live, { rig: isRig, changes, about }: Offers)
   live.open();
   return {
     root,
+    say,
+    keepsFiles: () => (rig?.isHot() ? 'The coils are driven: stop the rig before another file is opened.' : ''),
     isAtRisk: () => isAtRisk(live),
     mayLeave: () => mayLeave([live]),
     leave: () => {

@@ -25,6 +25,10 @@ export function combine(...lists: string[][]): string[] {
   return all;
 }
 
+export function isSame(a: Json | undefined, b: Json | undefined): boolean {
+  return JSON.stringify(a) === JSON.stringify(b);
+}
+
 /** Quotes a word for a POSIX shell. */
 export function shellWord(word: string): string {
   return /^[\w\-./=,:+@%]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;

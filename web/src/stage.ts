@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Live } from './live';
+import { copyForPaper } from './paper';
 import { Scene } from './scene/scene';
 import { sceneText } from './scene/words';
 import { onTheme } from './theme';
@@ -35,12 +36,14 @@ export async function stageFor(live: Live): Promise<Stage> {
     scene.setBackground(address, [0, 0], message.photo?.um_per_px ?? 1).catch(() => undefined);
   });
   const stopTheme = onTheme((theme) => scene.setTheme(theme));
+  const stopPaper = copyForPaper(scene.root); // after the theme's listener, which draws it for paper
   window.microswarm ??= { scene, connection: live };
   return {
     scene,
     destroy: () => {
       delete window.microswarm;
       stopTheme();
+      stopPaper();
       scene.destroy();
     },
   };

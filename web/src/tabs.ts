@@ -26,7 +26,7 @@ export function tabs(id: string, list: Tab[]): HTMLElement {
   const panels = list.map((tab, i) =>
     element(
       'div',
-      { role: 'tabpanel', class: 'panel', id: `${id}-panel-${i}`, 'aria-labelledby': `${id}-tab-${i}` },
+      { role: 'tabpanel', class: 'panel', tabindex: '0', id: `${id}-panel-${i}`, 'aria-labelledby': `${id}-tab-${i}` },
       tab.panel,
     ),
   );

@@ -4,10 +4,15 @@ import { element } from './dom';
 export type Theme = 'light' | 'dark';
 
 const dark = window.matchMedia('(prefers-color-scheme: dark)');
+const paper = window.matchMedia('print');
 const listeners = new Set<(theme: Theme) => void>();
 
-/** The chosen theme, or the system's preference. */
+/** The chosen theme, or the system's preference; light on paper. */
 export function theme(): Theme {
+  return paper.matches ? 'light' : chosenTheme();
+}
+
+function chosenTheme(): Theme {
   const chosen = localStorage.getItem('theme');
   if (chosen === 'light' || chosen === 'dark') return chosen;
   return dark.matches ? 'dark' : 'light';
@@ -26,13 +31,13 @@ export function onTheme(listener: (theme: Theme) => void): () => void {
 }
 
 export function startTheme(): void {
-  dark.addEventListener('change', apply);
+  for (const one of [dark, paper]) one.addEventListener('change', apply);
   apply();
 }
 
 export function themeSwitch(): HTMLElement {
   const toggle = () => {
-    localStorage.setItem('theme', theme() === 'dark' ? 'light' : 'dark');
+    localStorage.setItem('theme', chosenTheme() === 'dark' ? 'light' : 'dark');
     apply();
   };
   return element(

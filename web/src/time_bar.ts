@@ -5,6 +5,7 @@ import type { Key } from './keys';
 import type { Live } from './live';
 import type { Standing } from './protocol';
 import { speeds } from './speeds';
+import { Streams } from './streams';
 import { timeline } from './timeline';
 import { Transport } from './transport';
 
@@ -77,8 +78,14 @@ export function timeBar(sessions: Live[], again?: () => Promise<unknown>): TimeB
       if (message.type === 'rows') showTotal();
       if (message.type === 'frame' && one === time.lead) clock.textContent = `${one.shown.toFixed(1)} s`;
     });
-    one.onState((state) => (root.inert = state !== 'open'));
   }
+  const streams = new Streams();
+  sessions.forEach((one, i) =>
+    one.onState((state, text) => {
+      streams.take(i, state, text);
+      root.inert = !streams.isOpen;
+    }),
+  );
   const root = element(
     'section',
     { class: 'timebar', 'aria-label': 'Time' },

@@ -3,8 +3,10 @@ import { element } from './dom';
 import { eventsNear, ticksOf } from './events';
 import type { Live } from './live';
 import { onTheme } from './theme';
+import { TimeMarks } from './time_marks';
 
 const thumb = 14; // px, as in app.css
+const colours = { plan: '--plan', contact: '--bad', goal: '--good', other: '--accent' };
 
 /** A slider over all frames with marks above it: contacts, other events, and planning events. */
 export function timeline(
@@ -25,6 +27,7 @@ export function timeline(
   });
   const tip = element('output', { class: 'tip', 'aria-live': 'off', hidden: true });
   const root = element('div', { class: 'timeline' }, canvas, slider, tip);
+  const marks = new TimeMarks();
   let due = false;
 
   const timeAt = (event: MouseEvent) => {
@@ -62,17 +65,9 @@ export function timeline(
     const { times } = live.history;
     for (const time of ticksOf(times[0] as number, times.at(-1) as number, Math.floor(width / 60)))
       mark(live.history.nearest(time), '--faint', height - 3, height);
-    live.history.column('planned').forEach((planned, i) => {
-      if (planned) mark(i, '--plan', height - 8, height - 3);
-    });
-    for (const event of live.history.events) {
-      const isContact = event.kind.startsWith('contact');
-      mark(
-        live.history.nearest(event.t_s),
-        isContact ? '--bad' : event.kind === 'goal_reached' ? '--good' : '--accent',
-        0,
-        height - 9,
-      );
+    for (const [kind, frame] of marks.of(live.history, width)) {
+      if (kind === 'plan') mark(frame, colours.plan, height - 8, height - 3);
+      else mark(frame, colours[kind], 0, height - 9);
     }
     if (live.pointed !== undefined) mark(live.history.nearest(live.pointed), '--ink', 0, height);
   };

@@ -4,6 +4,7 @@ import { element } from './dom';
 import type { Live } from './live';
 import { numberEntry } from './number_entry';
 import type { Parameters } from './parameters';
+import { movedObstacle, restingDisc, rounded } from './obstacle_places';
 import { type Json, type Point, said } from './protocol';
 import { at, text } from './settings';
 import type { Scene, Touch } from './scene/scene';
@@ -14,15 +15,6 @@ const hints: { [tool in Tool]: string } = {
   wall: 'Click the position of the new round wall; the run restarts. Esc: done.',
   remove: 'Click an obstacle or a round wall to remove it. Esc: done.',
 };
-/** Key of a motion's position. */
-const places: { [motion: string]: string } = {
-  still: 'position_um',
-  straight: 'start_um',
-  harmonic_line: 'centre_um',
-  harmonic_arc: 'pivot_um',
-  waypoints: 'points_um',
-};
-
 /** Effects of dragging and clicking in the scene on the session, and the tools for them. */
 export class Hands {
   readonly tools: HTMLElement;
@@ -111,18 +103,10 @@ export class Hands {
   }
 
   private async moveObstacle(index: number, dx: number, dy: number): Promise<void> {
-    const motion = `obstacles.${index}.motion`;
-    const place = places[String(at(this.live.hello?.scenario, `${motion}.type`))];
-    if (!place) return this.say('The motion of this obstacle comes from a file; it cannot be dragged.');
-    const shift = (point: Json) => {
-      const [x, y] = point as Point;
-      return rounded([x + dx, y + dy]);
-    };
-    await this.apply(`${motion}.${place}`, () => {
-      const before = at(this.live.hello?.scenario, `${motion}.${place}`) ?? [0, 0];
-      const isList = Array.isArray(before) && Array.isArray(before[0]);
-      return isList ? (before as Json[]).map(shift) : shift(before);
-    });
+    const moved = () => movedObstacle(this.live.hello?.scenario, index, [dx, dy]);
+    const move = moved();
+    if (!move) return this.say('The motion of this obstacle comes from a file; it cannot be dragged.');
+    await this.apply(move.key, () => moved()?.value ?? move.value);
   }
 
   private obstacles(): Json[] {
@@ -137,10 +121,7 @@ export class Hands {
   }
 
   private async addObstacle(position: Point): Promise<void> {
-    const disc = {
-      shape: { type: 'disc', radius_um: this.radius.get() ?? 0 },
-      motion: { type: 'still', position_um: rounded(position) },
-    };
+    const disc = restingDisc(position, this.radius.get() ?? 0);
     await this.apply('obstacles', () => [...this.obstacles(), disc]);
   }
 
@@ -175,8 +156,4 @@ export class Hands {
     const trouble = said(answer);
     this.say(trouble || 'The run restarts.', trouble !== '');
   }
-}
-
-function rounded([x, y]: Point): Point {
-  return [Math.round(x * 10) / 10, Math.round(y * 10) / 10];
 }

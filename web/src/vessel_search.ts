@@ -3,6 +3,7 @@ import { call } from './connection';
 import { element } from './dom';
 import { type Field, field } from './field';
 import { number } from './numbers';
+import { showOutcome, showProgress } from './progress';
 import type { Json } from './protocol';
 import type { Schema } from './schema';
 
@@ -67,8 +68,8 @@ export class VesselSearch {
 
   private async once(): Promise<void> {
     const began = performance.now();
-    const tell = () => (this.found.value = `Searching … ${Math.floor((performance.now() - began) / 1000)} s`);
-    tell();
+    const tell = () => showProgress(this.found, `Searching … ${Math.floor((performance.now() - began) / 1000)} s`);
+    showOutcome(this.found, 'Searching …');
     const ticks = setInterval(tell, 1000);
     try {
       const body = JSON.stringify({ file: this.file, settings: this.settings() });
@@ -77,7 +78,7 @@ export class VesselSearch {
       URL.revokeObjectURL(this.address);
       this.address = URL.createObjectURL(await response.blob());
       this.show(this.address);
-      this.found.value = described(JSON.parse(response.headers.get('Microswarm-Vessels') ?? '{}'));
+      showOutcome(this.found, described(JSON.parse(response.headers.get('Microswarm-Vessels') ?? '{}')));
       this.say('');
     } catch (error) {
       this.found.value = '';
@@ -92,6 +93,7 @@ function described(found: { [name: string]: number } & { choice?: string }): str
   const percent = (share: number | undefined) => `${number(100 * (share ?? 0), 3)} %`;
   return (
     `Vessels cover ${percent(found['view_share'])} of the view; wide ones are ${number(found['wide_width_px'] ?? 0, 3)} px; ` +
-    `${percent(found['kept_share'])} of ${found['pieces']} pieces are kept. Method: ${found.choice ?? '?'}.`
+    `${percent(found['kept_share'])} of ${found['pieces']} pieces are kept. Method: ${found.choice ?? '?'}. ` +
+    `A swarm fits into the tinted ones, ${percent(found['swarm_share'])} of their area.`
   );
 }

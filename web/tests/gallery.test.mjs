@@ -6,7 +6,7 @@ import { copyFileSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSy
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { openPage, program, root, startBrowser, startLab } from './lab.mjs';
+import { openPage, program, root, startBrowser, startLab, until } from './lab.mjs';
 
 let browser;
 before(async () => (browser = await startBrowser()));
@@ -64,4 +64,42 @@ test('scenarios with mistakes say which, records say what they are, and files ar
   await close();
   assert.equal(await lab.stop(), 0);
   rmSync(folder, { recursive: true });
+});
+
+test('a card opens once however often it is clicked, and an open run can be closed', async () => {
+  const lab = await startLab();
+  const { page, close } = await openPage(browser, lab.url);
+  await page.waitForSelector('.card');
+  const runs = () => page.evaluate(async () => (await (await fetch('/api/sessions')).json()).sessions);
+  for (const changed of [false, true]) {
+    await page.locator('.card[data-file$="first_flight.yaml"]').evaluate((card) => {
+      card.click();
+      card.click();
+    });
+    await page.waitForSelector('.session .form .field', { state: 'attached' });
+    assert.equal((await runs()).length, 1 + Number(changed));
+    if (changed) {
+      await page.click('.step');
+      await page.fill('[id="field-goal_tolerance_um"]', '33');
+      await page.keyboard.press('Enter');
+      await until(page, () => window.microswarm.connection.standing.changes.length === 1);
+    }
+    await page.getByRole('link', { name: '‹ Gallery' }).click();
+    if (changed) await page.click('.loss .anew');
+    await page.waitForSelector('.open-runs');
+  }
+  const close1 = page.getByRole('button', { name: /^Close first_flight.yaml · 0.0 s$/ });
+  await close1.click();
+  await until(page, () => document.querySelectorAll('.open-runs li').length === 1);
+  assert.equal((await runs()).length, 1);
+  const changed = page.getByRole('button', { name: /^Close first_flight.yaml .* changed$/ });
+  await changed.click();
+  await page.click('.loss .keep');
+  assert.equal((await runs()).length, 1);
+  await changed.click();
+  await page.click('.loss .anew');
+  await page.waitForSelector('.open-runs', { state: 'hidden' });
+  assert.deepEqual(await runs(), []);
+  await close();
+  assert.equal(await lab.stop(), 0);
 });

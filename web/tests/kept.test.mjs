@@ -89,7 +89,7 @@ test('leaving a run that was steered asks, and the gallery leads back to it', ()
     await page.waitForSelector('dialog.loss');
     await picture('leave');
     await page.click('.loss .keep');
-    assert.match(page.url(), /session\/1$/);
+    assert.match(page.url(), /session\/\d+$/);
     assert.ok(await page.locator('.timebar').isVisible());
     await gallery.click();
     await page.click('.loss .anew');
@@ -102,7 +102,7 @@ test('leaving a run that was steered asks, and the gallery leads back to it', ()
 
 test('a run that is gone is said to be', () =>
   inLab('scenarios/first_flight.yaml', async (page, { complaints }) => {
-    await page.evaluate(() => fetch('/api/sessions/1', { method: 'DELETE' }));
+    await page.evaluate(() => fetch(`/api/sessions/${window.microswarm.connection.session}`, { method: 'DELETE' }));
     await page.locator('.top .trouble', { hasText: 'closed' }).waitFor();
     await page.reload();
     await page.locator('.fault .trouble', { hasText: 'This run is closed' }).waitFor();
@@ -110,3 +110,27 @@ test('a run that is gone is said to be', () =>
     await page.waitForSelector('.card');
     for (const one of complaints.splice(0)) assert.match(one, /404|WebSocket/);
   }));
+
+test('a tab of a lab that ended does not join a run of the next lab at its port', async () => {
+  let lab = await startLab('scenarios/first_flight.yaml');
+  const port = new URL(lab.url).port;
+  const { page, close } = await openPage(browser, lab.url);
+  await page.waitForSelector('.form .field', { state: 'attached' });
+  const before = page.url();
+  await lab.stop();
+  await page.locator('.top .trouble', { hasText: 'The lab has ended' }).waitFor();
+  lab = await startLab('scenarios/papers/radar/twelve.yaml', '--port', port);
+  const other = await page.context().newPage(); // which gives the browser the new lab's cookie
+  await other.goto(lab.url);
+  await other.waitForSelector('.form .field', { state: 'attached' });
+  // Before the other page has the new token, the old one only hears that it is refused.
+  await page.locator('.top .trouble', { hasText: /another one runs here now|was started again/ }).waitFor();
+  await page.goto(before);
+  await page.reload();
+  await page.locator('.fault .trouble', { hasText: 'another one runs here now' }).waitFor();
+  await page.getByRole('link', { name: '‹ Gallery' }).click();
+  await page.waitForSelector('.session .play'); // the file of the new lab's command line
+  assert.match(await page.title(), /twelve/i);
+  await close(/net::ERR_|WebSocket|410|403/);
+  assert.equal(await lab.stop(), 0);
+});

@@ -70,4 +70,9 @@ std::string new_token() {
   return fmt::format("{:08x}{:08x}{:08x}{:08x}", random(), random(), random(), random());
 }
 
+std::uint64_t new_lab_number(std::uint64_t most) {
+  std::random_device random;
+  return 1 + random() % most;
+}
+
 }  // namespace microswarm::lab

@@ -37,5 +37,7 @@ class Access {
 
 /// 128 random bits from the system, as hexadecimal digits.
 std::string new_token();
+/// A random number from 1 to `most` that distinguishes labs of one port.
+std::uint64_t new_lab_number(std::uint64_t most);
 
 }  // namespace microswarm::lab

@@ -34,7 +34,7 @@ void list(Exchange& e, std::string_view) {
                       {"outcome", entry.outcome},
                       {"written", entry.written},
                       {"trouble", entry.trouble}});
-    Json json{{"scenarios", std::move(list)}};
+    Json json{{"scenarios", std::move(list)}, {"lab", e.shared().hub.lab()}};
     if (e.shared().opening) json["open"] = true;
     if (!e.shared().queue.empty()) json["queue"] = true;
     return respond(e.request(), json);
@@ -81,7 +81,7 @@ void take_upload(Exchange& e, std::string_view) {
 /// POST {"file": …, "settings": […]}: the photograph with its vessels.
 void search_vessels(Exchange& e, std::string_view) {
   e.later([&e, asked = read_photo_request(e.request().body())] {
-    FoundVessels found = find_vessels(e.shared().library.find(asked.file), asked);
+    FoundVessels found = e.shared().vessels.find(e.shared().library.find(asked.file), asked);
     HttpResponse response =
         respond(e.request(), http::status::ok, "image/png", std::move(found.png));
     response.set("Microswarm-Vessels", found.json);
@@ -91,8 +91,8 @@ void search_vessels(Exchange& e, std::string_view) {
 
 void make_scenario(Exchange& e, std::string_view) {
   e.later([&e, asked = read_photo_request(e.request().body())] {
-    const auto made =
-        make_photo_scenario(e.shared().library.find(asked.file), asked, e.shared().uploads);
+    const auto made = e.shared().vessels.make_scenario(e.shared().library.find(asked.file), asked,
+                                                       e.shared().uploads);
     return respond(e.request(), {{"file", made.string()}});
   });
 }
@@ -166,11 +166,8 @@ void open_session(Exchange& e, std::string_view) {
 }
 
 Json describe(const Hub::Open& one) {
-  return {{"session", one.session},
-          {"name", one.file},
-          {"t_s", one.newest},
-          {"watched", one.watched},
-          {"live", one.live}};
+  return {{"session", one.session}, {"name", one.file},       {"t_s", one.newest},
+          {"watched", one.watched}, {"changed", one.changed}, {"live", one.live}};
 }
 
 /// GET /api/sessions
@@ -180,10 +177,16 @@ void list_sessions(Exchange& e, std::string_view) {
   e.write(respond(e.request(), {{"sessions", std::move(list)}}));
 }
 
+/// Refuses what is asked of a session that is not open.
+void miss(Exchange& e, std::optional<std::uint64_t> session) {
+  if (!session || e.shared().hub.is_own(*session)) return e.nothing();
+  e.refuse(http::status::gone, "this session was of a lab that has ended");
+}
+
 /// DELETE /api/sessions/ID
 void close_session(Exchange& e, std::string_view session) {
   const auto number = session_number(session);
-  if (!number || !e.shared().hub.has(*number)) return e.nothing();
+  if (!number || !e.shared().hub.has(*number)) return miss(e, number);
   e.shared().hub.close(*number);
   e.write(respond(e.request(), Json::object()));
 }
@@ -265,7 +268,7 @@ void describe_session(Exchange& e, std::uint64_t session) {
 void send_download(Exchange& e, std::string_view path) {
   const std::size_t slash = std::min(path.find('/'), path.size());
   const auto number = session_number(path.substr(0, slash));
-  if (!number || !e.shared().hub.has(*number)) return e.nothing();
+  if (!number || !e.shared().hub.has(*number)) return miss(e, number);
   if (slash == path.size()) return describe_session(e, *number);
   const std::string name(path.substr(slash + 1));
   if (e.shared().hub.drives(*number))
@@ -298,8 +301,7 @@ void write_asset(Exchange& e, std::string_view) {
   const auto file = asset(target_path(view(e.request().target())));
   if (!file) return e.nothing();
   const bool packed =
-      !file->gzip.empty() &&
-      view(e.request()[http::field::accept_encoding]).find("gzip") != std::string_view::npos;
+      !file->gzip.empty() && accepts(view(e.request()[http::field::accept_encoding]), "gzip");
   HttpResponse response = respond(e.request(), http::status::ok, file->media_type,
                                   std::string(packed ? file->gzip : file->bytes));
   if (packed) response.set(http::field::content_encoding, "gzip");

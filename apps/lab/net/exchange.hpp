@@ -11,6 +11,7 @@
 #include <string>
 
 #include "lab/files/library.hpp"
+#include "lab/files/photograph.hpp"
 #include "lab/files/thumbnail.hpp"
 #include "lab/files/uploads.hpp"
 #include "lab/net/access.hpp"
@@ -32,6 +33,7 @@ struct Shared {
   const Library& library;
   Thumbnails& thumbnails;  ///< used by the worker
   Uploads& uploads;        ///< used by the worker
+  VesselSearch& vessels;   ///< used by the worker
   const std::optional<Opening>& opening;
   const std::filesystem::path& queue;  ///< folder of a rig's queue; empty without one
   std::size_t& connections;            ///< number of open connections, without streams

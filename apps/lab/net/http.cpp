@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/net/http.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 
 namespace microswarm::lab {
@@ -34,6 +36,25 @@ std::string percent_decoded(std::string_view text) {
     }
   }
   return decoded;
+}
+
+bool accepts(std::string_view header, std::string_view coding) {
+  bool by_star = false;
+  for (std::size_t end = 0; !header.empty();
+       header.remove_prefix(std::min(end + 1, header.size()))) {
+    end = std::min(header.find(','), header.size());
+    std::string one;  // in lower case, without spaces
+    for (const char c : header.substr(0, end))
+      if (c != ' ' && c != '\t')
+        one += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const std::string_view name = std::string_view(one).substr(0, one.find(';'));
+    const std::size_t weight = one.find(";q=");
+    const bool takes =
+        weight == std::string::npos || one.find_first_of("123456789", weight) != std::string::npos;
+    if (name == coding) return takes;
+    if (name == "*") by_star = takes;
+  }
+  return by_star;
 }
 
 std::string url_host(const boost::asio::ip::address& address) {

@@ -22,6 +22,9 @@ std::string query_value(std::string_view target, std::string_view key);
 /// Decodes "%20" and "+". Invalid sequences are kept.
 std::string percent_decoded(std::string_view text);
 
+/// Whether an Accept-Encoding header takes a coding, which is in lower case.
+bool accepts(std::string_view header, std::string_view coding);
+
 /// An address as the host of a URL: "192.168.1.4", "[::1]".
 std::string url_host(const boost::asio::ip::address& address);
 

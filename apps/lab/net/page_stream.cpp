@@ -47,17 +47,26 @@ class PageStream : public Page, public std::enable_shared_from_this<PageStream> 
       write();
   }
 
-  void close() override {
-    beast::get_lowest_layer(stream_).close();
-    hub_.leave(number_);
-  }
+  void close() override { end(false); }
 
  private:
+  void end(bool for_good) {
+    beast::get_lowest_layer(stream_).close();
+    hub_.leave(number_, for_good);
+  }
+
+  /// Whether the page closed the stream itself: browsers give "going away" as the reason of a
+  /// reload and of a closed window.
+  bool is_left(beast::error_code error) const {
+    return error == websocket::error::closed &&
+           stream_.reason().code != websocket::close_code::going_away;
+  }
+
   void read() {
     reads_ = true;
     stream_.async_read(buffer_, [self = shared_from_this()](beast::error_code error, std::size_t) {
       self->reads_ = false;
-      if (error) return self->close();
+      if (error) return self->end(self->is_left(error));
       const std::string text = beast::buffers_to_string(self->buffer_.data());
       self->buffer_.clear();
       ++self->unanswered_;

@@ -45,7 +45,7 @@ class Server::Impl {
       : options_(std::move(options)),
         library_(with(options_.folders, uploads_.folder())),
         hub_([this](std::function<void()> work) { asio::post(io_, std::move(work)); },
-             options_.limits),
+             options_.limits, new_lab_number(Hub::max_lab)),
         clock_(io_) {
     remove_left_folders();
     listen();
@@ -144,6 +144,7 @@ class Server::Impl {
         .library = library_,
         .thumbnails = thumbnails_,
         .uploads = uploads_,
+        .vessels = vessels_,
         .opening = options_.opening,
         .queue = options_.queue,
         .connections = connections_,
@@ -190,6 +191,7 @@ class Server::Impl {
   Uploads uploads_;  ///< of the worker
   Library library_;
   Thumbnails thumbnails_;  ///< of the worker
+  VesselSearch vessels_;   ///< of the worker
   std::optional<Access> access_;
   std::size_t connections_ = 0;
   std::atomic<bool> works_ = false;

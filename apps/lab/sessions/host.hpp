@@ -87,6 +87,8 @@ class Host {
   /// Approximate memory of its record [B], and the time of its newest frame [s].
   std::size_t bytes() const { return bytes_; }
   double newest() const { return newest_; }
+  /// Whether it was changed or steered, so that only its record can repeat it.
+  bool is_changed() const { return is_changed_; }
   /// Sets the coils of its rig to zero, if any.
   virtual void stop(const std::string& why);
   /// Calls `work` with the session between two ticks, in the session's thread.
@@ -135,6 +137,7 @@ class Host {
   std::atomic<bool> ends_ = false;
   std::atomic<std::size_t> bytes_ = 0;
   std::atomic<double> newest_ = 0;
+  std::atomic<bool> is_changed_ = false;
 
  private:
   void run();

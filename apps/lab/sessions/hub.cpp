@@ -10,7 +10,8 @@
 
 namespace microswarm::lab {
 
-Hub::Hub(Post post, const Limits& limits) : post_(std::move(post)), limits_(limits) {}
+Hub::Hub(Post post, const Limits& limits, std::uint64_t lab)
+    : post_(std::move(post)), limits_(limits), lab_(lab) {}
 
 void Hub::open(Opening opening, std::function<void(const Outcome<std::uint64_t>&)> opened) {
   const auto spare = static_cast<std::size_t>(
@@ -92,11 +93,13 @@ std::uint64_t Hub::join(std::uint64_t session, std::shared_ptr<Page> page) {
   return number;
 }
 
-void Hub::leave(std::uint64_t page) {
+void Hub::leave(std::uint64_t page, bool for_good) {
   const auto seat = pages_.extract(page);
   if (!seat) return;
   const auto session = sessions_.find(seat.mapped().session);
-  if (session != sessions_.end()) session->second.host->leave(page);
+  if (session == sessions_.end()) return;
+  session->second.host->leave(page);
+  if (for_good && !is_watched(session->first)) session->second.host->rest();
 }
 
 void Hub::stop(const std::string& why) {
@@ -134,18 +137,29 @@ void Hub::sweep() {
   close_largest();
 }
 
-/// Closes the longest unwatched sessions while all unwatched ones take too much memory.
+/// Closes unwatched sessions while all of them take too much memory.
 void Hub::close_largest() {
   std::size_t bytes = 0;
-  std::ptrdiff_t count = 0;
-  for (const auto& [number, running] : sessions_)
-    if (running.unwatched >= 2) bytes += running.host->bytes(), ++count;
-  for (; bytes > limits_.kept && count > 1; --count) {
-    const auto longest = std::ranges::max_element(
-        sessions_, {}, [](const auto& one) { return one.second.unwatched; });
-    bytes -= longest->second.host->bytes();
-    close(longest->first);
+  std::vector<Session> left;
+  left.reserve(sessions_.size());
+  for (auto it = sessions_.begin(); it != sessions_.end(); ++it) {
+    if (it->second.unwatched < 2) continue;
+    bytes += it->second.host->bytes();
+    left.push_back(it);
   }
+  std::ranges::sort(left, [this](Session a, Session b) { return goes_before(a, b); });
+  for (std::size_t i = 0; bytes > limits_.kept && i + 1 < left.size(); ++i) {
+    bytes -= left[i]->second.host->bytes();
+    close(left[i]->first);
+  }
+}
+
+/// Whether `a` is closed before `b`: what can be opened again, then what is unwatched for longer.
+bool Hub::goes_before(Session a, Session b) const {
+  const auto rank = [](Session one) {
+    return std::make_pair(one->second.host->is_changed(), -one->second.unwatched);
+  };
+  return rank(a) < rank(b);
 }
 
 std::vector<Hub::Open> Hub::open_sessions() const {
@@ -157,6 +171,7 @@ std::vector<Hub::Open> Hub::open_sessions() const {
                       .file = running.host->opening().file.string(),
                       .newest = running.host->newest(),
                       .watched = is_watched(number),
+                      .changed = running.host->is_changed(),
                       .live = running.host->opening().live.has_value()});
   return list;
 }
@@ -172,15 +187,12 @@ bool Hub::makes_room(std::uint64_t session) const {
   return running.is_open && !running.host->opening().live && !is_watched(session);
 }
 
-/// Closes the session that is unwatched for the longest time, never one on a rig.
+/// Closes an unwatched session, never one on a rig.
 void Hub::close_unwatched() {
-  auto longest = sessions_.end();
-  for (auto it = sessions_.begin(); it != sessions_.end(); ++it) {
-    const auto& [number, running] = *it;
-    if (!makes_room(number)) continue;
-    if (longest == sessions_.end() || running.unwatched > longest->second.unwatched) longest = it;
-  }
-  if (longest != sessions_.end()) close(longest->first);
+  auto first = sessions_.end();
+  for (auto it = sessions_.begin(); it != sessions_.end(); ++it)
+    if (makes_room(it->first) && (first == sessions_.end() || goes_before(it, first))) first = it;
+  if (first != sessions_.end()) close(first->first);
 }
 
 void Hub::reap() {

@@ -35,7 +35,11 @@ struct Outcome {
 class Hub {
  public:
   using Post = std::function<void(std::function<void()>)>;
-  Hub(Post post, const Limits& limits);
+  /// `lab` distinguishes its sessions' numbers from those of other labs; 1 to max_lab.
+  Hub(Post post, const Limits& limits, std::uint64_t lab);
+
+  /// So that the numbers are exact as floating-point numbers, in which pages keep them.
+  static constexpr std::uint64_t max_lab = 1'000'000;
 
   const Limits& limits() const { return limits_; }
 
@@ -43,13 +47,17 @@ class Hub {
   /// there are too many, the oldest unwatched one is closed after it has opened.
   void open(Opening opening, std::function<void(const Outcome<std::uint64_t>&)> opened);
   bool has(std::uint64_t session) const;
+  /// Whether the number is one of this lab's, open or closed.
+  bool is_own(std::uint64_t session) const { return session / numbers == lab_; }
+  std::uint64_t lab() const { return lab_; }
   /// One of the open sessions.
   struct Open {
     std::uint64_t session;
     std::string file;
     double newest;  ///< time of its newest frame [s]
     bool watched;
-    bool live;  ///< on a rig in real time
+    bool changed;  ///< whether only its record can repeat it
+    bool live;     ///< on a rig in real time
   };
   std::vector<Open> open_sessions() const;
   /// Source of an open session.
@@ -69,7 +77,9 @@ class Hub {
   bool is_full() const { return pages_.size() >= limits_.pages; }
   /// Adds a page; returns its number for leave() and ask(). The page is kept until it leaves.
   std::uint64_t join(std::uint64_t session, std::shared_ptr<Page> page);
-  void leave(std::uint64_t page);
+  /// `for_good`: it was left by a person, not by a broken connection or a reload; a session that no
+  /// other page watches pauses.
+  void leave(std::uint64_t page, bool for_good = false);
   void ask(std::uint64_t page, Request request);
 
   /// Sets the coils of every rig to zero.
@@ -102,6 +112,8 @@ class Hub {
   };
   bool is_watched(std::uint64_t session) const;
   bool makes_room(std::uint64_t session) const;
+  using Session = std::map<std::uint64_t, Running>::iterator;
+  bool goes_before(Session a, Session b) const;
   void close_unwatched();
   void close_largest();
   void deliver(std::uint64_t session, std::uint64_t page, const MessagePtr& message);
@@ -110,7 +122,9 @@ class Hub {
 
   Post post_;
   Limits limits_;
-  std::uint64_t next_ = 1;
+  static constexpr std::uint64_t numbers = 1'000'000'000;  ///< of a lab
+  std::uint64_t lab_;
+  std::uint64_t next_ = lab_ * numbers + 1;
   std::map<std::uint64_t, Waiting> waiting_;
   std::map<std::uint64_t, Seat> pages_;
   std::map<std::uint64_t, Running> sessions_;

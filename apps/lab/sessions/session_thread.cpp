@@ -52,6 +52,7 @@ void SessionThread::serve() {
   publisher_.publish(*session_, shown(), [this] { return present_view(); });
   bytes_ = bytes_of(session_->record()) + kept_.bytes();
   newest_ = publisher_.newest();
+  is_changed_ = !session_->is_playback() && (!standing.changes.empty() || standing.steered);
 }
 
 /// Time of the next tick, of the next possible frame message, or of the next check of a record.

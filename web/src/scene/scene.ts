@@ -222,6 +222,7 @@ export class Scene {
     this.renderer.background.color = this.colours.ground;
     for (const layer of this.all) this.stale.add(layer);
     this.schedule();
+    if (matchMedia('print').matches) this.paint(performance.now()); // paper does not wait for the next picture
   }
 
   /** Shows a background picture with its lower left corner at `lo` [µm]; none for an empty address. */

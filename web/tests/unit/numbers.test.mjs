@@ -17,6 +17,9 @@ test('numbers as people type them', () => {
     '.5': 0.5,
     ',5': 0.5,
     '1 000': 1000,
+    1.234: 1.234,
+    '0.500': 0.5,
+    '1234.500': 1234.5,
   };
   for (const [text, value] of Object.entries(typed)) assert.equal(typedNumber(text).value, value, text);
 });
@@ -26,4 +29,7 @@ test('what is no number, or could be two, is refused in words', () => {
     assert.match(typedNumber(text).trouble, /number/, text);
   for (const text of ['1,000', '-12,345', '1.234,5', '1,234.5'])
     assert.match(typedNumber(text).trouble, /decimal point/, text);
+  assert.match(typedNumber('1.000').trouble, /two numbers: write 1 or 1000\.$/);
+  assert.match(typedNumber('-12.500').trouble, /write -12\.5 or -12500\.$/);
+  assert.match(typedNumber('1.000.000').trouble, /write 1000000\.$/);
 });

@@ -23,5 +23,8 @@ test('only a session that is gone, or another lab, ends the attempts', () => {
     assert.equal(verdictOf(status, 'The run').state, 'lost', `${status}`);
   assert.equal(verdictOf(404, 'Session A').state, 'closed');
   assert.match(verdictOf(404, 'Session A').text, /^Session A is closed/);
+  assert.equal(verdictOf(410, 'The run').state, 'closed');
+  assert.match(verdictOf(410, 'The run').text, /^The run was of a lab that has ended/);
+  assert.doesNotMatch(verdictOf(410, 'The run').text, /30 minutes/);
   assert.match(verdictOf(403, 'The run').text, /printed last/);
 });

@@ -84,6 +84,10 @@ FoundVessels found_in(const cv::Mat& grey, const cv::Mat& view, const VesselPara
 
 }  // namespace
 
+formats::Mask wide_vessels(const VesselSegmentation& found, double diameter) {
+  return to_mask(opened(to_mat(found.vessels), diameter));
+}
+
 std::string describe_choice(const VesselSegmentation& found, std::string_view option) {
   const bool lines = found.method == VesselMethod::lines;
   const bool dark = found.polarity == Polarity::dark;

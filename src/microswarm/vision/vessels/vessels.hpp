@@ -99,6 +99,9 @@ struct VesselSegmentation {
   double view_share = 0;  ///< vessel area as a fraction of the field of view
 };
 
+/// The parts of the vessels that discs of this diameter [px] cover: those that are so wide.
+formats::Mask wide_vessels(const VesselSegmentation& found, double diameter);
+
 /// Method and polarity in a line: "lines, dark". A choice that was close is noted, with the setting
 /// of the alternative after `option`: "compare method=regions".
 std::string describe_choice(const VesselSegmentation& found, std::string_view option = {});
