@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 import { element } from './dom';
 import type { Scene } from './scene/scene';
+import { swatch } from './swatch';
 
-/** Switches for the scene's layers. */
+const most = 4; // swatches of one layer
+
+/** Switches for the layers that this experiment has, with their looks. */
 export function layersTab(scenes: Scene[]): { root: HTMLElement; show: () => void } {
   const root = element('div', { class: 'layers' });
   const show = () => {
@@ -18,7 +21,14 @@ export function layersTab(scenes: Scene[]): { root: HTMLElement; show: () => voi
           },
         });
         box.checked = layer.shown;
-        return element('label', { class: 'layer', 'data-layer': layer.name, title: layer.help }, box, layer.label);
+        const looks = element('span', { class: 'looks' }, ...layer.entries.slice(0, most).map(swatch));
+        return element(
+          'label',
+          { class: 'layer', 'data-layer': layer.name, title: layer.help },
+          box,
+          layer.label,
+          looks,
+        );
       }),
     );
   };

@@ -64,6 +64,7 @@ export interface Radar {
   detection: number;
   step: number;
   beams: Bytes; // heading [rad], fate (0 kept, 1 obstacle, 2 wall, 3 turn), score for each
+  screens?: Bytes; // number of the obstacle that screens each beam, or −1
   best?: number;
   straight?: number;
 }
@@ -290,6 +291,9 @@ export function floats(bytes: Bytes): Float32Array {
 }
 export function doubles(bytes: Bytes): Float64Array {
   return new Float64Array(bytes.slice().buffer);
+}
+export function whole(bytes: Bytes): Int32Array {
+  return new Int32Array(bytes.slice().buffer);
 }
 export function indices(bytes: Bytes): Uint32Array {
   return new Uint32Array(bytes.slice().buffer);

@@ -5,12 +5,14 @@ import { element } from './dom';
 import { Drive } from './drive';
 import { type Key, Keys } from './keys';
 import { layersTab } from './layers_tab';
+import { legend } from './legend';
 import { Live } from './live';
 import { isAtRisk, mayLeave } from './loss';
 import { notice } from './notice';
 import type { Page } from './page';
 import { Parameters } from './parameters';
 import { Plots } from './plots';
+import { presentation } from './present';
 import { recordTab } from './record_tab';
 import { rigConsole } from './rig_console';
 import { rigTab } from './rig_tab';
@@ -42,6 +44,8 @@ export async function sessionPage(session: number, isRig = false): Promise<Page>
   const hands = new Hands(live, scene, parameters, say);
   const tools = sceneTools(live, scene, drive, isRig);
   const rig = isRig ? rigConsole(live, drive, say) : undefined;
+  const key = legend(live, scene);
+  const present = presentation(() => root, scene);
   const compare = () => openCopy(live, parameters).catch((error: Error) => say(error.message));
 
   let isBroken = false; // before it opens, keys wait for its answer
@@ -55,10 +59,18 @@ export async function sessionPage(session: number, isRig = false): Promise<Page>
       { keys: ['ArrowRight'], shown: '→', does: 'next frame (Shift: ten) · steer right', act: arrow(1) },
       { keys: ['ArrowUp', 'ArrowDown'], shown: '↑ ↓', does: 'steer (Shift: slowly)', act: arrow(0) },
       ...tools.keys,
+      { keys: ['i'], shown: 'i', does: 'say what is at the middle of the view', act: stage.sayMiddle },
+      { keys: ['k'], shown: 'k', does: 'fold the legend', act: key.toggle },
       ...(isRig
         ? []
         : [
-            { keys: ['Escape'], shown: 'Esc', does: 'deselect the tool', act: () => hands.choose(undefined) },
+            ...present.keys,
+            {
+              keys: ['Escape'],
+              shown: 'Esc',
+              does: 'deselect the tool, leave the presentation',
+              act: () => (present.isOn ? present.set(false) : hands.choose(undefined)),
+            },
             { keys: ['x'], shown: 'x', does: 'use the chosen tool at the middle of the view', act: () => hands.use() },
           ]),
     ],
@@ -84,10 +96,11 @@ export async function sessionPage(session: number, isRig = false): Promise<Page>
       title,
       status,
       trouble,
+      ...(isRig ? [] : [present.button]),
       toolButton('Keys', 'Show the keys (?)', () => keys.help()),
       themeSwitch(),
     ),
-    element('div', { class: 'stage' }, scene.root, over),
+    element('div', { class: 'stage' }, scene.root, over, present.exit, key.root),
     time.root, // before the tabs, so that Play is soon reached by the Tab key
     tabs(isRig ? 'rig' : 'session', [
       ...(isRig ? [{ name: 'Rig', panel: rigTab(live) }] : []),
@@ -120,6 +133,7 @@ export async function sessionPage(session: number, isRig = false): Promise<Page>
     over.inert = parameters.root.inert = state !== 'open';
   });
   live.open();
+  if (!isRig && location.hash.endsWith('/present')) present.set(true);
   return {
     root,
     isAtRisk: () => isAtRisk(live),
@@ -130,6 +144,7 @@ export async function sessionPage(session: number, isRig = false): Promise<Page>
       rig?.destroy();
       drive.destroy();
       keys.destroy();
+      key.destroy();
       plots.destroy();
       time.destroy();
       live.close();
