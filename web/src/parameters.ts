@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Changes } from './changes';
 import { call } from './connection';
+import { Drag } from './drag';
 import { element } from './dom';
 import { Form } from './form';
 import { routed } from './issues';
 import type { Live } from './live';
 import { mayBeginAnew } from './loss';
 import { type Answer, type Json, type Scenario, said } from './protocol';
+import { differing, without } from './preset';
 import { parametersNote } from './repeat';
 import type { Schema } from './schema';
 import { at, combine, keyOf, text } from './settings';
@@ -27,6 +29,7 @@ export class Parameters {
   private shape = '';
   private readonly changes = new Changes();
   private setting: Promise<unknown> = Promise.resolve(); // the last one sent
+  private readonly drag = new Drag((key, value) => this.live.ask({ do: 'set', key, value: text(value) }));
   private readonly done: [string, Json][] = []; // keys changed, and the values before
   private readonly tuned = new Map<string, Json>(); // objects by key and type, as they were left
   private readonly form: Form;
@@ -59,8 +62,9 @@ export class Parameters {
     this.form = new Form(
       {
         wanted: () => this.wanted(),
-        change: (key, value) => void this.change(key, value),
+        change: (key, value, drags) => void (drags ? this.drags(key, value) : this.change(key, value)),
         changeType: (key, type) => this.changeType(key, type),
+        preset: (key, schema, isPublished) => void this.preset(key, schema, isPublished),
         isAtOnce: (key) => this.isAtOnce(key),
         canChange: () => !live.hello?.playback,
       },
@@ -131,11 +135,17 @@ export class Parameters {
   }
 
   async change(key: string, value: Json): Promise<Answer | undefined> {
-    const before = at(this.wanted(), key);
+    const before = this.drag.end(key) ?? at(this.wanted(), key);
     const answer = await this.apply(key, value);
     if (before !== undefined && !answer?.issues.length) this.done.push([key, before]);
     this.undoButton.hidden = this.done.length === 0;
     return answer;
+  }
+
+  /** Takes a value of a slider that is being dragged. What is refused meanwhile is said at the end of the drag. */
+  private drags(key: string, value: Json): void {
+    const { looks_back: isPast, ended } = this.live.standing ?? { looks_back: true, ended: true };
+    if (this.isAtOnce(key) && !isPast && !ended) this.drag.move(key, value, at(this.wanted(), key));
   }
 
   /** Takes the last change back, by another one. */
@@ -167,6 +177,16 @@ export class Parameters {
     if (present && typeof present === 'object' && !Array.isArray(present))
       this.tuned.set(`${key}:${String(present['type'])}`, present);
     void this.change(key, this.tuned.get(`${key}:${type}`) ?? { type });
+  }
+
+  /** Sets an object as published or not; values that a paper's method cannot have go back to their defaults. */
+  private async preset(key: string, schema: Schema, isPublished: boolean): Promise<void> {
+    const present = at(this.wanted(), key);
+    if (!present || typeof present !== 'object' || Array.isArray(present)) return;
+    const own = { ...differing(schema, present), as_published: isPublished, type: present['type'] ?? '' };
+    const answer = await this.change(key, own);
+    if (!answer?.issues.length || !isPublished) return;
+    await this.change(key, without(key, own, answer.issues));
   }
 
   private wanted(): Scenario {

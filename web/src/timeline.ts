@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { element } from './dom';
-import { eventsNear, ticksOf } from './events';
+import { eventsNear, isContact, ticksOf } from './events';
 import type { Live } from './live';
 import { onTheme } from './theme';
 
@@ -36,6 +36,8 @@ export function timeline(
   const point = (time: number | undefined) => sessions.forEach((one) => one.point(time));
   root.addEventListener('pointermove', (event) => point(timeAt(event)));
   root.addEventListener('pointerleave', () => point(undefined));
+  slider.addEventListener('focus', () => point(lead().shown));
+  slider.addEventListener('blur', () => point(undefined));
   canvas.addEventListener('click', (event) => {
     const time = timeAt(event);
     if (time !== undefined) seek(lead().history.nearest(time));
@@ -66,10 +68,9 @@ export function timeline(
       if (planned) mark(i, '--plan', height - 8, height - 3);
     });
     for (const event of live.history.events) {
-      const isContact = event.kind.startsWith('contact');
       mark(
         live.history.nearest(event.t_s),
-        isContact ? '--bad' : event.kind === 'goal_reached' ? '--good' : '--accent',
+        isContact(event) ? '--bad' : event.kind === 'goal_reached' ? '--good' : '--accent',
         0,
         height - 9,
       );
@@ -101,7 +102,9 @@ export function timeline(
       if (one !== lead() || (message.type !== 'standing' && message.type !== 'rows')) return;
       slider.max = String(Math.max(0, one.history.times.length - 1)); // rows may follow their standing
       slider.value = String(one.standing?.frame ?? 0);
-      slider.setAttribute('aria-valuetext', `${one.shown.toFixed(1)} seconds`);
+      const near = eventsNear(one.history.events, one.shown, span(one) / 200);
+      slider.setAttribute('aria-valuetext', [`${one.shown.toFixed(1)} seconds`, ...near].join(', '));
+      if (document.activeElement === slider) point(one.shown); // by keys the tip is at the time shown
     });
   }
   return {
