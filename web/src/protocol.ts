@@ -273,7 +273,7 @@ export type Message =
   | Answer;
 
 export type Request =
-  | { do: 'pause' | 'step' | 'live' | 'end' | 'clearance' | 'beat' | 'stop' | 'control' | 'arm' | 'dry' }
+  | { do: 'pause' | 'step' | 'live' | 'end' | 'clearance' | 'beat' | 'ping' | 'stop' | 'control' | 'arm' | 'dry' }
   | { do: 'play'; number?: number }
   | { do: 'speed' | 'seek'; number: number }
   | { do: 'set'; key: string; value: string }

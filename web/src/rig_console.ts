@@ -4,6 +4,7 @@ import type { Drive } from './drive';
 import type { Live } from './live';
 import { type Controls, type RigInfo, type RigStanding, said } from './protocol';
 import { number } from './numbers';
+import { rigLink } from './rig_link';
 import { type ConsoleView, actOf, consoleOf, isSilent } from './rig_view';
 
 const answerTime = 500; // maximum time of the answer to a stop [ms]
@@ -49,6 +50,7 @@ export function rigConsole(live: Live, drive: Drive, say: (text: string, isTroub
     'STOP',
   );
   const words = element('span', { class: 'why', tabindex: '0' });
+  const link = rigLink(live);
   const armButton = button('Arm …', 'Drive the coils', () => openPanel());
   const dryButton = button('Dry run', 'Restart without driving the coils', () => void ask({ do: 'dry' }));
   const takeButton = button('Take the controls', 'No page has the controls', () => void ask({ do: 'control' }));
@@ -103,6 +105,7 @@ export function rigConsole(live: Live, drive: Drive, say: (text: string, isTroub
     stopButton,
     badge,
     words,
+    link.root,
     element('span', { class: 'acts' }, armButton, dryButton, holdButton, manualButton, endButton, takeButton),
     panel,
   );
@@ -163,6 +166,7 @@ export function rigConsole(live: Live, drive: Drive, say: (text: string, isTroub
     isHot,
     destroy: () => {
       window.removeEventListener('keydown', key, { capture: true });
+      link.destroy();
       beat.terminate();
     },
   };
