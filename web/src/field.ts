@@ -17,7 +17,7 @@ export interface Field {
   setEnabled(enabled: boolean): void;
 }
 
-/** `drags`: the value is one of a drag that goes on. */
+/** `drags`: the value is one within a drag. */
 export type Change = (key: string, value: Json, drags?: boolean) => void;
 
 /** Callbacks of a control for typed values. */
