@@ -8,8 +8,10 @@ const most = 4; // swatches of one layer
 /** Switches for the layers that this experiment has, with their looks. */
 export function layersTab(scenes: Scene[]): { root: HTMLElement; show: () => void } {
   const root = element('div', { class: 'layers' });
+  let listed = '';
   const show = () => {
     const layers = scenes[0]?.layers() ?? [];
+    listed = namesOf(layers);
     root.replaceChildren(
       ...layers.map((layer) => {
         const box = element('input', {
@@ -32,5 +34,15 @@ export function layersTab(scenes: Scene[]): { root: HTMLElement; show: () => voi
       }),
     );
   };
+  let looked = 0;
+  scenes[0]?.onPicture(() => {
+    if (root.offsetParent === null || performance.now() < looked + 1000) return;
+    looked = performance.now();
+    if (namesOf(scenes[0]?.layers() ?? []) !== listed) show();
+  });
   return { root, show };
+}
+
+function namesOf(layers: ReturnType<Scene['layers']>): string {
+  return layers.map(({ name, entries }) => `${name} ${entries.length}`).join();
 }

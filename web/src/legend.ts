@@ -19,6 +19,13 @@ export function legend(live: Live, scene: Scene): { root: HTMLElement; toggle: (
   );
   root.open = isUnfolded(localStorage.getItem('legend'), window.innerWidth);
   let drawn = '';
+  let width = 0;
+  /** Keeps the list as high as it was at this width, so that the map does not jump when a layer is hidden. */
+  const keepHeight = () => {
+    if (list.offsetWidth !== width) list.style.minHeight = '';
+    width = list.offsetWidth;
+    if (root.open) list.style.minHeight = `${list.offsetHeight}px`;
+  };
   let timer: number | undefined;
   const show = () => {
     window.clearTimeout(timer);
@@ -29,6 +36,7 @@ export function legend(live: Live, scene: Scene): { root: HTMLElement; toggle: (
     drawn = now;
     list.replaceChildren(...entries.map((one) => element('li', {}, swatch(one), one.text)));
     root.hidden = entries.length === 0;
+    keepHeight();
   };
   live.listen((message) => {
     if (message.type === 'hello') drawn = '';

@@ -14,7 +14,7 @@ after(() => browser.close());
 async function playTo(run, file, t, { speed = 0, size, options = [] } = {}) {
   const lab = await startLab(file, ...options);
   run.after(() => lab.process.kill('SIGKILL'));
-  const lookedAt = await openPage(browser, lab.url, size);
+  const lookedAt = await openPage(browser, lab.url, size, () => localStorage.setItem('legend', 'folded'));
   const { page } = lookedAt;
   const hasMap = () => window.microswarm && String(window.microswarm.scene.view.hi) !== '1,1';
   await until(page, hasMap, { seconds: 120 });
@@ -221,7 +221,7 @@ test('a gathering shows its leader, its team and its state in words', async (t) 
   const rollout = await words();
   assert.deepEqual(
     rollout.map(({ text }) => text.split('\n').slice(0, -1)),
-    [['Random robots lead, to break a livelock', '27 moves of the plan are left']],
+    [['0 of 64 gathered', 'Random robots lead, to break a livelock', '27 moves of the plan are left']],
   );
   await run.picture('scene-livelock');
   await run.scene((scene) => scene.show('team', false));

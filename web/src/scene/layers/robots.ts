@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+import { Graphics } from 'pixi.js';
 import { number } from '../../numbers';
 import type { Palette } from '../../palette';
 import type { Message, Point } from '../../protocol';
@@ -21,10 +22,12 @@ export class Robots extends Layer {
   override readonly help =
     'A larger dot is a pile of robots: its area grows with their number. Walls lie above the robots.';
   override readonly occasions = { zoom: true, motion: true };
+  private readonly inside = this.world.addChild(new Graphics()); // the map: piles do not leave it
   private readonly rims = this.world.addChild(new Dots()); // separate the dots from the background
   private readonly dots: Dots[] = []; // one for all, or one for each colour
   private readonly piles = new Map<number, number>(); // cell to index of its pile
   private count = 0;
+  private covered = '';
   private x = new Float64Array(); // sums over a pile
   private y = new Float64Array();
   private size = new Uint32Array();
@@ -62,6 +65,7 @@ export class Robots extends Layer {
 
   draw({ view, now: { robots }, colours }: Drawing): void {
     const count = robots.length / 2;
+    this.cover(view);
     this.rims.tint = colours.paper;
     this.rims.clear();
     if (count <= colours.robots.length) {
@@ -84,6 +88,17 @@ export class Robots extends Layer {
     }
     dots.update();
     this.rims.update();
+  }
+
+  private cover({ lo, hi }: View): void {
+    const covered = String([lo, hi]);
+    if (covered === this.covered) return;
+    this.covered = covered;
+    this.inside
+      .clear()
+      .rect(...lo, hi[0] - lo[0], hi[1] - lo[1])
+      .fill(0xffffff);
+    this.world.mask = this.inside;
   }
 
   private add(to: Dots, x: number, y: number, radius: number, view: View, rim = true): void {
