@@ -32,7 +32,10 @@ export function hoverTip(scene: Scene): { root: HTMLElement; sayMiddle: () => vo
   const { signal } = end;
   const listen = (name: 'pointermove' | 'pointerdown', act: (event: PointerEvent) => void) =>
     scene.root.addEventListener(name, act, { signal });
-  listen('pointermove', (event) => point(event.buttons === 0 ? placeIn(scene.root, event) : undefined));
+  listen('pointermove', (event) => {
+    if (event.pointerType === 'touch') return; // what a tap said stays
+    point(event.buttons === 0 ? placeIn(scene.root, event) : undefined);
+  });
   listen('pointerdown', (event) => point(event.pointerType === 'touch' ? placeIn(scene.root, event) : undefined));
   scene.root.addEventListener('pointerleave', (event) => event.pointerType !== 'touch' && point(undefined), { signal });
   scene.onPicture(() => {

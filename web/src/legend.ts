@@ -40,7 +40,8 @@ export function legend(live: Live, scene: Scene): { root: HTMLElement; toggle: (
   };
   live.listen((message) => {
     if (message.type === 'hello') drawn = '';
-    if (message.type !== 'answer' && message.type !== 'rows') timer ??= window.setTimeout(show, period);
+    if (message.type !== 'answer' && message.type !== 'rows')
+      timer ??= window.setTimeout(show, drawn === '' ? 0 : period);
   });
   scene.onShow(show);
   const stopTheme = onTheme(show);

@@ -221,6 +221,8 @@ export interface RigStanding {
   late_currents?: number;
   frames?: number;
   dropped_frames?: number;
+  frame_gaps?: number;
+  unseen_frames?: number;
   resumed?: number;
   limited?: number;
   weakened?: number;

@@ -63,6 +63,7 @@ function countNews(before: Known, now: RigStanding): string[] {
   return [
     ...grew('missed_deadlines', 'A tick missed its deadline', 'ticks missed their deadlines'),
     ...grew('late_currents', 'Currents came late once', 'times currents came late'),
+    ...((now.frame_gaps ?? 0) > (before?.frame_gaps ?? 0) ? ['Frames of the camera are lost or late.'] : []),
     ...grew('resumed', 'The device switched itself off and was resumed', 'times the device switched itself off'),
   ];
 }

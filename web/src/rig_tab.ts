@@ -94,6 +94,8 @@ function sections(rig: RigStanding, info: RigInfo | undefined): HTMLElement[] {
       ['Ticks, missed deadlines', `${rig.ticks ?? 0}, ${rig.missed_deadlines ?? 0}`],
       ['Frames used', String(rig.frames ?? 0)],
       ['Frames skipped for newer ones', String(rig.dropped_frames ?? 0)],
+      ['Frames lost or late at the camera', String(rig.frame_gaps ?? 0)],
+      ['Frames without the swarm or a robot', String(rig.unseen_frames ?? 0)],
       ['Device switched itself off', String(rig.resumed ?? 0)],
     ]),
     element('h2', {}, 'Latencies [ms]'),

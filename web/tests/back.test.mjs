@@ -24,6 +24,7 @@ async function dragGoal(page) {
 test('a change in the past asks whether it acts now or in a copy, and numbers say of when they are', () =>
   inLab('scenarios/first_flight.yaml', async (page, { picture }) => {
     const standing = () => page.evaluate(() => window.microswarm.connection.standing);
+    await page.keyboard.press('k'); // the legend, which moves the map when it comes
     for (let i = 0; i < 12; ++i) await page.click('.step');
     await until(page, () => window.microswarm.connection.history.times.length === 12);
     assert.match(await page.locator('.total').innerText(), /of 1\.1 s/);

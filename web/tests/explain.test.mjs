@@ -2,7 +2,7 @@
 // The picture explains itself: legend, words under the pointer, presentation, sliders that act while they are dragged.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { inLab, startBrowser, until } from './lab.mjs';
+import { inLab, startBrowser, startLab, until } from './lab.mjs';
 
 let browser;
 before(async () => (browser = await startBrowser()));
@@ -146,3 +146,22 @@ test('a navigator is as published with one click, and ours again', () =>
       seconds: 60,
     });
   }));
+
+test('a tap says what is there, also on a phone', async () => {
+  const lab = await startLab('scenarios/first_flight.yaml');
+  const context = await browser.newContext({ viewport: { width: 390, height: 844 }, hasTouch: true });
+  const page = await context.newPage();
+  await page.goto(lab.url);
+  await until(page, () => window.microswarm?.connection.standing && window.microswarm.scene.shownAt(0).swarm);
+  assert.equal(await page.locator('.legend').evaluate((one) => one.open), false);
+  const at = await page.evaluate(() => {
+    const { scene } = window.microswarm;
+    const [x, y] = scene.shownAt(0).discs;
+    return scene.view.toScreen([x, y]);
+  });
+  const box = await page.locator('.scene canvas').boundingBox();
+  await page.touchscreen.tap(box.x + at[0], box.y + at[1]);
+  await page.locator('.hover', { hasText: /Obstacle \d+\s*A disc of radius/ }).waitFor();
+  await context.close();
+  await lab.stop();
+});

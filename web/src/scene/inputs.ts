@@ -32,15 +32,16 @@ export class Inputs {
   }
 }
 
-/** Middle of an inset of `radius` px beside the map where there is room, else in the upper right corner of the screen. */
+/** Middle and factor of an inset of `radius` px: beside the map where there is room, else small in the upper right corner. */
 export function insetAt(
   { width, head, map }: { width: number; head: number; map: { lo: Point; hi: Point } }, // all in px, y down
   radius: number,
   margin: number,
-): { at: Point; isOver: boolean } {
+): { at: Point; factor: number } {
   const need = 2 * (radius + margin);
   const y = Math.max(head, map.lo[1]) + radius;
-  if (width - map.hi[0] >= need) return { at: [map.hi[0] + margin + radius, y], isOver: false };
-  if (map.lo[0] >= need) return { at: [map.lo[0] - margin - radius, y], isOver: false };
-  return { at: [width - margin - radius, y + margin], isOver: true };
+  if (width - map.hi[0] >= need) return { at: [map.hi[0] + margin + radius, y], factor: 1 };
+  if (map.lo[0] >= need) return { at: [map.lo[0] - margin - radius, y], factor: 1 };
+  const small = 0.55;
+  return { at: [width - margin - small * radius, head + small * radius], factor: small };
 }

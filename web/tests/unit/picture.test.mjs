@@ -46,11 +46,11 @@ test('inputs are remembered without repetitions and holds, and begin anew after 
 
 test('the inset is beside the map where there is room', () => {
   const map = { lo: [100, 60], hi: [600, 560] };
-  assert.deepEqual(insetAt({ width: 800, head: 60, map }, 40, 10), { at: [650, 100], isOver: false });
+  assert.deepEqual(insetAt({ width: 800, head: 60, map }, 40, 10), { at: [650, 100], factor: 1 });
   const left = { lo: [200, 60], hi: [790, 560] };
-  assert.deepEqual(insetAt({ width: 800, head: 60, map: left }, 40, 10), { at: [150, 100], isOver: false });
+  assert.deepEqual(insetAt({ width: 800, head: 60, map: left }, 40, 10), { at: [150, 100], factor: 1 });
   const wide = { lo: [10, 200], hi: [790, 560] };
-  assert.equal(insetAt({ width: 800, head: 60, map: wide }, 40, 10).isOver, true);
+  assert.deepEqual(insetAt({ width: 800, head: 60, map: wide }, 40, 10), { at: [768, 82], factor: 0.55 });
 });
 
 test('trails of robots end where frames are left out, or there are too many', () => {

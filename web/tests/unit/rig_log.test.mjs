@@ -30,6 +30,9 @@ test('the log says what changed, once', () => {
   assert.deepEqual(newsOf(rig('armed', { missed_deadlines: 1 }), rig('armed', { missed_deadlines: 4 })), [
     '3 ticks missed their deadlines.',
   ]);
+  assert.deepEqual(newsOf(rig('dry', { frame_gaps: 1 }), rig('dry', { frame_gaps: 9 })), [
+    'Frames of the camera are lost or late.',
+  ]);
   assert.deepEqual(newsOf(rig('armed', { scale: 1 }), rig('armed', { scale: 0.83 })), [
     'The limits leave 83 % of the field.',
   ]);

@@ -24,6 +24,7 @@ export class CommonInput extends Layer {
   private readonly inputs = new Inputs();
   private isThere = false;
   private at: Point = [0, 0];
+  private scale = 1;
 
   take(message: Message): boolean {
     if (message.type === 'hello') {
@@ -77,19 +78,23 @@ export class CommonInput extends Layer {
     const lo = view.toScreen([view.lo[0], view.hi[1]]);
     const hi = view.toScreen([view.hi[0], view.lo[1]]);
     const { bold } = view;
-    this.at = insetAt({ width: view.width, head: view.head, map: { lo, hi } }, radius * bold, margin).at;
-    for (const one of this.screen.children) one.scale.set(bold);
+    const { at, factor } = insetAt({ width: view.width, head: view.head, map: { lo, hi } }, radius * bold, margin);
+    this.at = at;
+    this.scale = factor * bold;
+    this.dial.scale.set(this.scale);
+    this.text.scale.set(bold);
+    this.text.alpha = factor < 1 ? 0 : 1; // the legend says it
     this.dial.position.set(...this.at);
-    this.text.position.set(this.at[0], this.at[1] + (radius + 2) * bold);
+    this.text.position.set(this.at[0], this.at[1] + (radius + 2) * this.scale);
   }
 
   override entries({ input }: Palette): Entry[] {
     return this.isThere ? [{ text: 'input, the same for all robots', shape: 'arrow', colour: input }] : [];
   }
 
-  override say(at: Point, { view }: Drawing): Said | undefined {
+  override say(at: Point): Said | undefined {
     const { now, past } = this.inputs;
-    const isIn = Math.hypot(at[0] - this.at[0], at[1] - this.at[1]) <= radius * view.bold;
+    const isIn = Math.hypot(at[0] - this.at[0], at[1] - this.at[1]) <= radius * this.scale;
     if (!this.isThere || !now || !isIn) return undefined;
     const does = now.speed > 0 ? `${number(now.speed, 3)} µm/s to ${degrees(now.heading)}°` : 'hold';
     return {
