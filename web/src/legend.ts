@@ -35,7 +35,6 @@ export function legend(live: Live, scene: Scene): { root: HTMLElement; toggle: (
     if (now === drawn) return;
     drawn = now;
     list.replaceChildren(...entries.map((one) => element('li', {}, swatch(one), one.text)));
-    root.hidden = entries.length === 0;
     keepHeight();
   };
   live.listen((message) => {

@@ -67,9 +67,13 @@ export function sectorText(beam: Beam, isChosen: boolean, step: number): Said {
   const ahead = `a step of ${number(step, 3)} µm`;
   const score = `score φ ${number(beam.score, 3)}`;
   if (isChosen) return { title: `${at}: chosen`, lines: [`The highest ${score} of those kept.`] };
-  if (beam.fate === 0) return { title: `${at}: kept`, lines: [`${score}: lower than that of the chosen direction.`] };
+  if (beam.fate === 0)
+    return { title: `${at}: kept`, lines: [`Its ${score} is lower than that of the chosen direction.`] };
   if (beam.fate === 3)
-    return { title: `${at}: turns too far`, lines: [`It is free, ${score}, but others keep the course better.`] };
+    return {
+      title: `${at}: turns too far`,
+      lines: [`It is free, with the ${score}, but turns further from the heading than is allowed; others do not.`],
+    };
   if (beam.fate === 2) return { title: `${at}: screened by a wall`, lines: [`After ${ahead} the wall is too near.`] };
   const which = beam.obstacle < 0 ? 'an obstacle' : `obstacle ${beam.obstacle}`;
   return { title: `${at}: screened by ${which}`, lines: [`After ${ahead} it is too near.`] };
@@ -87,7 +91,11 @@ export function choiceText(beams: Beam[], best: number | undefined, straight: nu
   const count = beams.filter(({ fate }) => fate === 0).length;
   return {
     title: `Chosen direction ${degrees(chosen.heading)}°`,
-    lines: [`The highest score φ ${number(chosen.score, 3)} of ${count} directions kept.`, ...whyNot(beams)],
+    lines: [
+      `The highest score φ ${number(chosen.score, 3)} of ${count} directions kept.`,
+      ...whyNot(beams),
+      'φ is high towards the goal and away from the nearest obstacle.',
+    ],
   };
 }
 

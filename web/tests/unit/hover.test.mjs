@@ -47,6 +47,7 @@ test('the choice is explained by what was kept and what fell away', () => {
     '2 are screened by obstacles 3 and 7.',
     '1 is screened by walls.',
     '1 turns too far.',
+    'φ is high towards the goal and away from the nearest obstacle.',
   ]);
   assert.match(hover.choiceText(beams, undefined, 0.5).lines[0], /detection circle/);
   assert.match(hover.choiceText([beams[0]], undefined, undefined).title, /No direction/);
