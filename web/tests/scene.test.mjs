@@ -159,6 +159,7 @@ test('the route point and the wait of hierarchical D-RRT* are marked', async (t)
   const run = await playTo(t, 'scenarios/papers/drrt/moving_obstacles.yaml', 2, { speed: 20 });
   const labels = async () => {
     await run.page.waitForTimeout(200);
+    await until(run.page, () => !window.microswarm.scene.requested); // a busy computer draws later
     const texts = await textsOf(run);
     return texts.filter(({ text }) => text === 'route point' || text.startsWith('waits'));
   };
