@@ -101,6 +101,10 @@ TEST_F(LabRig, BeginsAsADryRunWithPictures) {
   const Json frame = page.until("frame", [](const Json& one) { return one["number"] > 5; });
   EXPECT_NEAR(frame["frame"]["x_um"].get<double>(), 1100, 2);
   EXPECT_EQ(page.latest["controls"]["holds"], true);
+  const Json listed = Json::parse(get(*lab, "/api/sessions").body())["sessions"];
+  EXPECT_GE(listed[0]["t_s"], frame["frame"]["t_s"]);
+  TestPage watcher(*lab, session);
+  watcher.does({{"do", "ping"}});
 }
 
 TEST_F(LabRig, DrivesOnlyWhenArmedAndStopsAtOnce) {

@@ -117,6 +117,13 @@ TEST(Stream, DecisionsAreWholeInAFrame) {
   EXPECT_EQ(numbers<float>(predicted["bodies"]), (std::vector<float>{3, 1, 2, 4, 6, 8, 5, 7}));
   EXPECT_EQ(numbers<float>(predicted["corners"]), (std::vector<float>{3, 9, 10, 3, 11, 12}));
 
+  RadarDiagnostics scan;
+  scan.beams.push_back({.heading = 1, .fate = BeamFate::obstacle, .obstacle = 7});
+  scan.beams.push_back({.heading = 2, .fate = BeamFate::kept, .score = 0.5});
+  const Json radar = decoded(frame_message(view, scan))["radar"];
+  EXPECT_EQ(numbers<float>(radar["beams"]), (std::vector<float>{1, 1, 0, 2, 0, 0.5}));
+  EXPECT_EQ(numbers<std::int32_t>(radar["screens"]), (std::vector<std::int32_t>{7, -1}));
+
   HierarchicalDiagnostics decision{.towards = {1, 2}, .path_clearance = 3, .in_time = true};
   EXPECT_EQ(
       decoded(frame_message(view, decision))["hierarchical"],

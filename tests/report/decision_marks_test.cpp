@@ -52,8 +52,6 @@ class DecisionMarks : public testing::Test {
   formats::Image image_;
 };
 
-constexpr Colour blue{0.0, 0.30, 0.60, 1};
-
 TEST_F(DecisionMarks, OfARadarAreTheScreenedDirectionsAndTheOneTaken) {
   const Vec2 at{200.5, 100.5};
   RadarDiagnostics scan{.radius = 10,
@@ -65,10 +63,10 @@ TEST_F(DecisionMarks, OfARadarAreTheScreenedDirectionsAndTheOneTaken) {
                                   {.heading = 1.5 * pi, .fate = BeamFate::turn},
                                   {.heading = 0.25 * pi}}};
   draw(scan, at);
-  EXPECT_TRUE(is(at + Vec2{40, 0}, {0.84, 0.37, 0, 0.5}));
-  EXPECT_TRUE(is(at + Vec2{-40, 0}, {0.45, 0.48, 0.53, 0.5}));
-  EXPECT_TRUE(is(at + Vec2{0, -40}, {0.9, 0.62, 0, 0.5}));
-  EXPECT_TRUE(is(at + Vec2{0, 40}, blue));
+  EXPECT_TRUE(is(at + Vec2{40, 0}, colours::radar_obstacle));
+  EXPECT_TRUE(is(at + Vec2{-40, 0}, colours::radar_wall));
+  EXPECT_TRUE(is(at + Vec2{0, -40}, colours::radar_turn));
+  EXPECT_TRUE(is(at + Vec2{0, 40}, colours::radar_chosen));
   EXPECT_TRUE(is_blank(at + Vec2{28, 28})) << "kept, not taken";
   EXPECT_TRUE(is_blank(at + Vec2{5, 0})) << "in the swarm";
 }
@@ -76,7 +74,7 @@ TEST_F(DecisionMarks, OfARadarAreTheScreenedDirectionsAndTheOneTaken) {
 TEST_F(DecisionMarks, OfARadarThatDetectsNothingIsTheStraightHeading) {
   draw(RadarDiagnostics{.radius = 10, .circles = {.detection = 60}, .straight = pi},
        {200.5, 100.5});
-  EXPECT_TRUE(is({150.5, 100.5}, blue));
+  EXPECT_TRUE(is({150.5, 100.5}, colours::radar_chosen));
 }
 
 TEST_F(DecisionMarks, OfPredictedBodiesAreTheTurnedAndGrownOutlines) {

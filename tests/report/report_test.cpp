@@ -140,7 +140,7 @@ TEST_F(Report, ARunIsDrawnWithItsChanges) {
     const int left = 24, top = 58;  // of the drawing
     const std::size_t i =
         image.index(left + static_cast<int>(goal.x) + 9, top + 600 - static_cast<int>(goal.y));
-    return image.pixels[i] == 102 && image.pixels[i + 1] == 64;
+    return image.pixels[i] == 138 && image.pixels[i + 1] == 63;
   };
   EXPECT_TRUE(is_goal_at({1000, 300}));
   record.changes.push_back({.t = 1, .frame = 10, .setting = "goal_um=[700, 200]"});

@@ -88,6 +88,21 @@ TEST(NewestFrame, OfAFastSourceTheNewestIsTakenAndTheOthersAreCounted) {
   EXPECT_LE(s.frames, taken + s.dropped + 1);  // or are the one that waits
 }
 
+TEST(NewestFrame, AFrameThatIsLeftOutIsAGapAndAnUnevenPaceIsNone) {
+  constexpr int lost = 24;
+  NewestFrame camera(made([](int index, formats::Image& picture) {
+                       std::this_thread::sleep_for(index == lost ? 200ms : index % 2 ? 20ms : 25ms);
+                       picture.pixels[0] = static_cast<std::uint8_t>(index);
+                       return index < 32;
+                     }),
+                     "uneven");
+  const double began = steady_seconds();
+  while (camera.status().state != CameraState::ended && steady_seconds() < began + 10)
+    std::this_thread::sleep_for(5ms);
+  EXPECT_GE(camera.status().gaps, 1);
+  EXPECT_LT(camera.status().gaps, 8);  // on a busy computer some more
+}
+
 TEST(NewestFrame, OfASlowSourceEachFrameIsTakenOnceAndItsAgeIsTold) {
   NewestFrame camera(clock_like(60ms), "slow");
   LiveFrame frame;

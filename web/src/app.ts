@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import './app.css';
+import './picture.css';
 import { comparePage } from './compare_page';
 import { element } from './dom';
 import { takeDrops } from './drops';
@@ -16,10 +17,10 @@ let page: Page | undefined;
 
 const run = document.getElementById('run'); // in a file that plays itself
 
-/** The run in the page, or the page of the current address: #/session/7, #/rig/7, #/compare/7/8, else the gallery. */
+/** The run in the page, or the page of the current address: #/session/7 or #/session/7/present, #/rig/7, #/compare/7/8, else the gallery. */
 function named(): Promise<Page> {
   if (run) return playerPage(run.textContent ?? '');
-  const session = /^#\/session\/(\d+)$/.exec(location.hash);
+  const session = /^#\/session\/(\d+)(?:\/present)?$/.exec(location.hash);
   if (session) return sessionPage(Number(session[1]));
   const rig = /^#\/rig\/(\d+)$/.exec(location.hash);
   if (rig) return sessionPage(Number(rig[1]), true);

@@ -1,16 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { RunEvent } from './protocol';
 
-/** Name of an event for people. */
-export function eventName(kind: string): string {
+type Happened = Pick<RunEvent, 'kind'> & Partial<RunEvent>;
+
+/** An event in words: the touched obstacle, or the number of robots that are not seen. */
+export function eventText({ kind, body }: Happened): string {
+  if (kind === 'contact_wall') return 'contact with a wall';
+  if (kind === 'contact_obstacle') return `contact with ${body === undefined ? 'an obstacle' : `obstacle ${body}`}`;
+  if (kind === 'robots_unseen' && body !== undefined) return `${body} robots unseen`;
   return kind.replaceAll('_', ' ');
+}
+
+export function isContact({ kind }: Happened): boolean {
+  return kind.startsWith('contact');
 }
 
 /** Events at most `within` seconds from a time, in words; equal ones are counted. */
 export function eventsNear(events: RunEvent[], time: number, within: number): string[] {
   const counts = new Map<string, number>();
-  for (const { kind, t_s } of events)
-    if (Math.abs(t_s - time) <= within) counts.set(eventName(kind), (counts.get(eventName(kind)) ?? 0) + 1);
+  for (const event of events) {
+    const text = eventText(event);
+    if (Math.abs(event.t_s - time) <= within) counts.set(text, (counts.get(text) ?? 0) + 1);
+  }
   return [...counts].map(([name, count]) => (count > 1 ? `${count} × ${name}` : name));
 }
 

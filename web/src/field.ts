@@ -17,11 +17,12 @@ export interface Field {
   setEnabled(enabled: boolean): void;
 }
 
-export type Change = (key: string, value: Json) => void;
+/** `drags`: the value is one within a drag. */
+export type Change = (key: string, value: Json, drags?: boolean) => void;
 
 /** Callbacks of a control for typed values. */
 interface Typed {
-  change(value: Json): void;
+  change(value: Json, drags?: boolean): void;
   /** Shows at the field why the text is no value, and restores the previous value. */
   complain(text: string): void;
 }
@@ -38,10 +39,11 @@ export function field(key: string, schema: Schema, change: Change, form = 'field
   const { doc, unit } = described(schema);
   const { label, unit: keyUnit } = words(name);
   const shownUnit = unit || keyUnit;
-  const slider = { name: label, unit: shownUnit, most: shownUnit === 'µm' ? reach : Infinity };
+  const most = shownUnit === 'µm' || shownUnit === 'µm/s' ? reach : Infinity; // a map crossed in a second is fast
+  const slider = { name: label, unit: shownUnit, most };
   const id = `${form}-${key}`;
   const control = controlOf(id, inner, allowsNull(schema), slider, {
-    change: (value) => change(key, value),
+    change: (value, drags) => change(key, value, drags),
     complain: (text) => setIssue(text),
   });
   const standard = schema.default;
@@ -152,6 +154,7 @@ function numeric(id: string, schema: Schema, nullable: boolean, sliding: Sliding
   const span = rangeOf(schema, sliding.most);
   const show = (value: Json | undefined) => entry.set(typeof value === 'number' ? value : undefined);
   if (!span) return { nodes: [entry.root], show };
+  let drags = false; // the answers to a drag come later than its values
   const say = () => {
     const value = entry.get();
     slider.setAttribute('aria-valuetext', value === undefined ? 'none' : `${value} ${sliding.unit}`.trim());
@@ -164,14 +167,20 @@ function numeric(id: string, schema: Schema, nullable: boolean, sliding: Sliding
     step: '0.002',
     'aria-label': `${sliding.name}, slider`,
     oninput: () => {
+      drags = true;
       entry.set(span.toValue(Number(slider.value)));
       say();
+      typed.change(entry.get() ?? null, true);
     },
-    onchange: () => typed.change(entry.get() ?? null),
+    onchange: () => {
+      drags = false;
+      typed.change(entry.get() ?? null);
+    },
   });
   return {
     nodes: [slider, entry.root],
     show: (value) => {
+      if (drags) return;
       show(value);
       slider.value = String(typeof value === 'number' ? span.toShare(value) : 0);
       say();

@@ -2,6 +2,7 @@
 import { element } from './dom';
 import { type Field, field, menu } from './field';
 import { words } from './numbers';
+import { presets } from './preset';
 import type { Json, Scenario } from './protocol';
 import { type Schema, alternative, allowsNull, described, isGroup, kinds, withoutNull } from './schema';
 import { at } from './settings';
@@ -14,9 +15,11 @@ const unfolded = ['goal_um', 'navigator'];
 export interface FormOwner {
   /** The scenario as the form shows it. */
   wanted(): Scenario;
-  change(key: string, value: Json): void;
+  change(key: string, value: Json, drags?: boolean): void;
   /** Changes the type of the object at a key. */
   changeType(key: string, type: string): void;
+  /** Makes the object at a key as published, or with the program's additions. */
+  preset(key: string, schema: Schema, isPublished: boolean): void;
   isAtOnce(key: string): boolean;
   canChange(): boolean;
   /** Further controls of a list of groups, and of one of its entries. */
@@ -86,7 +89,13 @@ export class Form {
       if (allowsNull(schema)) body.push(element('p', { class: 'doc' }, 'None in this scenario.'));
     } else if (inner.oneOf) {
       body.push(this.kindNode(key, inner, fields));
-      this.addProperties(body, key, alternative(inner, value), value, fields);
+      const kind = alternative(inner, value);
+      if (kind?.properties?.['as_published']) {
+        const made = presets(key, (isPublished) => this.owner.preset(key, kind, isPublished));
+        body.push(made.root);
+        fields.push(made);
+      }
+      this.addProperties(body, key, kind, value, fields);
     } else {
       this.addProperties(body, key, inner, value, fields);
     }
@@ -105,7 +114,13 @@ export class Form {
   }
 
   private fieldNode(key: string, schema: Schema, fields: Field[]): HTMLElement {
-    const made = field(key, schema, (name, value) => this.owner.change(name, value), this.name, this.reach);
+    const made = field(
+      key,
+      schema,
+      (name, value, drags) => this.owner.change(name, value, drags),
+      this.name,
+      this.reach,
+    );
     if (!key.includes('.')) made.root.prepend(this.badge(key));
     fields.push(made);
     return made.root;

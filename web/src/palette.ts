@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Colours of scene and plots, as in the reports: those of Okabe and Ito, which are distinguishable
-// with any kind of colour blindness.
+// Colours of scene and plots; the light ones are those of the pictures that the program draws (report/colours.hpp).
+// Those that meet in one picture differ also to the colour-blind and in a grey print: tests/unit/palette.test.mjs.
 
 export type Theme = 'light' | 'dark';
 
@@ -13,24 +13,29 @@ export interface Palette {
   wall: number;
   wallEdge: number;
   obstacle: number;
-  swarm: number;
-  trail: number;
-  path: number;
+  swarm: number; // and many robots
+  trail: number; // the path travelled
+  path: number; // the path planned
   tree: number;
   circle: number; // detection circles of a plan, and its local target
   start: number;
   goal: number;
+  team: number; // branch of the team of a gathering
+  input: number; // that all robots get
   radar: {
     kept: number;
-    obstacle: number;
+    obstacle: number; // a direction that an obstacle screens
     wall: number;
     turn: number;
     chosen: number;
     detection: number;
     safety: number;
     prediction: number;
+    alpha: [number, number, number, number]; // of kept, obstacle, wall, turn
   };
-  series: number[]; // robots, regions, curves; in order
+  prediction: number; // obstacles as predicted
+  robots: number[]; // few robots, in order, and curves
+  regions: number[]; // of a gathering, in order; robots are on them
   heat: number[]; // from low to high: cividis
 }
 
@@ -44,24 +49,29 @@ const light: Palette = {
   wall: 0xccd1d9,
   wallEdge: 0x737a87,
   obstacle: 0xd55e00,
-  swarm: 0x009e73,
-  trail: 0x0072b2,
-  path: 0x0072b2,
-  tree: 0x8cb3d9,
-  circle: 0xcc79a7,
+  swarm: 0x006e52,
+  trail: 0x56b4e9,
+  path: 0x00376e,
+  tree: 0x838d9a,
+  circle: 0xb83a86,
   start: 0x21262e,
-  goal: 0x6640a6,
+  goal: 0x8a3fd1,
+  team: 0xfad680,
+  input: 0x21262e,
   radar: {
     kept: 0x56b4e9,
-    obstacle: 0xd55e00,
-    wall: 0x8b929c,
-    turn: 0xe69f00,
-    chosen: 0x004c99,
-    detection: 0x8c5926,
+    obstacle: 0xc2489a,
+    wall: 0x2f353d,
+    turn: 0xf0d800,
+    chosen: 0x000000,
+    detection: 0x4d3310,
     safety: 0xe69f00,
-    prediction: 0xcc2626,
+    prediction: 0xdb5245,
+    alpha: [0.85, 0.75, 0.7, 0.75],
   },
-  series: [0x0072b2, 0xd55e00, 0x009e73, 0xcc79a7, 0xe69f00, 0x56b4e9, 0x664da6, 0x595959],
+  prediction: 0xd55e00,
+  robots: [0x0072b2, 0xd55e00, 0x009e73, 0xcc79a7, 0xe69f00, 0x56b4e9, 0x332288, 0x6b6b6b],
+  regions: [0x0072b2, 0xd55e00, 0xcc79a7, 0xe69f00, 0x56b4e9, 0x7a7a7a],
   heat,
 };
 
@@ -73,24 +83,29 @@ const dark: Palette = {
   wall: 0x3d4651,
   wallEdge: 0x8b95a3,
   obstacle: 0xf07f32,
-  swarm: 0x2bc596,
-  trail: 0x56b4e9,
-  path: 0x56b4e9,
-  tree: 0x4d749a,
-  circle: 0xe39cc4,
+  swarm: 0x5fe0b8,
+  trail: 0x2f7abd,
+  path: 0x8cc4f5,
+  tree: 0x56616e,
+  circle: 0xe07db3,
   start: 0xe8ebef,
-  goal: 0xb69cf2,
+  goal: 0xf7e27a,
+  team: 0x6e5c26,
+  input: 0xe8ebef,
   radar: {
     kept: 0x56b4e9,
-    obstacle: 0xf07f32,
-    wall: 0x79828d,
-    turn: 0xe6b33c,
-    chosen: 0xcfe8fa,
-    detection: 0xc99a6b,
-    safety: 0xf0b429,
-    prediction: 0xff7b7b,
+    obstacle: 0xd45aa0,
+    wall: 0x6b7480,
+    turn: 0xfff07a,
+    chosen: 0xffffff,
+    detection: 0xffe2c0,
+    safety: 0xe6a817,
+    prediction: 0xe8553f,
+    alpha: [0.85, 0.75, 0.4, 0.9],
   },
-  series: [0x56b4e9, 0xf07f32, 0x2bc596, 0xe39cc4, 0xf0b429, 0x3d8fd1, 0xb69cf2, 0xb8bec6],
+  prediction: 0xf07f32,
+  robots: [0x4aa0e6, 0xf07f32, 0x5fe0b8, 0xf0a8d0, 0xf0d060, 0x2f5fb8, 0xffffff, 0x858c95],
+  regions: [0x4aa0e6, 0xf07f32, 0xf0a8d0, 0xf0d060, 0x2f5fb8, 0x858c95],
   heat,
 };
 

@@ -2,6 +2,7 @@
 import { Changes } from './changes';
 import { call } from './connection';
 import { openBranch } from './copies';
+import { Drag } from './drag';
 import { element } from './dom';
 import { Form } from './form';
 import { routed } from './issues';
@@ -9,6 +10,7 @@ import type { Live } from './live';
 import { askWhen, mayBeginAnew } from './loss';
 import { Mover } from './mover';
 import { type Answer, type Json, type Scenario, said } from './protocol';
+import { differing, without } from './preset';
 import { parametersNote } from './repeat';
 import type { Schema } from './schema';
 import { shapeOf } from './shape';
@@ -33,6 +35,7 @@ export class Parameters {
   private shape = '';
   private readonly changes = new Changes();
   private setting: Promise<unknown> = Promise.resolve(); // the last one sent
+  private readonly drag = new Drag((key, value) => this.live.ask({ do: 'set', key, value: text(value) }));
   private readonly undone = new Undo();
   private readonly tuned = new Tuned();
   private seen: Scenario = {}; // the last one in the form
@@ -70,8 +73,9 @@ export class Parameters {
     this.form = new Form(
       {
         wanted: () => this.wanted(),
-        change: (key, value) => void this.change(key, () => value),
+        change: (key, value, drags) => void (drags ? this.drags(key, value) : this.change(key, () => value)),
         changeType: (key, type) => this.changeType(key, type),
+        preset: (key, schema, isPublished) => void this.preset(key, schema, isPublished),
         isAtOnce: (key) => this.isAtOnce(key),
         canChange: () => !live.hello?.playback,
         listTools: (key) => (this.hasMovers(key) ? this.mover.addButton() : []),
@@ -161,12 +165,13 @@ export class Parameters {
 
   /** Changes a value; `make` makes it of the scenario on which it acts. */
   async change(key: string, make: () => Json): Promise<Answer | undefined> {
+    const dragged = this.drag.end(key);
     if (this.isOfPast(key)) {
       const elsewhere = await this.actElsewhere(key, make);
       if (elsewhere) return elsewhere;
     }
     const value = make();
-    const before = at(this.wanted(), key);
+    const before = dragged ?? at(this.wanted(), key);
     const answer = await this.apply(key, value);
     const isMade = before !== undefined && !isSame(before, value) && !answer?.issues.length;
     if (isMade) this.undone.push({ before: [[key, before]], restarts: false });
@@ -194,6 +199,12 @@ export class Parameters {
 
   private isChangeable(key: string): boolean {
     return this.live.hello?.changeable.includes(key.split('.')[0] as string) ?? false;
+  }
+
+  /** Takes a value of a slider that is being dragged. What is refused meanwhile is said at the end of the drag. */
+  private drags(key: string, value: Json): void {
+    const { looks_back: isPast, ended } = this.live.standing ?? { looks_back: true, ended: true };
+    if (this.isAtOnce(key) && !isPast && !ended) this.drag.move(key, value, at(this.wanted(), key));
   }
 
   /** Takes the last change back, by another one. */
@@ -239,6 +250,16 @@ export class Parameters {
   /** Whether the entries of a list are moved; robots that are tracked one by one have no obstacles. */
   private hasMovers(key: string): boolean {
     return key === 'obstacles' && at(this.live.hello?.scenario, 'robots') == null;
+  }
+
+  /** Sets an object as published or not; values that a paper's method cannot have go back to their defaults. */
+  private async preset(key: string, schema: Schema, isPublished: boolean): Promise<void> {
+    const present = at(this.wanted(), key);
+    if (!present || typeof present !== 'object' || Array.isArray(present)) return;
+    const own = { ...differing(schema, present), as_published: isPublished, type: present['type'] ?? '' };
+    const answer = await this.change(key, () => own);
+    if (!answer?.issues.length || !isPublished) return;
+    await this.change(key, () => without(key, own, answer.issues));
   }
 
   private wanted(): Scenario {

@@ -64,6 +64,7 @@ export interface Radar {
   detection: number;
   step: number;
   beams: Bytes; // heading [rad], fate (0 kept, 1 obstacle, 2 wall, 3 turn), score for each
+  screens?: Bytes; // number of the obstacle that screens each beam, or −1
   best?: number;
   straight?: number;
 }
@@ -221,6 +222,8 @@ export interface RigStanding {
   late_currents?: number;
   frames?: number;
   dropped_frames?: number;
+  frame_gaps?: number;
+  unseen_frames?: number;
   resumed?: number;
   limited?: number;
   weakened?: number;
@@ -273,7 +276,7 @@ export type Message =
   | Answer;
 
 export type Request =
-  | { do: 'pause' | 'step' | 'live' | 'end' | 'clearance' | 'beat' | 'stop' | 'control' | 'arm' | 'dry' }
+  | { do: 'pause' | 'step' | 'live' | 'end' | 'clearance' | 'beat' | 'ping' | 'stop' | 'control' | 'arm' | 'dry' }
   | { do: 'play'; number?: number }
   | { do: 'speed' | 'seek'; number: number }
   | { do: 'set'; key: string; value: string }
@@ -291,6 +294,9 @@ export function floats(bytes: Bytes): Float32Array {
 }
 export function doubles(bytes: Bytes): Float64Array {
   return new Float64Array(bytes.slice().buffer);
+}
+export function whole(bytes: Bytes): Int32Array {
+  return new Int32Array(bytes.slice().buffer);
 }
 export function indices(bytes: Bytes): Uint32Array {
   return new Uint32Array(bytes.slice().buffer);

@@ -2,6 +2,7 @@
 import { element } from './dom';
 import { eventList } from './event_list';
 import { exportPanel } from './export_panel';
+import { robotsAtGoal } from './gathering';
 import type { Live } from './live';
 import { headingAt, metricsTable, numbersAt } from './metrics';
 import type { Json } from './protocol';
@@ -70,10 +71,12 @@ export function recordTab(
     }
   };
   let drawn = 0;
+  let there: { [key: string]: Json } = {};
   live.listen((message) => {
     if (message.type === 'hello') show();
+    if (message.type === 'frame' && !live.standing?.looks_back) there = robotsAtGoal(message, live.hello?.scenario);
     if (message.type !== 'standing') return;
-    last = message.metrics;
+    last = { ...message.metrics, ...there };
     show();
     if (message.plays && performance.now() - drawn < 250) return;
     drawn = performance.now();

@@ -4,6 +4,7 @@ import { element } from './dom';
 import type { Drive } from './drive';
 import type { Live } from './live';
 import { type Controls, type RigStanding, said } from './protocol';
+import { rigLink } from './rig_link';
 import { type ConsoleView, actOf, consoleOf, isSilent } from './rig_view';
 import { StopRequest } from './stop_request';
 
@@ -40,6 +41,7 @@ export function rigConsole(live: Live, drive: Drive, say: (text: string, isTroub
     'STOP',
   );
   const words = element('span', { class: 'why', tabindex: '0' });
+  const link = rigLink(live);
   const armButton = button('Arm …', 'Drive the coils', () => panel.open(live.hello?.rig_info));
   const dryButton = button('Dry run', 'Restart without driving the coils', () => void ask({ do: 'dry' }));
   const takeButton = button('Take the controls', 'No page has the controls', () => void ask({ do: 'control' }));
@@ -75,6 +77,7 @@ export function rigConsole(live: Live, drive: Drive, say: (text: string, isTroub
     stopButton,
     badge,
     words,
+    link.root,
     element('span', { class: 'acts' }, armButton, dryButton, holdButton, manualButton, endButton, takeButton),
     panel.root,
   );
@@ -135,6 +138,7 @@ export function rigConsole(live: Live, drive: Drive, say: (text: string, isTroub
     isHot,
     destroy: () => {
       window.removeEventListener('keydown', key, { capture: true });
+      link.destroy();
       beat.terminate();
     },
   };

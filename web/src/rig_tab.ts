@@ -3,6 +3,8 @@ import { element } from './dom';
 import type { Live } from './live';
 import { number } from './numbers';
 import type { RigInfo, RigStanding } from './protocol';
+import { nearness } from './rig_limits';
+import { type Entry, logged, newsOf, sights } from './rig_log';
 import { barOf, staleWords } from './rig_view';
 
 const latencies: [keyof NonNullable<RigStanding['latency_ms']>, string][] = [
@@ -13,20 +15,16 @@ const latencies: [keyof NonNullable<RigStanding['latency_ms']>, string][] = [
   ['coil_late', 'Currents late'],
   ['round_trip', 'Coil driver'],
 ];
-const sights: { [trouble: string]: string } = {
-  '': 'seen',
-  none: 'not seen',
-  several: 'several are seen',
-  far: 'too far from its last position',
-  size: 'of a different size',
-  split: 'split into parts',
-  merged: 'merged with another',
-  robots: 'robots are missing',
-};
-
 /** Numbers of a rig: currents, temperatures, field, limits, latencies. Those that are not of now are grey and say of when. */
 export function rigTab(live: Live): HTMLElement {
   const root = element('div', { class: 'rig-numbers' });
+  const list = element('ol', { class: 'rig-log', 'aria-label': 'Events of the rig' });
+  const whole = element('div', {}, root, element('h2', {}, 'Events'), list);
+  let log: Entry[] = [];
+  const note = (text: string) => {
+    log = logged(log, text, new Date(), now?.t_s);
+    list.replaceChildren(...log.map(line));
+  };
   let drawn = 0;
   let later: number | undefined;
   let numbers: RigStanding | undefined;
@@ -47,17 +45,33 @@ export function rigTab(live: Live): HTMLElement {
   live.listen((message) => {
     if (message.type !== 'rig') return;
     const isSame = now?.state === message.state;
+    const news = newsOf(now, message, live.hello?.rig_info);
     now = message;
+    news.forEach(note);
     if (message.currents_a) numbers = message;
     if (isSame && performance.now() - drawn < 90) return;
     drawn = performance.now();
     draw();
   });
   live.onState((state) => {
+    if (isLost !== (state !== 'open')) note(isLost ? 'The connection is back.' : 'The connection to the lab is lost.');
     isLost = state !== 'open';
     draw();
   });
-  return root;
+  return whole;
+}
+
+/** A line of the log, with the time of day and of the run. */
+function line({ at, t_s, text, count }: Entry): HTMLElement {
+  const time = at.toLocaleTimeString([], { hour12: false });
+  const run = t_s === undefined ? '' : `${t_s.toFixed(1)} s`;
+  return element(
+    'li',
+    {},
+    element('time', { datetime: at.toISOString() }, time),
+    element('span', { class: 'unit' }, run),
+    element('span', {}, count > 1 ? `${text} (${count} times)` : text),
+  );
 }
 
 function sections(rig: RigStanding, info: RigInfo | undefined): HTMLElement[] {
@@ -80,6 +94,8 @@ function sections(rig: RigStanding, info: RigInfo | undefined): HTMLElement[] {
       ['Ticks, missed deadlines', `${rig.ticks ?? 0}, ${rig.missed_deadlines ?? 0}`],
       ['Frames used', String(rig.frames ?? 0)],
       ['Frames skipped for newer ones', String(rig.dropped_frames ?? 0)],
+      ['Frames lost or late at the camera', String(rig.frame_gaps ?? 0)],
+      ['Frames without the swarm or a robot', String(rig.unseen_frames ?? 0)],
       ['Device switched itself off', String(rig.resumed ?? 0)],
     ]),
     element('h2', {}, 'Latencies [ms]'),
@@ -126,15 +142,17 @@ function bars(values: number[], names: string[], limits: (number | null)[], unit
       const name = names[i] ?? String(i);
       const text = `${signed && value > 0 ? '+' : ''}${value.toFixed(signed ? 2 : 1)}${limit === null ? '' : ` / ${number(limit, 3)}`} ${unit}`;
       const { from, to } = barOf(value, most, signed);
-      const fill = element('span', { class: Math.abs(value) > 0.9 * most ? 'fill high' : 'fill' });
+      const near = nearness(value, limit);
+      const fill = element('span', { class: `fill ${near.split(' ')[0] ?? ''}` });
       fill.style.left = `${100 * from}%`;
       fill.style.right = `${100 * (1 - to)}%`;
       const bar = element(
         'span',
-        { class: signed ? 'bar signed' : 'bar', role: 'img', 'aria-label': `${name}: ${text}` },
+        { class: signed ? 'bar signed' : 'bar', role: 'img', 'aria-label': `${name}: ${text}${near && `, ${near}`}` },
         fill,
       );
-      return [element('span', {}, name), bar, element('span', { class: 'value' }, text)];
+      const shown = element('span', { class: 'value' }, text);
+      return [element('span', {}, name), bar, shown, ...(near ? [element('strong', { class: 'near' }, near)] : [])];
     }),
   );
 }

@@ -58,24 +58,25 @@ export interface Range {
   toValue(share: number): number;
 }
 
-/** Range of a value's slider, up to `most` where the schema allows more; a default beyond it is within the range. */
+/** Range of a value's slider: up to ten times the default and up to `most`, where the schema allows more. The default is in it. */
 export function rangeOf(schema: Schema, most = Infinity): Range | undefined {
   const { minimum: lo, maximum } = schema;
   if (lo === undefined || maximum === undefined) return undefined;
-  const hi = Math.min(maximum, Math.max(most, typeof schema.default === 'number' ? schema.default : 0));
+  const usual = typeof schema.default === 'number' ? Math.abs(schema.default) : 0;
+  const ten = usual > 0 && maximum > 20 * usual && lo >= 0 ? 10 * usual : maximum; // a span around the default
+  const hi = Math.min(maximum, Math.max(Math.min(most, ten), usual));
   if (hi <= lo) return undefined;
   const isWhole = schema.type === 'integer';
   const whole = (value: number) => (isWhole ? Math.round(value) : value);
   const clamp = (value: number) => Math.max(lo, Math.min(hi, value));
-  const standard = typeof schema.default === 'number' ? Math.abs(schema.default) : 0;
-  const spansDecades = lo >= 0 && hi >= 1000 * Math.max(lo, 1e-9) && (lo > 0 || hi > 100 * (standard || hi / 10));
+  const spansDecades = lo >= 0 && hi >= 1000 * Math.max(lo, 1e-9) && (lo > 0 || hi > 100 * (usual || hi / 10));
   if (!spansDecades)
     return {
       toShare: (value) => (clamp(value) - lo) / (hi - lo),
       toValue: (share) => whole(Number((lo + share * (hi - lo)).toPrecision(3))),
     };
   // Zero, if allowed, is the slider's left end.
-  const least = lo > 0 ? lo : isWhole ? 1 : (standard || hi / 1e3) / 1e3;
+  const least = Math.max(lo, usual / 100) || (isWhole ? 1 : hi / 1e6);
   const zero = lo > 0 ? 0 : 0.03;
   const decades = Math.log(hi / least);
   return {

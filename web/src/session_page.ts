@@ -5,12 +5,14 @@ import { element } from './dom';
 import { Drive } from './drive';
 import { Keys } from './keys';
 import { layersTab } from './layers_tab';
+import { legend } from './legend';
 import { Live } from './live';
 import { isAtRisk, mayLeave } from './loss';
 import { notice } from './notice';
 import type { Page } from './page';
 import { Parameters } from './parameters';
 import { Plots } from './plots';
+import { presentation } from './present';
 import { recordTab } from './record_tab';
 import { rigConsole } from './rig_console';
 import { rigTab } from './rig_tab';
@@ -53,13 +55,19 @@ export async function pageOf(live: Live, { rig: isRig, changes, about }: Offers)
   const hands = parameters ? new Hands(live, scene, parameters, say) : undefined;
   const tools = sceneTools(live, scene, drive, isRig);
   const rig = isRig && drive ? rigConsole(live, drive, say) : undefined;
+  const key = legend(live, scene);
+  const present = presentation(() => root, scene);
   const compare =
     parameters && live.isServed
       ? () => void openCopy(live, parameters).catch((error: Error) => say(error.message))
       : undefined;
 
   let isBroken = false; // before it opens, keys wait for its answer
-  const keys = new Keys(sessionKeys(time, drive, hands, tools.keys, isRig), !isRig, () => isRig || !isBroken);
+  const keys = new Keys(
+    sessionKeys({ time, drive, hands, stage, legend: key, present, more: tools.keys, isRig }),
+    !isRig,
+    () => isRig || !isBroken,
+  );
   const up = (event: KeyboardEvent) => drive?.key(event, false);
   const blur = () => drive?.release();
   window.addEventListener('keyup', up);
@@ -79,10 +87,11 @@ export async function pageOf(live: Live, { rig: isRig, changes, about }: Offers)
       title,
       status,
       trouble,
+      ...(isRig ? [] : [present.button]),
       toolButton('Keys', 'Show the keys (?)', () => keys.help()),
       themeSwitch(),
     ),
-    element('div', { class: 'stage' }, scene.root, over, ...(drive ? [drive.stick.root] : [])),
+    element('div', { class: 'stage' }, scene.root, over, present.exit, key.root, ...(drive ? [drive.stick.root] : [])),
     time.root, // before the tabs, so that Play is soon reached by the Tab key
     tabs(isRig ? 'rig' : changes ? 'session' : 'player', [
       ...(about ? [{ name: 'About', panel: about }] : []),
@@ -120,6 +129,7 @@ export async function pageOf(live: Live, { rig: isRig, changes, about }: Offers)
     if (parameters) parameters.root.inert = over.inert;
   });
   live.open();
+  if (!isRig && location.hash.endsWith('/present')) present.set(true);
   return {
     root,
     say,
@@ -132,6 +142,7 @@ export async function pageOf(live: Live, { rig: isRig, changes, about }: Offers)
       rig?.destroy();
       drive?.destroy();
       keys.destroy();
+      key.destroy();
       plots.destroy();
       time.destroy();
       live.close();

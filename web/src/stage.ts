@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+import { hoverTip } from './hover_tip';
 import type { Live } from './live';
 import { copyForPaper } from './paper';
 import { Scene } from './scene/scene';
@@ -14,6 +15,8 @@ declare global {
 /** A scene of a session in the page's theme. */
 export interface Stage {
   scene: Scene;
+  /** Says what is at the middle of the view, or no longer. */
+  sayMiddle(): void;
   destroy(): void;
 }
 
@@ -21,6 +24,8 @@ export async function stageFor(live: Live): Promise<Stage> {
   const scene = await Scene.create();
   scene.onWant((request) => void live.ask(request));
   live.listen((message) => scene.take(message));
+  const tip = hoverTip(scene);
+  scene.root.append(tip.root);
   let described = 0;
   live.listen((message) => {
     if (message.type !== 'frame' || performance.now() < described + 1000) return;
@@ -40,7 +45,9 @@ export async function stageFor(live: Live): Promise<Stage> {
   window.microswarm ??= { scene, connection: live };
   return {
     scene,
+    sayMiddle: tip.sayMiddle,
     destroy: () => {
+      tip.destroy();
       delete window.microswarm;
       stopTheme();
       stopPaper();

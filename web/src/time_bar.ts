@@ -28,6 +28,12 @@ export function timeKeys({ transport: time }: TimeBar): Key[] {
       does: 'next event, event before',
       act: (event) => time.seekEvent(event.key === 'n' ? 1 : -1),
     },
+    {
+      keys: ['c', 'C'],
+      shown: 'c, C',
+      does: 'next contact, contact before',
+      act: (event) => time.seekContact(event.key === 'c' ? 1 : -1),
+    },
     { keys: ['+', '='], shown: '+', does: 'faster', act: () => time.speed(1) },
     { keys: ['-'], shown: '−', does: 'slower', act: () => time.speed(-1) },
   ];

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+import { isContact } from './events';
 import type { History } from './history';
 
 /** Kind of a mark on the time line. */
@@ -65,9 +66,9 @@ export class TimeMarks {
     const planned = history.column('planned');
     for (; this.rows < times.length; ++this.rows) if (planned[this.rows]) this.add('plan', this.rows);
     for (; this.events < events.length; ++this.events) {
-      const { kind, t_s } = events[this.events]!;
-      const mark = kind.startsWith('contact') ? 'contact' : kind === 'goal_reached' ? 'goal' : 'other';
-      this.add(mark, history.nearest(t_s));
+      const event = events[this.events]!;
+      const mark = isContact(event) ? 'contact' : event.kind === 'goal_reached' ? 'goal' : 'other';
+      this.add(mark, history.nearest(event.t_s));
     }
   }
 

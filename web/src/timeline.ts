@@ -39,6 +39,8 @@ export function timeline(
   const point = (time: number | undefined) => sessions.forEach((one) => one.point(time));
   root.addEventListener('pointermove', (event) => point(timeAt(event)));
   root.addEventListener('pointerleave', () => point(undefined));
+  slider.addEventListener('focus', () => point(lead().shown));
+  slider.addEventListener('blur', () => point(undefined));
   canvas.addEventListener('click', (event) => {
     const time = timeAt(event);
     if (time !== undefined) seek(lead().history.nearest(time));
@@ -96,7 +98,9 @@ export function timeline(
       if (one !== lead() || (message.type !== 'standing' && message.type !== 'rows')) return;
       slider.max = String(Math.max(0, one.history.times.length - 1)); // rows may follow their standing
       slider.value = String(one.standing?.frame ?? 0);
-      slider.setAttribute('aria-valuetext', `${one.shown.toFixed(1)} seconds`);
+      const near = eventsNear(one.history.events, one.shown, span(one) / 200);
+      slider.setAttribute('aria-valuetext', [`${one.shown.toFixed(1)} seconds`, ...near].join(', '));
+      if (document.activeElement === slider) point(one.shown); // by keys the tip is at the time shown
     });
   }
   return {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { nextEvent } from './events';
+import { isContact, nextEvent } from './events';
 import type { Live } from './live';
 import { fasterSpeed } from './speeds';
 
@@ -52,6 +52,12 @@ export class Transport {
   /** Seeks the next event, or the one before if `by` is negative. */
   readonly seekEvent = (by: number) => {
     const event = nextEvent(this.lead.history.events, this.lead.shown, by);
+    if (event && !this.anyPlays) this.seekTime(event.t_s);
+  };
+
+  /** Seeks the next contact, or the one before if `by` is negative. */
+  readonly seekContact = (by: number) => {
+    const event = nextEvent(this.lead.history.events.filter(isContact), this.lead.shown, by);
     if (event && !this.anyPlays) this.seekTime(event.t_s);
   };
 

@@ -43,7 +43,8 @@ export class VesselSearch {
   private build(schema: Schema): void {
     this.fields = Object.entries(schema.properties ?? {}).map(([key, one]) => {
       this.values.set(key, one.default ?? null);
-      return field(key, one, (name, value) => {
+      return field(key, one, (name, value, drags) => {
+        if (drags) return; // a search takes seconds
         this.values.set(name, value);
         this.fields.find((other) => other.key === name)?.show(value);
         void this.search();

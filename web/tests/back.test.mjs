@@ -24,6 +24,7 @@ async function dragGoal(page) {
 test('a change in the past asks whether it acts now or in a branch, and numbers say of when they are', () =>
   inLab('scenarios/first_flight.yaml', async (page, { picture }) => {
     const standing = () => page.evaluate(() => window.microswarm.connection.standing);
+    await page.keyboard.press('k'); // the legend, which moves the map when it comes
     for (let i = 0; i < 12; ++i) await page.click('.step');
     await until(page, () => window.microswarm.connection.history.times.length === 12);
     assert.match(await page.locator('.total').innerText(), /of 1\.1 s/);
@@ -73,12 +74,12 @@ test('marks of events are named under the pointer, listed, and reached by keys',
     const times = await page.evaluate(() => window.microswarm.connection.history.times);
     const share = times.findIndex((one) => Math.abs(one - 0.6) < 1e-6) / (times.length - 1);
     await page.mouse.move(box.x + 7 + share * (box.width - 14), box.y + 6);
-    await page.locator('.tip', { hasText: 'contact obstacle' }).waitFor();
+    await page.locator('.tip', { hasText: 'contact with obstacle' }).waitFor();
     await picture('time-line');
     await page.keyboard.press('N');
     await until(page, () => Math.abs(window.microswarm.connection.shown - 0.6) < 1e-6);
     await page.getByRole('tab', { name: 'Record' }).click();
-    await page.locator('.events li', { hasText: 'contact obstacle' }).waitFor();
+    await page.locator('.events li', { hasText: 'contact with obstacle' }).waitFor();
   }));
 
 test('the page is used by keys and told in words', () =>

@@ -14,7 +14,7 @@ after(() => browser.close());
 async function playTo(run, file, t, { speed = 0, size, options = [] } = {}) {
   const lab = await startLab(file, ...options);
   run.after(() => lab.process.kill('SIGKILL'));
-  const lookedAt = await openPage(browser, lab.url, size);
+  const lookedAt = await openPage(browser, lab.url, size, () => localStorage.setItem('legend', 'folded'));
   const { page } = lookedAt;
   const hasMap = () => window.microswarm && String(window.microswarm.scene.view.hi) !== '1,1';
   await until(page, hasMap, { seconds: 120 });
@@ -159,6 +159,7 @@ test('the route point and the wait of hierarchical D-RRT* are marked', async (t)
   const run = await playTo(t, 'scenarios/papers/drrt/moving_obstacles.yaml', 2, { speed: 20 });
   const labels = async () => {
     await run.page.waitForTimeout(200);
+    await until(run.page, () => !window.microswarm.scene.requested); // a busy computer draws later
     const texts = await textsOf(run);
     return texts.filter(({ text }) => text === 'route point' || text.startsWith('waits'));
   };
@@ -221,7 +222,7 @@ test('a gathering shows its leader, its team and its state in words', async (t) 
   const rollout = await words();
   assert.deepEqual(
     rollout.map(({ text }) => text.split('\n').slice(0, -1)),
-    [['Random robots lead, to break a livelock', '27 moves of the plan are left']],
+    [['0 of 64 gathered', 'Random robots lead, to break a livelock', '27 moves of the plan are left']],
   );
   await run.picture('scene-livelock');
   await run.scene((scene) => scene.show('team', false));

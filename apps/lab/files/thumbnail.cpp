@@ -137,7 +137,7 @@ std::string drawn(const experiment::Scene& scene, std::span<const Vec2> path, do
   std::vector<Body> bodies;
   for (const Obstacle& obstacle : scenario.obstacles) append_bodies(obstacle, 0, 0, bodies);
   for (const Body& body : bodies) draw(drawing, body, report::colours::obstacle);
-  drawing.line(path, report::colours::path);
+  drawing.line(path, report::colours::trail);
   if (scenario.robots) {
     const auto& robots = *scenario.robots;
     const auto starts = first_robots(scene);

@@ -82,6 +82,7 @@ class PageStream : public Page, public std::enable_shared_from_this<PageStream> 
   void take(const std::string& text) {
     try {
       Request request = read_request(text);
+      if (request.ask == Ask::ping) return send(answer_message(request.id, {}));
       if (request.ask == Ask::beat) --unanswered_;
       hub_.ask(number_, std::move(request));
     } catch (const InputError& error) {

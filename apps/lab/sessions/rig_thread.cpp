@@ -188,6 +188,7 @@ void RigThread::serve() {
   if (ends_) return;
   if (runs()) step();
   publisher_.publish(session(), shown(), [this] { return shown().view(); });
+  newest_ = publisher_.newest();
   if (Clock::now() >= told_ + rig_period) tell_rig();
 }
 
@@ -356,6 +357,7 @@ void RigThread::obey(std::uint64_t page, const Request& request, Issues& issues)
     case Ask::stop:
     case Ask::arm:
     case Ask::beat:
+    case Ask::ping:
     case Ask::clearance:
       break;  // handled by the caller, or answered by a message
   }

@@ -187,6 +187,7 @@ void SessionThread::obey(std::uint64_t, const Request& request, Issues& issues) 
     case Ask::clearance:
       break;  // answered by a message
     case Ask::beat:
+    case Ask::ping:
     case Ask::stop:
     case Ask::control:
     case Ask::arm:

@@ -30,13 +30,14 @@ enum class Ask {
   end,        ///< ends the run
   clearance,  ///< sends the map's clearance to this page
   beat,       ///< sign of life of the page with a rig's controls; no answer
+  ping,       ///< is answered at once, for the delay of the connection
   stop,       ///< sets the coils of a rig to zero
   control,    ///< takes the controls of a rig, if no page has them
   arm,        ///< reopens the rig and drives its coils
   dry         ///< reopens the rig without driving its coils
 };
 constexpr auto enum_names(Ask) {
-  return std::array<std::pair<Ask, std::string_view>, 18>{{{Ask::play, "play"},
+  return std::array<std::pair<Ask, std::string_view>, 19>{{{Ask::play, "play"},
                                                            {Ask::pause, "pause"},
                                                            {Ask::step, "step"},
                                                            {Ask::speed, "speed"},
@@ -50,6 +51,7 @@ constexpr auto enum_names(Ask) {
                                                            {Ask::end, "end"},
                                                            {Ask::clearance, "clearance"},
                                                            {Ask::beat, "beat"},
+                                                           {Ask::ping, "ping"},
                                                            {Ask::stop, "stop"},
                                                            {Ask::control, "control"},
                                                            {Ask::arm, "arm"},

@@ -66,6 +66,8 @@ void add_run(Json& json, const rig::LiveSession& run) {
   json["late_currents"] = timing.late_currents;
   json["frames"] = timing.frames;
   json["dropped_frames"] = timing.dropped_frames;
+  json["frame_gaps"] = timing.frame_gaps;
+  json["unseen_frames"] = timing.unseen_frames;
   json["resumed"] = timing.resumed;
   json["limited"] = timing.limited;
   json["weakened"] = timing.scaled;

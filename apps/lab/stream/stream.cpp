@@ -84,7 +84,9 @@ std::string shell_word(const std::string& text) {
 
 Json radar(const RadarDiagnostics& scan) {
   Floats beams;
+  Numbers<std::int32_t> screens;
   for (const RadarBeam& beam : scan.beams) {
+    screens.add(beam.obstacle ? static_cast<std::int32_t>(*beam.obstacle) : -1);
     beams.add(static_cast<float>(beam.heading));
     beams.add(static_cast<float>(beam.fate));
     beams.add(static_cast<float>(beam.score));
@@ -95,7 +97,8 @@ Json radar(const RadarDiagnostics& scan) {
             {"safety", scan.circles.safety},
             {"detection", scan.circles.detection},
             {"step", scan.step},
-            {"beams", beams.take()}};
+            {"beams", beams.take()},
+            {"screens", screens.take()}};
   if (scan.best) json["best"] = *scan.best;
   if (scan.straight) json["straight"] = *scan.straight;
   return json;

@@ -15,10 +15,6 @@
 namespace microswarm::report {
 namespace {
 
-constexpr Colour taken{0.0, 0.30, 0.60, 1};
-constexpr Colour predicted{0.84, 0.37, 0.0, 1};
-constexpr Colour waiting{0.0, 0.45, 0.70, 1};
-constexpr Colour team{0.98, 0.84, 0.50, 1};
 constexpr double corner_step = 0.2;  // of the arc around a grown corner [rad]
 
 /// Colour and meaning of a direction that is not taken.
@@ -28,9 +24,9 @@ struct FateLook {
   const char* label;
 };
 constexpr std::array<FateLook, 3> screened{
-    {{BeamFate::obstacle, {0.84, 0.37, 0.0, 0.5}, "direction screened by an obstacle"},
-     {BeamFate::wall, {0.45, 0.48, 0.53, 0.5}, "direction screened by a wall"},
-     {BeamFate::turn, {0.90, 0.62, 0.0, 0.5}, "direction that turns too far"}}};
+    {{BeamFate::obstacle, colours::radar_obstacle, "direction screened by an obstacle"},
+     {BeamFate::wall, colours::radar_wall, "direction screened by a wall"},
+     {BeamFate::turn, colours::radar_turn, "direction that turns too far"}}};
 
 void draw_directions(Picture& picture, const RadarDiagnostics& scan, Vec2 at) {
   const auto ray = [&](double heading, double reach, Colour colour, double width_px) {
@@ -50,8 +46,8 @@ void draw_directions(Picture& picture, const RadarDiagnostics& scan, Vec2 at) {
   if (!heading && scan.best && *scan.best < scan.beams.size())
     heading = scan.beams[*scan.best].heading;
   if (!heading) return;
-  ray(*heading, 1.15 * scan.circles.detection, taken, 3.5);
-  picture.legend("direction that the radar chose", taken);
+  ray(*heading, 1.15 * scan.circles.detection, colours::radar_chosen, 3.5);
+  picture.legend("direction that the radar chose", colours::radar_chosen);
 }
 
 /// Outline of a predicted body: its convex corners, counterclockwise, turned and grown.
@@ -82,7 +78,7 @@ void draw_predictions(Picture& picture, const PredictiveDiagnostics& ahead) {
   for (const PredictedCorner& corner : ahead.corners) corners[corner.body].push_back(corner.offset);
   const double first = ahead.bodies.front().t, last = ahead.bodies.back().t;
   for (const PredictedMoment& moment : ahead.bodies) {
-    Colour colour = predicted;
+    Colour colour = colours::prediction;
     if (last > first) colour.alpha = 0.9 - 0.75 * (moment.t - first) / (last - first);
     if (const auto found = corners.find(moment.body); found != corners.end())
       picture.line(predicted_outline(moment, found->second), colour, 1);
@@ -90,7 +86,7 @@ void draw_predictions(Picture& picture, const PredictiveDiagnostics& ahead) {
       picture.circle({moment.centre, moment.radius}, colour, 1, false);
   }
   picture.legend(fmt::format("obstacles as predicted until {:.1f} s, paler with time", last),
-                 predicted);
+                 colours::prediction);
 }
 
 void draw_way(Picture& picture, const HierarchicalDiagnostics& decision,
@@ -102,7 +98,7 @@ void draw_way(Picture& picture, const HierarchicalDiagnostics& decision,
                decision.wait_since
                    ? fmt::format("waits here since t = {:.1f} s", *decision.wait_since)
                    : "waits here",
-               waiting);
+               colours::path);
 }
 
 void draw_team(Picture& picture, const AggregationDiagnostics& plan, std::span<const Vec2> robots) {
@@ -110,9 +106,9 @@ void draw_team(Picture& picture, const AggregationDiagnostics& plan, std::span<c
     for (const AggregationNode& node : plan.nodes)
       if (node.region == *plan.team_region && node.branch == *plan.team_branch &&
           node.next < plan.nodes.size())
-        picture.line(std::array{node.position, plan.nodes[node.next].position}, team, 9);
+        picture.line(std::array{node.position, plan.nodes[node.next].position}, colours::team, 9);
     picture.legend(fmt::format("team: region {}, branch {}", *plan.team_region, *plan.team_branch),
-                   team);
+                   colours::team);
   }
   if (plan.leader && *plan.leader < robots.size()) picture.mark(robots[*plan.leader], "leader");
   if (plan.is_livelock) picture.legend("random robots lead, to break a livelock", colours::ink);

@@ -51,9 +51,9 @@ void draw_circles(Picture& picture, const experiment::Frame& frame,
   if (const auto* scan = std::get_if<RadarDiagnostics>(&kept)) circles = scan->circles;
   draw_radar_circles(picture, circles, frame.pose.position);
   picture.legend(fmt::format("circles at {:.1f} s, the least gap: detection", frame.t),
-                 colours::detection_circle);
-  picture.legend("safety", colours::safety_circle);
-  picture.legend("prediction", colours::prediction_circle);
+                 colours::radar_detection);
+  picture.legend("safety", colours::radar_safety);
+  picture.legend("prediction", colours::radar_prediction);
 }
 
 void draw_places(Picture& picture, const navigation::RadarParams& params) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <memory>
 #include <span>
@@ -11,40 +10,10 @@
 
 #include "microswarm/contracts/plan.hpp"
 #include "microswarm/formats/images/image.hpp"
+#include "microswarm/report/colours.hpp"
 #include "microswarm/world/snapshot.hpp"
 
 namespace microswarm::report {
-
-/// Colour with components in [0, 1].
-struct Colour {
-  double red = 0;
-  double green = 0;
-  double blue = 0;
-  double alpha = 1;
-};
-
-/// Colours of all pictures: one meaning each, safe for colour-blind readers (after Okabe & Ito).
-namespace colours {
-inline constexpr Colour paper{1, 1, 1, 1};
-inline constexpr Colour ink{0.13, 0.15, 0.18, 1};
-inline constexpr Colour wall{0.80, 0.82, 0.85, 1};
-inline constexpr Colour wall_edge{0.45, 0.48, 0.53, 1};
-inline constexpr Colour obstacle{0.84, 0.37, 0.0, 0.85};
-inline constexpr Colour path{0.0, 0.45, 0.70, 1};
-inline constexpr Colour tree{0.55, 0.70, 0.85, 0.9};
-inline constexpr Colour circle{0.80, 0.47, 0.65, 0.9};
-inline constexpr Colour swarm{0.0, 0.62, 0.45, 1};
-inline constexpr Colour goal{0.40, 0.25, 0.65, 1};
-/// Colours of individually tracked robots, in order.
-inline constexpr std::array<Colour, 8> robots{{{0.0, 0.45, 0.70, 1},
-                                               {0.84, 0.37, 0.0, 1},
-                                               {0.0, 0.62, 0.45, 1},
-                                               {0.80, 0.47, 0.65, 1},
-                                               {0.90, 0.62, 0.0, 1},
-                                               {0.34, 0.71, 0.91, 1},
-                                               {0.40, 0.30, 0.65, 1},
-                                               {0.35, 0.35, 0.35, 1}}};
-}  // namespace colours
 
 /// A drawing of a world in its own coordinates [µm, y up], written as PNG, SVG or PDF according to
 /// the file's extension. Later drawings are on top. Line widths and text sizes are in pixels of the

@@ -13,8 +13,6 @@ namespace microswarm::report {
 namespace {
 
 constexpr Colour detected_colour{0.97, 0.72, 0.66, 0.95};
-constexpr Colour planned{0.8, 0.1, 0.1, 0.6};
-constexpr Colour tree_colour{0.35, 0.65, 0.35, 0.5};
 constexpr Colour velocity{0.0, 0.30, 0.60, 1};
 constexpr Colour driven{0.0, 0.38, 0.27, 1};
 constexpr Colour deviation{0.35, 0.35, 0.35, 1};
@@ -33,10 +31,10 @@ void draw_obstacles(Picture& picture, const Snapshot& world, Disc circle) {
 void draw_plan(Picture& picture, const experiment::Record& record) {
   if (record.plans.empty()) return;
   const Plan& plan = record.plans.front().plan;
-  picture.tree(plan.tree, tree_colour);
-  picture.line(plan.path, planned, 1.5, true);
+  picture.tree(plan.tree, colours::tree);
+  picture.line(plan.path, colours::path, 1.5, true);
   for (std::size_t k = 1; k + 1 < plan.path.size(); ++k)
-    picture.disc({plan.path[k], dot_px * picture.um_per_px()}, planned);
+    picture.disc({plan.path[k], dot_px * picture.um_per_px()}, colours::path);
 }
 
 void arrow(Picture& picture, Vec2 from, Vec2 offset, Colour colour, double head) {
@@ -82,17 +80,17 @@ void draw_velocities(Picture& picture, const experiment::Record& record, const W
 void add_legend(Picture& picture, const navigation::RadarParams& params,
                 const experiment::Record& record) {
   picture.legend("swarm", colours::swarm, true);
-  picture.legend("travelled path", colours::path);
+  picture.legend("travelled path", colours::trail);
   picture.legend("obstacle", colours::obstacle, true);
   picture.legend("detected", detected_colour, true);
-  picture.legend("detection circle", colours::detection_circle);
-  picture.legend("safety circle", colours::safety_circle);
-  picture.legend("prediction circle", colours::prediction_circle);
+  picture.legend("detection circle", colours::radar_detection);
+  picture.legend("safety circle", colours::radar_safety);
+  picture.legend("prediction circle", colours::radar_prediction);
   const double seconds = arrow_time(record.scene.scenario);
   picture.legend(fmt::format("motion in {:.1f} s: swarm", seconds), driven);
   picture.legend("of obstacles", velocity);
-  if (!record.plans.empty()) picture.legend("planned path", planned);
-  if (!record.plans.empty()) picture.legend("FMT* tree", tree_colour);
+  if (!record.plans.empty()) picture.legend("planned path", colours::path);
+  if (!record.plans.empty()) picture.legend("FMT* tree", colours::tree);
   if (!params.wait_zones.empty()) picture.legend("wait zone", colours::wait_zone);
 }
 
@@ -107,9 +105,9 @@ void draw_wait_zones(Picture& picture, const navigation::RadarParams& params, do
 }
 
 void draw_radar_circles(Picture& picture, const RadarCircles& circles, Vec2 p) {
-  picture.circle({p, circles.detection}, colours::detection_circle, 4.5, false);
-  picture.circle({p, circles.safety}, colours::safety_circle, 2, true);
-  picture.circle({p, circles.prediction}, colours::prediction_circle, 2, false);
+  picture.circle({p, circles.detection}, colours::radar_detection, 4.5, false);
+  picture.circle({p, circles.safety}, colours::radar_safety, 2, true);
+  picture.circle({p, circles.prediction}, colours::radar_prediction, 2, false);
 }
 
 RadarCircles radar_circles(const experiment::Record& record, std::size_t number,
@@ -132,7 +130,7 @@ void draw_radar_view(Picture& picture, const experiment::Record& record, const W
   draw_obstacles(picture, world.at(frame.t), {p, circles.detection});
   std::vector<Vec2> path;
   for (std::size_t i = 0; i <= number; ++i) path.push_back(record.frames[i].pose.position);
-  picture.line(path, colours::path, 2.5);
+  picture.line(path, colours::trail, 2.5);
   picture.mark(*record.scene.scenario.goal, "goal", colours::goal);
   picture.swarm(frame.pose, frame.radius);
   draw_radar_circles(picture, circles, p);

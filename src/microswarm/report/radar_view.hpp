@@ -11,14 +11,6 @@
 
 namespace microswarm::report {
 
-/// Colours of a radar's circles and zones in all pictures.
-namespace colours {
-inline constexpr Colour detection_circle{0.55, 0.35, 0.15, 1};
-inline constexpr Colour safety_circle{0.95, 0.65, 0.0, 1};
-inline constexpr Colour prediction_circle{0.80, 0.15, 0.15, 1};
-inline constexpr Colour wait_zone{0.5, 0.5, 0.5, 1};
-}  // namespace colours
-
 /// Outlines the wait zones, dashed.
 void draw_wait_zones(Picture& picture, const navigation::RadarParams& params, double width_px);
 

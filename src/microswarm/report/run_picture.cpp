@@ -57,7 +57,7 @@ std::unique_ptr<Picture> draw_run(const experiment::Record& record, const Report
     std::vector<Vec2> trail;
     trail.reserve(record.frames.size());
     for (const experiment::Frame& frame : record.frames) trail.push_back(frame.pose.position);
-    picture->line(trail, colours::path, 3);
+    picture->line(trail, colours::trail, 3);
     if (is_going_on) picture->line(record.paths.back().path, colours::path, 2, true);
     draw_min_gap(*picture, record, world);
     picture->swarm(record.frames.back().pose, record.frames.back().radius);
@@ -68,7 +68,7 @@ std::unique_ptr<Picture> draw_run(const experiment::Record& record, const Report
                   colours::path);
   if (!record.frames.empty()) {
     picture->legend("swarm", colours::swarm, true);
-    picture->legend("travelled path", colours::path);
+    picture->legend("travelled path", colours::trail);
     if (is_going_on) picture->legend("planned path, dashed", colours::path);
   }
   if (!numbered.empty()) picture->legend("moments of the report", colours::path, true);

@@ -17,7 +17,6 @@ namespace microswarm::report {
 namespace {
 
 constexpr double margins = 48;  // around the drawing [px]; see Picture
-constexpr Colour travelled{0.0, 0.45, 0.70, 0.35};
 
 /// Length of the drawing's longer side for a picture of this width [px].
 double longer_side(const Box& view, int width) {
@@ -58,7 +57,7 @@ class Film {
   void draw(Picture& picture, double t) {
     while (next_ < frames().size() && frames()[next_].t <= t) advance();
     picture.bodies(playback_.world().at(t).moving().bodies());
-    picture.line(trail_, travelled, 2.5);
+    picture.line(trail_, colours::trail, 2.5);
     if (tick_) picture.line(tick_->view.path, colours::path, 2.5);
     if (scenario().robots)
       draw_robots(picture);
@@ -99,7 +98,7 @@ class Film {
     picture.swarm(pose(t), frames()[next_ - 1].radius);
     picture.legend("swarm", colours::swarm, true);
     picture.legend("planned path", colours::path);
-    picture.legend("travelled path", travelled);
+    picture.legend("travelled path", colours::trail);
   }
 
   void draw_robots(Picture& picture) const {

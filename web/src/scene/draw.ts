@@ -2,6 +2,7 @@
 // Shapes that several layers draw. Pixi chooses the number of a circle's sides by its radius in
 // the container's unit, here µm, so that circles are drawn as polygons with enough sides on screen.
 import { Container, type Graphics, Mesh, MeshGeometry, Text, type TextStyleOptions, Texture } from 'pixi.js';
+import { corners, triangles } from './quads';
 import type { View } from './view';
 
 export const font = 'system-ui, sans-serif';
@@ -24,25 +25,40 @@ export function ink(text: Text, colour: number, paper: number): void {
 export class Pin extends Container {
   at(view: View, x: number, y: number): void {
     this.position.set(x, y);
-    this.scale.set(view.um(1), -view.um(1));
+    this.scale.set(view.line(1), -view.line(1));
   }
 }
 
-/** Lines of one device pixel at any zoom, given as pairs of point indices. */
+/** Lines between pairs of point indices, any number of one colour in one draw call. */
 export class Segments extends Mesh {
-  constructor(points: Float32Array, pairs: Uint32Array) {
-    const geometry = new MeshGeometry({
-      positions: points.length > 0 ? points : new Float32Array(4),
-      uvs: new Float32Array(Math.max(points.length, 4)),
-      indices: pairs.length > 0 ? pairs : new Uint32Array(2),
-      topology: 'line-list',
-    });
+  private readonly positions: Float32Array;
+  private across: number; // [µm]
+
+  /** `width` in µm. */
+  constructor(
+    private readonly points: Float32Array,
+    private readonly pairs: Uint32Array,
+    width: number,
+  ) {
+    const count = Math.max(1, pairs.length / 2);
+    const positions = corners(points, pairs, width, new Float32Array(8 * count));
+    const geometry = new MeshGeometry({ positions, uvs: new Float32Array(8 * count), indices: triangles(count) });
     geometry.batchMode = 'no-batch';
     super({ geometry, texture: Texture.WHITE });
+    this.positions = positions;
+    this.across = width;
+  }
+
+  /** Sets the width [µm]. */
+  widen(width: number): void {
+    if (width === this.across) return;
+    this.across = width;
+    corners(this.points, this.pairs, width, this.positions);
+    this.geometry.getBuffer('aPosition').update();
   }
 
   /** Closed lines. */
-  static rings(rings: Float32Array[]): Segments {
+  static rings(rings: Float32Array[], width: number): Segments {
     const points = new Float32Array(rings.reduce((sum, ring) => sum + ring.length, 0));
     const pairs = new Uint32Array(points.length);
     let first = 0;
@@ -52,7 +68,7 @@ export class Segments extends Mesh {
       for (let i = 0; i < count; ++i) pairs.set([first + i, first + ((i + 1) % count)], 2 * (first + i));
       first += count;
     }
-    return new Segments(points, pairs);
+    return new Segments(points, pairs, width);
   }
 
   override destroy(): void {
@@ -131,7 +147,7 @@ export function circle(
   } else {
     to.poly([...ring(x, y, radius, view.scale)]);
   }
-  to.stroke({ ...look, width: view.um(width) });
+  to.stroke({ ...look, width: view.line(width) });
 }
 
 /** Draws a body: its outline, then its holes. */

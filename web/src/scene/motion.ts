@@ -100,6 +100,22 @@ function momentOf(frame: Frame): Moment {
   };
 }
 
+/** Centres of the obstacles by number: of polygons the mean of the outline's corners. */
+export function centresOf({ discs, solids }: Pick<Moment, 'discs' | 'solids'>): Map<number, [number, number]> {
+  const centres = new Map<number, [number, number]>();
+  for (let i = 0; i + 3 < discs.length; i += 4) centres.set(discs[i + 3]!, [discs[i]!, discs[i + 1]!]);
+  for (const { rings, number } of solids) {
+    const [ring] = rings as [Float32Array];
+    let [x, y] = [0, 0];
+    for (let i = 0; i < ring.length; i += 2) {
+      x += ring[i]!;
+      y += ring[i + 1]!;
+    }
+    centres.set(number, [(2 * x) / ring.length, (2 * y) / ring.length]);
+  }
+  return centres;
+}
+
 /** Whether both have the same objects in the same order. */
 function isLike(a: Moment, b: Moment): boolean {
   return (

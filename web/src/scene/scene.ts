@@ -5,35 +5,16 @@ import { type Palette, type Theme, palettes, preferredTheme } from '../palette';
 import type { Message, Point, Request } from '../protocol';
 import { ringsOf } from './draw';
 import { hitMark, hitObstacle } from './hit';
+import { type Entry, type Said, kept } from './key';
 import type { Drawing, Layer } from './layer';
-import { Aggregation } from './layers/aggregation';
-import { Background } from './layers/background';
-import { Camera } from './layers/camera';
-import { Clearance } from './layers/clearance';
-import { Clock } from './layers/clock';
-import { Detections } from './layers/detections';
-import { Ghost } from './layers/ghost';
-import { Ground } from './layers/ground';
-import { Goal, Start } from './layers/marks';
-import { ObstacleTrails } from './layers/obstacle_trails';
-import { Obstacles } from './layers/obstacles';
-import { Path } from './layers/path';
-import { Predictions } from './layers/predictions';
-import { Radar } from './layers/radar';
-import { Robots } from './layers/robots';
-import { ScaleBar } from './layers/scale_bar';
-import { Swarm } from './layers/swarm';
-import { Target } from './layers/target';
-import { Team } from './layers/team';
-import { Trail } from './layers/trail';
-import { Tree } from './layers/tree';
-import { Wait } from './layers/wait';
-import { Walls } from './layers/walls';
 import { type Moment, Motion } from './motion';
 import { type Grip, Pointer, type Touch } from './pointer';
+import { layerStack } from './stack';
 import { View } from './view';
 
 export type { Touch } from './pointer';
+
+const nearRadius = 45; // of a swarm that is followed, at least [px]
 
 /** The map and the moving objects, drawn from the stream only. World coordinates are µm, y up. */
 export class Scene {
@@ -45,42 +26,16 @@ export class Scene {
   private readonly stage = new Container();
   private readonly world = new Container();
   private readonly motion = new Motion();
-  private readonly background = new Background();
-  private readonly camera = new Camera(() => this.pictureCame());
-  private readonly start = new Start();
-  private readonly goal = new Goal();
-  private readonly obstacleTrails = new ObstacleTrails();
-  private readonly ghost = new Ghost();
-  private readonly clock = new Clock();
-  private readonly listed: Layer[] = [
-    this.background,
-    this.camera,
-    new Clearance(),
-    new Walls([this.background, this.camera]),
-    new Team(),
-    new Aggregation(),
-    new Tree(),
-    new Detections(),
-    this.obstacleTrails,
-    new Obstacles(),
-    new Predictions(),
-    new Trail(),
-    new Path(),
-    new Target(this.goal),
-    new Wait(this.goal),
-    new Robots(),
-    new Swarm(),
-    new Radar(),
-    this.start,
-    this.goal,
-    new ScaleBar(),
-    this.clock,
-  ]; // from bottom to top
-  private readonly all: Layer[] = [new Ground(), ...this.listed, this.ghost];
+  private readonly stack = layerStack(() => this.pictureCame());
+  private readonly listed = this.stack.listed;
+  private readonly all: Layer[] = [this.stack.ground, ...this.listed, this.stack.ghost];
   private readonly stale = new Set<Layer>(this.all);
   private readonly touchListeners: ((touch: Touch) => void)[] = [];
   private readonly wantListeners: ((request: Request) => void)[] = [];
   private readonly followListeners: ((follows: boolean) => void)[] = [];
+  private readonly showListeners: (() => void)[] = [];
+  private readonly pictureListeners: (() => void)[] = [];
+  private seen = new Map<string, Entry>(); // entries of the legend so far
   private readonly sizes = new ResizeObserver(() => this.resize());
   private colours: Palette = palettes[preferredTheme()];
   private requested = 0;
@@ -148,6 +103,7 @@ export class Scene {
   take(message: Message): void {
     if (message.type === 'hello') {
       this.motion.reset();
+      this.seen = new Map();
       this.isRecord = message.playback;
       this.view.showMap(message.map.lo, message.map.hi);
       this.viewChanged();
@@ -157,7 +113,7 @@ export class Scene {
       this.changed('motion');
     } else if (message.type === 'frame') {
       this.motion.take(message, performance.now(), this.plays);
-      this.obstacleTrails.follow(this.motion.newest);
+      for (const layer of this.stack.followers) layer.follow(this.motion.newest);
       this.changed('motion');
     }
     for (const layer of this.all) if (layer.take(message)) this.stale.add(layer);
@@ -193,6 +149,9 @@ export class Scene {
   follow(on: boolean): void {
     if (on === this.follows) return;
     this.follows = on;
+    const { swarm } = this.motion.newest;
+    if (on && swarm && this.view.isWhole) this.view.enlarge(nearRadius / swarm.radius);
+    this.changed('zoom');
     for (const listener of this.followListeners) listener(on);
     this.schedule();
   }
@@ -201,9 +160,41 @@ export class Scene {
     this.followListeners.push(listener);
   }
 
-  layers(): { name: string; label: string; help: string; shown: boolean }[] {
-    const listed = this.listed.filter((layer) => layer !== this.camera || this.hasCamera);
-    return listed.map(({ name, label, help, shown }) => ({ name, label, help, shown }));
+  /** The layers that this experiment has, with what they had in the legend so far. */
+  layers(): { name: string; label: string; help: string; shown: boolean; entries: Entry[] }[] {
+    this.seen = kept(
+      this.seen,
+      this.listed.map((layer) => layer.entries(this.colours)),
+    );
+    const has = (layer: Layer) =>
+      layer === this.stack.camera ? this.hasCamera : layer === this.stack.background && this.stack.background.isThere;
+    return this.listed.flatMap((layer, i) => {
+      const entries = [...this.seen].filter(([key]) => key.startsWith(`${i} `)).map(([, entry]) => entry);
+      if (entries.length === 0 && !layer.isEverywhere && !has(layer)) return [];
+      const { name, label, help, shown } = layer;
+      return [{ name, label, help, shown, entries }];
+    });
+  }
+
+  /** Words on what is at a place on the screen. */
+  say(screen: Point): Said | undefined {
+    for (const layer of [...this.listed].reverse()) {
+      const said = layer.shown ? layer.say(screen, this.drawing(performance.now())) : undefined;
+      if (said) return said;
+    }
+    return undefined;
+  }
+
+  /** Makes lines, marks and texts larger by a factor. */
+  setBold(factor: number): void {
+    this.view.bold = factor;
+    for (const layer of this.all) this.stale.add(layer);
+    this.schedule();
+  }
+
+  /** Registers a listener of every picture drawn. */
+  onPicture(listener: () => void): void {
+    this.pictureListeners.push(listener);
   }
 
   show(name: string, on: boolean): void {
@@ -213,12 +204,19 @@ export class Scene {
       this.stale.add(layer);
     }
     if (name === 'background' || name === 'camera') this.drawAnew('walls');
+    for (const listener of this.showListeners) listener();
     this.ask();
     this.schedule();
   }
 
+  /** Registers a listener of layers that are shown or hidden. */
+  onShow(listener: () => void): void {
+    this.showListeners.push(listener);
+  }
+
   setTheme(theme: Theme): void {
     this.colours = palettes[theme];
+    this.seen = new Map();
     this.renderer.background.color = this.colours.ground;
     for (const layer of this.all) this.stale.add(layer);
     this.schedule();
@@ -227,7 +225,7 @@ export class Scene {
 
   /** Shows a background picture with its lower left corner at `lo` [µm]; none for an empty address. */
   async setBackground(url: string, lo: Point, umPerPx: number): Promise<void> {
-    await this.background.set(url, lo, umPerPx);
+    await this.stack.background.set(url, lo, umPerPx);
     this.drawAnew('walls');
     this.schedule();
   }
@@ -254,10 +252,10 @@ export class Scene {
 
   /** Calls a function with a picture that shows the time. */
   private withClock<T>(act: () => T): T {
-    const { shown } = this.clock;
+    const { shown } = this.stack.clock;
     const paint = (clock: boolean) => {
-      this.clock.shown = clock;
-      this.stale.add(this.clock);
+      this.stack.clock.shown = clock;
+      this.stale.add(this.stack.clock);
       this.paint(performance.now());
     };
     paint(true);
@@ -334,23 +332,28 @@ export class Scene {
     if (this.isGone) return;
     const isMoving = this.motion.isMoving(now);
     if (isMoving) this.changed('motion');
-    const drawing: Drawing = { view: this.view, now: this.motion.at(now), colours: this.colours };
+    const drawing = this.drawing(now);
     if (this.follows) this.centre(drawing);
     this.world.position.set(...this.view.origin);
     this.world.scale.set(this.view.scale, -this.view.scale);
     for (const layer of this.all) {
       layer.world.visible = layer.screen.visible = layer.shown;
-      layer.world.alpha = layer.isSeenThrough && this.camera.isSet ? 0.45 : 1;
+      layer.world.alpha = layer.isSeenThrough && this.stack.camera.isSet ? 0.45 : 1;
       if (!layer.shown) continue;
       if (this.stale.delete(layer)) layer.draw(drawing);
       layer.place(drawing);
     }
     this.renderer.render(this.stage);
     ++this.pictures;
+    for (const listener of this.pictureListeners) listener();
     if (isMoving) {
       this.changed('motion'); // the last picture shows the newest frame itself
       this.schedule();
     }
+  }
+
+  private drawing(now: number): Drawing {
+    return { view: this.view, now: this.motion.at(now), colours: this.colours };
   }
 
   private centre({ now: { swarm, robots } }: Drawing): void {
@@ -368,7 +371,8 @@ export class Scene {
     const map = { what: { kind: 'map' } as const };
     if (this.isRecord) return map;
     const mark =
-      hitMark('goal', this.goal.places, this.view, screen) ?? hitMark('start', this.start.places, this.view, screen);
+      hitMark('goal', this.stack.goal.places, this.view, screen) ??
+      hitMark('start', this.stack.start.places, this.view, screen);
     if (mark) return mark;
     const obstacle = hitObstacle(this.motion.newest, this.view, screen);
     return obstacle ? { what: obstacle } : map;
@@ -377,9 +381,9 @@ export class Scene {
   private touch(touch: Touch): void {
     const { phase, what, from, at } = touch;
     if (phase === 'begin' && what.kind !== 'map') this.hold(what, from);
-    if (phase === 'end') this.ghost.hold(undefined);
-    else this.ghost.move(at[0] - from[0], at[1] - from[1]);
-    if (phase !== 'move') this.stale.add(this.ghost);
+    if (phase === 'end') this.stack.ghost.hold(undefined);
+    else this.stack.ghost.move(at[0] - from[0], at[1] - from[1]);
+    if (phase !== 'move') this.stale.add(this.stack.ghost);
     this.schedule();
     for (const listener of this.touchListeners) listener(touch);
   }
@@ -392,6 +396,6 @@ export class Scene {
       solids.filter(({ number }) => number === index),
       this.view,
     );
-    this.ghost.hold(kind === 'obstacle' ? { kind, bodies } : { kind, bodies: [], place: from });
+    this.stack.ghost.hold(kind === 'obstacle' ? { kind, bodies } : { kind, bodies: [], place: from });
   }
 }

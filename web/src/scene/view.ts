@@ -14,6 +14,7 @@ export class View {
   lo: Point = [0, 0]; // of the map
   hi: Point = [1, 1];
   head = margin; // above the fitted map [px]
+  bold = 1; // factor of the widths of lines and of the sizes of texts and marks
   private x = 0; // of the world's origin on the screen [px]
   private y = 0;
   private isFitted = true;
@@ -30,6 +31,11 @@ export class View {
   /** World length [µm] of a screen length [px]. */
   um(pixels: number): number {
     return pixels / this.scale;
+  }
+
+  /** World width [µm] of a line of so many pixels. */
+  line(pixels: number): number {
+    return (pixels * this.bold) / this.scale;
   }
 
   /** Sets the map; the view changes only for a new one. */
@@ -70,6 +76,16 @@ export class View {
     this.y = py - ((py - this.y) * scale) / this.scale;
     this.scale = scale;
     this.isFitted = false;
+  }
+
+  /** Whether the whole map is fitted. */
+  get isWhole(): boolean {
+    return this.isFitted;
+  }
+
+  /** Zooms to at least this scale [px/µm]. */
+  enlarge(scale: number): void {
+    if (scale > this.scale) this.zoom(scale / this.scale, [this.width / 2, this.height / 2]);
   }
 
   centre([x, y]: Point): void {

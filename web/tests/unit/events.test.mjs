@@ -3,14 +3,21 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { source } from './source.mjs';
 
-const { eventsNear, nextEvent, ticksOf } = await source('events');
+const { eventText, eventsNear, isContact, nextEvent, ticksOf } = await source('events');
 const { History } = await source('history');
 const events = [1, 2, 2.01, 5].map((t_s) => ({ t_s, kind: t_s === 5 ? 'goal_reached' : 'contact_wall' }));
 
 test('events near a time are named and counted', () => {
-  assert.deepEqual(eventsNear(events, 2, 0.1), ['2 × contact wall']);
+  assert.deepEqual(eventsNear(events, 2, 0.1), ['2 × contact with a wall']);
   assert.deepEqual(eventsNear(events, 5, 0.1), ['goal reached']);
   assert.deepEqual(eventsNear(events, 3.5, 0.1), []);
+});
+
+test('an event says what it was with', () => {
+  assert.equal(eventText({ kind: 'contact_obstacle', body: 3 }), 'contact with obstacle 3');
+  assert.equal(eventText({ kind: 'robots_unseen', body: 2 }), '2 robots unseen');
+  assert.equal(eventText({ kind: 'hold_begins', body: 0 }), 'hold begins');
+  assert.deepEqual([events[0], events[3]].map(isContact), [true, false]);
 });
 
 test('one goes from event to event', () => {

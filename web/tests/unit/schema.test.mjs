@@ -29,10 +29,16 @@ test('sliders are monotonous, invertible and within the range', () => {
   assert.equal(rangeOf({ minimum: 0, maximum: 1e5, default: 50 }).toValue(0), 0);
 });
 
-test('a length on a slider is at most that of the map, and reaches its default', () => {
-  assert.equal(isConsistent({ minimum: 0, maximum: 1e5, default: 50 }, 2000), 2000);
+test('a slider ends at ten times its default, and a length at that of the map, but reaches its default', () => {
+  assert.equal(isConsistent({ minimum: 0, maximum: 1e5, default: 50 }, 2000), 500);
+  assert.equal(isConsistent({ minimum: 0, maximum: 1e5, default: 50 }, 200), 200);
   assert.equal(isConsistent({ minimum: 0, maximum: 1e5, default: 5000 }, 2000), 5000);
+  assert.equal(isConsistent({ minimum: 0, maximum: 1e5, default: 0 }, 2000), 2000);
   assert.equal(isConsistent({ minimum: 0, maximum: 100 }, 2000), 100);
+  assert.equal(isConsistent({ minimum: 0, maximum: 1, default: 0.1 }), 1, 'a range that is narrow is whole');
+  const wide = { minimum: 1e-3, maximum: 1e6, default: 50 };
+  assert.equal(isConsistent(wide, 3000), 500);
+  assert.equal(rangeOf(wide, 3000).toValue(0), 0.5);
 });
 
 test('a unit in brackets is none of the text', () => {

@@ -42,6 +42,19 @@ test('the longest run leads, and all show its time', () => {
   assert.deepEqual(b.asked.at(-1), { do: 'seek', number: 2 });
 });
 
+test('the next contact passes over other events', () => {
+  const run = session([0, 1, 2, 3]);
+  run.history.events = [
+    { t_s: 1, kind: 'hold_begins' },
+    { t_s: 3, kind: 'contact_wall' },
+  ];
+  const time = new Transport([run]);
+  time.seekContact(1);
+  assert.deepEqual(run.asked, [{ do: 'seek', number: 3 }]);
+  time.seekContact(-1);
+  assert.equal(run.asked.length, 1);
+});
+
 test('a run that ended begins again with play; one of a record does not', async () => {
   const run = session([0, 0.1], { ended: true });
   let restarts = 0;

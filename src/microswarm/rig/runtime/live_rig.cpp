@@ -194,7 +194,9 @@ void LiveRig::fail(const std::string& why, FaultKind kind) {
 
 RigTiming LiveRig::timing() const {
   RigTiming timing = meter_.timing();
-  timing.dropped_frames = camera_.status().dropped;
+  const vision::CameraStatus camera = camera_.status();
+  timing.dropped_frames = camera.dropped;
+  timing.frame_gaps = camera.gaps;
   return timing;
 }
 

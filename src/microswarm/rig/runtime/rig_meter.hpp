@@ -30,6 +30,7 @@ struct RigTiming {
   int late_currents = 0;          ///< pictures whose currents came more than a tick later
   int frames = 0;                 ///< frames processed
   int dropped_frames = 0;         ///< frames received but not processed
+  int frame_gaps = 0;             ///< times the camera left out a frame, or was late by one
   int unseen_frames = 0;          ///< frames processed in which robots were unseen
   int max_unseen = 0;             ///< maximum number of unseen robots in a frame
   std::optional<FollowDirection> direction{};  ///< of the swarm relative to its commands
@@ -63,7 +64,7 @@ class RigMeter {
   /// Adds a tick: time from its start to its command [s], and whether it ended too late.
   void add_tick(double seconds, bool missed);
 
-  /// The measurements so far, apart from the dropped frames, which the camera counts.
+  /// The measurements so far, apart from the dropped frames and the gaps, which the camera counts.
   RigTiming timing() const;
   DeviceEvents device_events() const;
   /// Load of the coils relative to their limits.

@@ -75,6 +75,8 @@ struct NewestFrame::Shared {
   bool fresh = false;  ///< whether the newest was not taken yet
   int frames = 0;
   int dropped = 0;
+  int gaps = 0;
+  double usual = 0;         ///< time between two frames [s]; 0 before the second
   double silent_after = 1;  ///< [s]
   int same = 0;             ///< consecutive pictures that are repetitions
   bool black = false;
@@ -84,6 +86,7 @@ struct NewestFrame::Shared {
   CameraStatus status(const std::string& name, const NewestFrameParams& p) const {
     CameraStatus s{.frames = frames,
                    .dropped = dropped,
+                   .gaps = gaps,
                    .age = steady_seconds() - (frames > 0 ? newest.taken : began)};
     if (!error.empty()) {
       s.state = CameraState::failed;
@@ -107,6 +110,7 @@ struct NewestFrame::Shared {
   void publish(VideoFrame& frame, double taken, bool is_same, bool is_dark) {
     const std::lock_guard lock(mutex);
     dropped += fresh;
+    if (frames > 0) count_gap(taken - newest.taken);
     std::swap(newest.frame, frame);
     newest.taken = taken;
     fresh = true;
@@ -114,6 +118,15 @@ struct NewestFrame::Shared {
     same = is_same ? same + 1 : 1;
     black = is_dark;
     changed.notify_all();
+  }
+
+  /// Counts a time between two frames as a gap, or lets the usual one follow it.
+  void count_gap(double interval) {
+    constexpr int first = 10;  // intervals that only set the usual one
+    if (frames > first && interval > 2 * usual)
+      ++gaps;
+    else
+      usual += (interval - usual) / std::min(frames, 100);
   }
 
   bool is_closing() const {

@@ -66,6 +66,7 @@ struct CameraStatus {
   CameraState state = CameraState::opening;
   int frames = 0;     ///< received so far
   int dropped = 0;    ///< of these, replaced before they were taken
+  int gaps = 0;       ///< times the next one came after more than twice the usual time
   double age = 0;     ///< of the newest frame [s]; before the first one, time since the start
   std::string why{};  ///< reason in one line if silent, failed or ended early
 };

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Graphics } from 'pixi.js';
-import { mixed } from '../../palette';
-import { type Aggregation as Plan, type Message, floats, indices } from '../../protocol';
+import { number } from '../../numbers';
+import { type Palette, mixed } from '../../palette';
+import { type Aggregation as Plan, type Message, type Point, floats, indices } from '../../protocol';
 import { Pin, Segments, empty, ink, label, polyline } from '../draw';
+import { segmentAt } from '../hover';
+import type { Entry, Said } from '../key';
 import { type Drawing, Layer } from '../layer';
+
+const width = 1.2; // of the tree's edges [px]
 
 /** Plan of a gathering: tree, regions by colour and branches by shade, junctions with the regions'
  *  numbers, and the routes from region to region to the goal. */
@@ -19,14 +24,22 @@ export class Aggregation extends Layer {
   private plan: Plan | undefined;
   private nodes = new Float32Array();
   private next = new Uint32Array();
+  private pairs = new Uint32Array();
+  private region = new Uint32Array();
   private drawn: Drawing['colours'] | undefined; // colours of the edges
 
   take(message: Message): boolean {
-    if (message.type === 'hello') this.plan = undefined;
-    else if (message.type === 'aggregation') {
+    if (message.type === 'hello') {
+      this.plan = undefined;
+      this.nodes = new Float32Array();
+      this.pairs = new Uint32Array();
+    } else if (message.type === 'aggregation') {
       this.plan = message;
       this.nodes = floats(message.nodes);
       this.next = indices(message.next);
+      this.region = indices(message.region);
+      this.pairs = new Uint32Array(2 * this.next.length);
+      this.next.forEach((next, i) => this.pairs.set([i, next], 2 * i));
     } else return false;
     this.drawn = undefined;
     return true;
@@ -37,32 +50,63 @@ export class Aggregation extends Layer {
     if (this.drawn !== colours) {
       empty(this.edges);
       empty(this.junctions);
-      this.drawEdges(colours);
+      this.drawEdges(colours, view.line(width));
       this.drawJunctions(colours);
       this.drawn = colours;
     }
     this.routes.clear();
-    for (const [width, color] of [
+    for (const [px, color] of [
       [5, colours.paper],
       [2, colours.ink],
     ] as const) {
       for (const { gate } of this.plan?.regions ?? []) polyline(this.routes, this.route(gate));
-      this.routes.stroke({ width: view.um(width), color, join: 'round', alpha: 0.8 });
+      this.routes.stroke({ width: view.line(px), color, join: 'round', alpha: 0.8 });
     }
   }
 
   override place({ view }: Drawing): void {
+    for (const one of this.edges.children) (one as Segments).widen(view.line(width));
     this.plan?.regions.forEach(({ junction }, i) => {
       (this.junctions.children[i] as Pin | undefined)?.at(view, ...junction);
     });
   }
 
-  private drawEdges(colours: Drawing['colours']): void {
+  override entries({ regions, ink }: Palette): Entry[] {
+    if (!this.plan) return [];
+    return [
+      { text: 'regions of the map by colour, their tree', shape: 'tree', colour: regions[0]! },
+      { text: 'route from a region to the goal', shape: 'line', colour: ink },
+    ];
+  }
+
+  override say(at: Point, { view }: Drawing): Said | undefined {
+    const found = segmentAt(this.nodes, this.pairs, view.toWorld(at), view.um(4));
+    if (!this.plan || found < 0) return undefined;
+    const index = this.region[found]!;
+    const of = this.plan.regions[index];
+    let [size, length] = [0, 0];
+    this.region.forEach((one, node) => {
+      if (one !== index) return;
+      const [a, b] = [2 * node, 2 * this.next[node]!];
+      ++size;
+      length += Math.hypot(this.nodes[a]! - this.nodes[b]!, this.nodes[a + 1]! - this.nodes[b + 1]!);
+    });
+    const share = number((100 * size) / Math.max(1, this.region.length), 2);
+    const onwards = !of ? [] : index === 0 ? ['The goal is in it.'] : [`Its robots go on to region ${of.next}.`];
+    return {
+      title: `Region ${index}`,
+      lines: [
+        `${size} nodes, ${share} % of the tree, ${number(length, 3)} µm long${of ? `, ${of.branches} branches` : ''}.`,
+        ...onwards,
+      ],
+    };
+  }
+
+  private drawEdges(colours: Palette, across: number): void {
     if (!this.plan) return;
-    const region = indices(this.plan.region);
     const branch = indices(this.plan.branch);
     const groups = new Map<string, number[]>();
-    region.forEach((number, node) => {
+    this.region.forEach((number, node) => {
       const key = `${number} ${branch[node]! % 3}`;
       const pairs = groups.get(key) ?? [];
       if (pairs.length === 0) groups.set(key, pairs);
@@ -70,9 +114,9 @@ export class Aggregation extends Layer {
     });
     for (const [key, pairs] of groups) {
       const [number, shade] = key.split(' ').map(Number);
-      const colour = colours.series[number! % colours.series.length]!;
-      const edges = this.edges.addChild(new Segments(this.nodes, new Uint32Array(pairs)));
-      edges.alpha = 0.75;
+      const colour = colours.regions[number! % colours.regions.length]!;
+      const edges = this.edges.addChild(new Segments(this.nodes, new Uint32Array(pairs), across));
+      edges.alpha = 0.65;
       edges.tint = mixed(colour, shade === 1 ? colours.ink : colours.paper, [0, 0.3, 0.4][shade!]!);
     }
   }
@@ -80,7 +124,7 @@ export class Aggregation extends Layer {
   private drawJunctions(colours: Drawing['colours']): void {
     this.plan?.regions.forEach((_, i) => {
       if (i === 0) return void this.junctions.addChild(new Pin()); // the goal has its own mark
-      const colour = colours.series[i % colours.series.length]!;
+      const colour = colours.regions[i % colours.regions.length]!;
       const pin = this.junctions.addChild(new Pin());
       const disc = pin.addChild(new Graphics()).circle(0, 0, 9);
       disc.fill(colours.paper).stroke({ width: 2, color: colour });

@@ -46,7 +46,11 @@ export class Background extends Layer {
     this.world.addChild(sprite);
   }
 
+  get isThere(): boolean {
+    return this.world.children.length > 0;
+  }
+
   get isSet(): boolean {
-    return this.shown && this.world.children.length > 0;
+    return this.shown && this.isThere;
   }
 }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Graphics, Sprite, Texture } from 'pixi.js';
+import { number } from '../../numbers';
 import { between } from '../../palette';
-import { type Clearance as Grid, type Message, type Request, floats } from '../../protocol';
+import { type Clearance as Grid, type Message, type Point, type Request, floats } from '../../protocol';
 import { empty, ink, label } from '../draw';
+import type { Said } from '../key';
 import { lengthText } from '../length';
 import { type Drawing, Layer } from '../layer';
 
@@ -10,7 +12,9 @@ import { type Drawing, Layer } from '../layer';
 export class Clearance extends Layer {
   readonly name = 'clearance';
   readonly label = 'Clearance';
+  override readonly isEverywhere = true;
   private grid: Grid | undefined;
+  private values = new Float32Array();
   private isAsked = false;
   private readonly key = this.screen.addChild(new Graphics());
   private readonly low = this.screen.addChild(label('0'));
@@ -27,8 +31,10 @@ export class Clearance extends Layer {
     if (message.type === 'hello') {
       this.grid = undefined;
       this.isAsked = false;
-    } else if (message.type === 'clearance') this.grid = message;
-    else return false;
+    } else if (message.type === 'clearance') {
+      this.grid = message;
+      this.values = floats(message.values);
+    } else return false;
     return true;
   }
 
@@ -42,7 +48,7 @@ export class Clearance extends Layer {
     empty(this.world);
     this.screen.visible = this.grid !== undefined;
     if (!this.grid) return;
-    const values = floats(this.grid.values);
+    const { values } = this;
     const most = values.reduce((a, b) => Math.max(a, b), 0);
     const sprite = new Sprite(texture(this.grid, values, most, colours.heat));
     const { lo, cell, rows } = this.grid;
@@ -57,6 +63,16 @@ export class Clearance extends Layer {
     this.key.clear();
     for (let i = 0; i < keyWidth; i += 4) this.key.rect(i, 0, 4, 8).fill(between(colours.heat, i / keyWidth));
     this.key.rect(0, 0, keyWidth, 8).stroke({ width: 1, color: colours.wallEdge, alignment: 0 });
+  }
+
+  override say(at: Point, { view }: Drawing): Said | undefined {
+    if (!this.grid || !this.shown) return undefined;
+    const [x, y] = view.toWorld(at);
+    const { lo, cell, columns, rows } = this.grid;
+    const [column, row] = [Math.floor((x - lo[0]) / cell), Math.floor((y - lo[1]) / cell)];
+    if (column < 0 || row < 0 || column >= columns || row >= rows) return undefined;
+    const value = this.values[row * columns + column]!;
+    return { title: 'Clearance', lines: [`${number(value, 3)} µm to the next wall.`] };
   }
 
   override place({ view }: Drawing): void {

@@ -7,6 +7,7 @@ export class Clock extends Layer {
   readonly name = 'clock';
   readonly label = 'Clock';
   override readonly occasions = { motion: true };
+  override readonly isEverywhere = true;
   private readonly text = this.screen.addChild(label('', { fontSize: 15 }));
 
   constructor() {
@@ -25,6 +26,7 @@ export class Clock extends Layer {
   }
 
   override place({ view }: Drawing): void {
+    this.text.scale.set(view.bold);
     this.text.position.set(Math.round(view.width / 2), view.height - 8);
   }
 }

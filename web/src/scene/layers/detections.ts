@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-import { type Message, floats } from '../../protocol';
+import { number } from '../../numbers';
+import type { Palette } from '../../palette';
+import { type Message, type Point, floats } from '../../protocol';
 import { Segments, empty, ring } from '../draw';
+import type { Entry, Said } from '../key';
 import { type Drawing, Layer } from '../layer';
 
 /** The detection circles of the newest plan. */
@@ -22,8 +25,24 @@ export class Detections extends Layer {
     for (let i = 0; i + 2 < this.circles.length; i += 3)
       rings.push(ring(this.circles[i]!, this.circles[i + 1]!, this.circles[i + 2]!, view.scale));
     if (rings.length === 0) return;
-    const lines = this.world.addChild(Segments.rings(rings));
+    const lines = this.world.addChild(Segments.rings(rings, view.line(1.5)));
     lines.tint = colours.circle;
-    lines.alpha = 0.8;
+  }
+
+  override entries({ circle }: Palette): Entry[] {
+    return this.circles.length < 3
+      ? []
+      : [{ text: 'detection circle: plans again inside', shape: 'ring', colour: circle }];
+  }
+
+  override say(at: Point, { view }: Drawing): Said | undefined {
+    const [x, y] = view.toWorld(at);
+    for (let i = 0; i + 2 < this.circles.length; i += 3) {
+      const radius = this.circles[i + 2]!;
+      if (Math.abs(Math.hypot(x - this.circles[i]!, y - this.circles[i + 1]!) - radius) > view.um(4)) continue;
+      const lines = [`Radius ${number(radius, 3)} µm. Planning starts again when an obstacle comes into it.`];
+      return { title: 'Detection circle of the newest plan', lines };
+    }
+    return undefined;
   }
 }

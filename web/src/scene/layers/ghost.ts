@@ -33,6 +33,6 @@ export class Ghost extends Layer {
     const color = kind === 'goal' ? colours.goal : kind === 'start' ? colours.start : colours.obstacle;
     const shapes = place ? [[ring(...place, view.um(8), view.scale)]] : bodies;
     fill(this.shape, shapes, color, 0.35);
-    outline(this.shape, shapes, { color, width: view.um(2) });
+    outline(this.shape, shapes, { color, width: view.line(2) });
   }
 }

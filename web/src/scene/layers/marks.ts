@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Graphics, type Text } from 'pixi.js';
+import { number } from '../../numbers';
+import type { Palette } from '../../palette';
 import type { Message, Point, Scenario } from '../../protocol';
 import { Pin, circle, ink, label } from '../draw';
+import { gathered } from '../hover';
+import type { Entry, Said } from '../key';
 import { type Drawing, Layer } from '../layer';
 import { type Place, goalsOf, startsOf } from '../scenario';
 
@@ -26,7 +30,7 @@ abstract class Marks extends Layer {
     for (const pin of this.pins.splice(0)) pin.destroy({ children: true });
     this.places.forEach((place, i) => {
       const many = this.places.length > 1;
-      const colour = many ? colours.series[i % colours.series.length]! : this.colour(drawing);
+      const colour = many ? colours.robots[i % colours.robots.length]! : this.colour(drawing);
       const { at, tolerance = 0 } = place;
       if (tolerance > 0) {
         const style = { color: colour, width: 1.5, dash: 9 };
@@ -46,6 +50,24 @@ abstract class Marks extends Layer {
     this.pins.forEach((pin, i) => pin.at(view, ...this.places[i]!.at));
   }
 
+  override say(at: Point, drawing: Drawing): Said | undefined {
+    const { view } = drawing;
+    const i = this.places.findIndex((one) => {
+      const [x, y] = view.toScreen(one.at);
+      return Math.hypot(x - at[0], y - at[1]) <= 12 * view.bold;
+    });
+    const place = this.places[i];
+    if (!place) return undefined;
+    const name = this.label + (this.places.length > 1 ? ` of robot ${i + 1}` : '');
+    const lines = [`x ${number(place.at[0], 4)}, y ${number(place.at[1], 4)} µm.`, ...this.more(place, i, drawing)];
+    return { title: name, lines };
+  }
+
+  /** Further lines on a place. */
+  protected more(_place: Place, _index: number, _drawing: Drawing): string[] {
+    return [];
+  }
+
   protected abstract readonly placesIn: (scenario: Scenario) => Place[];
   protected abstract colour(drawing: Drawing): number;
   protected abstract symbol(to: Graphics, place: Place, colour: number, paper: number): void;
@@ -63,6 +85,10 @@ export class Start extends Marks {
   readonly name = 'start';
   readonly label = 'Start';
   protected readonly word = 'start';
+
+  override entries({ start }: Palette): Entry[] {
+    return this.places.length > 0 ? [{ text: 'start', shape: 'ring', colour: start }] : [];
+  }
 
   protected readonly placesIn = startsOf;
   protected colour({ colours }: Drawing): number {
@@ -84,6 +110,21 @@ export class Goal extends Marks {
   readonly name = 'goal';
   readonly label = 'Goal';
   protected readonly word = 'goal';
+
+  override entries({ goal }: Palette): Entry[] {
+    return this.places.length > 0 ? [{ text: 'goal, reached within the dashes', shape: 'target', colour: goal }] : [];
+  }
+
+  protected override more({ at, tolerance = 0 }: Place, index: number, { now: { swarm, robots } }: Drawing): string[] {
+    const reached = tolerance > 0 ? [`Reached within ${number(tolerance, 3)} µm.`] : [];
+    const count = robots.length / 2;
+    const away = (x: number, y: number) => `${number(Math.hypot(x - at[0], y - at[1]), 4)} µm away`;
+    if (swarm) return [...reached, `The swarm is ${away(swarm.x, swarm.y)}, as the crow flies.`];
+    if (count === 0) return reached;
+    if (this.places.length > 1 && index < count)
+      return [...reached, `Its robot is ${away(robots[2 * index]!, robots[2 * index + 1]!)}, as the crow flies.`];
+    return [...reached, `${gathered(robots, at, tolerance)} of ${count} robots are there.`];
+  }
 
   protected readonly placesIn = goalsOf;
   protected colour({ colours }: Drawing): number {

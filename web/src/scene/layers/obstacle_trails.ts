@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Graphics } from 'pixi.js';
+import type { Palette } from '../../palette';
 import type { Message } from '../../protocol';
 import { polyline } from '../draw';
+import type { Entry } from '../key';
 import { type Drawing, Layer } from '../layer';
 
 const longest = 400; // points of a trail
@@ -34,10 +36,16 @@ export class ObstacleTrails extends Layer {
     solids.forEach(({ rings }, i) => add(this.trails[discs.length / 4 + i]!, ...middle(rings[0]!)));
   }
 
+  override entries({ obstacle }: Palette): Entry[] {
+    return this.trails.length > 0
+      ? [{ text: 'trail of an obstacle', shape: 'line', colour: obstacle, alpha: 0.45 }]
+      : [];
+  }
+
   draw({ view, colours }: Drawing): void {
     this.lines.clear();
     for (const trail of this.trails) polyline(this.lines, trail);
-    this.lines.stroke({ width: view.um(1.5), color: colours.obstacle, alpha: 0.45 });
+    this.lines.stroke({ width: view.line(2), color: colours.obstacle, alpha: 0.45 });
   }
 }
 

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Graphics } from 'pixi.js';
-import { type Message, floats } from '../../protocol';
+import { number } from '../../numbers';
+import type { Palette } from '../../palette';
+import { type Message, type Point, floats } from '../../protocol';
 import { polyline } from '../draw';
+import { distanceTo, lengthOf } from '../hover';
+import type { Entry, Said } from '../key';
 import { type Drawing, Layer } from '../layer';
 
 const mostDots = 100; // on its vertices
@@ -40,14 +44,27 @@ export class Path extends Layer {
     }
     for (const [width, color] of [
       [5, colours.paper],
-      [2, colours.path],
+      [2.5, colours.path],
     ] as const) {
       polyline(this.line, this.points);
-      const alpha = width > 2 ? 0.7 : 1;
-      this.line.stroke({ width: view.um(width), color, alpha, ...round });
+      const alpha = width > 3 ? 0.7 : 1;
+      this.line.stroke({ width: view.line(width), color, alpha, ...round });
     }
     if (this.points.length > 2 * mostDots) return;
     for (let i = 2; i + 3 < this.points.length; i += 2)
-      this.line.regularPoly(this.points[i]!, this.points[i + 1]!, view.um(2.5), 8).fill(colours.path);
+      this.line.regularPoly(this.points[i]!, this.points[i + 1]!, view.line(3), 8).fill(colours.path);
+  }
+
+  override entries({ path }: Palette): Entry[] {
+    if (this.points.length < 4) return [];
+    const band: Entry = { text: 'its clearance', shape: 'band', colour: path, alpha: 0.12 };
+    return [{ text: 'planned path', shape: 'line', colour: path }, ...(this.clearance > 0 ? [band] : [])];
+  }
+
+  override say(at: Point, { view }: Drawing): Said | undefined {
+    if (this.points.length < 4 || distanceTo(this.points, view.toWorld(at)) > view.um(5)) return undefined;
+    const clearance = this.clearance > 0 ? [`Planned with a clearance of ${number(this.clearance, 3)} µm.`] : [];
+    const lines = [`${number(lengthOf(this.points), 4)} µm from its begin to its end.`, ...clearance];
+    return { title: 'Planned path', lines };
   }
 }

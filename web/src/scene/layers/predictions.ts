@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-import { type Message, floats } from '../../protocol';
+import { number } from '../../numbers';
+import type { Palette } from '../../palette';
+import { type Message, type Point, floats } from '../../protocol';
 import { Segments, empty, grown, ring } from '../draw';
+import { distanceTo } from '../hover';
+import type { Entry, Said } from '../key';
 import { type Drawing, Layer } from '../layer';
 
 const columns = 8; // body, time, x, y, radius, uncertainty, turn, growth
@@ -42,10 +46,30 @@ export class Predictions extends Layer {
     }
     let step = 0;
     for (const rings of steps.values()) {
-      const lines = this.world.addChild(Segments.rings(rings));
-      lines.tint = colours.radar.obstacle;
+      const lines = this.world.addChild(Segments.rings(rings, view.line(1.25)));
+      lines.tint = colours.prediction;
       lines.alpha = 0.8 * (1 - step++ / steps.size);
     }
+  }
+
+  override entries({ prediction }: Palette): Entry[] {
+    const text = 'obstacle as predicted, paler with time';
+    return this.bodies.length === 0 ? [] : [{ text, shape: 'ring', colour: prediction, alpha: 0.6 }];
+  }
+
+  override say(at: Point, { view, now }: Drawing): Said | undefined {
+    for (let i = 0; i + columns <= this.bodies.length; i += columns) {
+      const moment = this.bodies.subarray(i, i + columns);
+      const outline = this.outline(moment, view.scale);
+      const closed = [...outline, outline[0]!, outline[1]!];
+      if (distanceTo(closed, view.toWorld(at)) > view.um(3)) continue;
+      const [body, time, , , , uncertainty] = moment;
+      return {
+        title: `Obstacle ${body}, as predicted`,
+        lines: [`In ${number(time! - now.t, 2)} s, uncertain by ${number(uncertainty!, 2)} µm.`],
+      };
+    }
+    return undefined;
   }
 
   private outline(moment: Float32Array, scale: number): Float32Array {

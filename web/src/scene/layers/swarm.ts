@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Graphics } from 'pixi.js';
-import type { Message } from '../../protocol';
+import type { Palette } from '../../palette';
+import type { Json, Message, Point } from '../../protocol';
 import { Pin, arc, polyline } from '../draw';
+import { swarmText } from '../hover';
+import type { Entry, Said } from '../key';
 import { type Drawing, Layer } from '../layer';
 import { swarmType } from '../scenario';
 
@@ -17,17 +20,20 @@ export class Swarm extends Layer {
   private readonly pin = this.world.addChild(new Pin());
   private readonly body = this.pin.addChild(new Graphics());
   private type = '';
+  private frame: { [key: string]: Json } | undefined; // undefined of robots
   private drawn = ''; // state for which the body was drawn
 
   take(message: Message): boolean {
     if (message.type === 'hello') this.type = swarmType(message.scenario);
+    if (message.type === 'hello') this.frame = undefined;
+    if (message.type === 'frame') this.frame = message.robots.length > 0 ? undefined : message.frame;
     return message.type === 'hello' || message.type === 'frame';
   }
 
   draw({ view, now: { swarm }, colours }: Drawing): void {
     this.pin.visible = swarm !== undefined;
     if (!swarm) return;
-    const radius = Math.max(swarm.radius * view.scale, minRadius);
+    const radius = Math.max(swarm.radius * view.scale, minRadius) / view.bold; // pins are larger by this
     const drawn = `${this.type} ${radius.toFixed(1)} ${colours.swarm}`;
     if (drawn === this.drawn) return;
     this.drawn = drawn;
@@ -50,6 +56,18 @@ export class Swarm extends Layer {
     const tip = radius + Math.min(Math.max(radius / 3, 6), 12);
     const wing = (tip - radius) * 0.7;
     this.body.poly([tip, 0, radius + 1, wing, radius + 1, -wing]).fill(color);
+  }
+
+  override entries({ swarm }: Palette): Entry[] {
+    const text = this.type ? `swarm, a ${this.type}` : 'swarm';
+    return this.frame ? [{ text, shape: 'disc', colour: swarm }] : [];
+  }
+
+  override say(at: Point, { view, now: { swarm } }: Drawing): Said | undefined {
+    if (!swarm || !this.frame) return undefined;
+    const [x, y] = view.toScreen([swarm.x, swarm.y]);
+    const radius = Math.max(swarm.radius * view.scale, minRadius);
+    return Math.hypot(x - at[0], y - at[1]) <= radius + 3 ? swarmText(this.frame, this.type) : undefined;
   }
 
   override place({ view, now: { swarm } }: Drawing): void {

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Graphics } from 'pixi.js';
-import { mixed } from '../../palette';
-import { type Aggregation, type Gathering, type Message, floats, indices } from '../../protocol';
+import type { Palette } from '../../palette';
+import { type Aggregation, type Gathering, type Message, type Point, floats, indices } from '../../protocol';
 import { ink, label } from '../draw';
+import { gathered } from '../hover';
+import type { Entry, Said } from '../key';
 import { type Drawing, Layer } from '../layer';
+import type { Goal } from './marks';
 
 const margin = 16; // of the text from the corner [px]
 
@@ -29,6 +32,10 @@ export class Team extends Layer {
   private plan: Plan | undefined;
   private now: Gathering | undefined;
 
+  constructor(private readonly goal: Goal) {
+    super();
+  }
+
   take(message: Message): boolean {
     if (message.type === 'hello') this.plan = this.now = undefined;
     else if (message.type === 'aggregation') this.plan = planOf(message);
@@ -42,8 +49,7 @@ export class Team extends Layer {
   draw({ view, colours }: Drawing): void {
     this.branch.clear();
     this.traceBranch();
-    const color = mixed(colours.radar.safety, colours.paper, 0.45); // opaque: its strokes overlap
-    this.branch.stroke({ width: view.um(9), color, cap: 'round' });
+    this.branch.stroke({ width: view.line(9), color: colours.team, cap: 'round' });
     this.ring.clear();
     for (const [width, color] of [
       [6, colours.paper],
@@ -52,19 +58,42 @@ export class Team extends Layer {
       this.ring.circle(0, 0, 9).stroke({ width, color });
     ink(this.word, colours.ink, colours.paper);
     this.word.anchor.set(0, 1);
-    this.state.text = this.now ? stateText(this.now).join('\n') : '';
     ink(this.state, colours.ink, colours.ground);
     this.state.anchor.set(1, 1);
   }
 
+  override entries({ team, ink: colour }: Palette): Entry[] {
+    if (!this.now) return [];
+    return [
+      { text: 'branch of the team that is led', shape: 'band', colour: team },
+      { text: 'robot that leads', shape: 'ring', colour },
+    ];
+  }
+
+  override say([x, y]: Point, { view }: Drawing): Said | undefined {
+    const { position, visible } = this.ring;
+    if (!this.now || !visible || Math.hypot(position.x - x, position.y - y) > 11 * view.bold) return undefined;
+    return {
+      title: `Robot ${this.now.leader}, the leader`,
+      lines: ['Its path to the goal decides the input of all robots.'],
+    };
+  }
+
   override place({ view, now: { robots } }: Drawing): void {
+    for (const one of this.screen.children) one.scale.set(view.bold);
+    const [goal] = this.goal.places;
+    const count = robots.length / 2;
+    const there = goal && count > 1 ? gathered(robots, goal.at, goal.tolerance ?? 0) : undefined;
+    const lines = this.now ? stateText(this.now) : [];
+    const text = [...(there === undefined ? [] : [`${there} of ${count} gathered`]), ...lines].join('\n');
+    if (text !== this.state.text && this.goal.places.length === 1) this.state.text = text;
     const leader = this.now?.leader;
     const isSeen = leader !== undefined && 2 * leader + 1 < robots.length;
     this.ring.visible = this.word.visible = isSeen;
     if (isSeen) {
       const [x, y] = view.toScreen([robots[2 * leader]!, robots[2 * leader + 1]!]);
       this.ring.position.set(x, y);
-      this.word.position.set(x + 9, y - 5);
+      this.word.position.set(x + 9 * view.bold, y - 5 * view.bold);
     }
     this.state.position.set(view.width - margin, view.height - margin / 2);
   }

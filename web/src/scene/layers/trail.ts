@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Graphics } from 'pixi.js';
-import { type Message, doubles } from '../../protocol';
+import { number } from '../../numbers';
+import type { Palette } from '../../palette';
+import { type Message, type Point, doubles } from '../../protocol';
 import { polyline } from '../draw';
+import { distanceTo, lengthOf } from '../hover';
+import type { Entry, Said } from '../key';
 import { type Drawing, Layer } from '../layer';
 
 const gap = 0.7; // between drawn points [px]
@@ -10,18 +14,24 @@ const most = 300; // points of the part that is redrawn with each frame
 /** The travelled path, up to the time shown. */
 export class Trail extends Layer {
   readonly name = 'trail';
-  readonly label = 'Trail';
+  readonly label = 'Path travelled';
   override readonly occasions = { zoom: true, motion: true };
   private readonly old = this.world.addChild(new Graphics());
   private readonly fresh = this.world.addChild(new Graphics());
   private way: number[] = []; // x and y of every tick
   private end = 0; // tick up to which `old` is drawn
   private look = ''; // style of `old`
+  private isThere = false;
 
   take(message: Message): boolean {
     if (message.type === 'rows') this.takeRows(message);
     else if (message.type === 'hello') this.way = [];
-    else return message.type === 'frame';
+    else {
+      if (message.type === 'frame' && message.number > 0)
+        this.isThere ||= message.robots.length === 0 && message.frame['x_um'] != null;
+      return message.type === 'frame';
+    }
+    if (message.type === 'hello') this.isThere = false;
     if (message.type === 'hello' || message.anew) this.look = '';
     return true;
   }
@@ -36,9 +46,9 @@ export class Trail extends Layer {
 
   draw({ view, now, colours }: Drawing): void {
     const last = Math.min(now.number, this.way.length / 2);
-    const look = `${view.scale} ${colours.trail}`;
+    const look = `${view.line(1)} ${colours.trail}`;
     const round = { join: 'round', cap: 'round' } as const;
-    const style = { width: view.um(2.5), color: colours.trail, alpha: 0.8, ...round };
+    const style = { width: view.line(3.5), color: colours.trail, ...round };
     const recent = this.thinned(this.end, last, view.um(gap));
     if (!now.swarm || look !== this.look || last < this.end || recent.length > 2 * most) {
       this.look = look;
@@ -54,6 +64,17 @@ export class Trail extends Layer {
     if (recent.length === 0) recent.push(...this.way.slice(Math.max(0, 2 * this.end - 2), 2 * this.end));
     polyline(this.fresh, [...recent, now.swarm!.x, now.swarm!.y]);
     this.fresh.stroke(style);
+  }
+
+  override entries({ trail }: Palette): Entry[] {
+    return this.isThere ? [{ text: 'path travelled', shape: 'line', colour: trail }] : [];
+  }
+
+  override say(at: Point, { view, now }: Drawing): Said | undefined {
+    if (!now.swarm) return undefined;
+    const points = this.thinned(0, Math.min(now.number, this.way.length / 2), view.um(gap));
+    if (points.length < 4 || distanceTo(points, view.toWorld(at)) > view.um(5)) return undefined;
+    return { title: 'Path travelled', lines: [`${number(lengthOf(points), 4)} µm so far.`] };
   }
 
   /** Path from the tick before `first` to the one before `end`, without points close together. */

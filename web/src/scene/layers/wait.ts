@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Graphics } from 'pixi.js';
+import type { Palette } from '../../palette';
 import type { Hierarchical, Message, Point } from '../../protocol';
 import { Pin, ink, label } from '../draw';
+import type { Entry, Said } from '../key';
 import { type Drawing, Layer } from '../layer';
 import type { Goal } from './marks';
 
@@ -27,8 +29,8 @@ export class Wait extends Layer {
   }
 
   draw({ colours: { circle, path, paper } }: Drawing): void {
-    const { towards, wait, wait_since: since } = this.decision ?? {};
-    this.towards.visible = towards !== undefined && !this.isGoal(towards);
+    const { wait, wait_since: since } = this.decision ?? {};
+    this.towards.visible = this.isLed();
     if (this.towards.visible)
       this.towards.draw('route point', circle, paper, (to) => to.poly([0, -7, 7, 0, 0, 7, -7, 0]));
     this.spot.visible = wait !== undefined;
@@ -41,6 +43,32 @@ export class Wait extends Layer {
   override place({ view }: Drawing): void {
     if (this.decision) this.towards.at(view, ...this.decision.towards);
     if (this.decision?.wait) this.spot.at(view, ...this.decision.wait);
+  }
+
+  override entries({ circle }: Palette): Entry[] {
+    return this.isLed() ? [{ text: 'route point', shape: 'diamond', colour: circle }] : [];
+  }
+
+  override say(at: Point, { view }: Drawing): Said | undefined {
+    const isAt = (place: Point | undefined) => {
+      const [x, y] = place ? view.toScreen(place) : [Infinity, 0];
+      return Math.hypot(x - at[0], y - at[1]) <= 10 * view.bold;
+    };
+    const { towards, wait, wait_since: since } = this.decision ?? {};
+    if (isAt(wait))
+      return {
+        title: 'Place of waiting',
+        lines: [
+          `The swarm waits here for an obstacle to pass${since === undefined ? '' : `, since ${since.toFixed(1)} s`}.`,
+        ],
+      };
+    if (!isAt(towards) || !this.isLed()) return undefined;
+    return { title: 'Route point', lines: ['The local targets lead to this point of the route.'] };
+  }
+
+  private isLed(): boolean {
+    const { towards } = this.decision ?? {};
+    return towards !== undefined && !this.isGoal(towards);
   }
 
   /** At the goal its mark is sufficient. */

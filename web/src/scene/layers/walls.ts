@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Graphics } from 'pixi.js';
+import type { Palette } from '../../palette';
 import { type Bodies, type Message, type Point, floats } from '../../protocol';
 import { Segments, empty, fill, ringsOf } from '../draw';
+import type { Entry } from '../key';
 import { type Drawing, Layer } from '../layer';
+
+const edge = 1.25; // width of the outlines [px]
 
 /** The free space, its border and the walls. */
 export class Walls extends Layer {
@@ -10,7 +14,9 @@ export class Walls extends Layer {
   readonly label = 'Walls';
   private lo: Point = [0, 0];
   private hi: Point = [0, 0];
+  override readonly isEverywhere = true;
   private bodies: Bodies | undefined;
+  private edges: Segments | undefined;
 
   /** Walls over a picture are translucent. */
   constructor(private readonly pictures: { readonly isSet: boolean }[]) {
@@ -27,6 +33,7 @@ export class Walls extends Layer {
 
   draw({ view, colours }: Drawing): void {
     empty(this.world);
+    this.edges = undefined;
     if (!this.bodies) return;
     const polygons = this.bodies.polygons.map(({ outer, holes }) => ({
       rings: [floats(outer), ...holes.map(floats)],
@@ -44,8 +51,17 @@ export class Walls extends Layer {
       inside.rect(x0, y0, x1 - x0, y1 - y0).fill(0xffffff);
       solid.mask = inside;
     }
-    const edges = Segments.rings([border, ...bodies.flat()]);
-    edges.tint = colours.wallEdge;
-    this.world.addChild(solid, edges);
+    this.edges = Segments.rings([border, ...bodies.flat()], view.line(edge));
+    this.edges.tint = colours.wallEdge;
+    this.world.addChild(solid, this.edges);
+  }
+
+  override place({ view }: Drawing): void {
+    this.edges?.widen(view.line(edge));
+  }
+
+  override entries({ wall }: Palette): Entry[] {
+    const { discs, polygons } = this.bodies ?? { discs: [], polygons: [] };
+    return discs.length + polygons.length > 0 ? [{ text: 'wall', shape: 'area', colour: wall }] : [];
   }
 }
