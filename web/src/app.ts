@@ -5,6 +5,7 @@ import { element } from './dom';
 import { galleryPage } from './gallery';
 import type { Page } from './page';
 import { photoPage } from './photo_page';
+import { openShared } from './place';
 import { sessionPage } from './session_page';
 import { startTheme } from './theme';
 import { photograph } from './uploads';
@@ -12,7 +13,7 @@ import { photograph } from './uploads';
 let page: Page | undefined;
 
 /** The page of the current address: #/session/7, #/rig/7, #/compare/7/8, else the gallery. */
-function named(): Promise<Page> {
+async function named(): Promise<Page> {
   const session = /^#\/session\/(\d+)$/.exec(location.hash);
   if (session) return sessionPage(Number(session[1]));
   const rig = /^#\/rig\/(\d+)$/.exec(location.hash);
@@ -20,6 +21,11 @@ function named(): Promise<Page> {
   if (location.hash === '#/photo' && photograph) return photoPage(photograph);
   const pair = /^#\/compare\/(\d+)\/(\d+)$/.exec(location.hash);
   if (pair) return comparePage([Number(pair[1]), Number(pair[2])]);
+  const shared = await openShared(location.hash);
+  if (shared !== undefined) {
+    history.replaceState(null, '', `#/session/${shared}`);
+    return sessionPage(shared);
+  }
   return galleryPage();
 }
 

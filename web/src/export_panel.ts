@@ -4,6 +4,7 @@ import { csvOf } from './csv';
 import { element } from './dom';
 import type { Live } from './live';
 import { numberEntry } from './number_entry';
+import { makesVideos } from './place';
 import type { Scene } from './scene/scene';
 
 const speeds = [1, 2, 4, 8, 16, 32];
@@ -58,6 +59,19 @@ export function exportPanel(live: Live, scene: Scene): HTMLElement {
     };
     return button;
   };
+  const drawing = () =>
+    act('SVG', 'picture.svg', 'The run at this time, as vector graphics', (signal) =>
+      fetched(`${path}/picture.svg?t=${live.shown}`, signal),
+    );
+  const videoRow = () =>
+    element(
+      'div',
+      { class: 'row' },
+      act('MP4', 'run.mp4', 'A video of the run so far', (signal) => fetched(`${path}/run.mp4?${video()}`, signal)),
+      act('GIF', 'run.gif', 'The same as an animated GIF', (signal) => fetched(`${path}/run.gif?${video()}`, signal)),
+      speed,
+      width,
+    );
   const stop = element('button', { type: 'button', hidden: true, onclick: () => cancel?.abort() }, 'Cancel');
   return element(
     'div',
@@ -66,22 +80,12 @@ export function exportPanel(live: Live, scene: Scene): HTMLElement {
       'div',
       { class: 'row' },
       act('PNG', 'picture.png', 'The scene as shown', () => scene.picture()),
-      act('SVG', 'picture.svg', 'The run at this time, as vector graphics', (signal) =>
-        fetched(`${path}/picture.svg?t=${live.shown}`, signal),
-      ),
+      ...(makesVideos ? [drawing()] : []),
       act('CSV', 'plots.csv', 'The numbers of the plots', () =>
         Promise.resolve(new Blob([csvOf(live.history.columns, live.hello?.states ?? [])], { type: 'text/csv' })),
       ),
     ),
-    element(
-      'div',
-      { class: 'row' },
-      act('MP4', 'run.mp4', 'A video of the run so far', (signal) => fetched(`${path}/run.mp4?${video()}`, signal)),
-      act('GIF', 'run.gif', 'The same as an animated GIF', (signal) => fetched(`${path}/run.gif?${video()}`, signal)),
-      speed,
-      width,
-    ),
-    element('div', { class: 'row' }, from.root, to.root),
+    ...(makesVideos ? [videoRow(), element('div', { class: 'row' }, from.root, to.root)] : []),
     element('div', { class: 'row' }, stop, said),
   );
 }

@@ -4,11 +4,12 @@ import { call } from './connection';
 import { element } from './dom';
 import { takeDrops } from './drops';
 import { type Entry, cardText, heading } from './headings';
+import { dropNote, thumbnail } from './place';
 import { queueSection } from './queue';
 import { themeSwitch } from './theme';
 import { upload } from './uploads';
 
-interface Listing {
+export interface Listing {
   scenarios: Entry[];
   open?: boolean;
   queue?: boolean;
@@ -128,7 +129,7 @@ export async function galleryPage(): Promise<Page> {
     none,
     ...(queue ? [queue.root] : []),
     ...(sessions.length > 0 ? [openRuns(sessions)] : []),
-    element('p', { class: 'doc' }, 'Drop a photograph of vessels, a scenario or a record here.'),
+    element('p', { class: 'doc' }, dropNote),
     ...sections,
   );
   const endDrops = takeDrops((files) => {
@@ -165,7 +166,7 @@ function openRuns(sessions: OpenRun[]): HTMLElement {
 function card(entry: Entry, act: () => void): HTMLElement {
   const { name, text, trouble } = cardText(entry);
   const picture = element('img', {
-    ...(trouble ? {} : { src: `/api/thumbnail?file=${encodeURIComponent(entry.file)}` }),
+    ...(trouble ? {} : { src: thumbnail(entry.file) }),
     ...(trouble ? { class: 'none' } : {}),
     alt: '',
     loading: 'lazy',

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { element } from './dom';
 import type { Live } from './live';
+import { downloads, fileLink, keptNote } from './place';
 
 /** Whether only its record can repeat a run, since it was changed or steered; never one that is gone. */
 export function isAtRisk(live: Live): boolean {
@@ -22,7 +23,7 @@ const anew: Words = {
 };
 const away: Words = {
   title: 'Leave this run?',
-  text: 'The run was changed or steered while it ran. It pauses and is kept for 30 minutes under "Open runs" of the gallery, unless others need its place; only its record keeps it for good.',
+  text: `The run was changed or steered while it ran. ${keptNote}`,
   keep: 'Stay here',
   go: 'Leave',
 };
@@ -53,13 +54,8 @@ export async function askWhen(shown: number, newest: number): Promise<'now' | 'c
 }
 
 async function goes(lives: Live[], words: Words): Promise<boolean> {
-  const links = lives.map(({ session }) =>
-    element(
-      'a',
-      { href: `/api/sessions/${session}/record.h5`, download: 'record.h5', class: 'button' },
-      'Download record.h5',
-    ),
-  );
+  const name = downloads[0] ?? '';
+  const links = lives.map(({ session }) => fileLink(session, name, `Download ${name}`));
   return (
     (await asks(
       words.title,

@@ -4,11 +4,10 @@ import { eventList } from './event_list';
 import { exportPanel } from './export_panel';
 import type { Live } from './live';
 import { metricsTable } from './metrics';
+import { downloads, fileLink, shareButtons } from './place';
 import type { Json } from './protocol';
 import type { Scene } from './scene/scene';
 import { metricsHeading, repeatOf } from './repeat';
-
-const downloads = ['record.h5', 'scenario.yaml', 'frames.csv', 'events.csv'];
 
 /** Metrics so far, changes, the command that repeats them, and downloads. */
 export function recordTab(live: Live, scene: Scene, compare: () => void, seek: (time: number) => void): HTMLElement {
@@ -32,9 +31,7 @@ export function recordTab(live: Live, scene: Scene, compare: () => void, seek: (
     },
     'Copy command',
   );
-  const links = downloads.map((name) =>
-    element('a', { href: `/api/sessions/${live.session}/${name}`, download: name, class: 'button' }, name),
-  );
+  const links = downloads.map((name) => fileLink(live.session, name));
   const driven = element(
     'p',
     { class: 'doc', hidden: true },
@@ -82,7 +79,7 @@ export function recordTab(live: Live, scene: Scene, compare: () => void, seek: (
     element('h2', {}, 'Command line'),
     command,
     note,
-    element('div', { class: 'row' }, copy, copied),
+    element('div', { class: 'row' }, copy, copied, ...shareButtons(live)),
     ...eventList(live, seek),
     element('h2', {}, 'Download'),
     driven,
