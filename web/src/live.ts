@@ -34,7 +34,7 @@ export class Live {
   private wanted: number | undefined;
   private seeks = false;
 
-  /** `what` names the session in texts. One that is at no server has the number 0 and a `connect` of its own. */
+  /** `what` names the session in texts. One that is at no server has the number 0 and its own `connect`. */
   constructor(
     readonly session: number,
     what: string,
