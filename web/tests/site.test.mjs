@@ -26,7 +26,7 @@ after(async () => {
 /** Runs of tests/golden/records.txt without a rig: { hash, file, settings }. */
 const runs = readFileSync(join(root, 'tests/golden/records.txt'), 'utf8')
   .split('\n')
-  .filter((line) => /^[0-9a-f]/.test(line) && !line.includes('--rig'))
+  .filter((line) => /^[0-9a-f]{16}\s+\S+( --set \S+)*$/.test(line))
   .map((line) => {
     const [hash, file] = line.split(/\s+/);
     return { hash, file, settings: [...line.matchAll(/--set (\S+)/g)].map((found) => found[1]) };
@@ -144,7 +144,7 @@ test('a map and a scenario that names it are opened; a photograph is refused in 
     'mine.yaml',
     `name: mine
 map: {type: rectangles, file: walls.csv, lo_um: [0, 0], hi_um: [1000, 600]}
-swarm: {type: vortex, radius_um: 30}
+swarm: {type: vortex, radius_um: 30, moving_radius_um: 30}
 start: {x_um: 100, y_um: 100}
 goal_um: [900, 100]
 `,
