@@ -28,8 +28,6 @@ Source to_source(const Opening& opening) {
           .photo = opening.photo};
 }
 
-Host::~Host() = default;
-
 /// Opens the session and says so.
 void Host::start() {
   std::string trouble;

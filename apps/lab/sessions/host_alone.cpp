@@ -20,6 +20,8 @@ Host::Host(Opening opening, Callbacks callbacks)
       publisher_(callbacks_.send),
       queue_(std::make_unique<Queue>()) {}
 
+Host::~Host() = default;
+
 void Host::begin() { start(); }
 
 void Host::finish() { end(); }

@@ -24,6 +24,8 @@ Host::Host(Opening opening, Callbacks callbacks)
       publisher_(callbacks_.send),
       queue_(std::make_unique<Queue>()) {}
 
+Host::~Host() = default;
+
 void Host::begin() {
   queue_->thread = std::thread([this] {
     start();
