@@ -36,7 +36,7 @@ const shipped = runs.filter((run) => run.settings.length === 0);
 test('every pinned run has its hash in node', async () => {
   const module = await loadModule();
   const others = runs.filter((run) => module.run({ file: run.file, settings: run.settings }) !== run.hash);
-  assert.ok(runs.length > 50);
+  assert.ok(runs.length >= 50);
   assert.deepEqual(others, []);
 });
 
