@@ -10,7 +10,7 @@ import re
 import sys
 from pathlib import Path
 
-HOME = "src/microswarm/core/maths/maths."
+HOME = ("src/microswarm/core/maths/maths.", "src/microswarm/core/maths/plain_sleef.")
 NAMES = ("sin cos tan sincos asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp exp2 expm1 log "
          "log2 log10 log1p pow hypot cbrt erf erfc lgamma tgamma")
 # Of the standard library alone: algorithms that differ from one library to the next, or call those.

@@ -8,6 +8,7 @@ import { galleryPage } from './gallery';
 import { openFiles } from './opening';
 import type { Page } from './page';
 import { photoPage } from './photo_page';
+import { openShared } from './place';
 import { playerPage } from './player';
 import { sessionPage } from './session_page';
 import { startTheme } from './theme';
@@ -18,7 +19,7 @@ let page: Page | undefined;
 const run = document.getElementById('run'); // in a file that plays itself
 
 /** The run in the page, or the page of the current address: #/session/7 or #/session/7/present, #/rig/7, #/compare/7/8, else the gallery. */
-function named(): Promise<Page> {
+async function named(): Promise<Page> {
   if (run) return playerPage(run.textContent ?? '');
   const session = /^#\/session\/(\d+)(?:\/present)?$/.exec(location.hash);
   if (session) return sessionPage(Number(session[1]));
@@ -27,6 +28,11 @@ function named(): Promise<Page> {
   if (location.hash === '#/photo' && photograph) return photoPage(photograph);
   const pair = /^#\/compare\/(\d+)\/(\d+)$/.exec(location.hash);
   if (pair) return comparePage([Number(pair[1]), Number(pair[2])]);
+  const shared = await openShared(location.hash);
+  if (shared !== undefined) {
+    history.replaceState(null, '', `#/session/${shared}`);
+    return sessionPage(shared);
+  }
   return galleryPage();
 }
 

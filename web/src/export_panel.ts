@@ -4,6 +4,7 @@ import { csvOf } from './csv';
 import { element } from './dom';
 import type { Live } from './live';
 import { numberEntry } from './number_entry';
+import { makesVideos } from './place';
 import { showOutcome, showProgress } from './progress';
 import type { Scene } from './scene/scene';
 
@@ -59,6 +60,11 @@ export function exportPanel(live: Live, scene: Scene): HTMLElement {
     };
     return button;
   };
+  const isDrawn = live.isServed && makesVideos;
+  const drawing = () =>
+    act('SVG', 'picture.svg', 'The run at this time, as vector graphics', (signal) =>
+      fetched(`${path}/picture.svg?t=${live.shown}`, signal),
+    );
   const videos = () => [
     element(
       'div',
@@ -78,18 +84,12 @@ export function exportPanel(live: Live, scene: Scene): HTMLElement {
       'div',
       { class: 'row' },
       act('PNG', 'picture.png', 'The scene as shown', () => scene.picture()),
-      ...(live.isServed
-        ? [
-            act('SVG', 'picture.svg', 'The run at this time, as vector graphics', (signal) =>
-              fetched(`${path}/picture.svg?t=${live.shown}`, signal),
-            ),
-          ]
-        : []),
+      ...(isDrawn ? [drawing()] : []),
       act('CSV', 'plots.csv', 'The numbers of the plots', () =>
         Promise.resolve(new Blob([csvOf(live.history.columns, live.hello?.states ?? [])], { type: 'text/csv' })),
       ),
     ),
-    ...(live.isServed ? videos() : []),
+    ...(isDrawn ? videos() : []),
     element('div', { class: 'row' }, stop, said),
   );
 }

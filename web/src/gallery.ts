@@ -5,10 +5,11 @@ import { element } from './dom';
 import { type Entry, cardText, heading } from './headings';
 import { open, openFiles } from './opening';
 import { type OpenRun, openRuns } from './open_runs';
+import { dropNote, thumbnail } from './place';
 import { queueSection } from './queue';
 import { themeSwitch } from './theme';
 
-interface Listing {
+export interface Listing {
   scenarios: Entry[];
   lab: number;
   open?: boolean;
@@ -101,7 +102,7 @@ export async function galleryPage(): Promise<Page> {
     none,
     ...(queue ? [queue.root] : []),
     ...(sessions.length > 0 ? [openRuns(sessions, say)] : []),
-    element('p', { class: 'doc' }, 'Drop a photograph of vessels, a scenario or a record here.'),
+    element('p', { class: 'doc' }, dropNote),
     ...sections,
   );
   return {
@@ -114,7 +115,7 @@ export async function galleryPage(): Promise<Page> {
 function card(entry: Entry, act: () => Promise<unknown>): HTMLElement {
   const { name, text, trouble } = cardText(entry);
   const picture = element('img', {
-    ...(trouble ? {} : { src: `/api/thumbnail?file=${encodeURIComponent(entry.file)}` }),
+    ...(trouble ? {} : { src: thumbnail(entry.file) }),
     ...(trouble ? { class: 'none' } : {}),
     alt: '',
     loading: 'lazy',

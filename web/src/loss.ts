@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { element } from './dom';
 import type { Live } from './live';
+import { downloads, fileLink, keptNote, makesBranches } from './place';
 
 /** Whether only its record can repeat a run, since it was changed or steered; never one that is gone. */
 export function isAtRisk(live: Live): boolean {
@@ -22,7 +23,7 @@ const anew: Words = {
 };
 const away: Words = {
   title: 'Leave this run?',
-  text: 'The run was changed or steered while it ran. It pauses and is kept for 30 minutes under "Open runs" of the gallery, unless others need its place; only its record keeps it for good.',
+  text: `The run was changed or steered while it ran. ${keptNote}`,
   keep: 'Stay here',
   go: 'Leave',
 };
@@ -56,7 +57,7 @@ export async function askWhen(live: Live): Promise<'now' | 'branch' | ''> {
   const shown = live.shown.toFixed(1);
   const newest = (live.history.times.at(-1) ?? 0).toFixed(1);
   const hasEnded = live.standing?.ended;
-  const canBranch = live.isServed && !live.hello?.rig;
+  const canBranch = makesBranches && live.isServed && !live.hello?.rig;
   const places = [
     ...(canBranch ? [`in a branch, which is a copy of the run up to ${shown} s that goes on with it`] : []),
     ...(hasEnded ? [] : ['now']),
@@ -71,15 +72,8 @@ export async function askWhen(live: Live): Promise<'now' | 'branch' | ''> {
 }
 
 async function goes(lives: { session: number; isServed: boolean }[], words: Words): Promise<boolean> {
-  const links = lives
-    .filter((live) => live.isServed)
-    .map(({ session }) =>
-      element(
-        'a',
-        { href: `/api/sessions/${session}/record.h5`, download: 'record.h5', class: 'button' },
-        'Download record.h5',
-      ),
-    );
+  const name = downloads[0] ?? '';
+  const links = lives.filter((live) => live.isServed).map(({ session }) => fileLink(session, name, `Download ${name}`));
   return (
     (await asks(
       words.title,

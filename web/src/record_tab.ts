@@ -5,11 +5,10 @@ import { exportPanel } from './export_panel';
 import { robotsAtGoal } from './gathering';
 import type { Live } from './live';
 import { headingAt, metricsTable, numbersAt } from './metrics';
+import { downloads, fileLink, shareButtons } from './place';
 import type { Json } from './protocol';
 import type { Scene } from './scene/scene';
 import { metricsHeading, repeatOf } from './repeat';
-
-const downloads = ['record.h5', 'scenario.yaml', 'frames.csv', 'events.csv'];
 
 /** Metrics so far, changes, the command that repeats them, and what a server gives: downloads, and copies to `compare`. */
 export function recordTab(
@@ -40,9 +39,7 @@ export function recordTab(
     },
     'Copy command',
   );
-  const links = downloads.map((name) =>
-    element('a', { href: `/api/sessions/${live.session}/${name}`, download: name, class: 'button' }, name),
-  );
+  const links = downloads.map((name) => fileLink(live.session, name));
   const driven = element(
     'p',
     { class: 'doc', hidden: true },
@@ -96,7 +93,7 @@ export function recordTab(
     element('h2', {}, 'Command line'),
     command,
     note,
-    element('div', { class: 'row' }, copy, copied),
+    element('div', { class: 'row' }, copy, copied, ...(live.isServed ? shareButtons(live) : [])),
     ...eventList(live, seek),
     ...(live.isServed ? [element('h2', {}, 'Download'), driven, files] : []),
     element('h2', {}, 'Export the view'),

@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/sessions/host.hpp"
 
+#include <unistd.h>
+
+#include <array>
+
 namespace microswarm::lab {
 
 namespace {
 
 /// The file's name from any folder; empty for an empty one.
 std::string from_anywhere(const std::filesystem::path& file) {
-  return file.empty() ? "" : std::filesystem::absolute(file).lexically_normal().string();
+  if (file.empty()) return "";
+  std::array<char, 4096> here{};
+  const std::filesystem::path folder = ::getcwd(here.data(), here.size()) ? here.data() : "";
+  return (folder / file).lexically_normal().string();
 }
 
 }  // namespace
@@ -21,22 +28,25 @@ Source to_source(const Opening& opening) {
           .photo = opening.photo};
 }
 
-Host::Host(Opening opening, Callbacks callbacks)
-    : opening_(std::move(opening)), callbacks_(std::move(callbacks)), publisher_(callbacks_.send) {}
-
-void Host::begin() {
-  thread_ = std::thread([this] { run(); });
+/// Opens the session and says so.
+void Host::start() {
+  std::string trouble;
+  try {
+    open();
+  } catch (const std::exception& error) {
+    trouble = error.what();
+    if (trouble.empty()) trouble = "it cannot be opened";
+  }
+  if (!trouble.empty()) ends_ = true;
+  callbacks_.opened(trouble);
 }
 
-void Host::finish() {
-  end();
-  if (thread_.joinable()) thread_.join();
-}
-
-void Host::end() {
-  ends_ = true;
-  const std::lock_guard lock(mutex_);
-  wake_.notify_all();
+void Host::serve_once() {
+  try {
+    serve();
+  } catch (const std::exception& error) {
+    fail(error.what());
+  }
 }
 
 void Host::join(std::uint64_t page) {
@@ -53,46 +63,6 @@ void Host::ask(std::uint64_t page, Request request) {
 
 void Host::with(std::function<void(experiment::Session&)> work) {
   later([this, work = std::move(work)] { work(session()); });
-}
-
-void Host::later(std::function<void()> work) {
-  const std::lock_guard lock(mutex_);
-  work_.push_back(std::move(work));
-  wake_.notify_all();
-}
-
-void Host::work_until(std::optional<Clock::time_point> latest) {
-  std::vector<std::function<void()>> work;
-  {
-    std::unique_lock lock(mutex_);
-    const auto wakes = [this] { return ends_ || !work_.empty(); };
-    if (latest)
-      wake_.wait_until(lock, *latest, wakes);
-    else
-      wake_.wait(lock, wakes);
-    work.swap(work_);
-  }
-  for (const auto& one : work) one();
-}
-
-void Host::run() {
-  std::string trouble;
-  try {
-    open();
-  } catch (const std::exception& error) {
-    trouble = error.what();
-    if (trouble.empty()) trouble = "it cannot be opened";
-  }
-  callbacks_.opened(trouble);
-  while (trouble.empty() && !ends_) {
-    try {
-      serve();
-    } catch (const std::exception& error) {
-      fail(error.what());
-    }
-  }
-  close();
-  has_ended_ = true;
 }
 
 void Host::fail(const std::string& why) {

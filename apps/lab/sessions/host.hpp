@@ -2,22 +2,18 @@
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
-#include <vector>
 
 #include "lab/sessions/past.hpp"
 #include "lab/stream/publisher.hpp"
 #include "lab/stream/request.hpp"
 #include "microswarm/experiment/session/session.hpp"
-#include "microswarm/rig/session/open_on_rig.hpp"
+#include "microswarm/rig/params/rig_session_options.hpp"
 
 namespace microswarm::lab {
 
@@ -58,7 +54,7 @@ struct Opening {
 Source to_source(const Opening& opening);
 
 /// A session in its own thread. Every function may be called from any thread; callbacks are called
-/// in the session's thread.
+/// in the session's thread. In a build without threads the caller's turn() is that thread.
 class Host {
  public:
   struct Callbacks {
@@ -67,13 +63,16 @@ class Host {
     /// Sends a message to one page, or to all (0). The first one for a page is its hello.
     Publisher::Send send;
   };
-  virtual ~Host() = default;
+  virtual ~Host();
   Host(const Host&) = delete;
   Host& operator=(const Host&) = delete;
 
   /// Requests the end and stops the step in progress.
   virtual void end();
   bool has_ended() const { return has_ended_; }
+  /// Only without threads: does what is asked and due. Returns the time at which to call it again,
+  /// or nothing if only a request makes that necessary.
+  std::optional<Stop::Clock::time_point> turn();
   const Opening& opening() const { return opening_; }
 
   /// Sends the full state to a new page.
@@ -140,15 +139,14 @@ class Host {
   std::atomic<bool> is_changed_ = false;
 
  private:
-  void run();
+  class Queue;
+  void start();
+  void serve_once();
 
-  std::mutex mutex_;
-  std::condition_variable wake_;
-  std::vector<std::function<void()>> work_;  ///< guarded
   std::atomic<bool> has_ended_ = false;
   std::unique_ptr<experiment::Session>
       past_;  ///< playback of the record so far, while an earlier frame is shown
-  std::thread thread_;
+  std::unique_ptr<Queue> queue_;  ///< of work, and the thread that does it
 };
 
 }  // namespace microswarm::lab

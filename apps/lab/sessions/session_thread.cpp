@@ -72,7 +72,7 @@ void SessionThread::open() {
   if (opening_.check) opening_.check(opening_.options.settings);
   if (opening_.branch) return open_branch(*opening_.branch);
   watch_.has_changed();
-  session_ = rig::open_on_rig(watch_.file(), opening_.options);
+  session_ = open_(watch_.file(), opening_.options);
   look_at_newest();
   publisher_.clear();
   kept_ = Past();
@@ -113,7 +113,7 @@ void SessionThread::look_for_more() {
 
 /// Continues with the grown record. A page at the newest frame gets the new one.
 void SessionThread::grow() {
-  auto longer = rig::open_on_rig(watch_.file(), opening_.options);
+  auto longer = open_(watch_.file(), opening_.options);
   if (longer->record().frames.size() < publisher_.rows()) {  // it belongs to another run
     open();
     welcome(0);

@@ -12,8 +12,14 @@ namespace microswarm::lab {
 /// record that a run still writes.
 class SessionThread : public Host {
  public:
-  SessionThread(Opening opening, Callbacks callbacks)
-      : Host(std::move(opening), std::move(callbacks)), watch_(opening_.file) {
+  /// Opens the file of a session; on a simulated rig if the options name one.
+  using Open = std::function<std::unique_ptr<experiment::Session>(
+      const std::filesystem::path& file, const rig::RigSessionOptions& options)>;
+
+  SessionThread(Opening opening, Callbacks callbacks, Open open)
+      : Host(std::move(opening), std::move(callbacks)),
+        open_(std::move(open)),
+        watch_(opening_.file) {
     begin();
   }
   ~SessionThread() override { finish(); }
@@ -39,6 +45,7 @@ class SessionThread : public Host {
   void look_for_more();
   void grow();
 
+  Open open_;
   std::unique_ptr<experiment::Session> session_;
   Clock::time_point due_{};  ///< time of the next tick
   double until_ = 0;         ///< time at which it pauses [s]; 0 for the end

@@ -6,7 +6,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <numbers>
 
 #include "microswarm/config/type.hpp"
 #include "microswarm/core/maths/angles.hpp"
@@ -31,7 +30,7 @@ bool in_degrees(Unit unit) { return unit == Unit::deg || unit == Unit::deg_per_s
 /// Minimum number of digits in degrees that read back to this angle. The 17 of a double nearly
 /// always suffice; long double's extra digits make every angle expressible.
 std::string shown_angle(double stored) {
-  const long double shown = stored * (180 / std::numbers::pi_v<long double>);
+  const long double shown = stored * (180 / long_pi);
   std::array<char, 64> buffer;
   std::string text;
   for (int digits = 1; digits <= 21; ++digits) {

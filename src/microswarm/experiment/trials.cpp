@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <functional>
-#include <mutex>
 #include <utility>
 
+#include "microswarm/core/execution/mutex.hpp"
 #include "microswarm/core/execution/parallel.hpp"
 #include "microswarm/experiment/session/session.hpp"
 
@@ -22,7 +22,7 @@ TrialResult trial_result(Scenario scenario, World world, std::uint32_t trial, co
 std::vector<TrialResult> run_trials(const Scenario& scenario, const World& world,
                                     const TrialOptions& options, const Stop& stop) {
   std::vector<TrialResult> results(static_cast<std::size_t>(options.trials));
-  std::mutex mutex;
+  Mutex mutex;
   int done = 0;
   for_each_index(results.size(), options.jobs, [&](std::size_t i) {
     if (stop()) return;

@@ -2,6 +2,7 @@
 #include "microswarm/formats/choose_map_spec.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -171,8 +172,7 @@ bool is_of_map(const Setting& setting) { return is_in_key(setting.key, "map"); }
 MapSpec choose_map_spec(const fs::path& path, const MapChoice& choice) {
   const std::string file = path.string();
   const auto fail = [&](const std::string& why) { throw InputError(file, why); };
-  std::error_code error;
-  if (!fs::exists(path, error)) fail("cannot read: No such file or directory");
+  if (::access(path.c_str(), F_OK) != 0) fail("cannot read: No such file or directory");
   if (choice.um_per_px && !(*choice.um_per_px >= 1e-6 && *choice.um_per_px <= 1e6))
     fail(input_name("um_per_px") + " is " + number_text(*choice.um_per_px) +
          ", must be within 1e-6..1e6");

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <string_view>
 #include <utility>
 
@@ -54,10 +53,8 @@ std::string extension_of(std::string_view text) {
 std::string map_extension(const std::filesystem::path& file) {
   const std::string own = lower_extension(file);
   if (!own.empty()) return own;
-  std::array<char, 4096> begin{};
-  std::ifstream in(file, std::ios::binary);
-  in.read(begin.data(), begin.size());
-  return extension_of({begin.data(), static_cast<std::size_t>(in.gcount())});
+  constexpr std::size_t enough = 4096;
+  return extension_of(read_begin(file, enough));
 }
 
 std::string advice_on_no_map(const std::filesystem::path& file) {

@@ -5,13 +5,22 @@
 
 #include "microswarm/core/execution/module.hpp"
 
+#ifdef MICROSWARM_LINKED_HDF5
+/// Linked where no module can be loaded.
+extern "C" const microswarm::io::Hdf5* microswarm_hdf5();
+#endif
+
 namespace microswarm::io {
 namespace {
 
 const Hdf5& hdf5() {
+#ifdef MICROSWARM_LINKED_HDF5
+  return *microswarm_hdf5();
+#else
   static const Hdf5& loaded =
       *reinterpret_cast<const Hdf5* (*)()>(load_module("hdf5", "records and trees"))();
   return loaded;
+#endif
 }
 
 }  // namespace

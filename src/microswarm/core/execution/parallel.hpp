@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <condition_variable>
 #include <cstddef>
-#include <exception>
 #include <functional>
-#include <mutex>
-#include <thread>
-#include <vector>
+#include <memory>
 
 namespace microswarm {
 
-/// Threads that sleep between loops, for many short loops that follow one another.
+/// Threads that sleep between loops, for many short loops that follow one another. A build without
+/// threads (MICROSWARM_THREADS) runs each loop in the caller's.
 class ThreadTeam {
  public:
   /// `jobs` threads (0: one per core), including the caller's: with 1 there is no other.
@@ -26,20 +23,8 @@ class ThreadTeam {
   void for_each_index(std::size_t count, const std::function<void(std::size_t)>& body);
 
  private:
-  void help();
-  void end();
-  void take_calls(std::unique_lock<std::mutex>& lock);
-
-  std::mutex mutex_;
-  std::condition_variable may_help_;
-  std::condition_variable returned_;
-  const std::function<void(std::size_t)>* body_ = nullptr;
-  std::size_t next_ = 0;
-  std::size_t count_ = 0;
-  std::size_t running_ = 0;  ///< calls that have not returned
-  bool ends_ = false;
-  std::exception_ptr thrown_;
-  std::vector<std::jthread> helpers_;
+  class Loop;
+  std::unique_ptr<Loop> loop_;
 };
 
 /// The same with temporary threads. `jobs` is the number of threads, 0: one per core.

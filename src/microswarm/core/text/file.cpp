@@ -6,65 +6,23 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
-#include <csignal>
-#include <cstdio>
 #include <system_error>
-#include <vector>
 
-#include "microswarm/core/errors/write_error.hpp"
 #include "microswarm/core/execution/descriptor.hpp"
-#include "microswarm/core/text/durable_rename.hpp"
 
 namespace microswarm {
 namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const fs::path& path, std::string_view doing, std::string_view reason) {
-  const std::string text = fmt::format("cannot {}: {}", doing, reason);
-  if (doing == "write") throw WriteError(path.string(), text);
-  throw InputError(path.string(), text);
+[[noreturn]] void fail(const fs::path& path, std::string_view reason) {
+  throw InputError(path.string(), fmt::format("cannot read: {}", reason));
 }
 
-[[noreturn]] void fail_errno(const fs::path& path, std::string_view doing, int error) {
-  fail(path, doing, std::generic_category().message(error));
-}
-
-void write_all(const Descriptor& file, std::string_view bytes, const fs::path& named) {
-  while (!bytes.empty()) {
-    const ssize_t n = ::write(file.get(), bytes.data(), bytes.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) fail_errno(named, "write", errno);
-    bytes.remove_prefix(static_cast<std::size_t>(n));
-  }
-}
-
-bool is_special(const fs::path& path) {
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  return fs::exists(status) && !fs::is_regular_file(status);
-}
-
-constexpr std::string_view staged_mark = ".tmp-microswarm-";  // reserved: no user file contains it
-
-/// Path of this process's nth temporary file for the target.
-fs::path staged_for(const fs::path& target, int n) {
-  fs::path staged = target;
-  return staged.replace_filename(fmt::format("{}{}{}-{}{}", target.stem().string(), staged_mark,
-                                             ::getpid(), n, target.extension().string()));
-}
-
-/// Process that made a temporary file of this name; 0 for any other name.
-pid_t creating_process(const fs::path& file) {
-  const std::string name = file.filename().string();
-  const auto mark = name.rfind(staged_mark);
-  if (mark == std::string::npos) return 0;
-  const std::string rest = name.substr(mark + staged_mark.size());
-  int program = 0, n = 0, read = 0;
-  if (std::sscanf(rest.c_str(), "%d-%d%n", &program, &n, &read) != 2) return 0;
-  const auto after = static_cast<std::size_t>(read);
-  return after == rest.size() || rest[after] == '.' ? program : 0;
+[[noreturn]] void fail_errno(const fs::path& path, int error) {
+  fail(path, std::generic_category().message(error));
 }
 
 }  // namespace
@@ -76,16 +34,27 @@ std::string lower_extension(const fs::path& path) {
   return text;
 }
 
+std::string read_begin(const fs::path& path, std::size_t most) {
+  const Descriptor file = open_descriptor(path, O_RDONLY | O_NONBLOCK);
+  std::string bytes(most, '\0');
+  std::size_t used = 0;
+  for (ssize_t n = 1; file && used < most && n > 0;
+       used += static_cast<std::size_t>(std::max<ssize_t>(n, 0)))
+    n = ::read(file.get(), bytes.data() + used, most - used);
+  bytes.resize(used);
+  return bytes;
+}
+
 std::string read_file(const fs::path& path, std::uint64_t max_bytes, LinkAtFile link) {
   const int no_link = link == LinkAtFile::refused ? O_NOFOLLOW : 0;
   // Opening a pipe must not wait for a writer.
   const Descriptor file = open_descriptor(path, O_RDONLY | O_NONBLOCK | no_link);
-  if (!file && no_link != 0 && errno == ELOOP) fail(path, "read", "it is a symbolic link");
-  if (!file) fail_errno(path, "read", errno);
+  if (!file && no_link != 0 && errno == ELOOP) fail(path, "it is a symbolic link");
+  if (!file) fail_errno(path, errno);
   struct stat status {};
-  if (::fstat(file.get(), &status) != 0) fail_errno(path, "read", errno);
-  if (S_ISDIR(status.st_mode)) fail_errno(path, "read", EISDIR);
-  if (S_ISFIFO(status.st_mode)) fail(path, "read", "it is a pipe, not a file");
+  if (::fstat(file.get(), &status) != 0) fail_errno(path, errno);
+  if (S_ISDIR(status.st_mode)) fail_errno(path, EISDIR);
+  if (S_ISFIFO(status.st_mode)) fail(path, "it is a pipe, not a file");
 
   std::string bytes;
   std::size_t used = 0;
@@ -93,76 +62,14 @@ std::string read_file(const fs::path& path, std::uint64_t max_bytes, LinkAtFile 
   for (;;) {  // terminates: each pass reads something, up to the limit
     const ssize_t n = ::read(file.get(), bytes.data() + used, bytes.size() - used);
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) fail_errno(path, "read", errno);
+    if (n < 0) fail_errno(path, errno);
     if (n == 0) break;
     used += static_cast<std::size_t>(n);
-    if (used > max_bytes)
-      fail(path, "read", fmt::format("larger than the allowed {} bytes", max_bytes));
+    if (used > max_bytes) fail(path, fmt::format("larger than the allowed {} bytes", max_bytes));
     if (used == bytes.size()) bytes.resize(2 * bytes.size());
   }
   bytes.resize(used);
   return bytes;
-}
-
-StagedFile::StagedFile(fs::path target, LinkAtFile link)
-    : target_(std::move(target)), direct_(link == LinkAtFile::followed && is_special(target_)) {
-  if (direct_) {
-    staged_ = target_;
-    return;
-  }
-  for (int i = 0; i < 1000; ++i) {
-    staged_ = staged_for(target_, i);
-    if (open_descriptor(staged_, O_WRONLY | O_CREAT | O_EXCL)) return;
-    if (errno != EEXIST) fail_errno(target_, "write", errno);
-  }
-  fail_errno(target_, "write", EEXIST);
-}
-
-StagedFile::~StagedFile() {
-  if (!direct_ && !committed_) ::unlink(staged_.c_str());
-}
-
-void StagedFile::commit() {
-  if (direct_) return;
-  Descriptor file = open_descriptor(staged_, O_WRONLY);
-  if (!file) fail_errno(target_, "write", errno);
-  if (::fsync(file.get()) != 0 || !file.close()) fail_errno(target_, "write", errno);
-  if (!rename_durably(staged_, target_)) fail_errno(target_, "write", errno);
-  committed_ = true;
-}
-
-void clear_staged(const fs::path& folder) {
-  std::error_code error, none;
-  std::vector<fs::path> left;
-  for (fs::directory_iterator at(folder, error); !error && at != fs::directory_iterator();
-       at.increment(error)) {
-    const pid_t program = creating_process(at->path());
-    const bool is_left = program > 0 && ::kill(program, 0) != 0 && errno == ESRCH;
-    if (is_left && at->symlink_status(none).type() == fs::file_type::regular)
-      left.push_back(at->path());
-  }
-  for (const fs::path& file : left) fs::remove(file, none);
-}
-
-void write_file_atomically(const fs::path& path, std::string_view bytes, LinkAtFile link) {
-  StagedFile staged(path, link);
-  // Opening a pipe must not wait for a reader, writing may.
-  Descriptor file = open_descriptor(staged.path(), O_WRONLY | O_NONBLOCK);
-  if (!file && errno == ENXIO) fail(path, "write", "it is a pipe that nobody reads");
-  if (!file) fail_errno(path, "write", errno);
-  ::fcntl(file.get(), F_SETFL, ::fcntl(file.get(), F_GETFL) & ~O_NONBLOCK);
-  write_all(file, bytes, path);
-  if (!file.close()) fail_errno(path, "write", errno);
-  staged.commit();
-}
-
-void make_folder(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw InputError(folder, fmt::format("cannot make the folder: {}", error.message()));
-  const Descriptor nameless = open_descriptor(folder, O_TMPFILE | O_WRONLY);
-  if (!nameless && errno != EOPNOTSUPP && errno != EISDIR)  // O_TMPFILE unsupported: not tested
-    throw InputError(folder, "cannot write: " + std::generic_category().message(errno));
 }
 
 }  // namespace microswarm

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -20,6 +21,9 @@ enum class LinkAtFile {
 /// file larger than `max_bytes`.
 std::string read_file(const std::filesystem::path& path, std::uint64_t max_bytes = 1ULL << 30,
                       LinkAtFile link = LinkAtFile::followed);
+
+/// At most the first bytes of a file; empty for one that cannot be read.
+std::string read_begin(const std::filesystem::path& path, std::size_t most);
 
 /// Extension of a file's name in small letters: ".png".
 std::string lower_extension(const std::filesystem::path& path);

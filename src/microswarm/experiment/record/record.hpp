@@ -50,6 +50,9 @@ struct Record {
   std::string hash() const;
 };
 
+/// The bytes of an HDF5 file with the layout in docs/reference/record.md.
+std::string record_bytes(const Record& record);
+
 /// Writes an HDF5 file with the layout in docs/reference/record.md, atomically through a temporary
 /// file. A symbolic link is replaced, its target is kept. Throws InputError "FILE: cannot write:
 /// REASON" and leaves no file behind; leftovers of killed processes are removed.

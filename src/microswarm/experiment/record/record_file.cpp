@@ -117,7 +117,7 @@ std::int64_t check_format(const io::Hdf5Reader& in) {
 
 }  // namespace
 
-void write_record(const Record& record, const std::filesystem::path& file) {
+std::string record_bytes(const Record& record) {
   const auto made = io::write_hdf5();
   io::Hdf5Writer& out = *made;
   write_root(out, record);
@@ -133,9 +133,14 @@ void write_record(const Record& record, const std::filesystem::path& file) {
               "Wall-clock time of the navigator's step, one a tick.");
   write_times(out, "/timing/planning_s", record.result.timing.planning,
               "Wall-clock time of the steps in which it planned.");
+  return out.finish();
+}
+
+void write_record(const Record& record, const std::filesystem::path& file) {
+  const std::string bytes = record_bytes(record);
   // Leftovers of a process that was killed while it wrote here.
   clear_staged(file.has_parent_path() ? file.parent_path() : ".");
-  write_file_atomically(file, out.finish());
+  write_file_atomically(file, bytes);
 }
 
 Record read_record(const std::filesystem::path& file) {

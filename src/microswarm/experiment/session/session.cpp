@@ -4,13 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cassert>
-#include <fstream>
 #include <string_view>
 #include <utility>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/file.hpp"
 #include "microswarm/experiment/session/playback.hpp"
 #include "microswarm/experiment/session/running_experiment.hpp"
 
@@ -18,9 +17,7 @@ namespace microswarm::experiment {
 
 bool is_record(const std::filesystem::path& file) {
   constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
-  std::array<char, signature.size()> begin{};
-  std::ifstream(file, std::ios::binary).read(begin.data(), begin.size());
-  return file.extension() == ".h5" || std::string_view(begin.data(), begin.size()) == signature;
+  return file.extension() == ".h5" || read_begin(file, signature.size()) == signature;
 }
 
 Session::Session(Experiment experiment, SessionParts parts) : notes_(experiment.keys.notes()) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/file.hpp"
 #include "microswarm/formats/images/orientation.hpp"
 #include "microswarm/formats/images/tiff.hpp"
 #include "microswarm/formats/media/media.hpp"
@@ -255,6 +256,10 @@ std::string encode_png(const Image& image) {
                                                      std::free);
   check(error);
   return {static_cast<const char*>(bytes.get()), size};
+}
+
+void write_png(const std::filesystem::path& path, const Image& image) {
+  write_file_atomically(path, encode_png(image));
 }
 
 std::vector<std::uint8_t> transparency(Bytes bytes, std::string_view name) {

@@ -117,8 +117,4 @@ Image to_grey(const Image& image) {
   return grey;
 }
 
-void write_png(const std::filesystem::path& path, const Image& image) {
-  write_file_atomically(path, encode_png(image));
-}
-
 }  // namespace microswarm::formats

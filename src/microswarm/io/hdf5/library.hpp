@@ -6,9 +6,10 @@
 #include <hdf5.h>
 
 #include <atomic>
-#include <mutex>
 #include <string>
 #include <utility>
+
+#include "microswarm/core/execution/mutex.hpp"
 
 namespace microswarm::io {
 
@@ -49,12 +50,12 @@ class Use {
   ~Use() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
 
  private:
-  static std::recursive_mutex& mutex() {
-    static std::recursive_mutex all;
+  static RecursiveMutex& mutex() {
+    static RecursiveMutex all;
     return all;
   }
 
-  std::lock_guard<std::recursive_mutex> lock_;
+  std::lock_guard<RecursiveMutex> lock_;
   H5E_auto2_t print_ = nullptr;
   void* data_ = nullptr;
 };

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <mutex>
 #include <optional>
 
 #include "microswarm/contracts/navigator.hpp"
+#include "microswarm/core/execution/mutex.hpp"
 
 namespace microswarm::navigation {
 
@@ -31,7 +31,7 @@ class ManualNavigator : public Navigator {
  private:
   double max_speed_;
   double duration_;
-  std::mutex mutex_;
+  Mutex mutex_;
   std::optional<Command> next_;     // not yet taken by a step
   std::optional<Command> command_;  // in effect
   double since_ = 0;                // when it was taken [s]

@@ -9,16 +9,10 @@
 
 #include "microswarm/experiment/session/session.hpp"
 #include "microswarm/rig/params/rig_experiment.hpp"
+#include "microswarm/rig/params/rig_session_options.hpp"
 #include "microswarm/rig/watch/map_check.hpp"
 
 namespace microswarm::rig {
-
-/// Options for opening a scenario with or without a simulated rig.
-struct RigSessionOptions {
-  Settings settings{};          ///< of the scenario
-  std::filesystem::path rig{};  ///< rig file; empty: no rig
-  Settings rig_settings{};
-};
 
 /// Opens a session through a simulated rig, as fast as possible. Throws InputError if rig and
 /// scenario do not fit, or if the coils cannot hold the field.

@@ -2,11 +2,12 @@
 #pragma once
 
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <typeindex>
 #include <utility>
 #include <vector>
+
+#include "microswarm/core/execution/mutex.hpp"
 
 namespace microswarm {
 
@@ -20,7 +21,7 @@ class KeptWork {
   /// The work of this type and clearance [µm], if some is kept.
   template <class Work>
   std::unique_ptr<Work> take(double clearance) {
-    const std::scoped_lock lock(mutex_);
+    const std::lock_guard lock(mutex_);
     for (std::size_t i = entries_.size(); i-- > 0;) {
       Entry& entry = entries_[i];
       if (entry.type != typeid(Work) || entry.clearance != clearance) continue;
@@ -35,7 +36,7 @@ class KeptWork {
   void keep(double clearance, std::unique_ptr<Work> work) {
     Erased erased(work.release(), [](void* p) { delete static_cast<Work*>(p); });
     std::optional<Entry> oldest;  // ends after the lock
-    const std::scoped_lock lock(mutex_);
+    const std::lock_guard lock(mutex_);
     if (entries_.size() == most) {
       oldest = std::move(entries_.front());
       entries_.erase(entries_.begin());
@@ -51,7 +52,7 @@ class KeptWork {
     Erased work;
   };
 
-  std::mutex mutex_;
+  Mutex mutex_;
   std::vector<Entry> entries_;
 };
 

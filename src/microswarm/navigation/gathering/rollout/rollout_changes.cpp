@@ -143,8 +143,8 @@ std::optional<PartialPlan> best_change(const RolloutExecution& plan, RolloutSimu
     trials.push_back({unchanged, Rng(rng.bits(), Purpose::planner)});
   simulator.try_each(count, [&](std::size_t i) {
     Trial& trial = trials[i];
-    const std::size_t at =
-        std::clamp(unchanged.from + trial.rng.below(spacing), plan.done(), plan.steps() - 1);
+    const std::size_t at = std::clamp<std::size_t>(unchanged.from + trial.rng.below(spacing),
+                                                   plan.done(), plan.steps() - 1);
     simulator.follow(trial.partial, plan.moves().subspan(unchanged.from), at);
     change(trial, plan, simulator);
     advance(trial, plan, simulator, unchanged.from + compared_at * spacing);
