@@ -235,7 +235,7 @@ test('obstacles as the safe-interval navigator expects them', async (t) => {
   const run = await playTo(t, 'scenarios/papers/radar/twelve.yaml', 20, { speed: 20, options });
   await run.picture('scene-predictions');
   await run.scene((scene) => scene.follow(true));
-  await run.scene((scene) => scene.zoomBy(4));
+  await run.scene((scene) => scene.zoomBy(1.5));
   await run.page.waitForTimeout(200);
   const shown = await run.picture('scene-predictions-close');
   const [predicted, discs] = await run.page.evaluate(() => [window.predicted, window.discs]);
