@@ -38,7 +38,7 @@ test('from the gallery to a run that is changed, looked back at, and replays ide
   await until(page, () => !window.microswarm.connection.standing.plays);
   await page.keyboard.press('Home');
   await until(page, () => window.microswarm.connection.standing.looks_back);
-  await page.locator('.parameters .when', { hasText: 'The picture is of 0.0 s' }).waitFor();
+  await page.locator('.parameters .when', { hasText: 'These are the values at 0.0 s.' }).waitFor();
   await page.keyboard.press('End');
   await until(page, () => !window.microswarm.connection.standing.looks_back);
   await page.getByRole('tab', { name: 'Plots' }).click();
