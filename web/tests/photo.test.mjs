@@ -56,7 +56,10 @@ test('a photograph becomes a map in which robots gather', () =>
     await page.selectOption('.timebar .speed', '0');
     await page.click('.play');
     await page.waitForSelector('[data-status="solved"]', { timeout: 120_000 });
-    assert.ok(await page.evaluate(() => window.microswarm.scene.stack.background.isThere), 'the photograph lies beneath');
+    assert.ok(
+      await page.evaluate(() => window.microswarm.scene.stack.background.isThere),
+      'the photograph lies beneath',
+    );
     await picture('photo-gathered');
     await page.goBack();
     await page.waitForSelector('.photo-page');
