@@ -102,18 +102,24 @@ MICROSWARM_EXPORT(close) void close(std::uint32_t session) { the_lab().sessions.
 /// trouble as result.
 MICROSWARM_EXPORT(make) bool make(std::uint32_t session) {
   Lab& lab = the_lab();
+  lab.result = "this run has ended";
+  bool is_made = false;
   try {
-    lab.sessions.at(session)->with([&lab](const experiment::Session& of) {
-      lab.result = lab.buffer == "record.h5"
-                       ? experiment::record_bytes(of.record())
-                       : experiment::scenario_text(of.record().scene.scenario);
+    lab.sessions.at(session)->with([&](const experiment::Session& of) {
+      try {  // a trouble here is none of the run
+        lab.result = lab.buffer == "record.h5"
+                         ? experiment::record_bytes(of.record())
+                         : experiment::scenario_text(of.record().scene.scenario);
+        is_made = true;
+      } catch (const std::exception& error) {
+        lab.result = error.what();
+      }
     });
     lab.sessions.at(session)->turn();
   } catch (const std::exception& error) {
     lab.result = error.what();
-    return false;
   }
-  return true;
+  return is_made;
 }
 
 /// The hash of the record of a run of the file that the buffer asks for, from start to end.

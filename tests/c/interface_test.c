@@ -118,7 +118,7 @@ static void sessions(const char* file) {
   length = wall;
   EXPECT(ms_session_metric(session, "walls.clearance_um", &wall) == MS_OK && wall == length);
   EXPECT(ms_session_metric(session, "obstacles_clearance_um", &wall) == MS_OK && wall > 1e300);
-  EXPECT(ms_session_metric(session, "turning_rad", &length) == MS_OK && length > 1);
+  EXPECT(ms_session_metric(session, "turning_rad", &length) == MS_OK && length > 0.1);
   EXPECT(ms_session_metric(session, "turning_deg", &wall) == MS_OK);
   EXPECT(fabs(wall * 3.14159265358979 / 180 - length) < 1e-6 * length);
   EXPECT_ERROR(ms_session_metric(session, "walls", &wall), MS_BAD_INPUT, "no metric 'walls'");

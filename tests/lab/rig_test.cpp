@@ -97,6 +97,11 @@ TEST_F(LabRig, BeginsAsADryRunWithPictures) {
   EXPECT_EQ(jpeg[1], 0xD8);
   const Json rig = page.until("rig", [](const Json& one) { return one.value("ticks", 0) > 3; });
   EXPECT_EQ(rig["state"], "dry");
+  // Its record is not copied for a branch, which cannot be.
+  const Json asked{{"branch", session}, {"frame", 0}};
+  const Reply refused = ask(*lab, http::verb::post, "/api/sessions", asked.dump());
+  EXPECT_NE(refused.body().find("a run on a rig cannot be repeated"), std::string::npos)
+      << refused.body();
   // The swarm stays where it is.
   const Json frame = page.until("frame", [](const Json& one) { return one["number"] > 5; });
   EXPECT_NEAR(frame["frame"]["x_um"].get<double>(), 1100, 2);

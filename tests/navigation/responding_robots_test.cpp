@@ -128,6 +128,18 @@ TEST(RespondingRobots, SlowOnesRespondAndDeadOnesDoNotUnderNoise) {
   }
 }
 
+TEST(RespondingRobots, WithAnotherNumberOfRobotsAllRespondAgain) {
+  const Map map = half_plane();
+  RespondingRobots responding(map, 1);
+  const Robots robots = at({{20, 50}, {30, 50}});
+  while (responding.aside().empty()) {
+    responding.update(robots, {});
+    responding.judge_by(0, {1, 0});
+  }
+  EXPECT_TRUE(responding.update(at({{20, 50}, {30, 50}, {40, 50}}), {}));
+  EXPECT_EQ(responding.robots().size(), 3u);
+}
+
 TEST(RespondingRobots, IfNobodyRespondsAllAreJudgedAgain) {
   const Map map = half_plane();
   RespondingRobots responding(map, 1);

@@ -79,12 +79,13 @@ async function route(): Promise<void> {
 window.addEventListener('beforeunload', (event) => {
   if (page?.isAtRisk?.()) event.preventDefault();
 });
-takeDrops((files) => {
-  const say = page?.say ?? (() => undefined);
-  const kept = page?.keepsFiles?.() ?? '';
-  if (kept) say(kept);
-  else if (page) void openFiles(files, say);
-});
+if (!run)
+  takeDrops((files) => {
+    const say = page?.say ?? (() => undefined);
+    const kept = page?.keepsFiles?.() ?? '';
+    if (kept) say(kept);
+    else if (page) void openFiles(files, say);
+  });
 startTheme();
 window.addEventListener('hashchange', () => void route());
 if (!run) history.replaceState(null, '', location.pathname + location.hash); // without the token

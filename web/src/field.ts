@@ -13,6 +13,8 @@ export interface Field {
   text: string;
   show(value: Json | undefined): void;
   setIssue(text: string): void;
+  /** Shows the value again in place of what was entered. */
+  restore(): void;
   setWaiting(waits: boolean): void;
   setEnabled(enabled: boolean): void;
 }
@@ -88,6 +90,7 @@ export function field(key: string, schema: Schema, change: Change, form = 'field
       reset.hidden = standard === undefined || JSON.stringify(value) === JSON.stringify(standard);
     },
     setIssue,
+    restore: () => control.show(shown),
     setWaiting: (waits) => root.classList.toggle('waits', waits),
     setEnabled: (enabled) => {
       for (const one of root.querySelectorAll('input, select, textarea, button'))
@@ -172,11 +175,15 @@ function numeric(id: string, schema: Schema, nullable: boolean, sliding: Sliding
       say();
       typed.change(entry.get() ?? null, true);
     },
-    onchange: () => {
-      drags = false;
-      typed.change(entry.get() ?? null);
-    },
+    onchange: () => end(),
+    // A slider that is released where it began has no change.
+    onpointerup: () => void window.setTimeout(() => drags && end(), 100),
+    onblur: () => drags && end(),
   });
+  const end = () => {
+    drags = false;
+    typed.change(entry.get() ?? null);
+  };
   return {
     nodes: [slider, entry.root],
     show: (value) => {

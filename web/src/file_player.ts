@@ -93,6 +93,11 @@ export class FilePlayer implements Connection {
 
   private advance(): void {
     const { standing, times } = this;
+    if (standing.ended) {
+      this.setPlays(false);
+      this.tellStanding();
+      return;
+    }
     const now = performance.now();
     this.at += (standing.speed * (now - this.last)) / 1000;
     this.last = now;

@@ -143,6 +143,7 @@ export class Form {
       root,
       text: `${key}.type ${kinds(schema).join(' ')}`.toLowerCase(),
       show: control.show,
+      restore: () => undefined, // each show does
       setIssue: (words) => {
         issue.hidden = words === '';
         issue.textContent = words;

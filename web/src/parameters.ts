@@ -107,6 +107,7 @@ export class Parameters {
         const text = parametersNote(live.hello?.playback ?? false, live.standing, live.shown);
         when.hidden = text === '';
         if (when.textContent !== text) when.textContent = text;
+        if (message.type === 'standing') this.showUndo();
       }
       if (message.type === 'hello' || message.type === 'scenario') {
         this.changes.take(message.scenario);
@@ -193,6 +194,7 @@ export class Parameters {
       answer.issues.push({ keys: [key], text: (error as Error).message });
     }
     this.rebuild(); // the value of this run is as before
+    for (const one of this.form.fields) one.restore();
     this.showIssues(answer, [key]);
     return answer;
   }
@@ -216,13 +218,17 @@ export class Parameters {
       if (answer.issues.length > 0) this.undone.push(last);
       this.showIssues(answer, settings.map(keyOf));
     } else {
-      for (const one of last?.before ?? []) await this.apply(...one);
+      for (const one of last?.before ?? []) {
+        const answer = await this.apply(...one);
+        if (last && answer?.issues.length) this.undone.push(last);
+      }
     }
     this.showUndo();
   }
 
   private showUndo(): void {
-    this.undoButton.hidden = !this.undone.has(this.wanted());
+    const looksBack = this.live.standing?.looks_back ?? false; // then changes ask where they act
+    this.undoButton.hidden = looksBack || !this.undone.has(this.wanted());
   }
 
   private async apply(key: string, value: Json): Promise<Answer | undefined> {

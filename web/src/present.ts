@@ -65,5 +65,5 @@ export function presentation(page: () => HTMLElement, scene: Scene): Presentatio
 /** The address of a page with or without the presentation. */
 export function linkOf(hash: string, on: boolean): string {
   const bare = hash.replace(/\/present$/, '');
-  return on ? `${bare}/present` : bare;
+  return on ? `${bare || '#'}/present` : bare;
 }

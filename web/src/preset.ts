@@ -50,6 +50,7 @@ export function presets(key: string, set: (isPublished: boolean) => void): Field
       ours.setAttribute('aria-pressed', String(value === false));
     },
     setIssue: () => undefined, // the field itself says it
+    restore: () => undefined, // nothing is entered
     setWaiting: (waits) => root.classList.toggle('waits', waits),
     setEnabled: (enabled) => root.querySelectorAll('button').forEach((one) => (one.disabled = !enabled)),
   };

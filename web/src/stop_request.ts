@@ -11,13 +11,13 @@ export class StopRequest {
   /** `changed` is called after isUnanswered changed. */
   constructor(private readonly changed: () => void) {}
 
-  /** Sends a stop. `isLost`: whether the stream is broken, which answers too. */
-  async send(stop: () => Promise<unknown>, isLost: () => boolean): Promise<void> {
+  /** Sends a stop. `isLost`: whether the stream is broken, which answers too, with the number 0. */
+  async send(stop: () => Promise<{ id: number } | undefined>, isLost: () => boolean): Promise<void> {
     const own = ++this.asked;
     const late = setTimeout(() => this.set(true), answerTime);
-    await stop();
+    const answer = await stop();
     clearTimeout(late);
-    if (own === this.asked && !isLost()) this.set(false);
+    if (own === this.asked) this.set(isLost() || answer?.id === 0);
   }
 
   /** Takes the news that the rig has stopped. */

@@ -140,11 +140,10 @@ RecordPtr copy_record(const experiment::Session& of) {
 void open_branch(Exchange& e, const OpenRequest& asked) {
   if (!e.shared().hub.has(*asked.branch)) throw InputError("message: there is no such session");
   const Opening& of = e.shared().hub.find_opening(*asked.branch);
+  if (of.live) throw InputError("message: a run on a rig cannot be repeated");
   Opening opening{.file = of.file, .photo = of.photo};
   opening.options.settings = Settings(asked.settings, "");
-  opening.check = [&library = e.shared().library, file = of.file](const auto& settings) {
-    library.check(file, settings, {});
-  };
+  opening.check = of.check;
   opening.branch = Branch{.frame = asked.frame, .changes = asked.changes};
   e.wait();
   e.shared().hub.fetch<RecordPtr>(

@@ -48,7 +48,7 @@ struct Opening {
   /// Throws InputError for settings that are not allowed to a page.
   std::function<void(const Settings& settings)> check{};
   std::optional<BackgroundPhoto> photo{};
-  std::optional<Branch> branch{};    ///< until a restart
+  std::optional<Branch> branch{};    ///< taken when it is opened
   std::optional<RigOpening> live{};  ///< options for real time; without them in simulated time
 };
 Source to_source(const Opening& opening);

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/experiment/session/replay.hpp"
@@ -70,7 +71,7 @@ std::optional<Stop::Clock::time_point> SessionThread::next_act(bool is_due) cons
 
 void SessionThread::open() {
   if (opening_.check) opening_.check(opening_.options.settings);
-  if (opening_.branch) return open_branch(*opening_.branch);
+  if (const auto branch = std::exchange(opening_.branch, {})) return open_branch(*branch);
   watch_.has_changed();
   session_ = open_(watch_.file(), opening_.options);
   look_at_newest();
@@ -226,12 +227,10 @@ bool SessionThread::is_there() {
 void SessionThread::restart(const Request& request) {
   const Opening before = opening_;
   opening_.options.settings = Settings(request.settings, "");
-  opening_.branch.reset();
   try {
     open();
   } catch (...) {
     opening_.options.settings = before.options.settings;
-    opening_.branch = before.branch;
     throw;
   }
   welcome(0);

@@ -51,6 +51,14 @@ test('a broken stream does not answer a stop, and an earlier stop not a later on
   assert.equal(request.isUnanswered, false);
 });
 
+test('a stream that breaks leaves a stop unanswered, also before it is known to be lost', async () => {
+  const request = new StopRequest(() => undefined);
+  await request.send(() => Promise.resolve({ id: 0 }), isOpen);
+  assert.equal(request.isUnanswered, true);
+  await request.send(() => Promise.resolve({ id: 7 }), isOpen);
+  assert.equal(request.isUnanswered, false);
+});
+
 test('the question before the coils are driven names what is real and the largest limits', () => {
   const facts = factsOf({
     name: 'bench',

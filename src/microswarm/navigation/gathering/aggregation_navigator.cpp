@@ -49,9 +49,10 @@ Decision AggregationNavigator::decide(const Robots& robots, double, const Stop& 
   if (!displacement) {
     constexpr int patience = 20;    // ticks in which the task should have seen it
     constexpr double closer = 0.8;  // of the distance at which the task continues
-    if (++ticks_gathered_ > patience) {
+    constexpr double least = 0.5;   // of the tolerance
+    if (++ticks_gathered_ > patience && params_.sigma > least * goal_tolerance()) {
       ticks_gathered_ = 0;
-      params_.sigma *= closer;
+      params_.sigma = std::max(closer * params_.sigma, least * goal_tolerance());
       begin();
     }
     return hold(NavigatorState::arrived);

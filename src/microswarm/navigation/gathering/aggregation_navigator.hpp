@@ -24,7 +24,8 @@ class AggregationNavigator : public RobotSteeringNavigator {
   static std::string_view unsupported_reason(const Task& task);
 
   /// It gathers until the mean path length to the goal is below the goal tolerance, by the tree's
-  /// paths, and more closely where the task continues after that.
+  /// paths, and more closely down to half of it, where the task
+  /// continues after that.
   AggregationNavigator(const AggregationParams& params, const Task& task, Rng rng);
 
   /// Grows the tree. Throws InputError as AggregationMap does.

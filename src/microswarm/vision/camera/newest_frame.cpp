@@ -120,13 +120,13 @@ struct NewestFrame::Shared {
     changed.notify_all();
   }
 
-  /// Counts a time between two frames as a gap, or lets the usual one follow it.
+  /// Counts a time between two frames as a gap; the usual one follows, so that a slower camera's
+  /// frames soon are none.
   void count_gap(double interval) {
     constexpr int first = 10;  // intervals that only set the usual one
-    if (frames > first && interval > 2 * usual)
-      ++gaps;
-    else
-      usual += (interval - usual) / std::min(frames, 100);
+    const bool is_gap = frames > first && interval > 2 * usual;
+    gaps += is_gap;
+    usual += ((is_gap ? 2 * usual : interval) - usual) / std::min(frames, 100);
   }
 
   bool is_closing() const {

@@ -14,13 +14,14 @@ constexpr double returned_steps = 4;  // from its place, for a robot that respon
 }  // namespace
 
 bool RespondingRobots::update(const Robots& robots, std::span<const std::uint32_t> counts) {
+  bool has_lost = false;
   if (robots.size() != tallies_.size()) {
+    has_lost = !aside_.empty();
     forget();
     tallies_.resize(robots.size());
   }
   all_ = &robots;
   all_counts_ = counts;
-  bool has_lost = false;
   for (const Judged& judged : judged_) has_lost |= judge(judged);
   judged_.clear();
   const bool has_won = take_back();
