@@ -80,6 +80,18 @@ TEST(GatherQuery, RobotsThatAreGatheredAtTheStartAreANote) {
       << session.notes()[0];
 }
 
+// Nothing keeps the result of which a note would speak.
+TEST(GatherQuery, ASessionThatKeepsNothingEndsAtTheGoalToo) {
+  GatherQuery query = gather_query();
+  query.starts = {{60, 60}, {70, 60}};
+  Session session(open_gathering(formats::to_parts(room()), spec(), query, "room").experiment,
+                  {.keep = Keep::nothing});
+  const Tick* tick = session.step();
+  ASSERT_NE(tick, nullptr);
+  EXPECT_EQ(tick->end, Status::solved);
+  EXPECT_TRUE(session.notes().empty());
+}
+
 GlobalQuery global_query() {
   return {.starts = {{60, 300}, {60, 250}}, .goals = {{330, 300}, {330, 200}}};
 }

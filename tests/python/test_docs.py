@@ -77,6 +77,7 @@ OTHERS_NOT_RUN = {
     "cmake ": "builds",
     "export ": "install.find_package, and the environment of this test",
     "man ": "an installed package; tests/packages",
+    "python3 -m http.server --directory build/site": "a server that does not end; ./dev test site",
     "python3 tools/moving_picture.py out/demo": "what ./dev demo made",
     "ssh ": "another computer",
     "sudo apt ": "installs; tests/packages",

@@ -64,7 +64,8 @@ def test_what_is_told_of_a_gathering_holds(tee, tmp_path):
     assert made.solved and all(0 <= share <= 1 for share in shares)
     assert chip.is_free(made.robots_um).all()
     far = np.linalg.norm(made.robots_um - (500, 150), axis=1)
-    assert far.mean() <= made.mean_distance_um + 1e-9 <= 40 + 1e-9  # paths are as long as the straight lines at least
+    assert far.mean() <= made.mean_distance_um + 2  # paths are at least as straight lines, but for a cell of their field
+    assert made.mean_distance_um <= 40 + 1e-9
     moved = np.linalg.norm(made.inputs_um, axis=1)
     assert moved.max() == pytest.approx(4) and moved.min() >= 0  # a tenth of the channels' width
     made.record.save(tmp_path / "run.h5")

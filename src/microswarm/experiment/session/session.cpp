@@ -43,7 +43,8 @@ const Tick* Session::step(const Stop& stop) {
   if (recorder_) recorder_->on_tick(*tick);
   if (metrics_) metrics_->on_tick(*tick);
   for (RunListener* listener : listeners_) listener->on_tick(*tick);
-  if (tick->end && ticks_ == 1 && result().status == Status::solved)
+  const bool has_result = recorder_ || metrics_;
+  if (tick->end && ticks_ == 1 && has_result && result().status == Status::solved)
     notes_.push_back(fmt::format(
         "nothing was to be done: the distance to the goal, {:.4g} µm, is within goal_tolerance_um, "
         "{:.4g} µm, at the start",
