@@ -136,7 +136,8 @@ TEST(RespondingRobots, WithAnotherNumberOfRobotsAllRespondAgain) {
     responding.update(robots, {});
     responding.judge_by(0, {1, 0});
   }
-  EXPECT_TRUE(responding.update(at({{20, 50}, {30, 50}, {40, 50}}), {}));
+  const Robots more = at({{20, 50}, {30, 50}, {40, 50}});
+  EXPECT_TRUE(responding.update(more, {}));
   EXPECT_EQ(responding.robots().size(), 3u);
 }
 
