@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <optional>
 
 #include "inputs.hpp"
@@ -127,7 +128,7 @@ class RigPage {
     const std::string opened = Loopback(lab.port()).ask(lab.opening("{}"));
     const std::size_t at = opened.find("\"session\":");
     EXPECT_NE(at, std::string::npos) << opened;
-    number = std::to_string(std::atoi(opened.c_str() + at + 10));
+    number = std::to_string(std::strtoull(opened.c_str() + at + 10, nullptr, 10));
     stream_.say(lab.stream(number));
   }
   std::string number;  ///< of the session
