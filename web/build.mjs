@@ -5,6 +5,7 @@ import { copyFileSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
+import { bundled } from './bundled.mjs';
 import { licences } from './licences.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
@@ -13,13 +14,8 @@ mkdirSync(out, { recursive: true });
 
 await build({
   entryPoints: [join(here, 'src/app.ts'), join(here, 'src/beat.ts')],
-  bundle: true,
-  minify: true,
-  format: 'esm',
-  target: ['chrome110', 'firefox110'],
-  legalComments: 'none',
+  ...bundled,
   outdir: out,
-  logLevel: 'warning',
 });
 for (const name of ['app.js', 'app.css'])
   writeFileSync(join(out, `${name}.gz`), gzipSync(readFileSync(join(out, name)), { level: 9 }));

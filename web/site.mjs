@@ -3,13 +3,14 @@
 import { build } from 'esbuild';
 import { spawn } from 'node:child_process';
 import { copyFileSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
-import { dirname, join, relative } from 'node:path';
+import { dirname, join, relative, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import { bundled } from './bundled.mjs';
 import { licences } from './licences.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const scenarios = join(here, '../scenarios');
-const [program, module, out] = process.argv.slice(2);
+const [program, module, out] = process.argv.slice(2).map((one) => resolve(one));
 
 /** These modules of the page have another of their name in src/site. */
 const replaced = ['connection', 'place', 'server_stream', 'uploads'];
@@ -25,14 +26,9 @@ rmSync(out, { recursive: true, force: true });
 mkdirSync(join(out, 'thumbnails'), { recursive: true });
 await build({
   entryPoints: { app: join(here, 'src/app.ts'), worker: join(here, 'src/site/worker.ts') },
-  bundle: true,
-  minify: true,
-  format: 'esm',
-  target: ['chrome110', 'firefox110'],
-  legalComments: 'none',
+  ...bundled,
   outdir: out,
   plugins: [ofSite],
-  logLevel: 'warning',
 });
 const page = readFileSync(join(here, 'src/index.html'), 'utf8');
 writeFileSync(

@@ -228,6 +228,21 @@ TEST(DiagnosticsLog, KeepsATreeOnce) {
   EXPECT_EQ(log.at(0.05).index(), 0u);
 }
 
+TEST(DiagnosticsLog, IsThinnedButForItsTrees) {
+  DiagnosticsLog log;
+  for (int i = 0; i < 8; ++i) {
+    AggregationDiagnostics plan{.mean_distance = static_cast<double>(i)};
+    plan.nodes.resize(i < 3 ? 3 : 5);
+    log.add(i, plan);
+  }
+  log.thin();
+  std::vector<double> times;
+  for (const auto& row : log.aggregation) times.push_back(row.t);
+  EXPECT_EQ(times, (std::vector<double>{0, 2, 3, 4, 6}));
+  EXPECT_EQ(std::get<AggregationDiagnostics>(log.at(2)).nodes.size(), 3u);
+  EXPECT_EQ(std::get<AggregationDiagnostics>(log.at(6)).nodes.size(), 5u);
+}
+
 TEST(DiagnosticsLog, ADamagedTableIsNamed) {
   AggregationDiagnostics plan;
   plan.nodes.resize(3);

@@ -80,6 +80,22 @@ TEST(GatherQuery, RobotsThatAreGatheredAtTheStartAreANote) {
       << session.notes()[0];
 }
 
+// While the run holds at the goal, robots are gathered down to half of the tolerance, then rest.
+TEST(GatherQuery, RobotsThatAreGatheredComeToRest) {
+  GatherQuery query = gather_query();
+  query.max_steps = 5000;
+  query.settings = Settings(std::vector<std::string>{"hold_at_goal_s=300"}, "--set");
+  Session session(open_gathering(formats::to_parts(room()), spec(), query, "room").experiment);
+  ASSERT_EQ(session.finish().status, Status::solved);
+  const auto& frames = session.record().frames;
+  const double arrived = session.result().metrics.time;
+  double moved_until = 0;
+  for (const auto& frame : frames)
+    if (frame.command.speed > 0) moved_until = frame.t;
+  EXPECT_LT(frames.back().goal_distance, 50);
+  EXPECT_LT(moved_until, arrived + 100);
+}
+
 // Nothing keeps the result of which a note would speak.
 TEST(GatherQuery, ASessionThatKeepsNothingEndsAtTheGoalToo) {
   GatherQuery query = gather_query();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many sessions and pages a lab bears, who makes room, and whose they are.
+// Limits of sessions and pages: which are refused or closed, and the lab that a session is of.
 #include <array>
 
 #include "tests/lab/client.hpp"

@@ -166,6 +166,26 @@ TEST(Past, KeepsWithinItsMemory) {
   }
 }
 
+TEST(Past, KeepsATreeOnceAndCountsIt) {
+  Past past;
+  experiment::Tick tick;
+  AggregationDiagnostics plan;
+  std::size_t before = 0;
+  for (int i = 0; i < 6; ++i) {
+    plan.nodes.resize(i < 3 ? 1000 : 2000);
+    plan.mean_distance = i;
+    tick.frame.t = i;
+    tick.diagnostics = Lazy<Diagnostics>([&plan] { return plan; });
+    past.add(tick, {}, false);
+    const bool is_new = i == 0 || i == 3;
+    EXPECT_EQ(past.bytes() - before > 1000 * sizeof(AggregationNode), is_new) << i;
+    EXPECT_EQ(!past.diagnostics().aggregation.back().shown.nodes.empty(), is_new) << i;
+    before = past.bytes();
+  }
+  EXPECT_EQ(std::get<AggregationDiagnostics>(past.diagnostics().at(2)).nodes.size(), 1000u);
+  EXPECT_EQ(std::get<AggregationDiagnostics>(past.diagnostics().at(5)), plan);
+}
+
 TEST(LookBack, APageThatComesLaterHasTheRegionsToo) {
   const std::filesystem::path gather = std::filesystem::path(MICROSWARM_SOURCE_DIR) /
                                        "scenarios/papers/gather/vascular_network.yaml";

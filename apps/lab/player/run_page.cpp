@@ -16,6 +16,7 @@
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/core/version.hpp"
+#include "microswarm/report/html.hpp"
 
 namespace microswarm::lab {
 namespace {
@@ -65,21 +66,6 @@ std::optional<std::string> gzip(std::string_view bytes, const Stop& stop,
   ::deflateEnd(&to);
   if (stop()) return std::nullopt;
   return packed;
-}
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : printable(text)) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else
-      out += c;
-  }
-  return out;
 }
 
 Json binary(const MessagePtr& message) {
@@ -209,7 +195,7 @@ std::string html(const std::string& title, std::string_view run) {
 </body>
 </html>
 )",
-                     policy, version, escaped(title), asset("/app.css")->bytes, run,
+                     policy, version, report::html_text(title), asset("/app.css")->bytes, run,
                      asset("/app.js")->bytes);
 }
 

@@ -13,28 +13,11 @@ std::size_t bytes_in(const std::vector<T>& list) {
 }
 
 std::size_t bytes_of(const Diagnostics& shown) {
-  std::size_t bytes = sizeof(Diagnostics);  // a tree is kept once
+  std::size_t bytes = sizeof(Diagnostics);
   if (const auto* radar = std::get_if<RadarDiagnostics>(&shown)) bytes += bytes_in(radar->beams);
   if (const auto* ahead = std::get_if<PredictiveDiagnostics>(&shown))
     bytes += bytes_in(ahead->bodies) + bytes_in(ahead->corners);
   return bytes;
-}
-
-template <class Shown>
-bool has_tree(const Shown& shown) {
-  if constexpr (requires { shown.nodes; }) return !shown.nodes.empty();
-  return false;
-}
-
-template <class T>
-void drop_every_second(std::vector<T>& list, auto&& stays) {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < list.size(); ++i)
-    if (i % 2 == 0 || stays(list[i])) {
-      if (kept != i) list[kept] = std::move(list[i]);
-      ++kept;
-    }
-  list.resize(kept);
 }
 
 }  // namespace
@@ -42,7 +25,8 @@ void drop_every_second(std::vector<T>& list, auto&& stays) {
 void Past::add(const experiment::Tick& tick, const experiment::Metrics& metrics, bool is_recorded) {
   if (ticks_ % metrics_period_ == 0) {
     if (metrics_.size() == max_metrics) {
-      drop_every_second(metrics_, [](const auto&) { return false; });
+      std::size_t number = 0;
+      std::erase_if(metrics_, [&](const auto&) { return number++ % 2 != 0; });
       metrics_period_ *= 2;
     }
     if (ticks_ % metrics_period_ == 0) metrics_.push_back(metrics);
@@ -50,16 +34,26 @@ void Past::add(const experiment::Tick& tick, const experiment::Metrics& metrics,
   const bool is_due = !is_recorded && !tick.end && ticks_ % period_ == 0;
   ++ticks_;
   if (!is_due) return;
-  const Diagnostics& shown = tick.diagnostics.value();
+  Diagnostics shown = tick.diagnostics.value();
   bytes_ += bytes_of(shown);
-  log_.add(tick.frame.t, shown);
+  if (auto* plan = std::get_if<AggregationDiagnostics>(&shown)) keep_tree(*plan);
+  log_.add(tick.frame.t, std::move(shown));
   if (bytes_ > max_bytes_) halve();
 }
 
+/// Leaves a tree out that is the newest one, without a search through all rows.
+void Past::keep_tree(AggregationDiagnostics& plan) {
+  if (plan.nodes == tree_.nodes && plan.regions == tree_.regions) {
+    plan.nodes.clear();
+    plan.regions.clear();
+  } else {
+    tree_ = {.nodes = plan.nodes, .regions = plan.regions};
+    tree_bytes_ += bytes_in(plan.nodes) + bytes_in(plan.regions);
+  }
+}
+
 void Past::halve() {
-  experiment::DiagnosticsLog::fields(log_, [](auto& rows, const FieldInfo&) {
-    drop_every_second(rows, [](const auto& row) { return has_tree(row.shown); });
-  });
+  log_.thin();
   bytes_ /= 2;
   period_ *= 2;
 }

@@ -28,13 +28,18 @@ class Past {
   /// The newest metrics kept that are not later than a frame; nothing if there are none.
   std::optional<experiment::Metrics> metrics(std::uint64_t frame) const;
   /// Approximate memory [B].
-  std::size_t bytes() const { return bytes_ + metrics_.size() * sizeof(experiment::Metrics); }
+  std::size_t bytes() const {
+    return bytes_ + tree_bytes_ + metrics_.size() * sizeof(experiment::Metrics);
+  }
 
  private:
+  void keep_tree(AggregationDiagnostics& plan);
   void halve();
 
   std::size_t max_bytes_;
-  std::size_t bytes_ = 0;
+  std::size_t bytes_ = 0;          ///< without trees
+  std::size_t tree_bytes_ = 0;     ///< of trees, each kept once and never dropped
+  AggregationDiagnostics tree_{};  ///< nodes and regions of the newest one
   std::uint64_t ticks_ = 0;
   std::uint64_t period_ = 1;
   std::uint64_t metrics_period_ = 1;

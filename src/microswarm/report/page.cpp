@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "microswarm/core/text/file.hpp"
-#include "microswarm/core/text/text.hpp"
+#include "microswarm/report/html.hpp"
 
 namespace microswarm::report {
 namespace {
@@ -17,29 +17,12 @@ th { font-weight: 600; } td { font-variant-numeric: tabular-nums; }
 figure { margin: 1rem 0; } img { max-width: 100%; border: 1px solid #ddd; } figcaption { color: #555; }
 )";
 
-std::string escaped(const std::string& s) {
-  std::string out;
-  for (const char c : printable(s)) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c;
-  }
-  return out;
-}
-
 std::string html_table(const std::vector<std::vector<std::string>>& lines) {
   std::string out = "<table>\n";
   for (std::size_t i = 0; i < lines.size(); ++i) {
     out += "<tr>";
     for (const std::string& cell : lines[i])
-      out += fmt::format("<{0}>{1}</{0}>", i == 0 ? "th" : "td", escaped(cell));
+      out += fmt::format("<{0}>{1}</{0}>", i == 0 ? "th" : "td", html_text(cell));
     out += "</tr>\n";
   }
   return out + "</table>\n";
@@ -53,15 +36,15 @@ void write_page(const std::filesystem::path& path, const std::string& title,
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
       "<meta name=\"viewport\" content=\"width=device-width\">\n<title>{0}</title>"
       "<style>{1}</style></head>\n<body>\n<h1>{0}</h1>\n",
-      escaped(title), style);
+      html_text(title), style);
   for (const PageSection& s : sections) {
-    if (!s.heading.empty()) html += fmt::format("<h2>{}</h2>\n", escaped(s.heading));
-    if (!s.text.empty()) html += fmt::format("<p>{}</p>\n", escaped(s.text));
+    if (!s.heading.empty()) html += fmt::format("<h2>{}</h2>\n", html_text(s.heading));
+    if (!s.text.empty()) html += fmt::format("<p>{}</p>\n", html_text(s.text));
     if (!s.table.empty()) html += html_table(s.table);
     for (const auto& [file, caption] : s.pictures)
       html +=
           fmt::format("<figure><img src=\"{}\" alt=\"{}\"><figcaption>{}</figcaption></figure>\n",
-                      escaped(file), escaped(caption), escaped(caption));
+                      html_text(file), html_text(caption), html_text(caption));
   }
   write_file_atomically(path, html + "</body></html>\n");
 }

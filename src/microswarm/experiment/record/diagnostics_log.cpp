@@ -28,6 +28,12 @@ const AggregationDiagnostics* newest_tree(const AggregationRows& rows, std::size
   return nullptr;
 }
 
+template <class Shown>
+bool has_tree(const Shown& shown) {
+  if constexpr (requires { shown.nodes; }) return !shown.nodes.empty();
+  return false;
+}
+
 std::string wrong_index(const RadarDiagnostics& shown) {
   return shown.best && *shown.best >= shown.beams.size() ? "best is no beam" : "";
 }
@@ -75,7 +81,8 @@ void DiagnosticsLog::add(double t, Diagnostics shown) {
                           radar.push_back({t, std::move(of)});
                         },
                         [&](AggregationDiagnostics&& of) {
-                          const auto* before = newest_tree(aggregation, aggregation.size());
+                          const auto* before =
+                              has_tree(of) ? newest_tree(aggregation, aggregation.size()) : nullptr;
                           if (before && before->nodes == of.nodes && before->regions == of.regions)
                             of.nodes.clear(), of.regions.clear();
                           aggregation.push_back({t, std::move(of)});
@@ -87,6 +94,13 @@ void DiagnosticsLog::add(double t, Diagnostics shown) {
                           hierarchical.push_back({t, of});
                         }},
              std::move(shown));
+}
+
+void DiagnosticsLog::thin() {
+  fields(*this, [](auto& rows, const FieldInfo&) {
+    std::size_t number = 0;
+    std::erase_if(rows, [&](const auto& row) { return number++ % 2 != 0 && !has_tree(row.shown); });
+  });
 }
 
 Diagnostics DiagnosticsLog::at(double t) const {

@@ -39,8 +39,10 @@ struct DiagnosticsLog {
   }
 
   bool empty() const;
-  /// Adds those of a tick, later than all before.
+  /// Adds those of a tick, later than all before. A tree that is the newest one may be left out.
   void add(double t, Diagnostics shown);
+  /// Drops every second row, but no tree.
+  void thin();
   /// Those of the tick at time t; nothing if it has none.
   Diagnostics at(double t) const;
 };
